@@ -26,8 +26,8 @@ use crate::source::Source;
 /// }
 /// ```
 ///
-/// The output is written only where its bytes change. Cargo is told to run the script again when the description
-/// changes, and shows every warning about it.
+/// The output is only written if it changes. Cargo runs the script again if the description changes, and shows all
+/// warnings about it.
 #[derive(Clone, Debug, Default)]
 pub struct Builder {
     options: Options,
@@ -41,7 +41,7 @@ pub struct Builder {
 }
 
 impl Builder {
-    /// A builder with the defaults: lenient, accessors and PDOs, no table.
+    /// Creates a builder with the default options: lenient mode, accessors and PDOs, no table.
     pub fn new() -> Self {
         Builder::default()
     }
@@ -58,98 +58,102 @@ impl Builder {
         self
     }
 
-    /// Another name that formulas use for `$NODEID`.
+    /// Adds another name for `$NODEID` in formulas.
     pub fn node_id_alias(mut self, name: impl Into<String>) -> Self {
         self.options.node_id_aliases.push(name.into());
         self
     }
 
-    /// Takes one of several devices, by name, order code or product code, and by revision: `"EL3004"`,
-    /// `"0x0BBC3052@0x00110000"`, `"EL3004@latest"`. May be called several times; without it, all devices are taken.
+    /// Selects a device by name, order code or product code, and optionally by revision: `"EL3004"`,
+    /// `"0x0BBC3052@0x00110000"`, `"EL3004@latest"`.
+    ///
+    /// Each call adds a device. Without a call, all devices are selected.
     pub fn device(mut self, filter: impl Into<String>) -> Self {
         self.devices.push(filter.into());
         self
     }
 
-    /// Takes one of the modules that can be plugged in, by name, identifier or ident number. May be called several
-    /// times; without it, all modules are taken that fit into a device.
+    /// Selects a module by name, identifier or ident number.
+    ///
+    /// Each call adds a module. Without a call, all modules of the selected devices are selected.
     pub fn module(mut self, filter: impl AsRef<str>) -> Self {
         self.options.select.modules.push(filter.as_ref().into());
         self
     }
 
-    /// Takes the objects of this index or range, `"0x6040"` or `"0x6000..0x67FF"`. May be called several times; without
-    /// it, all objects are taken.
+    /// Selects objects by index or range: `"0x6040"` or `"0x6000..0x67FF"`.
+    ///
+    /// Each call adds objects. Without a call, all objects are selected.
     pub fn objects(mut self, filter: impl Into<String>) -> Self {
         self.objects.push(filter.into());
         self
     }
 
-    /// Chooses what the manual of a register table leaves open. May be called several times.
+    /// Sets an option of a register table. Options are choices that its manual leaves open.
     pub fn option(mut self, name: impl Into<String>, choice: impl Into<String>) -> Self {
         self.options.choices.push((name.into(), choice.into()));
         self
     }
 
-    /// Applies an overlay: a table that corrects the description and adds what it can't carry. May be called several times;
-    /// they are applied in this order.
+    /// Adds an overlay: a table that corrects and completes the description. Overlays are applied in the order of the calls.
     ///
-    /// A path that isn't absolute is relative to the folder of the crate, as that of the input is.
+    /// A relative path starts at the folder of the crate, like that of the input.
     pub fn overlay(mut self, path: impl Into<PathBuf>) -> Self {
         self.overlays.push(path.into());
         self
     }
 
-    /// Whether profiles (CiA 301, CiA 402, CoE, PROFIdrive) add names of bits and values, units and words to the objects of
-    /// devices that follow them. They do by default.
+    /// Sets whether profiles (CiA 301, CiA 402, CoE, PROFIdrive) complete the objects of devices that follow them. The default is `true`.
+    ///
+    /// Profiles add names of bits and values, units and descriptions.
     pub fn profiles(mut self, profiles: bool) -> Self {
         self.options.no_profiles = !profiles;
         self
     }
 
-    /// The name of the device's type; from the name of the product by default.
+    /// Sets the name of the generated device type. By default, it follows from the product name.
     pub fn device_name(mut self, name: impl Into<String>) -> Self {
         self.options.rust.device_name = Some(name.into());
         self
     }
 
-    /// The path of the runtime crate, where it isn't called `lexibus`.
+    /// Sets the path of the runtime crate. The default is `lexibus`.
     pub fn runtime(mut self, path: impl Into<String>) -> Self {
         self.options.rust.runtime = path.into();
         self
     }
 
-    /// Whether there is an accessor method for every entry. Handles alone compile in a third of the time.
+    /// Sets whether each entry has an accessor method. Code with only handles compiles in a third of the time.
     pub fn accessors(mut self, accessors: bool) -> Self {
         self.options.rust.accessors = accessors;
         self
     }
 
-    /// Whether there is a struct for every PDO.
+    /// Sets whether each PDO has a struct.
     pub fn pdos(mut self, pdos: bool) -> Self {
         self.options.rust.pdos = pdos;
         self
     }
 
-    /// Whether there is a static table of all entries, for tools.
+    /// Sets whether the output contains a static table of all entries, for tools.
     pub fn table(mut self, table: Presence) -> Self {
         self.options.rust.table = table;
         self
     }
 
-    /// Everything that can be chosen about the generated Rust.
+    /// Sets all options of the generated Rust.
     pub fn rust_options(mut self, options: RustOptions) -> Self {
         self.options.rust = options;
         self
     }
 
-    /// Where the output goes; `OUT_DIR` by default.
+    /// Sets the output directory. The default is `OUT_DIR`.
     pub fn out_dir(mut self, directory: impl Into<PathBuf>) -> Self {
         self.out_dir = Some(directory.into());
         self
     }
 
-    /// Prints nothing for cargo. For callers that aren't build scripts.
+    /// Prints nothing for cargo, for callers that are not build scripts.
     pub fn quiet(mut self) -> Self {
         self.quiet = true;
         self
@@ -157,11 +161,11 @@ impl Builder {
 
     /// Compiles `input` to `<stem>.rs` in the output directory.
     ///
-    /// A path that isn't absolute is relative to the folder of the crate, where cargo runs build scripts.
+    /// A relative path starts at the folder of the crate, because cargo runs build scripts there.
     ///
     /// # Errors
     ///
-    /// When the input can't be read or has errors, a level names no code, or the output can't be written.
+    /// Fails if the input cannot be read or has errors, a level is set for an unknown code, or the output cannot be written.
     pub fn compile(&self, input: impl AsRef<Path>) -> Result<(), BuildError> {
         self.compile_to(input, None)
     }
@@ -170,7 +174,7 @@ impl Builder {
     ///
     /// # Errors
     ///
-    /// As [`Builder::compile`].
+    /// Fails like [`Builder::compile`].
     pub fn compile_as(&self, input: impl AsRef<Path>, name: &str) -> Result<(), BuildError> {
         self.compile_to(input, Some(name))
     }
@@ -188,11 +192,11 @@ impl Builder {
         write_if_changed(&path, &text).map_err(|error| BuildError::Write { path, error })
     }
 
-    /// The Rust that `input` compiles to.
+    /// Returns the Rust code for `input`.
     ///
     /// # Errors
     ///
-    /// When the input can't be read or has errors, or a level names no code.
+    /// Fails if the input cannot be read or has errors, or a level is set for an unknown code.
     pub fn generate(&self, input: impl AsRef<Path>) -> Result<String, BuildError> {
         let input = input.as_ref();
         self.tell_cargo(format_args!("cargo::rerun-if-changed={}", input.display()));
@@ -202,7 +206,7 @@ impl Builder {
         for other in compilation.sources.iter().skip(1) {
             self.tell_cargo(format_args!("cargo::rerun-if-changed={}", other.name()));
         }
-        // Once they are there, the description says more.
+        // The description has more content once these files exist.
         for path in &compilation.missing {
             self.tell_cargo(format_args!("cargo::rerun-if-changed={}", path.display()));
         }
@@ -253,45 +257,43 @@ fn errors(compilation: &Compilation) -> String {
     shown.collect::<Vec<_>>().join("\n\n")
 }
 
-/// Why nothing was generated.
+/// The reason why nothing was generated.
 ///
-/// `Debug` prints the same text as `Display`, for it is what a build script's `main` shows.
+/// `Debug` prints the same text as `Display`, because the `main` function of a build script shows it.
 pub enum BuildError {
-    /// The input can't be read.
+    /// The input cannot be read.
     Read {
-        /// The input.
+        /// Path of the input.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         error: std::io::Error,
     },
-    /// The output can't be written.
+    /// The output cannot be written.
     Write {
-        /// The output.
+        /// Path of the output.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         error: std::io::Error,
     },
-    /// The input has errors: the rendered diagnostics.
+    /// The input has errors. Contains the rendered diagnostics.
     Input(String),
-    /// A level was set for a code that doesn't exist.
+    /// A level is set for an unknown code.
     UnknownCode(UnknownCode),
-    /// A text that was to select devices or objects can't.
+    /// A filter for devices or objects is invalid.
     Selection(SelectionError),
-    /// There is no `OUT_DIR`, and no other output directory was named.
+    /// `OUT_DIR` is not set, and there is no other output directory.
     NoOutDir,
 }
 
 impl fmt::Display for BuildError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            BuildError::Read { path, error } => write!(f, "can't read {}: {error}", path.display()),
-            BuildError::Write { path, error } => write!(f, "can't write {}: {error}", path.display()),
+            BuildError::Read { path, error } => write!(f, "cannot read {}: {error}", path.display()),
+            BuildError::Write { path, error } => write!(f, "cannot write {}: {error}", path.display()),
             BuildError::Input(text) => write!(f, "the device description has errors\n\n{text}"),
             BuildError::UnknownCode(error) => write!(f, "{error}"),
             BuildError::Selection(error) => write!(f, "{error}"),
-            BuildError::NoOutDir => {
-                f.write_str("OUT_DIR isn't set: outside of a build script, name an output directory with `out_dir`")
-            }
+            BuildError::NoOutDir => f.write_str("OUT_DIR is not set: call `out_dir` if this is not a build script"),
         }
     }
 }

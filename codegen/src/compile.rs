@@ -1,4 +1,4 @@
-//! The pipeline: source → syntax → IR → passes → output. The three entry points (build script, macro, command line) all end here.
+//! The pipeline: source → syntax → IR → passes → output. All entry points use it: build script, macro and command line.
 
 use std::path::PathBuf;
 
@@ -12,52 +12,52 @@ use crate::resolve;
 use crate::selection::Selection;
 use crate::source::{FileId, Source};
 
-/// What a caller may choose.
+/// Options of a compilation.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Lenient or strict, and the level of each code.
+    /// Lenient or strict mode, and levels of codes.
     pub levels: Levels,
-    /// Further names of `$NODEID` in formulas, such as `$MY_NODE_ID`.
+    /// Further names for `$NODEID` in formulas, such as `$MY_NODE_ID`.
     pub node_id_aliases: Vec<String>,
-    /// The choices of a register table's options, by the option's name.
+    /// Names and choices of options of a register table.
     pub choices: Vec<(String, String)>,
-    /// What of the description is wanted.
+    /// Selected devices, modules and objects.
     pub select: Selection,
-    /// Tables that correct the description and add to it, in the order in which they are applied.
+    /// Overlays in the order in which they are applied.
     pub overlays: Vec<Source>,
-    /// Whether profiles add nothing to the objects of the devices that follow them.
+    /// Whether profiles are not applied.
     pub no_profiles: bool,
-    /// What the generated Rust looks like.
+    /// Options of the generated Rust.
     pub rust: RustOptions,
 }
 
-/// The outcome of a compilation, or of a part of it.
+/// The result of a compilation, or of its first stages.
 #[derive(Debug)]
 pub struct Compilation {
-    /// The files that were read; spans refer to them.
+    /// Files that were read. Spans refer to them.
     pub sources: Vec<Source>,
-    /// What they describe; `None` where they couldn't be used at all.
+    /// IR of the files; `None` if they cannot be used.
     pub catalog: Option<Catalog>,
-    /// What there is to say about them, from top to bottom.
+    /// Diagnostics, sorted by position.
     pub diagnostics: Diagnostics,
-    /// The format, where it was recognised.
+    /// Format, if the compiler recognized it.
     pub format: Option<Format>,
-    /// Files of the folder that the description refers to, and that aren't there.
+    /// Files in the same folder that the description refers to, but that do not exist.
     pub missing: Vec<PathBuf>,
 }
 
 impl Compilation {
-    /// Creates the compilation of a file that is no description or can't be read: it has diagnostics and no catalog.
+    /// Creates the compilation of a file that cannot be read or is not a description. It has diagnostics, but no catalog.
     pub fn of_diagnostics(source: Source, diagnostics: Diagnostics) -> Self {
         Compilation { sources: vec![source], catalog: None, diagnostics, format: None, missing: Vec::new() }
     }
 
-    /// Whether output may be produced.
+    /// Returns whether the compilation can produce output.
     pub fn is_usable(&self) -> bool {
         self.catalog.is_some() && !self.diagnostics.has_errors()
     }
 
-    /// `file:line:column: message [EDS020]`: a finding of this compilation on one line, for tools that want one.
+    /// Returns a diagnostic of this compilation on one line: `file:line:column: message [EDS020]`.
     pub fn one_line(&self, diagnostic: &Diagnostic) -> String {
         let mut text = String::new();
         if let Some(source) = self.sources.get(diagnostic.span.file.0 as usize) {
@@ -72,7 +72,7 @@ impl Compilation {
         text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
     }
 
-    /// The Rust module of what was read, or `None` where there are errors.
+    /// Returns the generated Rust module, or `None` if there are errors.
     pub fn rust(&self, options: &RustOptions) -> Option<String> {
         if !self.is_usable() {
             return None;
@@ -81,17 +81,17 @@ impl Compilation {
     }
 }
 
-/// The choice of an option as the entry points take it: `NAME=CHOICE`.
+/// Parses the choice of an option as the entry points accept it: `NAME=CHOICE`.
 pub fn choice(text: &str) -> Option<(String, String)> {
     let (name, choice) = text.split_once('=')?;
     let (name, choice) = (name.trim(), choice.trim());
     (!name.is_empty() && !choice.is_empty()).then(|| (name.to_owned(), choice.to_owned()))
 }
 
-/// What to say of a usable compilation whose [`Compilation::rust`] is `None`.
-pub const NOTHING_TO_GENERATE: &str = "it describes no device and no module, so there is nothing to generate";
+/// Message for a usable compilation whose [`Compilation::rust`] is `None`.
+pub const NOTHING_TO_GENERATE: &str = "nothing to generate, because the file describes no device and no module";
 
-/// Reads `source` into the IR, as it stands.
+/// Reads `source` into the IR, without selection, overlays or checks.
 pub fn read(source: Source, options: &Options) -> Compilation {
     let mut diagnostics = Diagnostics::new(options.levels.clone());
     let frontend::Description { format, catalog, mut others, missing } =
@@ -109,13 +109,13 @@ fn file_info(source: &Source, format: Format) -> FileInfo {
     FileInfo { name: source.name().to_owned(), format, encoding: source.encoding(), sha256: source.digest() }
 }
 
-/// Reads `source` and checks it: the IR that every back end starts from.
+/// Reads `source` and checks it. The result is the input of all back ends.
 pub fn check(source: Source, options: &Options) -> Compilation {
     checked(read(source, options), options)
 }
 
-/// Selects, corrects, completes and checks what was read: the part of [`check`] that is the same for every front end, also
-/// for one that isn't in this crate.
+/// Applies selection and overlays, and resolves and checks the IR. This is the part of [`check`] after a front end. Use it for a
+/// front end in another crate.
 pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
     if let Some(catalog) = &mut compilation.catalog {
         options.select.devices_and_modules(catalog, &mut compilation.diagnostics);
@@ -133,7 +133,7 @@ pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
         options.select.objects(catalog, &mut compilation.diagnostics);
         resolve::resolve_references(catalog);
     }
-    // One row of a table stands for several items, and so does a type or parameter of XML: they share what is wrong with it.
+    // A row of a table can describe several items, like a type or parameter in XML. Its diagnostics are reported once.
     let described_by = compilation.catalog.as_ref().and_then(|catalog| catalog.files.first());
     if described_by.is_some_and(|file| file.format.has_shared_descriptions()) {
         compilation.diagnostics.forget_repeated(0);

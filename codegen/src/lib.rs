@@ -1,6 +1,6 @@
-//! The Lexibus compiler: reads the description of a fieldbus device, checks it, and generates typed Rust.
+//! The Lexibus compiler. It reads and checks the description of a fieldbus device, and generates typed Rust code.
 //!
-//! From a build script, one line does it:
+//! Use it in a build script:
 //!
 //! ```no_run
 //! // build.rs
@@ -9,41 +9,41 @@
 //! }
 //! ```
 //!
-//! Underneath is a pipeline in which data flows one way:
+//! The pipeline:
 //!
 //! ```text
 //! source -> syntax -> frontend/{eds, xdd, esi, gsdml, table} -> ir -> resolve -> check -> facts -> backend/rust
 //! ```
 //!
-//! | for | see |
+//! | subject | module |
 //! |---|---|
-//! | a build script | [`Builder`] |
-//! | a program that reads descriptions | [`compile`], [`selection`], and [`ir`] for what it gets |
-//! | what is wrong with a description | [`diagnostics`], and the catalogue of codes, [`diagnostics::codes`] |
-//! | what an output for people states | [`facts`] |
-//! | Rust | [`backend::rust`] |
-//! | texts within messages | [`text`] |
-//! | files that are complete or untouched | [`output`] |
+//! | build scripts | [`Builder`] |
+//! | programs that read descriptions | [`compile`], [`selection`], and the result, [`ir`] |
+//! | errors and warnings | [`diagnostics`], and the list of codes, [`diagnostics::codes`] |
+//! | facts in documentation | [`facts`] |
+//! | generated Rust | [`backend::rust`] |
+//! | texts in messages | [`text`] |
+//! | writing output files | [`output`] |
 //!
-//! Further crates start from the same [`ir`]: `lexibus-site` makes documentation and compares versions, `lexibus-export` writes EDS, DCF, ESI,
-//! GSDML and JSON, `lexibus-import` turns lists of registers (CSV) into register tables, and `lexibus-cli` is the command `lexibus`.
+//! Other crates use the same [`ir`]: `lexibus-site` generates documentation and compares versions, and `lexibus-export` writes EDS, DCF,
+//! ESI, GSDML and JSON. `lexibus-import` converts lists of registers (CSV) to register tables, and `lexibus-cli` is the command `lexibus`.
 //! [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md)
-//! has a chapter for each format, and one that writes a front end.
+//! has a chapter for each format, and a chapter about writing a front end.
 //!
 //! # Features
 //!
-//! A feature for each format, all on by default: `eds` (EDS and DCF), `xdd` (XDD and XDC), `esi`, `gsdml` with the code for PROFINET, and `table`
-//! (register tables and overlays); `messages` is for command protocols in register tables. Profiles need none. A build script that reads one
-//! format compiles faster with that alone:
+//! Each format has a feature: `eds` (EDS and DCF), `xdd` (XDD and XDC), `esi`, `gsdml` (with code generation for PROFINET) and `table`
+//! (register tables and overlays). The feature `messages` is for command protocols in register tables. All of these are on by default.
+//! Profiles do not need a feature. A build script compiles faster with only the features that it needs:
 //!
 //! ```toml
 //! [build-dependencies]
 //! lexibus-codegen = { version = "0.1", default-features = false, features = ["eds"] }
 //! ```
 //!
-//! `serde` gives [`ir`] the traits of that crate; it is off by default.
+//! The feature `serde` implements the traits of that crate for [`ir`]. It is off by default.
 //!
-//! Each stage can be used by itself:
+//! Programs can use each stage separately:
 //!
 //! ```
 //! use lexibus_codegen::compile::{check, Options};
@@ -55,9 +55,8 @@
 //! let device = &compilation.catalog.as_ref().unwrap().devices[0];
 //! assert_eq!(device.entry(0x2000, 0).unwrap().name, "Speed");
 //! assert!(compilation.rust(&options.rust).unwrap().contains("pub struct Pump"));
-//! for finding in compilation.diagnostics.list() {
-//!     // EDS042: 0x2000 is in none of the object lists, and more
-//!     println!("{}: {}", finding.code.id, finding.message);
+//! for diagnostic in compilation.diagnostics.list() {
+//!     println!("{}: {}", diagnostic.code.id, diagnostic.message);
 //! }
 //! ```
 #![forbid(unsafe_code)]

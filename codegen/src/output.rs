@@ -1,23 +1,23 @@
-//! Writing files: complete or untouched, and only if they change.
+//! Atomic writing of files that have changed.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{Error, ErrorKind, Result, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Returns whether a path names something other than a file or a folder: a pipe, a terminal, a device.
+/// Returns whether a path exists and is neither a file nor a folder: a pipe, a terminal, a device.
 pub fn is_no_regular_file(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir())
 }
 
-/// Writes `text` to `path` unless the file has these bytes already, so that nothing that depends on it is built again.
+/// Writes `text` to `path`, unless the file already has this content. This avoids rebuilds of everything that depends on the file.
 ///
-/// A regular file is replaced as a whole: if writing fails, the old file stays. A symbolic link stays a link. A pipe or a device is
-/// written to.
+/// Replaces a regular file atomically: if writing fails, the old file remains. Replaces the target of a symbolic link. Writes to a pipe
+/// or device.
 ///
 /// # Errors
 ///
-/// Those of the operating system.
+/// Returns errors of the operating system.
 pub fn write_if_changed(path: &Path, text: &str) -> Result<()> {
     if is_no_regular_file(path) {
         return OpenOptions::new().write(true).open(path)?.write_all(text.as_bytes());
@@ -27,19 +27,19 @@ pub fn write_if_changed(path: &Path, text: &str) -> Result<()> {
     }
     match fs::canonicalize(path) {
         Ok(target) => replace(&target, text),
-        // A link that leads nowhere: the file that it names is created.
+        // The target of the link does not exist yet.
         Err(_) if path.is_symlink() => fs::write(path, text),
         Err(error) if error.kind() == ErrorKind::NotFound => replace(path, text),
         Err(error) => Err(error),
     }
 }
 
-/// Writes a file next to `path` and gives it its name.
+/// Writes a temporary file next to `path`, and renames it.
 fn replace(path: &Path, text: &str) -> Result<()> {
     let (file, temporary) = temporary(path)?;
     let written = fill(file, path, text).and_then(|()| fs::rename(&temporary, path));
     if written.is_err() {
-        // It is incomplete, or has no use.
+        // The temporary file is incomplete, or was not renamed.
         let _ = fs::remove_file(&temporary);
     }
     written
@@ -53,10 +53,12 @@ fn fill(mut file: File, path: &Path, text: &str) -> Result<()> {
     }
 }
 
-/// A new file in the folder of `path`.
+/// Creates a temporary file in the folder of `path`.
 fn temporary(path: &Path) -> Result<(File, PathBuf)> {
     static COUNT: AtomicU32 = AtomicU32::new(0);
-    let Some(name) = path.file_name() else { return Err(Error::new(ErrorKind::InvalidInput, "it names no file")) };
+    let Some(name) = path.file_name() else {
+        return Err(Error::new(ErrorKind::InvalidInput, "the path has no file name"));
+    };
     loop {
         let mut hidden = std::ffi::OsString::from(".");
         hidden.push(name);
@@ -82,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn files_are_replaced_and_nothing_else_is_left() {
+    fn files_are_replaced_without_temporary_files() {
         let folder = folder("replaced");
         let path = folder.join("a.rs");
         for text in ["one", "two", "two", ""] {

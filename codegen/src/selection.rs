@@ -1,7 +1,7 @@
-//! What of a description is wanted: devices, modules, objects.
+//! Selection of devices, modules and objects.
 //!
-//! A file of a vendor may describe hundreds of devices. What isn't selected is read, so that it is checked to be well
-//! formed, and then left alone: it costs nothing in the output.
+//! A vendor file can describe hundreds of devices. The compiler reads all devices and modules, but it only checks the
+//! selected ones and generates code for them.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt;
@@ -12,26 +12,26 @@ use crate::ir::{Catalog, Device, Group, Module, ProcessData, Submodule};
 use crate::source::{FileId, Span};
 use crate::text::{edit_distance, glob};
 
-/// What of a description is wanted; everything, where nothing is named.
+/// The selected parts of a description. An empty list selects all elements.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Selection {
-    /// The devices.
+    /// Devices.
     pub devices: Vec<DeviceFilter>,
-    /// The modules and submodules that can be plugged in. Those that are part of a device always stay.
+    /// Modules and submodules. Built-in ones are always selected.
     pub modules: Vec<Filter>,
-    /// The objects.
+    /// Objects.
     pub objects: Vec<ObjectFilter>,
 }
 
-/// Elements by name or number.
+/// A filter for elements by name or number.
 ///
-/// `0x2521` and `9505` are numbers (a product code, an ident number); every other text is a name, an order code or an
-/// identifier, whatever the case of its letters, in which `*` stands for any letters.
+/// `0x2521` and `9505` are numbers (a product code, an ident number). Each other text is a name, an order code or an identifier.
+/// Upper and lower case are the same, and `*` matches any characters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Filter {
-    /// As the user wrote it.
+    /// Text of the user.
     typed: String,
-    /// The same in lower case.
+    /// Text in lower case.
     text: String,
     number: Option<u32>,
 }
@@ -60,7 +60,7 @@ impl fmt::Display for Filter {
     }
 }
 
-/// Devices by name or product code, and where several revisions are described also by revision.
+/// A filter for devices by name or product code, and optionally by revision.
 ///
 /// `EL3004`, `0x0BBC3052`, `EL3004@0x00110000`, `EL3004@latest`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,12 +84,12 @@ impl FromStr for DeviceFilter {
             Some((device, "latest")) => (device, Some(Revision::Latest)),
             Some((device, revision)) => match number(revision.trim()) {
                 Some(number) => (device, Some(Revision::Number(number))),
-                // An at sign may be part of a name.
+                // A name can contain an at sign.
                 None => (text, None),
             },
         };
         if device.trim().is_empty() {
-            return Err(SelectionError(format!("`{text}` names no device: expected a name or a product code")));
+            return Err(SelectionError(format!("`{text}` does not name a device: expected a name or a product code")));
         }
         Ok(DeviceFilter { device: Filter::new(device), revision })
     }
@@ -106,7 +106,7 @@ impl fmt::Display for DeviceFilter {
     }
 }
 
-/// Objects by index: `0x6040`, or a range with both ends, `0x6000..0x67FF`.
+/// A filter for objects by index: `0x6040`, or a range including both ends, `0x6000..0x67FF`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ObjectFilter {
     first: u16,
@@ -121,7 +121,7 @@ impl FromStr for ObjectFilter {
         let (first, last) = text.split_once("..").unwrap_or((text, text));
         match (index(first), index(last)) {
             (Some(first), Some(last)) if first <= last => Ok(ObjectFilter { first, last }),
-            _ => Err(SelectionError(format!("`{text}` is no index: expected 0x6040 or 0x6000..0x67FF"))),
+            _ => Err(SelectionError(format!("`{text}` is not an index: expected 0x6040 or 0x6000..0x67FF"))),
         }
     }
 }
@@ -136,7 +136,7 @@ impl fmt::Display for ObjectFilter {
     }
 }
 
-/// Why a text selects nothing that could exist.
+/// The reason why a text is not a valid filter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SelectionError(String);
 
@@ -155,7 +155,7 @@ fn number(text: &str) -> Option<u32> {
     }
 }
 
-/// Of several revisions of a product, the greatest: of those with a product code, or of a name where there is none.
+/// Keeps the latest revision of each product. Devices without a product code are the same product if they have the same name.
 fn keep_latest(catalog: &Catalog, found: &mut Vec<usize>) {
     let product = |at: usize| {
         let device = &catalog.devices[at];
@@ -164,13 +164,13 @@ fn keep_latest(catalog: &Catalog, found: &mut Vec<usize>) {
     };
     let mut latest: HashMap<_, Option<u32>> = HashMap::new();
     for &at in &*found {
-        let greatest = latest.entry(product(at)).or_default();
-        *greatest = (*greatest).max(catalog.devices[at].identity.revision_number);
+        let highest = latest.entry(product(at)).or_default();
+        *highest = (*highest).max(catalog.devices[at].identity.revision_number);
     }
     found.retain(|&at| latest.get(&product(at)) == Some(&catalog.devices[at].identity.revision_number));
 }
 
-/// Takes out of `catalog` the modules that no device takes, and the submodules that neither a device nor a module takes.
+/// Removes modules that no device accepts, and submodules that neither a device nor a module accepts.
 fn drop_unreached(catalog: &mut Catalog) {
     let Catalog { devices, modules, submodules, .. } = catalog;
     let reached = devices.iter().flat_map(|device| &device.modules).map(|used| used.module.0);
@@ -187,7 +187,7 @@ fn drop_unreached(catalog: &mut Catalog) {
     }
 }
 
-/// Keeps what is at the positions of `reached`; gives the new position of each.
+/// Keeps the elements at the positions in `reached`. Returns the new positions of all elements.
 fn keep_reached<T>(list: &mut Vec<T>, reached: HashSet<u32>) -> Vec<u32> {
     let is_kept = |at: u32| reached.contains(&at);
     let mut kept = 0;
@@ -202,7 +202,7 @@ fn keep_reached<T>(list: &mut Vec<T>, reached: HashSet<u32>) -> Vec<u32> {
 }
 
 impl Selection {
-    /// Takes out of `catalog` the devices that aren't wanted, and out of the devices the modules.
+    /// Removes devices and modules that are not selected.
     pub(crate) fn devices_and_modules(&self, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
         if !self.devices.is_empty() {
             self.keep_devices(catalog, diagnostics);
@@ -211,7 +211,7 @@ impl Selection {
             self.keep_modules(catalog, diagnostics);
         }
         let is_limited = !self.devices.is_empty() || !self.modules.is_empty();
-        // A file of modules alone has nothing that would reach them.
+        // In a file without devices, nothing refers to the modules.
         if is_limited && !catalog.devices.is_empty() {
             drop_unreached(catalog);
         }
@@ -221,15 +221,16 @@ impl Selection {
         self.objects.is_empty() || self.objects.iter().any(|filter| (filter.first..=filter.last).contains(&index))
     }
 
-    /// Removes the PDOs whose mapping objects aren't selected. Use it before an export to EDS, which writes the mapping object
-    /// of every PDO. Bindings keep these PDOs.
+    /// Removes the PDOs whose mapping objects are not selected.
+    ///
+    /// Use it before an export to EDS, which writes the mapping object of each PDO. Generated code has all PDOs.
     pub fn mapping_objects(&self, catalog: &mut Catalog) {
         for device in &mut catalog.devices {
             device.process_data.pdos.retain(|pdo| self.has_object(pdo.mapping_index));
         }
     }
 
-    /// Takes out of `catalog` the objects that aren't wanted. Done last: the names in PDOs come from them.
+    /// Removes objects that are not selected. This is the last step, because names in PDOs come from objects.
     pub(crate) fn objects(&self, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
         if self.objects.is_empty() {
             return;
@@ -288,14 +289,14 @@ impl Selection {
             device.submodules.retain(|used| !used.places.fixed.is_empty() || is(&wanted_submodules, used.submodule.0));
         }
         if catalog.devices.is_empty() {
-            // A file of modules alone.
+            // A file without devices.
             let mut at = wanted_modules.into_iter();
             catalog.modules.retain(|_| at.next().unwrap_or(false));
         }
     }
 }
 
-/// The indices of all objects, of registers that are also objects, and of PDO mappings.
+/// Returns the indices of all objects, registers with an object address, and PDO mappings.
 fn indices(catalog: &Catalog) -> BTreeSet<u16> {
     let Catalog { devices, modules, .. } = catalog;
     let parts = devices.iter().map(|device| (&device.groups, &device.process_data));
@@ -308,7 +309,7 @@ fn indices(catalog: &Catalog) -> BTreeSet<u16> {
     parts.flat_map(|(groups, data)| of_part((groups, data))).collect()
 }
 
-/// The objects next to a range that has none.
+/// Returns help about the objects next to a range without objects.
 fn nearest(existing: &BTreeSet<u16>, filter: ObjectFilter) -> String {
     let below = existing.range(..filter.first).next_back().map(|&last| {
         let first = (0..=last).rev().take_while(|index| existing.contains(index)).last().unwrap_or(last);
@@ -349,22 +350,22 @@ fn submodule_names(submodule: &Submodule) -> [&str; 3] {
     [&submodule.name, &submodule.id, &submodule.identity.order_code]
 }
 
-/// "There is no such thing", with the name that is most like it.
+/// Creates the diagnostic for a filter without a match, with the most similar name.
 fn nothing<'n>(what: &str, wanted: &str, filter: &Filter, names: impl Iterator<Item = &'n str>) -> Diagnostic {
     let message = format!("there is no {what} `{wanted}` in the file");
     let diagnostic = Diagnostic::new(&codes::NOTHING_SELECTED, Span::new(FileId(0), 0, 0), message);
     let names = names.filter(|name| !name.is_empty());
     let similar = names.min_by_key(|name| edit_distance(&filter.text, &name.to_lowercase()));
     match similar {
-        Some(name) => diagnostic.help(format!("`lexibus info` lists what there is; did you mean `{name}`?")),
-        None => diagnostic.help("`lexibus info` lists what there is"),
+        Some(name) => diagnostic.help(format!("write `{name}`, or use `lexibus info` to list all {what}s")),
+        None => diagnostic.help(format!("use `lexibus info` to list all {what}s")),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::{ModuleId, ModuleUse, Places, SubmoduleId, SubmoduleUse};
+    use crate::ir::{ModuleId, ModuleUse, SlotNumbers, SubmoduleId, SubmoduleUse};
 
     fn device(name: &str, order_code: &str, product: u32, revision: u32) -> Device {
         let mut device = Device { name: name.into(), ..Device::default() };
@@ -392,9 +393,9 @@ mod tests {
     }
 
     #[test]
-    fn what_only_others_take_goes_with_them() {
-        let used = |module| ModuleUse { module: ModuleId(module), places: Places::default() };
-        let part = |submodule| SubmoduleUse { submodule: SubmoduleId(submodule), places: Places::default() };
+    fn modules_of_removed_devices_are_removed() {
+        let used = |module| ModuleUse { module: ModuleId(module), places: SlotNumbers::default() };
+        let part = |submodule| SubmoduleUse { submodule: SubmoduleId(submodule), places: SlotNumbers::default() };
         let module = |name: &str, parts: &[u32]| Module {
             name: name.into(),
             submodules: parts.iter().map(|&at| part(at)).collect(),

@@ -2,23 +2,22 @@
 
 use std::borrow::Cow;
 
-/// Returns the first 64 characters of a text: as much as a message quotes or a key takes, so that deep nesting can't multiply
-/// long names.
+/// Returns the first 64 characters of a text, for messages and keys. Long names with deep nesting would take too much memory.
 pub fn brief(text: &str) -> &str {
     const LETTERS: usize = 64;
     let end = text.char_indices().nth(LETTERS).map_or(text.len(), |(at, _)| at);
     &text[..end]
 }
 
-/// Whether a character may move a terminal's cursor, colour its text, end its line or turn its direction.
+/// Returns whether a character can control a terminal, end a line or change the direction of text.
 pub fn steers(c: char) -> bool {
     matches!(c,
         '\0'..='\u{1f}' | '\u{7f}'..='\u{9f}' | '\u{61c}' | '\u{200e}' | '\u{200f}'
         | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Replaces characters that control a terminal, end the line or change the direction of text by spaces: a text of a
-/// description on one line that is safe to print.
+/// Returns a text as one line that is safe to print. Characters that control a terminal, end a line or change the direction of text
+/// become spaces.
 pub fn printable(text: &str) -> Cow<'_, str> {
     match text.contains(steers) {
         true => text.chars().map(|c| if steers(c) { ' ' } else { c }).collect(),
@@ -26,9 +25,9 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Returns the Levenshtein distance: how many characters to insert, delete or replace to get from `a` to `b`.
+/// Returns the Levenshtein distance: the number of characters to insert, delete or replace to get from `a` to `b`.
 pub fn edit_distance(a: &str, b: &str) -> usize {
-    // One row of the usual table: `row[j]` is the distance of the part of `a` read so far to the first `j` of `b`.
+    // One row of the usual table: `row[j]` is the distance between the first `i` characters of `a` and the first `j` of `b`.
     let mut row: Vec<usize> = (0..=b.chars().count()).collect();
     for (i, from) in a.chars().enumerate() {
         let mut diagonal = row[0];
@@ -42,7 +41,7 @@ pub fn edit_distance(a: &str, b: &str) -> usize {
     row[row.len() - 1]
 }
 
-/// Says how many more there are, with `text`; nothing if there are none.
+/// Returns the result of `text` for a number of further elements, or an empty text if there are none.
 pub(crate) fn more(count: usize, text: impl FnOnce(usize) -> String) -> String {
     match count {
         0 => String::new(),
@@ -50,7 +49,7 @@ pub(crate) fn more(count: usize, text: impl FnOnce(usize) -> String) -> String {
     }
 }
 
-/// `CiA 402, 17.3.7`.
+/// Returns a standard with its clause: `CiA 402, 17.3.7`.
 #[cfg(feature = "table")]
 pub(crate) fn standard_and_clause(standard: &str, clause: &str) -> String {
     match clause {
@@ -59,7 +58,7 @@ pub(crate) fn standard_and_clause(standard: &str, clause: &str) -> String {
     }
 }
 
-/// Whether `text` has the form of `pattern`, in which `*` stands for any letters.
+/// Returns whether `text` matches `pattern`, in which `*` matches any characters.
 pub(crate) fn glob(pattern: &str, text: &str) -> bool {
     let Some((head, rest)) = pattern.split_once('*') else { return pattern == text };
     let Some(mut text) = text.strip_prefix(head) else { return false };

@@ -1,22 +1,22 @@
-//! Names of which no two are the same.
+//! Unique names.
 
 use std::collections::{HashMap, HashSet};
 
 use crate::ir::CompactString;
 
-/// Names that were given, each once.
+/// A set of used names, which makes further names unique.
 #[derive(Debug, Default)]
 pub struct Unique {
-    taken: HashSet<CompactString>,
-    /// The number that the next one with a name gets, so that equal names aren't counted from the start each time.
+    used: HashSet<CompactString>,
+    /// Next number for each repeated name, so that the time for many equal names is linear.
     next: HashMap<CompactString, u32>,
 }
 
 impl Unique {
-    /// The name that is wanted, or what `numbered` makes of it and a number, from 2 on.
+    /// Returns `wanted`, or if that is used already, the result of `numbered` for the first unused number, starting with 2.
     pub fn unique(&mut self, wanted: &str, numbered: impl Fn(u32) -> CompactString) -> CompactString {
         let mut name = CompactString::from(wanted);
-        while !self.taken.insert(name.clone()) {
+        while !self.used.insert(name.clone()) {
             let number = self.next.entry(wanted.into()).or_insert(2);
             name = numbered(*number);
             *number += 1;
@@ -32,7 +32,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_pass_over_names_that_are_taken() {
+    fn numbers_skip_used_names() {
         let mut names = Unique::default();
         let mut give = |wanted: &str| names.unique(wanted, |number| format_compact!("{wanted}{number}"));
         assert_eq!(["a", "a3", "a", "a", "b", "a"].map(&mut give), ["a", "a3", "a2", "a4", "b", "a5"]);

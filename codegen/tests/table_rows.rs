@@ -74,7 +74,7 @@ fn models_and_buses_differ() {
     );
     assert_eq!(variants[1].scale, Some(Scale::Linear { factor: 0.1, offset: 0.0 }));
     let rust = rust(&text);
-    assert!(rust.contains("Of SM140: default 2, at most 20."), "{rust}");
+    assert!(rust.contains("On SM140: default 2, at most 20."), "{rust}");
     assert!(rust.contains("On modbus: 1 LSB = 0.1."), "{rust}");
     is_wrong(", variants = [{ default = 2 }]", "neither `models` nor `buses`");
     is_wrong(", variants = [{ models = [\"SM140\"] }]", "changes nothing");
@@ -495,8 +495,8 @@ fn registers_of_32_bits_have_an_address_each() {
         "rt::Register::high_first(32769, 2).words_per_address(2)",
         "rt::Register::holding(32770).words_per_address(2)",
         "rt::Register::high_first(32771, 4).words_per_address(2)",
-        "Modbus 1 (holding; wire 0x8001; FC 3; 32 bits an address; high word first), INTEGER32",
-        "Modbus 3–4 (holding; wire 0x8003–0x8004; FC 3; 32 bits an address; high word first)",
+        "Modbus 1 (holding; wire 0x8001; FC 3; 32 bits per address; high word first), INTEGER32",
+        "Modbus 3–4 (holding; wire 0x8003–0x8004; FC 3; 32 bits per address; high word first)",
         "readable: &[rt::modbus::Span::new(32768, 32772).words_per_address(2)],",
     ] {
         assert!(text.contains(part), "{part}\n{text}");

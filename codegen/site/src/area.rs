@@ -131,7 +131,7 @@ fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names
         };
         let mut facts = about.map(|group| PLAIN.description(group.documentation.as_deref())).unwrap_or_default();
         facts.extend(
-            about.and_then(|group| PLAIN.place(known.manual, "", group.documentation.as_deref(), &group.names)),
+            about.and_then(|group| PLAIN.manual_entry(known.manual, "", group.documentation.as_deref(), &group.names)),
         );
         Area {
             file: files.file(&format!("{prefix}{}", part.title)),
@@ -162,7 +162,7 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
         return Section::plain(vec![row]);
     }
     let mut facts = PLAIN.description(group.documentation.as_deref());
-    facts.extend(PLAIN.place(rows.known.manual, "", group.documentation.as_deref(), &group.names));
+    facts.extend(PLAIN.manual_entry(rows.known.manual, "", group.documentation.as_deref(), &group.names));
     let anchor = rows.names.anchor(&number);
     let sub = |item: &Item| item.object().map_or_else(String::new, |(index, sub)| address::object(index, sub));
     Section {

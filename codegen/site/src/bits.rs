@@ -122,7 +122,7 @@ fn field(types: &[TypeDef], entry: &BitFieldEntry) -> Field {
         Trigger::Rising => "Acts on the change from 0 to 1.".to_owned(),
         Trigger::Falling => "Acts on the change from 1 to 0.".to_owned(),
         Trigger::Toggle => "Acts on every change.".to_owned(),
-        Trigger::SelfClearing => "The device clears it by itself.".to_owned(),
+        Trigger::SelfClearing => "The device clears the bit.".to_owned(),
     }));
     facts.extend(entry.access.map(|access| format!("Access: {}.", access.name())));
     facts.extend(words::PLAIN.description(entry.documentation.as_deref()));

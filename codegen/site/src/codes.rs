@@ -41,11 +41,11 @@ fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names)
         let buses: Vec<&str> = table.buses.iter().map(lexibus_codegen::facts::words::bus_name).collect();
         facts.push(format!("On {}.", buses.join(", ")));
     }
-    facts.extend(PLAIN.place(manual, "", table.documentation.as_deref(), &[]));
+    facts.extend(PLAIN.manual_entry(manual, "", table.documentation.as_deref(), &[]));
     let rows = table.rows.iter().map(|row| {
         let mut facts = PLAIN.description(row.documentation.as_deref());
         facts.extend(row.availability.as_ref().map(|availability| PLAIN.availability(availability)));
-        facts.extend(PLAIN.place(manual, "", row.documentation.as_deref(), &row.names));
+        facts.extend(PLAIN.manual_entry(manual, "", row.documentation.as_deref(), &row.names));
         let number = code::text(row);
         Code {
             anchor: names.anchor(&format!("{}-{number}", table.name)),

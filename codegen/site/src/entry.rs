@@ -178,7 +178,7 @@ impl Rows<'_> {
         }
         facts.extend(PLAIN.variants(item, self.known.manual));
         facts.extend(item.availability.as_ref().map(|availability| PLAIN.availability(availability)));
-        facts.extend(PLAIN.place(self.known.manual, row_of(item), item.documentation.as_deref(), &item.names));
+        facts.extend(PLAIN.manual_entry(self.known.manual, row_of(item), item.documentation.as_deref(), &item.names));
         let configured = item.configured.as_ref().and_then(|configured| configured.value.as_ref());
         facts.extend(
             configured

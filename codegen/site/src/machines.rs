@@ -137,7 +137,7 @@ fn machine(machine: &StateMachine, device: &Device, manual: &Manual) -> Machine 
     facts.extend((!machine.status_item.is_empty()).then(|| format!("{} tells the state.", machine.status_item)));
     facts.extend((!machine.control_item.is_empty()).then(|| format!("{} takes the commands.", machine.control_item)));
     facts.extend(machine.initial.as_ref().map(|state| format!("After power-on: {state}.")));
-    facts.extend(PLAIN.place(manual, "", machine.documentation.as_deref(), &[]));
+    facts.extend(PLAIN.manual_entry(manual, "", machine.documentation.as_deref(), &[]));
     Machine {
         title: machine.name.to_string(),
         facts,
@@ -354,7 +354,7 @@ fn sequence(procedure: &Procedure, device: &Device, manual: &Manual) -> Sequence
         let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.as_str()).collect();
         facts.push(format!("Given: {}.", arguments.join(", ")));
     }
-    facts.extend(PLAIN.place(manual, "", procedure.documentation.as_deref(), &procedure.names));
+    facts.extend(PLAIN.manual_entry(manual, "", procedure.documentation.as_deref(), &procedure.names));
     let doubts = entry::about(&device.doubts, SubjectKind::Procedure, &procedure.name, manual);
     let steps = procedure.steps.iter().map(|step| PLAIN.step(step)).collect();
     Sequence { name: procedure.name.to_string(), facts, doubts, steps }

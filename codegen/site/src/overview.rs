@@ -39,7 +39,7 @@ pub(super) struct Model {
 
 pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual) -> Overview {
     let mut facts = PLAIN.description(device.documentation.as_deref());
-    facts.extend(PLAIN.place(manual, "", device.documentation.as_deref(), &device.names));
+    facts.extend(PLAIN.manual_entry(manual, "", device.documentation.as_deref(), &device.names));
     let mut identity = identity(device);
     identity.extend(settings(device));
     let title = [manual.title.as_str(), manual.edition.as_str()].into_iter().filter(|text| !text.is_empty());

@@ -114,7 +114,7 @@ fn message(message: &Message, device: &Device, manual: &Manual, names: &mut Name
         message.error.as_ref().map(|other| format!("Where the device refuses, {other} comes instead of the reply.")),
     );
     facts.extend(message.availability.as_ref().map(|availability| PLAIN.availability(availability)));
-    facts.extend(PLAIN.place(manual, "", message.documentation.as_deref(), &message.names));
+    facts.extend(PLAIN.manual_entry(manual, "", message.documentation.as_deref(), &message.names));
     facts.retain(|fact| !fact.is_empty());
     let mut parts = Parts { types: &device.types, all: Vec::new(), doubts: message.doubts.to_vec() };
     parts.fields(&message.request, 0);

@@ -7,56 +7,56 @@ use crate::ir::{Item, Storage};
 use crate::source::Span;
 use crate::text::brief;
 
-/// Reports items whose access rights contradict their storage, their PDOs or their writable values. In 52 files of the corpus, values
-/// that can't be written come in RPDOs.
+/// Reports items whose access rights contradict their storage, PDO mapping or writable values. In 52 files of the corpus, read-only
+/// values can be mapped into RPDOs.
 pub(super) fn conflicts(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         for (span, problem) in contradictions(item).into_iter().flatten() {
             let message = format!("`{}` is {} and {problem}", brief(&item.name), item.access.name());
-            let found = codes::ACCESS_CONFLICT.at(place(item, span), message);
-            let help = "one of the two is misprinted: keep what the manual's text supports, with a `doubt`";
+            let found = codes::ACCESS_CONFLICT.at(access_span(item, span), message);
+            let help = "correct the misprinted fact according to the text of the manual, and add a `doubt`";
             diagnostics.push(found.help(help));
         }
     }
 }
 
-/// Reports measured values that can't be zero.
+/// Reports measured values that cannot be zero.
 pub(super) fn readings(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         let Some(low) = positive_limit_of_reading(context.owner, item) else { continue };
         let (name, access) = (brief(&item.name), item.access.name());
         let message = format!("`{name}` is {access} and signed, and has the lower limit {low}");
-        let help = "if it can be zero, the limit is that of a set-point; if not, the type is unsigned";
-        diagnostics.push(codes::READING_LIMITS.at(place(item, item.at.low), message).help(help));
+        let help = "remove the limit if the value can be zero, because it is the limit of a setpoint; otherwise use an unsigned type";
+        diagnostics.push(codes::READING_LIMITS.at(access_span(item, item.at.low), message).help(help));
     }
 }
 
-fn place(item: &Item, span: Span) -> Span {
+fn access_span(item: &Item, span: Span) -> Span {
     span.or(item.at.access).or(item.origin.span)
 }
 
-/// What contradicts the access rights of an item, and where that stands.
+/// Returns the facts that contradict the access rights of an item, with their locations.
 fn contradictions(item: &Item) -> [Option<(Span, &'static str)>; 3] {
     let (readable, writable) = (item.access.readable(), item.access.writable());
     let conflict = |span, text| Some((span, text));
     let behaviour = item.behaviour.as_deref();
     let saved = behaviour.filter(|behaviour| matches!(behaviour.storage, Storage::Immediate | Storage::OnCommand(_)));
     let saved = match saved {
-        Some(_) if !writable => conflict(Span::default(), "saved, though nobody can write it"),
-        Some(saved) if saved.self_clearing => conflict(Span::default(), "saved, though the device clears it"),
+        Some(_) if !writable => conflict(Span::default(), "non-volatile, although it cannot be written"),
+        Some(saved) if saved.self_clearing => conflict(Span::default(), "non-volatile, although the device clears it"),
         _ => None,
     };
     let mapped = match item.mappable {
-        mappable if mappable.rpdo && !writable => conflict(item.at.mappable, "may come in an RPDO"),
-        mappable if mappable.tpdo && !readable => conflict(item.at.mappable, "may go into a TPDO"),
+        mappable if mappable.rpdo && !writable => conflict(item.at.mappable, "can be mapped into an RPDO"),
+        mappable if mappable.tpdo && !readable => conflict(item.at.mappable, "can be mapped into a TPDO"),
         _ => None,
     };
     let is_written = !writable && behaviour.is_some_and(|behaviour| !behaviour.writable_values.is_empty());
-    let written = is_written.then_some((Span::default(), "has values that may be written"));
+    let written = is_written.then_some((Span::default(), "has a list of writable values"));
     [saved, mapped, written]
 }
 
-/// What is measured passes through zero, or it would need no sign. Returns the lower limit of a reading that doesn't.
+/// Returns the lower limit of a signed measured value if it is above zero. Signed measured values normally pass through zero.
 fn positive_limit_of_reading(owner: Owner<'_>, item: &Item) -> Option<i128> {
     let (low, high) = item.limits.integers();
     let is_measured = owner.basic(item.ty).is_signed() && !item.access.writable() && high != low;
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn what_nobody_can_write_is_neither_saved_nor_received() {
+    fn read_only_values_are_neither_saved_nor_received() {
         let save = |item: &mut Item| {
             item.behaviour = Some(Box::new(Behaviour { storage: Storage::Immediate, ..Behaviour::default() }));
         };
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_measured_passes_through_zero() {
+    fn signed_measured_values_pass_through_zero() {
         let limits = |low| move |item: &mut Item| item.limits.low = Some(Value::Int(low));
         assert_eq!(found(limits(1)), ["TAB023"]);
         assert_eq!(found(limits(0)), [""; 0]);

@@ -1,4 +1,4 @@
-//! Items that are the same value under two names, and items that replace others.
+//! Items with the same value, and replacements of items.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,20 +18,20 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         if !differences.is_empty() {
             let (name, other_name, differences) = (brief(&item.name), brief(alias), differences.join("; "));
             let message = format!("`{name}` is the same value as `{other_name}`, but differs: {differences}");
-            let found = codes::SAME_VALUE_DIFFERS.at(place(item, alias), message);
-            diagnostics.push(found.note_at(other.origin.span, "the other one"));
+            let found = codes::SAME_VALUE_DIFFERS.at(difference_span(item, alias), message);
+            diagnostics.push(found.note_at(other.origin.span, "the other item"));
         }
     }
 }
 
-/// Where an overlay says what differs, else the row.
-fn place(item: &Item, alias: &ItemRef) -> Span {
+/// Returns the location of the differing fact in an overlay, or else of the row.
+fn difference_span(item: &Item, alias: &ItemRef) -> Span {
     let row = item.origin.span;
     let facts = [alias.span, item.at.ty, item.at.low, item.at.high];
     facts.into_iter().find(|fact| !fact.is_empty() && fact.file != row.file).unwrap_or(row)
 }
 
-/// An item and its replacement are used alike. What only a default says of either isn't compared.
+/// Reports a replacement whose access rights differ from those of its item. Access rights that a row inherits are not compared.
 fn replacement(device: &Device, item: &Item, diagnostics: &mut Diagnostics) {
     let reference = item.availability.as_ref().and_then(|availability| availability.replaced_by.as_ref());
     let Some(other) = reference.and_then(|reference| device.item(reference.id?.item()?)) else { return };
@@ -42,18 +42,18 @@ fn replacement(device: &Device, item: &Item, diagnostics: &mut Diagnostics) {
     let rights = |item: &Item| (item.access.readable(), item.access.writable());
     if is_stated(item) && is_stated(other) && rights(item) != rights(other) {
         let (name, other_name) = (brief(&item.name), brief(&other.name));
-        let (access, its) = (item.access.name(), other.access.name());
-        let message = format!("`{name}` is {access}, and `{other_name}`, which replaces it, {its}");
+        let (access, other_access) = (item.access.name(), other.access.name());
+        let message = format!("`{name}` is {access}, but its replacement `{other_name}` is {other_access}");
         let found = codes::SAME_VALUE_DIFFERS.at(item.at.access, message);
         diagnostics.push(found.note_at(other.at.access, "the replacement"));
     }
 }
 
-/// What two descriptions of one value disagree on.
+/// Returns the differences between two descriptions of the same value.
 fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
     let mut found = Vec::new();
     let types = (owner.basic(one.ty), owner.basic(other.ty));
-    // A part of a value, such as its lower half, has other limits and names.
+    // A part of a value, such as its lower half, has its own limits and names.
     if types.0.bits().zip(types.1.bits()).is_some_and(|(one, other)| one < other) {
         return found;
     }
@@ -62,10 +62,10 @@ fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
     }
     let limits =
         [("lower limit", &one.limits.low, &other.limits.low), ("upper limit", &one.limits.high, &other.limits.high)];
-    for (what, one, other) in limits {
+    for (limit, one, other) in limits {
         if let (Some(one), Some(other)) = (one, other) {
             if one.as_real().is_some() && one.as_real() != other.as_real() {
-                found.push(format!("{what} {one} and {other}"));
+                found.push(format!("{limit} {one} and {other}"));
             }
         }
     }
@@ -79,7 +79,7 @@ fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
     found
 }
 
-/// Unit and scale, where both give them.
+/// Returns the differences of unit and scale factor.
 fn quantities(one: &Quantity, other: &Quantity) -> Vec<String> {
     let mut found = Vec::new();
     if !one.unit.is_empty() && !other.unit.is_empty() && one.unit != other.unit {
@@ -99,30 +99,30 @@ fn quantities(one: &Quantity, other: &Quantity) -> Vec<String> {
     found
 }
 
-/// Values, or bits, that have another name in one than in the other.
+/// Returns the first value or bit whose name differs.
 fn names(one: &Shape, other: &Shape) -> Option<String> {
     let what = match one {
         Shape::BitField { .. } => "bit",
         _ => "value",
     };
     let (one, other) = (labels(one), labels(other));
-    let mut differing = one.iter().filter_map(|(place, names)| {
-        let others = other.get(place).filter(|others| !others.keys().eq(names.keys()))?;
-        Some((place, names.values().next()?, others.values().next()?))
+    let mut differing = one.iter().filter_map(|(values, names)| {
+        let others = other.get(values).filter(|others| !others.keys().eq(names.keys()))?;
+        Some((values, names.values().next()?, others.values().next()?))
     });
-    let (place, one, other) = differing.next()?;
+    let (values, one, other) = differing.next()?;
     let more = more(differing.count(), |more| format!(", and {more} more names"));
-    Some(format!("{what} {} is `{}` and `{}`{more}", range(place), brief(one), brief(other)))
+    Some(format!("{what} {} is `{}` and `{}`{more}", range(values), brief(one), brief(other)))
 }
 
 type Labels<'n> = BTreeMap<(i128, i128), BTreeMap<String, &'n str>>;
 
-/// The names of the values, or of the bits, by the name without case and punctuation.
+/// Returns the names of values or bits. The inner key is the name in lower case without punctuation.
 fn labels(shape: &Shape) -> Labels<'_> {
     let mut labels = Labels::new();
-    fn add<'n>(labels: &mut Labels<'n>, place: (i128, i128), name: &'n str) {
+    fn add<'n>(labels: &mut Labels<'n>, values: (i128, i128), name: &'n str) {
         let plain = name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect();
-        labels.entry(place).or_default().insert(plain, name);
+        labels.entry(values).or_default().insert(plain, name);
     }
     match shape {
         Shape::Enumeration { values, .. } => {
@@ -141,7 +141,7 @@ fn labels(shape: &Shape) -> Labels<'_> {
     labels
 }
 
-/// What is named in one of two types and not in the other.
+/// Returns the values or bits that only one of two types names.
 fn meanings(one: &Shape, other: &Shape) -> Option<String> {
     let (what, one, other) = match (one, other) {
         (Shape::Enumeration { .. }, Shape::Enumeration { .. }) => ("values", named(one), named(other)),
@@ -149,7 +149,7 @@ fn meanings(one: &Shape, other: &Shape) -> Option<String> {
         _ => return Some("one is an enumeration, the other a bit field".to_owned()),
     };
     let only: Vec<String> = one.symmetric_difference(&other).map(range).collect();
-    (!only.is_empty()).then(|| format!("the {what} {} have a meaning in one of them only", only.join(", ")))
+    (!only.is_empty()).then(|| format!("the {what} {} have a meaning in only one of them", only.join(", ")))
 }
 
 fn range(range: &(i128, i128)) -> String {
@@ -159,7 +159,7 @@ fn range(range: &(i128, i128)) -> String {
     }
 }
 
-/// First and last of the values, or of the bits, that have a meaning.
+/// Returns the ranges of values or bits that have a meaning.
 fn named(shape: &Shape) -> BTreeSet<(i128, i128)> {
     labels(shape).into_keys().collect()
 }

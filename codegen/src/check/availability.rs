@@ -1,4 +1,4 @@
-//! Firmware versions of items, bits, values and messages: their form, their order, and those of replacements.
+//! Firmware versions of items, bits, values, messages and replacements: notation and order.
 
 use std::cmp::Ordering;
 
@@ -35,29 +35,29 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The version that a text in another form stands for: `6,15`, `v6.15`, `6-15`.
-fn meant(text: &str) -> Option<String> {
+/// Returns the version that a text in another notation means: `6,15`, `v6.15`, `6-15`.
+fn corrected(text: &str) -> Option<String> {
     let text = text.trim().trim_start_matches(|c: char| c.is_ascii_alphabetic() || c == '.' || c == ' ');
     let text = text.replace([',', '-', '_'], ".");
-    // `Fw710` is 7.10 or 710.
+    // Without a separator, the version is ambiguous: `Fw710` is 7.10 or 710.
     (text.contains('.') && version(&text).is_some()).then_some(text)
 }
 
 fn window(what: &str, availability: &Availability, span: Span, diagnostics: &mut Diagnostics) {
     for text in [&availability.since, &availability.until].into_iter().flatten() {
         if version(text).is_none() {
-            let message = format!("{what} has the firmware version `{}`, which isn't numbers and points", brief(text));
+            let message = format!("{what} has the firmware version `{}`, which is not a dotted number", brief(text));
             let found = codes::VERSION_FORM.at(span, message).label("not compared");
-            diagnostics.push(found.help(match meant(text) {
-                Some(meant) => format!("write `{meant}`"),
-                None => "write the numbers of the version with points between them, such as `6.15`".to_owned(),
+            diagnostics.push(found.help(match corrected(text) {
+                Some(version) => format!("write `{version}`"),
+                None => "write the version as numbers separated by points, such as `6.15`".to_owned(),
             }));
         }
     }
     let (since, until) = (availability.since.as_deref(), availability.until.as_deref());
     if compare(since, until).is_some_and(|order| order != Ordering::Less) {
         let (since, until) = (since.unwrap_or_default(), until.unwrap_or_default());
-        let message = format!("{what} exists since {since} and until {until}, so that no firmware has it");
+        let message = format!("{what} exists since {since} and until {until}, so no firmware version has it");
         diagnostics.push(codes::FIRMWARE_WINDOW.at(span, message));
     }
 }
@@ -77,11 +77,11 @@ fn replacement(device: &Device, item: &Item, availability: &Availability, diagno
     };
     let ends = availability.until.as_deref();
     let message = match (compare(since, ends), compare(until, ends)) {
-        (_, Some(Ordering::Less | Ordering::Equal)) => "its replacement is gone by then".to_owned(),
-        (Some(Ordering::Less), _) => format!("its replacement exists since {} already", since.unwrap_or_default()),
-        (Some(Ordering::Greater), _) => format!("its replacement exists since {} only", since.unwrap_or_default()),
+        (_, Some(Ordering::Less | Ordering::Equal)) => "its replacement no longer exists then".to_owned(),
+        (Some(Ordering::Less), _) => format!("its replacement already exists since {}", since.unwrap_or_default()),
+        (Some(Ordering::Greater), _) => format!("its replacement exists only since {}", since.unwrap_or_default()),
         _ => return,
     };
-    let message = format!("`{name}` exists until {}, and {message}", ends.unwrap_or_default());
+    let message = format!("`{name}` exists until {}, but {message}", ends.unwrap_or_default());
     diagnostics.push(codes::FIRMWARE_WINDOW.at(span, message).note_at(other.origin.span, "the replacement"));
 }

@@ -1,4 +1,4 @@
-//! Fields of bit fields against the integer below and against each other.
+//! Bit fields: fields outside of the type, overlapping fields and unnamed bits.
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::firmware::apart;
@@ -7,7 +7,7 @@ use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Type, TypeDef, Type
 use crate::source::Span;
 use crate::text::{brief, more};
 
-/// The widest field of which every value is looked for.
+/// Maximum width of an enumerated field whose values all need a name.
 const MAX_LISTED_BITS: u8 = 4;
 
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
@@ -23,9 +23,9 @@ pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The name of a field in messages.
+/// Returns the name of a field for messages.
 pub(super) fn called(field: &BitFieldEntry) -> String {
-    let bits = field.place();
+    let bits = field.bit_range();
     match field.name.is_empty() {
         _ if field.is_reserved() => format!("{bits} (reserved)"),
         true => bits,
@@ -33,7 +33,7 @@ pub(super) fn called(field: &BitFieldEntry) -> String {
     }
 }
 
-/// Fields beyond the integer. `used` is where the type is used first.
+/// Reports fields outside of the integer. `used` returns the first use of the type.
 fn outside(
     definition: &TypeDef,
     base: Type,
@@ -43,26 +43,28 @@ fn outside(
     let width = base.bits()?;
     let mut beyond = fields.iter().filter(|field| field.end() > width);
     let first = beyond.next()?;
-    let others = more(beyond.count(), |others| format!(", and {others} more fields reach further too"));
-    let message = format!("{base} has {width} bits, and `{}` names {}{others}", brief(&definition.name), called(first));
+    let others = more(beyond.count(), |others| format!(" and {others} more"));
+    let message = format!("{base} has {width} bits, but `{}` names {}{others}", brief(&definition.name), called(first));
     let found = codes::BIT_OUTSIDE_TYPE.at(used(), message);
-    let found = found.note_at(first.at.0.or(definition.origin.span), "the bits are named here");
-    Some(found.help("the type is too short, or the bits are counted from 1"))
+    let found = found.note_at(first.at.0.or(definition.origin.span), "definition of the bits");
+    Some(found.help("use a longer type, or count the bits from 0"))
 }
 
-/// Of each field, the first one above it with which it shares bits: all pairs would be too many, and each field is named so.
+/// Reports each field that shares bits with an earlier field. Only the first overlap of a field is reported, because there can be many.
 fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Diagnostics) {
     for (at, other) in fields.iter().enumerate() {
-        let clashes = |one: &&BitFieldEntry| one.mask() & other.mask() != 0 && !told_apart(one, other);
+        let clashes = |one: &&BitFieldEntry| one.mask() & other.mask() != 0 && !are_distinct(one, other);
         let Some(one) = fields.iter().take(at).find(clashes) else { continue };
         let message = format!("{} and {} of `{}` share bits", called(one), called(other), brief(&definition.name));
         let found = codes::BITS_OVERLAP.at(other.at.0.or(definition.origin.span), message);
-        diagnostics.push(found.help("bits of several meanings have a `when`, `since`, `until` or `models` in each"));
+        diagnostics.push(
+            found.help("add `when`, `since`, `until` or `models` to each field, if the bits have several meanings"),
+        );
     }
 }
 
-/// Whether never both meanings hold, or one is the rule and the other its case.
-pub(super) fn told_apart(one: &BitFieldEntry, other: &BitFieldEntry) -> bool {
+/// Returns whether two meanings never apply together, or one is a special case of the other.
+pub(super) fn are_distinct(one: &BitFieldEntry, other: &BitFieldEntry) -> bool {
     let by_condition = match (&one.when, &other.when) {
         (None, None) => false,
         (Some(one), Some(other)) => one.item != other.item || !both_hold(one, other),
@@ -71,7 +73,7 @@ pub(super) fn told_apart(one: &BitFieldEntry, other: &BitFieldEntry) -> bool {
     by_condition || apart(one.availability.as_deref(), other.availability.as_deref())
 }
 
-/// Whether one value of the item fulfils both conditions.
+/// Returns whether a value of the item fulfills both conditions.
 fn both_hold(one: &Condition, other: &Condition) -> bool {
     let shared = one.mask.unwrap_or(u64::MAX) & other.mask.unwrap_or(u64::MAX);
     let agree = |left: &Value, right: &Value| match (left.as_int(), right.as_int()) {
@@ -94,13 +96,13 @@ fn unnamed(
     let named = fields.iter().fold(0, |bits, field| bits | field.mask());
     let missing: Vec<String> = (0..width).filter(|bit| named >> bit & 1 == 0).map(|bit| bit.to_string()).collect();
     if !missing.is_empty() {
-        let message = format!("`{}` says nothing of the bits {}", brief(&definition.name), missing.join(", "));
+        let message = format!("`{}` does not describe the bits {}", brief(&definition.name), missing.join(", "));
         diagnostics.push(codes::UNNAMED_BITS.at(definition.origin.span, message));
     }
     fields.iter().for_each(|field| unnamed_values(owner, definition, field, diagnostics));
 }
 
-/// The values of a field whose others have names. A wide field has too many to want each of them.
+/// Reports values without a name in an enumerated field. Wide fields have too many values for this check.
 fn unnamed_values(owner: Owner<'_>, definition: &TypeDef, field: &BitFieldEntry, diagnostics: &mut Diagnostics) {
     let BitMeaning::Enumeration(id) = field.meaning else { return };
     let Some((values, _)) = owner.enumeration(Type::Named(id)).filter(|_| field.bits <= MAX_LISTED_BITS) else {
@@ -110,7 +112,7 @@ fn unnamed_values(owner: Owner<'_>, definition: &TypeDef, field: &BitFieldEntry,
     let missing: Vec<String> = missing.map(|value| value.to_string()).collect();
     if !missing.is_empty() {
         let (name, missing) = (brief(&definition.name), missing.join(", "));
-        let message = format!("{} of `{name}` says nothing of the values {missing}", called(field));
+        let message = format!("{} of `{name}` does not describe the values {missing}", called(field));
         diagnostics.push(codes::UNNAMED_BITS.at(definition.origin.span, message));
     }
 }
@@ -141,22 +143,22 @@ mod tests {
     }
 
     #[test]
-    fn fields_lie_within_the_integer_and_apart() {
+    fn fields_outside_of_the_type_and_overlaps_are_reported() {
         assert_eq!(found(vec![field("low", 0, 4), field("high", 4, 4)]), [""; 0]);
         assert_eq!(
             found(vec![field("low", 0, 5), field("high", 4, 5)]),
             [
-                "UNSIGNED8 has 8 bits, and `Status` names bits 8-4 (`high`)",
+                "UNSIGNED8 has 8 bits, but `Status` names bits 8-4 (`high`)",
                 "bits 4-0 (`low`) and bits 8-4 (`high`) of `Status` share bits"
             ]
         );
-        assert_eq!(found(vec![field("all but two", 2, 6)]), ["`Status` says nothing of the bits 0, 1"]);
+        assert_eq!(found(vec![field("all but two", 2, 6)]), ["`Status` does not describe the bits 0, 1"]);
         assert_eq!(field("", 0, 64).mask(), u64::MAX);
         assert_eq!(field("", 63, 1).mask(), 1 << 63);
     }
 
     #[test]
-    fn a_field_is_told_once_however_many_share_its_bits() {
+    fn a_field_is_reported_once_even_if_many_share_its_bits() {
         let fields = (0..900).map(|number| field(&number.to_string(), 0, 8)).collect();
         let found = found(fields);
         assert_eq!(found.len(), 899);
@@ -164,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn a_condition_tells_two_meanings_apart() {
+    fn conditions_distinguish_meanings_of_the_same_bits() {
         let when = |mode| {
             Some(Condition { item: "mode".into(), values: vec![Value::Int(mode)], names: Vec::new(), mask: None })
         };

@@ -1,4 +1,4 @@
-//! Values of conditions against the values that the other item can have.
+//! Conditions: values that the other item cannot have, and modes without bits.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -36,28 +36,28 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 }
 
 fn possible(context: &Context<'_>, condition: &Condition, span: Span, diagnostics: &mut Diagnostics) {
-    // Some bits of an item have neither its limits nor its names.
+    // Limits and names of the item do not apply to a part of its bits.
     let whole = context.device.referred(&condition.item).filter(|_| condition.mask.is_none());
     let Some(item) = whole else { return };
     let (low, high) = item.limits.integers();
     for value in condition.values.iter().filter_map(Value::as_int) {
         let is_outside = low.is_some_and(|low| value < low) || high.is_some_and(|high| value > high);
         let why = match context.owner.enumeration(item.ty) {
-            _ if is_outside => "is outside of its limits",
+            _ if is_outside => "is outside of the limits",
             Some((labels, _)) => match reserved(labels, value) {
-                None => "has no name there",
-                Some(true) => "is reserved there",
+                None => "has no name",
+                Some(true) => "is reserved",
                 Some(false) => continue,
             },
             None => continue,
         };
-        let message = format!("the condition `{}` = {value} never holds: {value} {why}", brief(&condition.item));
+        let message = format!("the condition `{}` = {value} is never true: {value} {why}", brief(&condition.item));
         let found = codes::UNNAMED_VALUE.at(span, message).note_at(item.origin.span, "the other item");
-        diagnostics.push(found.help("correct the value, or name it there, if the manual does"));
+        diagnostics.push(found.help("correct the value, or name it in the other item if the manual does"));
     }
 }
 
-/// Whether bits that depend on an enumeration have a meaning for each of its values.
+/// Reports values of an enumeration for which the bits that depend on it have no meaning.
 fn complete(context: &Context<'_>, definition: &TypeDef, conditions: &[&Condition], diagnostics: &mut Diagnostics) {
     if !diagnostics.wants(&codes::MODE_WITHOUT_BITS) {
         return;
@@ -77,7 +77,7 @@ fn complete(context: &Context<'_>, definition: &TypeDef, conditions: &[&Conditio
             .map(|label| format!("{} (`{}`)", label.value, brief(&label.name)))
             .collect();
         if !missing.is_empty() {
-            let message = format!("`{name}` has no bits for `{}` = {}", brief(name_of_other), missing.join(", "));
+            let message = format!("`{name}` describes no bits for `{}` = {}", brief(name_of_other), missing.join(", "));
             diagnostics.push(codes::MODE_WITHOUT_BITS.at(definition.origin.span, message));
         }
     }

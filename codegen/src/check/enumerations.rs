@@ -1,4 +1,4 @@
-//! Values of enumerations and code tables against the integer below and against each other.
+//! Enumerations and code tables: values outside of the type, and overlapping values.
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
@@ -17,22 +17,22 @@ pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
         }
         let mut sorted: Vec<&EnumValue> = values.iter().collect();
         sorted.sort_by_key(|value| value.value);
-        let told_apart =
+        let are_distinct =
             |one: &EnumValue, other: &EnumValue| apart(one.availability.as_deref(), other.availability.as_deref());
-        if let Some((one, other)) = overlap(&sorted, EnumValue::range, told_apart) {
+        if let Some((one, other)) = overlap(&sorted, EnumValue::range, are_distinct) {
             let names = [one, other].map(|value| (value.numbers(), value.name.as_str()));
             report(&definition.name, other.at.0.or(definition.origin.span), names, diagnostics);
         }
     }
 }
 
-/// The codes of tables.
+/// Reports overlapping codes of code tables.
 pub(super) fn code_tables(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for table in &context.device.code_tables {
         let mut sorted: Vec<_> = table.rows.iter().collect();
         sorted.sort_by_key(|row| row.code);
         let range = |row: &CodeRow| (row.code, row.last.unwrap_or(row.code));
-        // Of a code that lies in several ranges, the narrowest says the most, and counts.
+        // A narrow range within a wide one is a special case.
         let is_within = |inner: (i128, i128), outer: (i128, i128)| outer.0 <= inner.0 && inner.1 <= outer.1;
         let narrower = |one: &CodeRow, other: &CodeRow| {
             let (one, other) = (range(one), range(other));
@@ -45,39 +45,39 @@ pub(super) fn code_tables(context: &Context<'_>, diagnostics: &mut Diagnostics) 
     }
 }
 
-/// The first two of a sorted list that have a number in common.
+/// Returns the first two elements of a sorted list that have a number in common.
 fn overlap<'v, V>(
     sorted: &[&'v V],
     range: impl Fn(&V) -> (i128, i128),
-    told_apart: impl Fn(&V, &V) -> bool,
+    are_distinct: impl Fn(&V, &V) -> bool,
 ) -> Option<(&'v V, &'v V)> {
     sorted.iter().enumerate().find_map(|(at, one)| {
         let last = range(one).1;
         let mut later = sorted.iter().skip(at + 1).take_while(|other| range(other).0 <= last);
-        later.find(|other| !told_apart(one, other)).map(|other| (*one, *other))
+        later.find(|other| !are_distinct(one, other)).map(|other| (*one, *other))
     })
 }
 
-/// Reports two elements that have a number in common, each with its number and name.
+/// Reports two elements that have a number in common. `names`: number and name of each.
 fn report(owner: &str, span: Span, names: [(String, &str); 2], diagnostics: &mut Diagnostics) {
     let [one, other] = names.map(|(number, name)| format!("`{}` ({number})", brief(name)));
-    let message = format!("{one} and {other} of `{}` are the same value", brief(owner));
+    let message = format!("{one} and {other} of `{}` have the same value", brief(owner));
     diagnostics.push(codes::VALUE_NAMED_TWICE.at(span, message));
 }
 
-/// Values beyond the integer. `used` is where the type is used first.
+/// Reports values outside of the integer. `used` returns the first use of the type.
 fn outside(definition: &TypeDef, base: Type, values: &[EnumValue], used: impl FnOnce() -> Span) -> Option<Diagnostic> {
     let (low, high) = base.integer_range()?;
     let mut beyond = values.iter().filter(|value| value.value < low || value.range().1 > high);
     let first = beyond.next()?;
     let others = more(beyond.count(), |others| format!(" and {others} more"));
     let value = if first.value < low { first.value } else { first.range().1 };
-    let message = format!("{base} is never {value} (`{}`{others})", brief(&first.name));
+    let message = format!("{value} (`{}`{others}) is outside of {base}", brief(&first.name));
     let found = codes::NAME_OUTSIDE_TYPE.at(used(), message);
-    let found = found.note_at(first.at.0.or(definition.origin.span), "the values are named here");
+    let found = found.note_at(first.at.0.or(definition.origin.span), "definition of the value");
     Some(match (base, value) {
-        (Type::Unsigned(bits), ..0) => found.help(format!("is the type `i{bits}`?")),
-        _ => found.help("the type is too short, or the value is wrong"),
+        (Type::Unsigned(bits), ..0) => found.help(format!("use the signed type `i{bits}`, or correct the value")),
+        _ => found.help("use a longer type, or correct the value"),
     })
 }
 
@@ -104,15 +104,15 @@ mod tests {
     }
 
     #[test]
-    fn values_fit_and_have_one_name() {
+    fn values_outside_of_the_type_and_overlaps_are_reported() {
         let good = vec![value("off", 0, None), value("on", 1, None), value("reserved", 2, Some(255))];
         assert_eq!(found(Type::Unsigned(8), good), [""; 0]);
         let twice = vec![value("reserved", 8, Some(127)), value("off", 0, None), value("csv", 9, None)];
         assert_eq!(
             found(Type::Unsigned(8), twice),
-            ["`reserved` (8 to 127) and `csv` (9) of `Mode` are the same value"]
+            ["`reserved` (8 to 127) and `csv` (9) of `Mode` have the same value"]
         );
         let beyond = vec![value("back", -1, None), value("far", 256, None)];
-        assert_eq!(found(Type::Unsigned(8), beyond), ["UNSIGNED8 is never -1 (`back` and 1 more)"]);
+        assert_eq!(found(Type::Unsigned(8), beyond), ["-1 (`back` and 1 more) is outside of UNSIGNED8"]);
     }
 }

@@ -1,4 +1,4 @@
-//! Lengths of bindings, types and texts of an item against each other.
+//! Lengths of items: differences between addresses, types and defaults.
 
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::owner::Owner;
@@ -28,12 +28,12 @@ fn bound(owner: Owner<'_>, item: &Item, binding: &Binding, diagnostics: &mut Dia
     let name = brief(&item.name);
     match binding {
         Binding::EscMemory { length, .. } if bits.div_ceil(8) != u32::from(*length) => {
-            let message = format!("`{name}` has {length} bytes there, and its type {bits} bits");
+            let message = format!("`{name}` has {length} bytes of ESC memory, but its type has {bits} bits");
             report(item, &codes::LENGTH_MISMATCH, Span::default(), message, diagnostics);
         }
         Binding::Register(register) if is_odd(owner, item, bits) && register.bit_offset.is_none() => {
             if matches!(register.space, RegisterSpace::Holding | RegisterSpace::Input) {
-                let message = format!("`{name}` has {bits} bits, which is neither a register nor a half of one");
+                let message = format!("`{name}` has {bits} bits, which is not a whole number of bytes");
                 report(item, &codes::REGISTER_SPAN, Span::default(), message, diagnostics);
             }
         }
@@ -41,21 +41,21 @@ fn bound(owner: Owner<'_>, item: &Item, binding: &Binding, diagnostics: &mut Dia
     }
 }
 
-/// Whether an integer is no number of bytes; a truth value takes a register of its own.
+/// Returns whether the length of an integer is not a whole number of bytes. A Boolean occupies a whole register.
 fn is_odd(owner: Owner<'_>, item: &Item, bits: u32) -> bool {
     matches!(owner.basic(item.ty), Type::Integer(_) | Type::Unsigned(_)) && bits > 1 && !bits.is_multiple_of(8)
 }
 
-/// Whether a default is longer than its type.
+/// Reports a default value that is longer than its type.
 fn text(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
-    let (Type::VisibleString(Some(room)) | Type::OctetString(Some(room))) = owner.basic(item.ty) else { return };
+    let (Type::VisibleString(Some(max)) | Type::OctetString(Some(max))) = owner.basic(item.ty) else { return };
     let given = match &item.default {
         Some(Value::Text(text)) => text.len(),
         Some(Value::Bytes(bytes)) => bytes.len(),
         _ => return,
     };
-    if room > 0 && given > room as usize {
-        let message = format!("the default has {given} bytes, and `{}` has room for {room}", brief(&item.name));
+    if max > 0 && given > max as usize {
+        let message = format!("the default has {given} bytes, but `{}` has at most {max}", brief(&item.name));
         report(item, &codes::LENGTH_MISMATCH, item.at.default, message, diagnostics);
     }
 }

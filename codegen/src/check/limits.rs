@@ -1,4 +1,4 @@
-//! Defaults against limits, and limits against each other.
+//! Limits: defaults outside of limits, and swapped limits.
 
 use std::cmp::Ordering;
 
@@ -8,7 +8,7 @@ use crate::ir::owner::Owner;
 use crate::ir::{excluded, Excluded, Item, Type, Value};
 use crate::text::brief;
 
-/// Reports defaults outside of their limits, and limits that are swapped.
+/// Reports defaults outside of their limits, and swapped limits.
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     for item in owner.items() {
         if !item.limits.is_empty() || !item.limits.allowed.is_empty() {
@@ -25,22 +25,22 @@ pub(super) fn one_given(context: &Context<'_>, diagnostics: &mut Diagnostics) {
             (None, Some(_)) => ("an upper", "lower", item.at.high),
             _ => continue,
         };
-        let message = format!("`{}` has {given} limit and no {other} one", brief(&item.name));
+        let message = format!("`{}` has {given} limit, but no {other} limit", brief(&item.name));
         diagnostics.push(codes::ONE_LIMIT.at(span.or(item.origin.span), message));
     }
 }
 
-/// What limits that are swapped were meant to be: those of the other integer of the same length.
+/// Returns help for swapped limits that are in order for the integer of the same length with the other signedness.
 fn with_other_sign(ty: Type, low: &Value, high: &Value) -> Option<String> {
     let (low, high) = (low.as_int()?, high.as_int()?);
     match ty {
         Type::Unsigned(bits @ 1..=64) if low >> (bits - 1) == 1 => {
             let signed = low - (1i128 << bits);
-            (signed <= high).then(|| format!("as INTEGER{bits}, {low:#X} is {signed}: is the type signed?"))
+            (signed <= high).then(|| format!("use INTEGER{bits} if the value is signed: {low:#X} is {signed} then"))
         }
         Type::Integer(bits @ 1..=64) if low >= 0 && high < 0 => {
             let unsigned = high + (1i128 << bits);
-            Some(format!("as UNSIGNED{bits}, {unsigned:#X} is {unsigned}: is the type unsigned?"))
+            Some(format!("use UNSIGNED{bits} if the value is unsigned: {unsigned:#X} is {unsigned} then"))
         }
         _ => None,
     }
@@ -52,7 +52,7 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
         if low.compare(high) == Some(Ordering::Greater) {
             let message = format!("the lower limit {low} is greater than the upper limit {high}");
             let found = codes::LIMITS_SWAPPED.at(item.at.low.or(item.origin.span), message);
-            let found = found.label("the limits are kept, and not checked by generated code");
+            let found = found.label("kept, but generated code does not check them");
             diagnostics.push(match with_other_sign(owner.basic(item.ty), low, high) {
                 Some(help) => found.help(help),
                 None => found,
@@ -69,13 +69,13 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
             _ => item.at.low,
         };
         let message = format!("the {what} {value} is {reason}");
-        let help = "one of the numbers is misprinted: compare them with the manual, and correct it";
+        let help = "compare both numbers with the manual, and correct the misprinted one";
         let found = codes::DEFAULT_OUT_OF_LIMITS.at(span.or(item.origin.span), message).help(help);
         diagnostics.push(if limit.is_empty() { found } else { found.note_at(limit, "the limit") });
     }
 }
 
-/// The limit that a number lies beyond: `lower limit is 5`.
+/// Returns the limit that excludes a number: `lower limit is 5`.
 pub(super) fn beyond(item: &Item, number: i128) -> Option<String> {
     let (low, high) = item.limits.integers();
     let low = low.filter(|&low| number < low).map(|low| format!("lower limit is {low}"));

@@ -1,4 +1,4 @@
-//! A lint as the list declares it.
+//! Declaration of a lint.
 
 use super::context::{Context, PdoOwner};
 use crate::diagnostics::{Code, Diagnostics};
@@ -8,38 +8,38 @@ use crate::ir::{Binding, Catalog, Device, Format, Group};
 /// A check of the resolved IR.
 #[derive(Debug)]
 pub struct Lint {
-    /// Its name.
+    /// Name.
     pub name: &'static str,
-    /// The codes that it reports.
+    /// Codes that it reports.
     pub codes: &'static [&'static Code],
-    /// The formats for which it runs.
+    /// Formats for which it runs.
     pub formats: &'static [Format],
-    /// Whether it runs for other formats too, if the user sets a level of one of its codes.
+    /// Whether it also runs for other formats if the user sets the level of one of its codes.
     pub on_request: bool,
-    /// What a device must have. Modules and records are not asked.
+    /// Condition on devices. It does not apply to modules and records.
     pub needs: Option<Need>,
     pub(super) run: Run,
 }
 
-/// What a device must have so that a lint has something to check.
+/// A condition that a device has to fulfill for a lint to run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
-    /// Settings of CANopen.
+    /// CANopen settings.
     CanOpen,
-    /// Settings of EtherCAT.
+    /// EtherCAT settings.
     EtherCat,
-    /// Messages, their framing, or numbered parameters.
+    /// Messages, framing or parameter spaces.
     Messages,
-    /// Examples of Modbus frames.
+    /// Example Modbus frames.
     ModbusExamples,
     /// Procedures.
     Procedures,
-    /// Items behind a window.
+    /// Items with indirect access through a window.
     Windows,
 }
 
 impl Need {
-    /// Whether the device has it.
+    /// Returns whether the device fulfills the condition.
     pub fn is_met(self, device: &Device) -> bool {
         match self {
             Need::CanOpen => device.canopen.is_some(),
@@ -56,19 +56,19 @@ impl Need {
     }
 }
 
-/// The function of a lint, by what it looks at.
+/// The function of a lint, by the type of its input.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Run {
     /// A device.
     Device(fn(&Context<'_>, &mut Diagnostics)),
-    /// The items and types of a device or a module.
+    /// The items and types of a device or module.
     Items(fn(Owner<'_>, &mut Diagnostics)),
-    /// The same, and those of parameter records.
+    /// The items and types of a device, module or parameter record.
     ItemsAndRecords(fn(Owner<'_>, &mut Diagnostics)),
-    /// The PDOs of a device or a module.
+    /// The PDOs of a device or module.
     Pdos(fn(&PdoOwner<'_>, &mut Diagnostics)),
     /// Parameter records of PROFINET.
     Records(fn(&[Group], &mut Diagnostics)),
-    /// Everything.
+    /// The whole catalog.
     Catalog(fn(&Catalog, &mut Diagnostics)),
 }

@@ -19,10 +19,10 @@ use crate::diagnostics::codes::*;
 use crate::diagnostics::Code;
 use crate::ir::Format;
 
-/// A catalogue that comes from no file is checked like a file of this format.
+/// The assumed format of a catalog without a file.
 pub(super) const WITHOUT_FILE: Format = Format::Eds;
 
-/// A lint for every format and device.
+/// Creates a lint for all formats and devices.
 const fn lint(name: &'static str, codes: &'static [&'static Code], run: Run) -> Lint {
     Lint { name, codes, formats: Format::ALL, on_request: false, needs: None, run }
 }
@@ -41,7 +41,7 @@ impl Lint {
     }
 }
 
-/// All lints. Diagnostics of one place are in this order.
+/// All lints. Diagnostics at the same location have this order.
 pub static LINTS: &[Lint] = &[
     #[cfg(feature = "table")]
     lint(

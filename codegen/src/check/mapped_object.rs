@@ -1,4 +1,4 @@
-//! An object that something maps, against its item.
+//! Comparison of mapped objects with their items.
 
 use std::cell::OnceCell;
 use std::collections::HashSet;
@@ -8,10 +8,10 @@ use crate::ir::owner::Owner;
 use crate::ir::{AxisStep, Device, Direction, Entries, Item, Mappable};
 use crate::source::Span;
 
-/// Bits of a CAN frame.
+/// Number of data bits in a CAN frame.
 pub(super) const CAN_BITS: u32 = 64;
 
-/// The direction of the PDOs that an object maps.
+/// Returns the direction of the PDO that a mapping object defines.
 pub(super) fn direction_of(mapping: u16) -> Option<Direction> {
     match mapping {
         0x1600..=0x17FF => Some(Direction::Receive),
@@ -20,11 +20,11 @@ pub(super) fn direction_of(mapping: u16) -> Option<Direction> {
     }
 }
 
-/// What a device says of its objects.
+/// Index of the objects of a device.
 pub(super) struct Described<'a> {
     pub device: &'a Device,
     pub entries: Entries<'a>,
-    /// The indices of its objects, those of further axes among them: made when they are first asked for.
+    /// Indices of its objects, including those of further axes. They are collected at the first lookup.
     indices: OnceCell<HashSet<u16>>,
 }
 
@@ -38,7 +38,7 @@ impl<'a> Described<'a> {
     }
 }
 
-/// An object that something maps.
+/// A mapped object.
 pub(super) struct Mapped {
     pub object: (u16, u8),
     pub bits: u32,
@@ -47,14 +47,14 @@ pub(super) struct Mapped {
 }
 
 impl Mapped {
-    /// What a mapping value says: index, sub-index and length. Dummy entries, and 0 for none, map nothing.
+    /// Parses a mapping value: index, sub-index and length. Returns `None` for dummy entries and empty entries.
     pub fn word(word: i128, direction: Direction, span: Span) -> Option<Self> {
         let word = u32::try_from(word).ok()?;
         let (index, sub_index) = ((word >> 16) as u16, (word >> 8) as u8);
         (index >= 0x20).then_some(Mapped { object: (index, sub_index), bits: word & 0xFF, direction, span })
     }
 
-    /// Compares it with its item. Where other checks look for missing objects and at lengths, this one doesn't.
+    /// Compares the object with its item. `is_resolved`: other lints report missing objects and wrong lengths.
     pub fn check(&self, described: &Described<'_>, is_resolved: bool, diagnostics: &mut Diagnostics) {
         let item = described.entries.get(self.object.0, self.object.1);
         let found = match item {
@@ -71,7 +71,7 @@ impl Mapped {
         }
     }
 
-    /// The objects of further axes are those of the first at other indices.
+    /// Reports an object that is neither described nor an object of a further axis.
     fn missing(&self, described: &Described<'_>) -> Option<(&'static Code, String)> {
         let device = described.device;
         let of_another_axis = || described.indices().contains(&self.object.0);
@@ -85,7 +85,7 @@ impl Mapped {
         let length = bits.filter(|&bits| !is_resolved && bits != self.bits);
         let length =
             length.map(|bits| (&codes::MAPPED_LENGTH, format!("is mapped with {} bits, but has {bits}", self.bits)));
-        // What nothing was said of may be mapped where the manual maps it.
+        // Without a stated PDO mapping, the mapping of the manual is allowed.
         let unmappable = !item.mappable.any() && !item.at.mappable.is_empty();
         let unmappable = unmappable.then(|| (&codes::NOT_MAPPABLE, "is mapped, but not mappable".to_owned()));
         let direction = wrong_direction(item, self.direction).map(|problem| (&codes::WRONG_DIRECTION, problem));
@@ -93,7 +93,7 @@ impl Mapped {
     }
 }
 
-/// Returns why an item can't be mapped into PDOs of a direction: its access rights, or else the only direction that it has.
+/// Returns why an item cannot be mapped into PDOs of a direction: its access rights, or its only direction.
 pub(super) fn wrong_direction(item: &Item, direction: Direction) -> Option<String> {
     let (access, mappable, name) = (Mappable::by_access(item.access), item.mappable, pdo_name(direction));
     let (is_accessible, other) = match direction {
@@ -101,13 +101,13 @@ pub(super) fn wrong_direction(item: &Item, direction: Direction) -> Option<Strin
         Direction::Transmit => (access.tpdo, (mappable.rpdo && !mappable.tpdo).then_some(Direction::Receive)),
     };
     match other {
-        _ if !is_accessible => Some(format!("is {} and can't be mapped into {name}", item.access.name())),
-        Some(other) => Some(format!("is mapped into {name}, and can be mapped into {} only", pdo_name(other))),
+        _ if !is_accessible => Some(format!("is {} and cannot be mapped into {name}", item.access.name())),
+        Some(other) => Some(format!("is mapped into {name}, but can only be mapped into {}", pdo_name(other))),
         None => None,
     }
 }
 
-/// The name of a PDO of a direction.
+/// Returns the name of a PDO with this direction, with an article.
 pub(super) fn pdo_name(direction: Direction) -> &'static str {
     match direction {
         Direction::Receive => "an RPDO",
@@ -115,7 +115,7 @@ pub(super) fn pdo_name(direction: Direction) -> &'static str {
     }
 }
 
-/// The indices that a device has, those of further axes among them; none where it has no objects.
+/// Returns the indices of a device, including those of further axes. The set is empty if the device has no objects.
 pub(super) fn indices(device: &Device) -> HashSet<u16> {
     let mut known: HashSet<u16> = device.items().filter_map(|item| Some(item.object()?.0)).collect();
     if known.is_empty() {
@@ -127,7 +127,7 @@ pub(super) fn indices(device: &Device) -> HashSet<u16> {
     known
 }
 
-/// The indices of further axes.
+/// Adds the indices of further axes.
 fn of_axes(device: &Device, known: &mut HashSet<u16>) {
     let Some(axes) = &device.axes else { return };
     for index in known.clone() {

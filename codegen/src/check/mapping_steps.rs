@@ -1,4 +1,4 @@
-//! Values that procedures write into mapping objects against the mapped items, and numbers of entries against the entries.
+//! PDO mappings that procedures write: mapped items, and numbers of entries.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,13 +25,13 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// What a procedure has mapped so far.
+/// The mappings that a procedure has written up to a step.
 struct Mapping<'a> {
     described: &'a Described<'a>,
     procedure: &'a Procedure,
-    /// The words of each mapping by their sub-indices.
+    /// Mapping values by index and sub-index.
     words: BTreeMap<u16, BTreeMap<u8, i128>>,
-    /// The mappings whose number of entries is 0 by then.
+    /// Mappings whose number of entries is 0 at this step.
     cleared: BTreeSet<u16>,
 }
 
@@ -43,9 +43,9 @@ impl Mapping<'_> {
         if sub > 0 {
             let before = self.words.entry(index).or_default().insert(sub, value);
             if before.is_some() && self.cleared.contains(&index) {
-                let message = format!("`{name}`: writes entry {sub} of 0x{index:04X} a second time");
+                let message = format!("`{name}` writes entry {sub} of 0x{index:04X} twice");
                 let found = codes::STEP_IMPOSSIBLE.at(span, message);
-                diagnostics.push(found.help(format!("the entry behind it is {}", sub.saturating_add(1))));
+                diagnostics.push(found.help(format!("write the next entry to sub-index {}", sub.saturating_add(1))));
             }
             if let Some(mapped) = Mapped::word(value, direction, span) {
                 mapped.check(self.described, false, diagnostics);
@@ -53,17 +53,17 @@ impl Mapping<'_> {
             return;
         }
         if let Some(problem) = self.count(index, value) {
-            let message = format!("`{name}`: writes {value} as the number of entries of 0x{index:04X}, {problem}");
+            let message = format!("`{name}` writes {value} as the number of entries of 0x{index:04X}, {problem}");
             diagnostics.push(codes::STEP_IMPOSSIBLE.at(span, message));
         }
         let bits = self.bits(index, value);
         if self.described.device.ethercat.is_none() && bits > i128::from(CAN_BITS) {
-            let message = format!("the mapping 0x{index:04X} has {bits} bits by then, and a CAN frame has 64");
+            let message = format!("the mapping 0x{index:04X} has {bits} bits after this step, but a CAN frame has 64");
             diagnostics.push(codes::PDO_TOO_LONG.at(span, message));
         }
     }
 
-    /// What is wrong with a number of entries: more than the mapping has, or than were written since it was 0.
+    /// Returns what is wrong with a number of entries: it is above the number of sub-indices, or of entries written since it was 0.
     fn count(&mut self, index: u16, value: i128) -> Option<String> {
         if value == 0 {
             self.cleared.insert(index);
@@ -76,10 +76,10 @@ impl Mapping<'_> {
             return Some(format!("which has {entries}"));
         }
         let written = self.words.get(&index).map_or(0, BTreeMap::len);
-        (was_cleared && value > written as i128).then(|| format!("and wrote {written} of them"))
+        (was_cleared && value > written as i128).then(|| format!("but wrote {written} of them"))
     }
 
-    /// The length of so many entries: those that were written, and by default the others.
+    /// Returns the length of the first `count` entries in bits. Entries that were not written have their default values.
     fn bits(&self, index: u16, count: i128) -> i128 {
         let by_default = |sub| self.described.entries.get(index, sub)?.default_integer();
         let written = |sub| self.words.get(&index)?.get(&sub).copied();

@@ -1,4 +1,4 @@
-//! Example frames of a manual against the fields of their messages.
+//! Example frames of a manual: differences from the fields of their messages.
 
 use std::ops::Range;
 
@@ -31,16 +31,16 @@ fn report(message: &Message, what: &str, frame: &Frame<'_>, span: Span, diagnost
     }
     for problem in frame.problems() {
         let found = codes::EXAMPLE_DIFFERS.at(span, format!("`{}`: the {what} {problem}", brief(&message.name)));
-        diagnostics.push(found.help("keep what the other frames of the manual support, with a `doubt`"));
+        diagnostics.push(found.help("keep the variant that other frames of the manual confirm, and add a `doubt`"));
     }
 }
 
-/// The bytes of an example, and the fields that they should be.
+/// The bytes of an example and the fields of its message.
 struct Frame<'a> {
     owner: Owner<'a>,
     fields: &'a [MessageField],
     bytes: &'a [u8],
-    /// What the reply may copy.
+    /// Fields and bytes of the request, for copies in the reply.
     request: Option<(&'a [MessageField], &'a [u8])>,
 }
 
@@ -49,7 +49,7 @@ impl<'a> Frame<'a> {
         Frame { owner, fields, bytes, request: None }
     }
 
-    /// What is wrong with the bytes. Behind a field whose length isn't known here nothing is looked at.
+    /// Returns what is wrong with the bytes. Bytes after a field with a variable length are not checked.
     fn problems(&self) -> Vec<String> {
         let mut problems = Vec::new();
         let mut at = 0usize;
@@ -57,19 +57,19 @@ impl<'a> Frame<'a> {
             let Some(bits) = self.bits(field) else { return problems };
             let last = at + bits;
             if last > self.bytes.len() * 8 {
-                problems.push(format!("has {} bytes, and its fields go on", self.bytes.len()));
+                problems.push(format!("has {} bytes, which is shorter than its fields", self.bytes.len()));
                 return problems;
             }
             problems.extend(self.field(field, at..last));
             at = last;
         }
         if at.div_ceil(8) != self.bytes.len() {
-            problems.push(format!("has {} bytes, and its fields take {}", self.bytes.len(), at.div_ceil(8)));
+            problems.push(format!("has {} bytes, but its fields have {}", self.bytes.len(), at.div_ceil(8)));
         }
         problems
     }
 
-    /// Length of a field, where it is the same in each frame.
+    /// Returns the length of a field in bits, if it is fixed.
     fn bits(&self, field: &MessageField) -> Option<usize> {
         match field {
             MessageField::Constant(bytes) => Some(bytes.len() * 8),
@@ -88,31 +88,32 @@ impl<'a> Frame<'a> {
         }
     }
 
-    fn field(&self, field: &MessageField, place: Range<usize>) -> Vec<String> {
+    fn field(&self, field: &MessageField, range: Range<usize>) -> Vec<String> {
         let problem = match field {
             MessageField::Constant(expected) => {
-                let found = self.bytes.get(place.start / 8..place.end / 8).unwrap_or_default();
-                (found != expected).then(|| format!("has {} for {}", hex(found), hex(expected)))
+                let found = self.bytes.get(range.start / 8..range.end / 8).unwrap_or_default();
+                (found != expected).then(|| format!("has {} instead of {}", hex(found), hex(expected)))
             }
-            MessageField::Value(value) => return self.value(value, number(self.bytes, place, &value.byte_order)),
-            MessageField::Echo { field, bytes } => self.echo(field, *bytes, place),
+            MessageField::Value(value) => return self.value(value, number(self.bytes, range, &value.byte_order)),
+            MessageField::Echo { field, bytes } => self.echo(field, *bytes, range),
             MessageField::FixedBits { bits, value } => {
-                let found = number(self.bytes, place, &[]);
-                (found != *value).then(|| format!("has {found:#X} in {bits} bits for {value:#X}"))
+                let found = number(self.bytes, range, &[]);
+                (found != *value).then(|| format!("has {found:#X} in {bits} bits instead of {value:#X}"))
             }
-            MessageField::Copy { first, .. } => self.copy(usize::from(*first), place),
+            MessageField::Copy { first, .. } => self.copy(usize::from(*first), range),
             _ => None,
         };
         problem.into_iter().collect()
     }
 
-    /// What is wrong with bytes of the request that come back, as far as it has them.
-    fn copy(&self, first: usize, place: Range<usize>) -> Option<String> {
+    /// Returns what is wrong with a copy of bytes of the request.
+    fn copy(&self, first: usize, range: Range<usize>) -> Option<String> {
         let sent = self.request?.1.get(first..)?;
-        let found = self.bytes.get(place.start / 8..place.end / 8).filter(|_| place.start.is_multiple_of(8))?;
+        let found = self.bytes.get(range.start / 8..range.end / 8).filter(|_| range.start.is_multiple_of(8))?;
         let count = found.len().min(sent.len());
         let (found, sent) = (found.get(..count)?, sent.get(..count)?);
-        (found != sent).then(|| format!("has {} for bytes from {first} on, and {} was sent", hex(found), hex(sent)))
+        (found != sent)
+            .then(|| format!("has {} as copy of the bytes from {first}, but {} was sent", hex(found), hex(sent)))
     }
 
     fn value(&self, value: &MessageValue, number: u64) -> Vec<String> {
@@ -127,14 +128,14 @@ impl<'a> Frame<'a> {
         }
         if let Some(counted) = value.counts.as_ref().and_then(|from| self.counted(from)) {
             if number != counted as u64 {
-                problems.push(format!("has {number} for `{name}`, and {counted} bytes are counted"));
+                problems.push(format!("has {number} for `{name}`, which should be the length {counted}"));
             }
         }
         problems.extend(self.meaning(item.ty, name, number));
         problems
     }
 
-    /// What is wrong with a number by the names of its values and bits.
+    /// Returns what is wrong with a number according to the names of its values and bits.
     fn meaning(&self, ty: Type, name: &str, number: u64) -> Vec<String> {
         match self.owner.definition(ty).map(|definition| &definition.shape) {
             Some(Shape::Enumeration { values, .. }) => {
@@ -166,7 +167,7 @@ impl<'a> Frame<'a> {
         }
     }
 
-    /// The number of bytes from a field on.
+    /// Returns the number of bytes from a field to the end of the frame.
     fn counted(&self, from: &str) -> Option<usize> {
         let mut at = 0usize;
         for field in self.fields {
@@ -178,21 +179,21 @@ impl<'a> Frame<'a> {
         None
     }
 
-    fn echo(&self, field: &str, part: Option<(u8, u8)>, place: Range<usize>) -> Option<String> {
+    fn echo(&self, field: &str, part: Option<(u8, u8)>, range: Range<usize>) -> Option<String> {
         let (fields, bytes) = self.request?;
         let request = Frame::new(self.owner, fields, bytes);
         let mut start = part.map_or(0, |(first, _)| usize::from(first) * 8);
         for before in fields.iter().take_while(|other| name(other) != Some(field)) {
             start += request.bits(before)?;
         }
-        let is_whole = [place.start, place.len(), start].iter().all(|bits| bits.is_multiple_of(8));
-        let part = |bytes: &'a [u8], start: usize| bytes.get(start / 8..(start + place.len()) / 8);
-        let (found, sent) = (part(self.bytes, place.start)?, part(bytes, start).filter(|_| is_whole)?);
-        (found != sent).then(|| format!("has {} for `{}`, and {} was sent", hex(found), brief(field), hex(sent)))
+        let is_whole = [range.start, range.len(), start].iter().all(|bits| bits.is_multiple_of(8));
+        let part = |bytes: &'a [u8], start: usize| bytes.get(start / 8..(start + range.len()) / 8);
+        let (found, sent) = (part(self.bytes, range.start)?, part(bytes, start).filter(|_| is_whole)?);
+        (found != sent).then(|| format!("has {} for `{}`, but {} was sent", hex(found), brief(field), hex(sent)))
     }
 }
 
-/// The name of a field that has one: of an echo, that of the field which it copies.
+/// Returns the name of a field. An echo has the name of the copied field.
 fn name(field: &MessageField) -> Option<&str> {
     match field {
         MessageField::Value(value) => Some(&value.item.name),
@@ -201,20 +202,20 @@ fn name(field: &MessageField) -> Option<&str> {
     }
 }
 
-/// The number in these bits, the first byte's most significant bit being the first; bytes in the order given.
-fn number(bytes: &[u8], place: Range<usize>, order: &[u8]) -> u64 {
+/// Returns the number in a range of bits. Bit 0 is the most significant bit of the first byte. `order` is the byte order.
+fn number(bytes: &[u8], range: Range<usize>, order: &[u8]) -> u64 {
     let bit = |at: usize| bytes.get(at / 8).map_or(0, |byte| u64::from(byte >> (7 - at % 8) & 1));
-    if order.is_empty() || order.len() * 8 != place.len() {
-        return place.fold(0, |number, at| number << 1 | bit(at));
+    if order.is_empty() || order.len() * 8 != range.len() {
+        return range.fold(0, |number, at| number << 1 | bit(at));
     }
-    let byte = |number: usize| (0..8).fold(0, |value, at| value << 1 | bit(place.start + number * 8 + at));
+    let byte = |number: usize| (0..8).fold(0, |value, at| value << 1 | bit(range.start + number * 8 + at));
     order.iter().enumerate().fold(0, |number, (position, significance)| {
         let shift = (order.len() - 1).saturating_sub(usize::from(*significance)) * 8;
         number | byte(position).checked_shl(shift as u32).unwrap_or(0)
     })
 }
 
-/// The number that the bits of a value are.
+/// Returns the number with its sign.
 fn signed(owner: Owner<'_>, item: &Item, number: u64) -> Option<i128> {
     let ty = owner.basic(item.ty);
     let bits = ty.bits().filter(|bits| (1..=64).contains(bits))?;
@@ -231,7 +232,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_lie_in_the_order_of_the_wire() {
+    fn numbers_are_read_in_the_byte_order_of_the_wire() {
         let bytes = [0x12, 0x34, 0x56, 0x78, 0xA5];
         assert_eq!(number(&bytes, 0..16, &[]), 0x1234);
         assert_eq!(number(&bytes, 0..16, &[1, 0]), 0x3412);

@@ -1,6 +1,6 @@
-//! Checks the resolved IR: reads it, reports what is wrong or suspicious, and changes nothing.
+//! Lints on the resolved IR. They report wrong and suspicious facts, and do not change the IR.
 //!
-//! `list` declares every lint: its name, codes, formats and needs. A file has the lints of one subject; those that only concern
+//! `list` declares each lint: name, codes, formats and needs. Each file has the lints of one subject. Lints that only concern
 //! register tables are in `table`.
 
 mod access;

@@ -1,14 +1,14 @@
-//! PROFINET modules against the devices that take them: lengths of data and records, and slots.
+//! PROFINET modules that exceed the limits of their devices: lengths of data and records, and slots.
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{
     Catalog, Device, Group, GroupKind, IoData, Module, Numbers, ProfinetSettings, Submodule, SubmoduleUse,
 };
 
-/// A limit, and the position of the device that has it.
+/// A limit with the position of its device.
 type Limit = Option<(u32, usize)>;
 
-/// The least of the limits of all devices that take a module or a submodule.
+/// The minimum of the limits of all devices that accept a module or submodule.
 #[derive(Clone, Copy, Default)]
 struct Limits {
     input: Limit,
@@ -28,7 +28,7 @@ impl Limits {
         }
     }
 
-    /// The smaller of the limits of both.
+    /// Lowers each limit to the other one if that is smaller.
     fn narrow(&mut self, other: Limits) {
         let smaller = |one: Limit, other: Limit| [one, other].into_iter().flatten().min();
         *self = Limits {
@@ -72,7 +72,7 @@ fn narrow_uses(uses: &[SubmoduleUse], of_owner: Limits, of_submodules: &mut [Lim
     }
 }
 
-/// Data of a module's own submodules against what a device exchanges.
+/// Reports a module whose built-in submodules have more data than a device can exchange.
 fn lengths(module: &Module, limits: Limits, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let bytes = |data: &Option<Box<IoData>>| data.as_ref().map_or(0, |data| data.image.length + data.image.overhead);
     let (mut input, mut output) = (0u32, 0u32);
@@ -88,7 +88,8 @@ fn lengths(module: &Module, limits: Limits, catalog: &Catalog, diagnostics: &mut
     ];
     for (bytes, limit, what) in sums {
         let Some((limit, device)) = limit.filter(|&(limit, _)| bytes > limit) else { continue };
-        let message = format!("the module has {bytes} bytes of {what}; a device that takes it exchanges {limit}");
+        let message =
+            format!("the module has {bytes} bytes of {what}, but a device that accepts it has a limit of {limit}");
         diagnostics.push(noted(codes::IO_LENGTH.at(module.origin.span, message), catalog.devices.get(device)));
     }
 }
@@ -107,12 +108,13 @@ fn records(submodule: &Submodule, limit: Limit, devices: &[Device], diagnostics:
         _ => 0,
     };
     for group in submodule.records.iter().filter(|group| length(group) > limit) {
-        let message = format!("the record has {} bytes; a device that has it takes {limit}", length(group));
+        let message =
+            format!("the record has {} bytes, but a device that has it accepts at most {limit}", length(group));
         diagnostics.push(noted(codes::RECORD_SIZE.at(group.origin.span, message), devices.get(device)));
     }
 }
 
-/// Slots of modules against those that there are.
+/// Reports modules for slots that the device does not have.
 fn slots(device: &Device, settings: &ProfinetSettings, modules: &[Module], diagnostics: &mut Diagnostics) {
     if settings.slots.is_empty() {
         return;
@@ -124,12 +126,12 @@ fn slots(device: &Device, settings: &ProfinetSettings, modules: &[Module], diagn
         let Some(&(first, last)) = ranges.into_iter().find(|range| !contains(&present, **range)) else { continue };
         let name = modules.get(module.module.0 as usize).map_or("", |module| module.id.as_str());
         let range = if first == last { first.to_string() } else { format!("{first}..{last}") };
-        let message = format!("the module `{name}` is for the slots {range}, which the device doesn't all have");
-        diagnostics.push(codes::SLOT_RANGE.at(device.origin.span, message).label("its slots are in PhysicalSlots"));
+        let message = format!("the module `{name}` is for slots {range}, but the device does not have all of them");
+        diagnostics.push(codes::SLOT_RANGE.at(device.origin.span, message).label("PhysicalSlots lists its slots"));
     }
 }
 
-/// The same numbers as ranges in order, none of which touches another.
+/// Returns the numbers as sorted ranges that do not overlap or touch.
 fn merged(numbers: &Numbers) -> Vec<(u16, u16)> {
     let mut ranges = numbers.0.to_vec();
     ranges.sort_unstable();

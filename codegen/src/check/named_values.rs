@@ -1,4 +1,4 @@
-//! Limits and defaults of enumerations and bit fields against the values and bits that have a meaning.
+//! Enumerations and bit fields: limits and defaults that contradict the named values and bits.
 
 use super::bit_fields::called;
 use crate::diagnostics::{codes, Code, Diagnostics};
@@ -7,12 +7,12 @@ use crate::ir::{BitFieldEntry, BitMeaning, EnumValue, Item, Shape, Type, TypeDef
 use crate::source::Span;
 use crate::text::{brief, more};
 
-/// So many values are listed in a message.
+/// Maximum number of values that a message lists.
 const MAX_LISTED: usize = 6;
 
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     for item in owner.items() {
-        // What a profile says fits more devices than this one.
+        // Types of a profile have values that a single device does not support.
         let is_described = |definition: &&TypeDef| !definition.origin.span.is_empty();
         let Some(definition) = owner.definition(item.ty).filter(is_described) else { continue };
         let mut check = Check { owner, item, definition, diagnostics };
@@ -48,15 +48,15 @@ impl Number {
 impl Check<'_, '_> {
     fn report(&mut self, code: &'static Code, span: Span, message: String) {
         let found = code.at(span.or(self.item.origin.span), message);
-        let found = found.note_at(self.definition.origin.span, "the names are given here");
+        let found = found.note_at(self.definition.origin.span, "definition of the names");
         self.diagnostics.push(found.help(match code.id {
-            "TAB016" => "widen the limit, or give the item an enumeration or bits of its own",
-            "TAB018" => "name the value, if the manual does, or correct the number",
-            _ => "correct the number, or name the bits, if the manual does",
+            "TAB016" => "widen the limit, or define separate bits or values for the item",
+            "TAB018" => "correct the number, or name the value if the manual does",
+            _ => "correct the number, or name the bits if the manual does",
         }));
     }
 
-    /// The default, and what is set for one device.
+    /// Returns the default value and the configured value.
     fn values(&self) -> Vec<Number> {
         let (default, at) = (self.item.default.as_ref(), &self.item.at);
         let default = match fixed(self.item) {
@@ -66,7 +66,7 @@ impl Check<'_, '_> {
         default.into_iter().chain(Number::of("value", self.item.configured_value(), at.configured)).collect()
     }
 
-    /// The lower and the upper limit, where they differ.
+    /// Returns the lower and the upper limit, if they differ.
     fn limits(&self) -> Vec<Number> {
         if fixed(self.item).is_some() {
             return Vec::new();
@@ -90,7 +90,7 @@ impl Check<'_, '_> {
             if base.integer_range().is_some_and(|(low, high)| value == low || value == high) {
                 continue;
             }
-            // A limit that is one off the last name is a slip; one far from it leaves room.
+            // A limit next to the last name is probably wrong. A limit far from it allows for further values.
             let named = || values.iter().filter(|label| label.is_named());
             let is_slip = match is_upper {
                 true => named().any(|label| label.range().1 + 1 == value) && !named().any(|label| label.value > value),
@@ -100,7 +100,7 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Whether a number has a name that may be used. `strict`: it has to have one.
+    /// Reports a number that is reserved. `strict`: also reports a number without a name.
     fn named(&mut self, values: &[EnumValue], strict: bool, number: Number) {
         let Number { what, value, span } = number;
         let name = brief(&self.definition.name);
@@ -112,7 +112,7 @@ impl Check<'_, '_> {
         self.report(&codes::UNNAMED_VALUE, span, message);
     }
 
-    /// Whether the limit leaves out values that have a name.
+    /// Reports a limit that excludes named values.
     fn within(&mut self, values: &[EnumValue], is_upper: bool, limit: Number) {
         let Number { value: limit, span, .. } = limit;
         let extreme = |label: &EnumValue| if is_upper { label.range().1 } else { label.value };
@@ -146,7 +146,7 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Whether a value sets bits that mean nothing, or lacks some that are always set.
+    /// Reports a value that sets reserved bits, or lacks reserved bits that are always set.
     fn meaningless(&mut self, fields: &[BitFieldEntry], number: Number, bits: u64) {
         let Number { what, span, .. } = number;
         for field in always(fields) {
@@ -162,13 +162,13 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Whether every bit that a value sets has a meaning, and every field of it a value that has a name.
+    /// Reports a value that sets bits without a meaning, or fields to values without a name.
     fn known(&mut self, fields: &[BitFieldEntry], number: Number, bits: u64) {
         let Number { what, span, .. } = number;
         let named = fields.iter().fold(0, |all, field| all | field.mask());
         if bits & !named != 0 && named != 0 {
             let (unnamed, name) = (bits & !named, brief(&self.definition.name));
-            let message = format!("the {what} {bits:#X} sets bits {unnamed:#X}, which `{name}` doesn't name");
+            let message = format!("the {what} {bits:#X} sets bits {unnamed:#X}, which `{name}` does not name");
             self.report(&codes::RESERVED_BITS, span, message);
         }
         for field in always(fields) {
@@ -179,30 +179,30 @@ impl Check<'_, '_> {
                 _ if values.is_empty() => continue,
                 Some(false) => continue,
                 Some(true) => "which is reserved".to_owned(),
-                None => format!("where only {} named", listed(values)),
+                None => format!("but only {} named", listed(values)),
             };
             let message = format!("the {what} {bits:#X} has {value} in {}, {problem}", called(field));
             self.report(&codes::UNNAMED_VALUE, span, message);
         }
     }
 
-    /// Whether an upper limit lets every named bit be set.
+    /// Reports an upper limit that excludes named bits.
     fn reaches(&mut self, fields: &[BitFieldEntry], limit: u64, span: Span) {
         let is_beyond = |field: &&BitFieldEntry| 1u64.checked_shl(field.offset.into()) > Some(limit);
         let mut beyond = fields.iter().filter(|field| !field.is_reserved()).filter(is_beyond);
         let Some(first) = beyond.next() else { return };
-        let others = more(beyond.count(), |others| format!(", and neither can {others} more"));
-        let message = format!("{} can't be set below the upper limit {limit}{others}", called(first));
+        let others = more(beyond.count(), |others| format!(" and {others} more"));
+        let message = format!("the upper limit {limit} excludes {}{others}", called(first));
         self.report(&codes::NAME_OUTSIDE_LIMITS, span, message);
     }
 }
 
-/// The fields that mean the same under all conditions, and in every firmware.
+/// Returns the fields whose meaning depends on neither conditions nor firmware versions.
 fn always(fields: &[BitFieldEntry]) -> impl Iterator<Item = &BitFieldEntry> {
     fields.iter().filter(|field| field.when.is_none() && field.availability.is_none())
 }
 
-/// The values that have names: `1 is`, `0, 1 and 3 are`.
+/// Returns the named values with a verb: `1 is`, `0, 1 and 3 are`.
 fn listed(values: &[EnumValue]) -> String {
     let named: Vec<String> = values.iter().filter(|value| value.is_named()).map(EnumValue::numbers).collect();
     match named.as_slice() {
@@ -213,8 +213,8 @@ fn listed(values: &[EnumValue]) -> String {
     }
 }
 
-/// Whether a limit says how many bits there are, and not which: it is one bit, or all up to the end of the type or the last
-/// bit that has a name.
+/// Returns whether a limit states the number of bits, and not a set of bits. Such a limit is one bit, or all bits up to the end of
+/// the type or up to the last named bit.
 fn is_count(bits: u64, width: u32, fields: &[BitFieldEntry]) -> bool {
     if bits & bits.wrapping_add(1) != 0 {
         return bits.is_power_of_two();
@@ -293,7 +293,7 @@ mod tests {
         };
         assert_eq!(found(flags(), limits(0, 0xFFFF)), []);
         let max = found(flags(), limits(0, 0x4000));
-        assert_eq!(max, [("TAB016", "bit 15 (`error`) can't be set below the upper limit 16384".to_owned())]);
+        assert_eq!(max, [("TAB016", "the upper limit 16384 excludes bit 15 (`error`)".to_owned())]);
         let holes = found(flags(), limits(0, 0xF0F7));
         assert_eq!(holes, [("TAB019", "the upper limit 0xF0F7 sets bits 7-3 (reserved) of `Mode`".to_owned())]);
         let constant = found(flags(), |item| {
@@ -302,7 +302,7 @@ mod tests {
         });
         let expected = [
             ("TAB019", "the fixed value 0x5 lacks bit 8 (reserved) of `Mode`".to_owned()),
-            ("TAB019", "the fixed value 0x5 sets bits 0x4, which `Mode` doesn't name".to_owned()),
+            ("TAB019", "the fixed value 0x5 sets bits 0x4, which `Mode` does not name".to_owned()),
         ];
         assert_eq!(constant, expected);
     }

@@ -1,8 +1,8 @@
-//! Names of objects, sub-indices, bits and values against each other.
+//! Duplicate names of objects, sub-indices, bits and values.
 
 use std::collections::HashMap;
 
-use super::bit_fields::told_apart;
+use super::bit_fields::are_distinct;
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::firmware::apart;
@@ -10,7 +10,7 @@ use crate::ir::{EnumValue, Group, GroupKind, Item, Shape, TypeDef};
 use crate::source::Span;
 use crate::text::brief;
 
-/// Reports objects, sub-indices, bits and values of one name. Tools number their objects, and call many alike.
+/// Reports objects, sub-indices, bits and values that share a name.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let device = context.device;
     let mut names = HashMap::new();
@@ -25,22 +25,22 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     device.types.iter().for_each(|definition| meanings(definition, diagnostics));
 }
 
-/// Where the name of an item stands.
-pub(super) fn place(item: &Item) -> Span {
+/// Returns the location of the name of an item.
+pub(super) fn name_span(item: &Item) -> Span {
     item.at.name.or(item.origin.span)
 }
 
-/// Whether an item is no reserved sub-index, of which there is nothing to say.
-pub(super) fn is_meant(item: &&Item) -> bool {
+/// Returns whether an item has a meaning: it is not a reserved sub-index.
+pub(super) fn has_meaning(item: &&Item) -> bool {
     !item.is_reserved
 }
 
-/// The bits of a bit field, or the values of an enumeration. Names that depend on something may return.
+/// Reports duplicate names in a bit field or enumeration. Elements that never exist together may share a name.
 fn meanings(definition: &TypeDef, diagnostics: &mut Diagnostics) {
-    let twice: Option<(&str, String, String)> = match &definition.shape {
+    let duplicate: Option<(&str, String, String)> = match &definition.shape {
         Shape::BitField { fields, .. } => {
-            let found = repeated(fields.iter(), |field| field.name.as_str(), told_apart);
-            found.map(|(one, other)| (one.name.as_str(), one.place(), other.place()))
+            let found = repeated(fields.iter(), |field| field.name.as_str(), are_distinct);
+            found.map(|(one, other)| (one.name.as_str(), one.bit_range(), other.bit_range()))
         }
         Shape::Enumeration { values, .. } => {
             let apart =
@@ -51,14 +51,15 @@ fn meanings(definition: &TypeDef, diagnostics: &mut Diagnostics) {
         }
         _ => None,
     };
-    if let Some((name, one, other)) = twice {
+    if let Some((name, one, other)) = duplicate {
         let message = format!("{one} and {other} of `{}` are both called `{}`", brief(&definition.name), brief(name));
         let found = codes::NAME_TWICE.at(definition.origin.span, message);
-        diagnostics.push(found.help("give one of them the name that the manual means, or say what tells them apart"));
+        diagnostics
+            .push(found.help("rename one of them as in the manual, or add the condition that distinguishes them"));
     }
 }
 
-/// The first two that have one name.
+/// Returns the first two elements that share a name.
 fn repeated<'v, V>(
     list: impl Iterator<Item = &'v V>,
     name: impl Fn(&'v V) -> &'v str,
@@ -77,18 +78,18 @@ fn repeated<'v, V>(
 fn subs(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     let mut names = HashMap::new();
     let other = format!("another sub-index of 0x{index:04X}");
-    for item in group.items.iter().filter(is_meant) {
-        once(&mut names, &item.name, place(item), &other, diagnostics);
+    for item in group.items.iter().filter(has_meaning) {
+        once(&mut names, &item.name, name_span(item), &other, diagnostics);
     }
 }
 
-fn once<'n>(seen: &mut HashMap<&'n str, Span>, name: &'n str, at: Span, whose: &str, diagnostics: &mut Diagnostics) {
+fn once<'n>(seen: &mut HashMap<&'n str, Span>, name: &'n str, at: Span, owner: &str, diagnostics: &mut Diagnostics) {
     if name.is_empty() {
         return;
     }
     let first = *seen.entry(name).or_insert(at);
     if first != at {
-        let message = format!("{whose} is called `{}` too", brief(name));
-        diagnostics.push(codes::NAME_TWICE.at(at, message).note_at(first, "the first one"));
+        let message = format!("{owner} has the same name `{}`", brief(name));
+        diagnostics.push(codes::NAME_TWICE.at(at, message).note_at(first, "first use of the name"));
     }
 }

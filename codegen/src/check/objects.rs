@@ -1,4 +1,4 @@
-//! Objects of a dictionary, on CANopen or EtherCAT, against CiA 301 7.4.3.
+//! Objects of a dictionary on CANopen or EtherCAT: structure according to CiA 301 7.4.3.
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
@@ -6,7 +6,7 @@ use crate::ir::owner::Owner;
 use crate::ir::{excluded, AxisStep, Device, Format, Group, Item, ObjectCode, Value};
 use crate::text::more;
 
-/// Reports objects that contradict themselves, and mandatory ones that are missing.
+/// Reports contradictory objects and missing mandatory objects.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for (index, group) in described(context) {
         if context.device.canopen.is_some() {
@@ -17,7 +17,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     mandatory(context.device, diagnostics);
 }
 
-/// The same for the rows of a register table. Rows that already failed are skipped: what follows from that is nothing new.
+/// Reports the same for rows of a register table. Rows that already failed are skipped, to suppress follow-up diagnostics.
 pub(super) fn rows(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let errors = diagnostics.error_spans();
     for (index, group) in described(context) {
@@ -29,19 +29,19 @@ pub(super) fn rows(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     mandatory(context.device, diagnostics);
 }
 
-/// The objects that the description has, those of modules included.
+/// Returns the described objects, including those of modules.
 fn described<'a>(context: &Context<'a>) -> impl Iterator<Item = (u16, &'a Group)> {
     let fixed = context.device.own_modules(context.modules).flat_map(|module| &module.fixed_objects);
     let all = context.device.groups.iter().chain(fixed).filter(|group| !group.origin.is_derived());
     all.filter_map(|group| Some((group.index()?, group)))
 }
 
-/// The items of an object that the description has.
+/// Returns the described items of an object.
 fn described_items(group: &Group) -> impl Iterator<Item = &Item> {
     group.items.iter().filter(|item| !item.origin.is_derived())
 }
 
-/// The described item at sub-index 0.
+/// Returns the described item at sub-index 0.
 fn sub0(group: &Group) -> Option<&Item> {
     group.sub(0).filter(|item| !item.origin.is_derived())
 }
@@ -62,7 +62,7 @@ fn sub_of(item: &Item) -> u8 {
     item.object().map_or(0, |(_, sub)| sub)
 }
 
-/// The highest sub-index in use, the one with the structure of the object left out.
+/// Returns the highest sub-index in use, except 0xFF (structure of the object).
 fn highest(group: &Group) -> u8 {
     described_items(group).map(sub_of).filter(|&sub| sub != 0xFF).max().unwrap_or(0)
 }
@@ -79,7 +79,7 @@ fn names(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     }
     let mut items = described_items(group).filter(|item| item.name.is_empty());
     let Some(first) = items.next() else { return };
-    // An array of a hundred nameless elements is one finding.
+    // An array with a hundred unnamed elements produces one diagnostic.
     let others = more(items.count(), |others| format!(" (and {others} more of the object)"));
     nameless(first.at.name.or(first.origin.span), format!("0x{index:04X} sub-index {:#x}{others}", sub_of(first)));
 }
@@ -90,18 +90,18 @@ fn structure(group: &Group, index: u16, format: Format, diagnostics: &mut Diagno
         let (lacks, help) = format.missing_subs();
         diagnostics.push(codes::NO_SUBS.at(span, format!("0x{index:04X} has {lacks}")).help(help));
     } else if sub0(group).is_none() {
-        let message = format!("sub-index 0 of 0x{index:04X} isn't described");
-        let help = format!("describe it: UNSIGNED8, the highest sub-index, which is {}", highest(group));
+        let message = format!("sub-index 0 of 0x{index:04X} is not described");
+        let help = format!("describe it as UNSIGNED8 with the highest sub-index {} as default", highest(group));
         diagnostics.push(codes::NO_SUB0.at(span, message).help(help));
     }
 }
 
-/// Whether sub-index 0 is the number of valid entries, and not the highest sub-index.
+/// Returns whether sub-index 0 of an object is the number of valid entries, instead of the highest sub-index.
 fn is_counter(index: u16) -> bool {
     matches!(index, 0x1003 | 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C10..=0x1C2F)
 }
 
-/// Whether further axes have sub-indices of their own in the object, which sub-index 0 counts as well.
+/// Returns whether further axes use sub-indices of the object. Sub-index 0 counts these too.
 fn has_entries_of_axes(device: &Device, index: u16) -> bool {
     let rules = device.axes.iter().flat_map(|axes| &axes.rules);
     let rule = rules.into_iter().find(|rule| (rule.indices.0..=rule.indices.1).contains(&index));
@@ -114,9 +114,9 @@ fn highest_sub(group: &Group, index: u16, format: Format, diagnostics: &mut Diag
     let highest = highest(group);
     if default != i128::from(highest) {
         let span = sub0.at.default.or(sub0.origin.span);
-        let message = format!("sub-index 0 of 0x{index:04X} says {default}, but the highest sub-index is {highest}");
+        let message = format!("sub-index 0 of 0x{index:04X} is {default}, but the highest sub-index is {highest}");
         let found = codes::SUB0_MISMATCH.at(span, message);
-        // Another number must be one that sub-index 0 may have.
+        // The fix must be within the limits of sub-index 0.
         let is_possible = excluded(&sub0.limits, &Value::Int(highest.into())).is_none();
         diagnostics.push(match format.default_forms(highest) {
             Some(help) => found.help(help),
@@ -132,8 +132,8 @@ fn sub0_access(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
         described_items(group).any(|item| !matches!(sub_of(item), 0 | 0xFF) && item.access.writable());
     let message = match (sub0.access.writable(), entries_writable) {
         (true, false) if !is_counter(index) => "can be written, but none of its entries",
-        // A mapping is changed by writing 0 there first (CiA 301 7.5.2.36).
-        (false, true) if is_counter(index) && index != 0x1003 => "can't be written, but its entries can",
+        // Changing a mapping requires writing 0 to sub-index 0 first (CiA 301 7.5.2.36).
+        (false, true) if is_counter(index) && index != 0x1003 => "cannot be written, but its entries can",
         _ => return,
     };
     let span = sub0.at.access.or(sub0.origin.span);
@@ -143,9 +143,9 @@ fn sub0_access(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
 fn element_types(group: &Group, index: u16, owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     let mut elements = described_items(group).filter(|item| !matches!(sub_of(item), 0 | 0xFF));
     let Some(first) = elements.next() else { return };
-    // What the bits and values mean is no matter of the dictionary.
+    // Elements may differ in the names of bits and values, because the dictionary does not contain these names.
     if let Some(other) = elements.find(|item| owner.integer(item.ty) != owner.integer(first.ty)) {
-        let message = format!("an element of the array 0x{index:04X} is {}, the first is {}", other.ty, first.ty);
+        let message = format!("an element of the array 0x{index:04X} is {}, but the first is {}", other.ty, first.ty);
         let found = codes::ARRAY_TYPES.at(other.at.ty.or(other.origin.span), message);
         diagnostics.push(found.note_at(first.at.ty.or(first.origin.span), "the first element"));
     }
@@ -158,7 +158,7 @@ fn mandatory(device: &Device, diagnostics: &mut Diagnostics) {
     }
     for index in [0x1000, 0x1001, 0x1018] {
         if device.object(index).is_none() {
-            let message = format!("the mandatory object 0x{index:04X} isn't described");
+            let message = format!("the mandatory object 0x{index:04X} is not described");
             diagnostics.push(codes::MISSING_MANDATORY_OBJECT.at(device.origin.span, message));
         }
     }

@@ -1,10 +1,10 @@
-//! Directions of the PDOs of an EtherCAT slave or module against its dictionary.
+//! PDOs of an EtherCAT slave or module: directions that contradict the dictionary.
 
 use super::context::PdoOwner;
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::{Direction, Item, Mappable, PdoEntry, PdoEntryKind};
 
-/// Reports entries whose item says that it is not mapped, or not in this direction.
+/// Reports entries whose item cannot be mapped in this direction.
 pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     for pdo in &owner.data.pdos {
         for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
@@ -17,18 +17,18 @@ pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
 
 fn against(entry: &PdoEntry, direction: Direction, item: &Item, diagnostics: &mut Diagnostics) {
     let (is_given, access) = (!item.at.mappable.is_empty(), Mappable::by_access(item.access));
-    let (goes, is_accessed, name) = match direction {
+    let (is_mappable, is_accessible, name) = match direction {
         Direction::Receive => (item.mappable.rpdo, access.rpdo, "an RxPDO"),
         Direction::Transmit => (item.mappable.tpdo, access.tpdo, "a TxPDO"),
     };
     let problem: Option<(&'static Code, String)> = if is_given && !item.mappable.any() {
         Some((&codes::NOT_MAPPABLE, "is mapped, but not mappable".to_owned()))
-    } else if is_given && !goes {
+    } else if is_given && !is_mappable {
         Some((
             &codes::WRONG_DIRECTION,
-            format!("is mapped into {name}, and its PdoMapping has the other direction only"),
+            format!("is mapped into {name}, but its PdoMapping allows only the other direction"),
         ))
-    } else if !is_accessed && !item.at.access.is_empty() {
+    } else if !is_accessible && !item.at.access.is_empty() {
         Some((&codes::MAPPED_READ_ONLY, format!("is {} and mapped into {name}", item.access.name())))
     } else {
         None

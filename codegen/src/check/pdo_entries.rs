@@ -1,4 +1,4 @@
-//! PDOs of EtherCAT slaves and modules against each other and against the items that they map (ETG.2000, RxPdo and TxPdo).
+//! PDOs of EtherCAT slaves and modules: duplicate indices and wrong lengths (ETG.2000, RxPdo and TxPdo).
 
 use std::collections::HashMap;
 
@@ -8,9 +8,9 @@ use crate::ir::{Item, Pdo, PdoEntry, PdoEntryKind};
 use crate::resolve::address;
 use crate::source::Span;
 
-/// Reports PDOs of one index, and entries whose length is not that of their item.
+/// Reports PDOs that share an index, and entries whose length differs from that of their item.
 pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
-    // One index on two buses is two PDOs.
+    // PDOs on different buses may share an index.
     let mut seen: HashMap<(u16, Option<bool>), Span> = HashMap::with_capacity(owner.data.pdos.len());
     for pdo in &owner.data.pdos {
         if pdo.mapping_index != 0 {
@@ -31,13 +31,13 @@ pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
 
 fn duplicate(pdo: &Pdo, first: Span) -> Diagnostic {
     let message = format!("two PDOs have the index 0x{:04X}", pdo.mapping_index);
-    codes::DUPLICATE_PDO.at(pdo.origin.span, message).label("both are kept").note_at(first, "the first one")
+    codes::DUPLICATE_PDO.at(pdo.origin.span, message).label("both are kept").note_at(first, "first PDO with this index")
 }
 
 fn length(entry: &PdoEntry, item: &Item, bits: u32) -> Diagnostic {
     let message = format!("{} is mapped with {} bits, but has {bits}", address(entry), entry.bits);
     codes::MAPPED_LENGTH
         .at(entry.origin.span, message)
-        .label("the entry decides the layout")
+        .label("used the length of the entry")
         .note_at(item.origin.span, "the mapped object")
 }

@@ -1,4 +1,4 @@
-//! Mapping objects of a CANopen dictionary against CiA 301 7.5.2.36 and 7.5.2.38, and against the items that they map.
+//! PDO mapping objects of a CANopen dictionary: CiA 301 7.5.2.36 and 7.5.2.38, and mapped items.
 
 use super::context::{Context, PdoOwner};
 use super::mapped_object::{pdo_name, wrong_direction, CAN_BITS};
@@ -9,7 +9,7 @@ use crate::resolve::{
 };
 use crate::source::Span;
 
-/// Reports PDOs that can't be mapped as their objects say.
+/// Reports PDO mappings that are not possible.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let Some(canopen) = &context.device.canopen else { return };
     let items = MappableItems::new(context.device, context.modules);
@@ -22,12 +22,13 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports entries that are too long for a field. Those of CANopen are at most 255 bits long, and padding gets no field.
+/// Reports entries that are too long for a field. CANopen entries have at most 255 bits, and padding has no field.
 pub(super) fn lengths(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     for pdo in &owner.data.pdos {
         for entry in pdo.entries.iter().filter(|entry| entry.index != 0 && entry.bits > crate::limits::MAX_FIELD_BITS) {
             let message = format!("an entry of the PDO 0x{:04X} has {} bits", pdo.mapping_index, entry.bits);
-            diagnostics.push(codes::ENTRY_TOO_LONG.at(entry.origin.span, message).label("the PDO gets no struct"));
+            diagnostics
+                .push(codes::ENTRY_TOO_LONG.at(entry.origin.span, message).label("generated no struct for the PDO"));
         }
     }
 }
@@ -51,7 +52,7 @@ impl Mapping<'_, '_> {
         let bits = self.values(mapping, objects.mapping_index());
         if bits > CAN_BITS {
             let index = objects.mapping_index();
-            let message = format!("the mapping 0x{index:04X} has {bits} bits, and a CAN frame has 64");
+            let message = format!("the mapping 0x{index:04X} has {bits} bits, but a CAN frame has 64");
             self.report(&codes::PDO_TOO_LONG, mapping.origin.span, message);
         }
     }
@@ -66,11 +67,11 @@ impl Mapping<'_, '_> {
             (None, Some(present)) => (present, objects.index, "communication parameters"),
             _ => return,
         };
-        let message = format!("the PDO has no {what}: 0x{missing:04X} isn't described");
+        let message = format!("the PDO has no {what}: 0x{missing:04X} is not described");
         self.report(&codes::HALF_A_PDO, present.origin.span, message);
     }
 
-    /// Checks what an object maps, and returns its length in bits.
+    /// Checks the entries of a mapping object, and returns their length in bits.
     fn values(&mut self, mapping: &Group, index: u16) -> u32 {
         let (mut gap, mut bits, mut found) = (None, 0u32, 0);
         for value in mapping_values(mapping) {
@@ -86,7 +87,7 @@ impl Mapping<'_, '_> {
                 }
                 MappingWord::Empty => gap = gap.or(Some(value.span)),
                 MappingWord::Unreadable(other) => {
-                    let message = format!("the mapping entry is {other}, which is no index, sub-index and length");
+                    let message = format!("the mapping entry {other} does not consist of index, sub-index and length");
                     self.report(&codes::MAPPING_UNREADABLE, value.span, message);
                 }
             }
@@ -98,23 +99,23 @@ impl Mapping<'_, '_> {
     fn multiplexed(&mut self, mapping: &Group) {
         if !self.canopen.group_messaging {
             let span = mapping.sub(0).map_or(mapping.origin.span, |item| item.at.default);
-            let message = "the mapping is that of a multiplexed PDO, but GroupMessaging is 0".to_owned();
+            let message = "the PDO mapping is multiplexed, but GroupMessaging is 0".to_owned();
             self.report(&codes::MULTIPLEXED_PDO, span.or(mapping.origin.span), message);
         }
     }
 
     fn count(&mut self, mapping: &Group, found: usize) {
         let Some(announced) = announced_count(mapping).filter(|&announced| announced > found as i128) else { return };
-        // An entry list without any value leaves the mapping to whoever configures the device.
+        // A mapping without any value is configured later.
         if found == 0 {
             return;
         }
         let span = mapping.sub(0).map_or(mapping.origin.span, |item| item.at.configured.or(item.at.default));
-        let message = format!("sub-index 0 announces {announced} mapped objects, but {found} are filled in");
+        let message = format!("sub-index 0 declares {announced} mapped objects, but {found} entries have a value");
         self.report(&codes::MAPPING_COUNT, span.or(mapping.origin.span), message);
     }
 
-    /// Checks the object that a mapping value names.
+    /// Checks the object of a mapping value.
     fn object(&mut self, value: &MappingValue<'_>) {
         let MappingWord::Object(index, sub_index, bits) = value.word else { return };
         let span = value.span;
@@ -134,7 +135,7 @@ impl Mapping<'_, '_> {
 
     fn granularity(&mut self, bits: u32, span: Span) {
         let granularity = u32::from(self.canopen.granularity.unwrap_or(1).clamp(1, 64));
-        // 1 is also how tools say "yes, mapping can be changed".
+        // Some tools write 1 for "the mapping can be changed".
         if granularity > 1 && !bits.is_multiple_of(granularity) {
             let message = format!("{bits} bits are mapped, but the granularity is {granularity} bits");
             self.report(&codes::GRANULARITY, span, message);
@@ -145,7 +146,7 @@ impl Mapping<'_, '_> {
         if self.direction == Direction::Transmit {
             self.report(&codes::DUMMY_IN_TPDO, span, format!("a TPDO maps the dummy entry 0x{index:04X}"));
         } else if self.canopen.dummies_given && !self.canopen.dummies.contains(&(index as u8)) {
-            let message = format!("the dummy entry 0x{index:04X} is mapped, but [DummyUsage] doesn't allow it");
+            let message = format!("the dummy entry 0x{index:04X} is mapped, but [DummyUsage] does not allow it");
             self.report(&codes::DUMMY_NOT_SUPPORTED, span, message);
         }
     }
@@ -157,18 +158,19 @@ impl Mapping<'_, '_> {
             self.mapped_report(item, &codes::NOT_MAPPABLE, span, format!("{object} is mapped, but not mappable"));
         }
         if item.access == Access::ReadWrite && item.mappable.rpdo == item.mappable.tpdo {
-            let message = format!("{object} is rw, which doesn't say that it goes into {}", pdo_name(self.direction));
+            let message =
+                format!("{object} is rw, which does not state that it can be mapped into {}", pdo_name(self.direction));
             self.mapped_report(item, &codes::UNCLEAR_DIRECTION, span, message);
         }
         if let Some(problem) = wrong_direction(item, self.direction) {
             self.mapped_report(item, &codes::WRONG_DIRECTION, span, format!("{object} {problem}"));
         }
-        // Bit fields and enumerations are as long as their integer.
-        let is_own = self.items.of_device(index, sub_index).is_some();
-        let ty = if is_own { self.context.owner.basic(item.object_type()) } else { item.ty };
+        // Bit fields and enumerations have the length of their integer type.
+        let is_of_device = self.items.of_device(index, sub_index).is_some();
+        let ty = if is_of_device { self.context.owner.basic(item.object_type()) } else { item.ty };
         match ty.bits() {
-            Some(own) if own != bits => {
-                let message = format!("{object} is mapped with {bits} bits, but {ty} has {own}");
+            Some(length) if length != bits => {
+                let message = format!("{object} is mapped with {bits} bits, but {ty} has {length}");
                 self.mapped_report(item, &codes::MAPPED_LENGTH, span, message);
             }
             None if !matches!(item.ty, Type::Opaque(_) | Type::Named(_)) => {
@@ -187,7 +189,7 @@ impl Mapping<'_, '_> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Holds the number of PDOs against the header and object 0x1004.
+    /// Compares the number of PDOs with the header and object 0x1004.
     fn counts(&mut self) {
         let device = self.context.device;
         let described = PdoObjects::numbers(device, self.direction).len();
@@ -197,7 +199,7 @@ impl Mapping<'_, '_> {
         };
         let Some(announced) = announced else { return };
         if usize::from(announced) != described && !device.groups.is_empty() {
-            let message = format!("{key} is {announced}, but {} PDOs are described", described);
+            let message = format!("{key} is {announced}, but {described} PDOs are described");
             self.report(&codes::PDO_COUNT, span.or(device.origin.span), message);
         }
         let Some(item) = device.entry(0x1004, 0) else { return };
@@ -208,7 +210,11 @@ impl Mapping<'_, '_> {
         };
         if counted != i128::from(announced) {
             let span = item.at.configured.or(item.at.default).or(item.origin.span);
-            self.report(&codes::PDO_COUNT_1004, span, format!("0x1004 says {counted}, {key} says {announced}"));
+            self.report(
+                &codes::PDO_COUNT_1004,
+                span,
+                format!("0x1004 declares {counted} PDOs, but {key} is {announced}"),
+            );
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Steps of procedures against the items that they write or wait for; PDOs that steps and defaults assign.
+//! Procedures: steps that their items do not allow, and PDO assignments.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +13,7 @@ use crate::text::brief;
 /// Objects that assign PDOs to sync managers 2 and 3.
 const ASSIGNMENTS: [u16; 2] = [0x1C12, 0x1C13];
 
-/// Reports steps that the items of a procedure don't allow.
+/// Reports steps that their items do not allow.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let Context { device, owner, .. } = context;
     for procedure in &device.procedures {
@@ -26,7 +26,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports PDOs that are assigned by default and don't exist.
+/// Reports PDOs that are assigned by default, but are not described.
 pub(super) fn default_assignments(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         if let (Some((0x1C12 | 0x1C13, 1..)), Some(value)) = (item.object(), item.default_integer()) {
@@ -35,7 +35,7 @@ pub(super) fn default_assignments(context: &Context<'_>, diagnostics: &mut Diagn
     }
 }
 
-/// What is wrong with a step.
+/// Returns what is wrong with a step.
 fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
     let read_only = |name: &ItemRef| {
         let item = device.referred(name).filter(|item| !item.access.writable())?;
@@ -43,11 +43,11 @@ fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
     };
     let write_only = |name: &ItemRef, what: &str| {
         let unreadable = device.referred(name).is_some_and(|item| !item.access.readable());
-        unreadable.then(|| format!("{what} `{}`, which can't be read", brief(name)))
+        unreadable.then(|| format!("{what} `{}`, which cannot be read", brief(name)))
     };
     let outside = |name: &str, mask: u64, value: &Value| {
         let outside = value.as_int().is_some_and(|value| mask != u64::MAX && value & !i128::from(mask) != 0);
-        outside.then(|| format!("`{}` & {mask:#X} is never {value}", brief(name)))
+        outside.then(|| format!("`{}` & {mask:#X} can never be {value}", brief(name)))
     };
     match step {
         Step::Write(name, value) => {
@@ -74,10 +74,10 @@ fn shown(step: &Step) -> String {
     }
 }
 
-/// Why an item can't have a value.
+/// Returns why an item cannot have a value.
 fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     let ty = owner.basic(item.ty);
-    // The bits of a negative number are written as they are.
+    // Manuals write negative numbers as bit patterns.
     let signed = ty.bits().filter(|&bits| ty.is_signed() && bits <= 64 && number >> (bits - 1) == 1);
     let number = signed.map_or(number, |bits| number - (1i128 << bits));
     if ty.integer_range().is_some_and(|(low, high)| number < low || number > high) {
@@ -91,16 +91,16 @@ fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     let writable = item.behaviour.iter().flat_map(|behaviour| &behaviour.writable_values);
     let writable: Vec<i128> = writable.filter_map(Value::as_int).collect();
     if !writable.is_empty() && !writable.contains(&number) {
-        return Some("which isn't among the values that may be written".to_owned());
+        return Some("which is not one of the writable values".to_owned());
     }
     let (labels, closed) = owner.enumeration(item.ty)?;
     match reserved(labels, number) {
-        None => closed.then(|| "where it has no name".to_owned()),
-        Some(is_reserved) => is_reserved.then(|| "where it is reserved".to_owned()),
+        None => closed.then(|| "where this value has no name".to_owned()),
+        Some(is_reserved) => is_reserved.then(|| "where this value is reserved".to_owned()),
     }
 }
 
-/// What a procedure maps it also assigns, and what it assigns exists. COB-IDs are those of one PDO.
+/// Reports PDOs that a procedure maps but does not assign, or assigns without a description, and COB-IDs of other PDOs.
 fn assignments(device: &Device, procedure: &Procedure, diagnostics: &mut Diagnostics) {
     let (mut mapped, mut assigned_to) = (BTreeMap::new(), [BTreeSet::new(), BTreeSet::new()]);
     let name = brief(&procedure.name);
@@ -118,7 +118,9 @@ fn assignments(device: &Device, procedure: &Procedure, diagnostics: &mut Diagnos
             (index @ (0x1400..=0x15FF | 0x1800..=0x19FF), 1) => {
                 if let Some(other) = owner_of_cob_id(device, index, value) {
                     let (cob_id, other) = (format!("{value:#X}"), format!("0x{other:04X}"));
-                    let message = format!("`{name}` gives 0x{index:04X} the COB-ID {cob_id}, which is that of {other}");
+                    let message = format!(
+                        "`{name}` writes the COB-ID {cob_id} to 0x{index:04X}, but it is the COB-ID of {other}"
+                    );
                     diagnostics.push(codes::STEP_IMPOSSIBLE.at(span, message));
                 }
             }
@@ -128,7 +130,7 @@ fn assignments(device: &Device, procedure: &Procedure, diagnostics: &mut Diagnos
     for (index, span) in mapped {
         let assigned = &assigned_to[usize::from(index >= 0x1A00)];
         if !assigned.is_empty() && !assigned.contains(&i128::from(index)) {
-            let message = format!("`{name}` maps 0x{index:04X}, and assigns other PDOs");
+            let message = format!("`{name}` maps 0x{index:04X}, but assigns other PDOs");
             diagnostics.push(codes::MAPPED_NOT_ASSIGNED.at(span, message));
         }
     }
@@ -139,12 +141,12 @@ fn assigned(device: &Device, value: i128, span: Span, diagnostics: &mut Diagnost
         device.object(index).is_some() || device.process_data.pdos.iter().any(|pdo| pdo.mapping_index == index)
     };
     if value != 0 && !u16::try_from(value).is_ok_and(described) {
-        let message = format!("the PDO 0x{value:04X} is assigned, and isn't described");
+        let message = format!("the PDO 0x{value:04X} is assigned, but not described");
         diagnostics.push(codes::ASSIGNED_PDO_MISSING.at(span, message));
     }
 }
 
-/// The other PDO whose COB-ID this is by default: that of some node, while that of the PDO itself would be of none.
+/// Returns the PDO that has this COB-ID by default, for any node-ID, unless the PDO at `index` can have it too.
 fn owner_of_cob_id(device: &Device, index: u16, value: i128) -> Option<u16> {
     let is_of_some_node = |item: &Item| match item.default {
         Some(Value::NodeId(base)) => value.checked_sub(base).is_some_and(|node| (1..=127).contains(&node)),

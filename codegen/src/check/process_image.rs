@@ -1,4 +1,4 @@
-//! PDOs that an EtherCAT slave assigns by default, against its sync managers and each other; excluded PDOs.
+//! Default PDO assignment of EtherCAT slaves: missing sync managers, conflicts and lengths. Excluded PDOs.
 
 use std::collections::HashSet;
 
@@ -6,7 +6,7 @@ use super::context::{Context, PdoOwner};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{DefaultAssignment, Pdo, ProcessData, SyncManager, MAX_PDO_SUBS};
 
-/// Reports PDOs that an EtherCAT slave can't assign as it does by default.
+/// Reports a default PDO assignment that is not possible.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let data = &context.device.process_data;
     for pdo in &data.pdos {
@@ -17,14 +17,14 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     lengths(&by_default, &data.sync_managers, diagnostics);
 }
 
-/// Reports PDOs that exclude one that doesn't exist.
+/// Reports PDOs that exclude a PDO without a description.
 pub(super) fn excluded(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     let data = owner.data;
     let known: HashSet<u16> = data.pdos.iter().map(|pdo| pdo.mapping_index).collect();
     for pdo in &data.pdos {
         let missing = pdo.excludes.iter().find(|index| !known.contains(index));
         if let Some(index) = missing {
-            let message = format!("0x{:04X} excludes 0x{index:04X}, which isn't described", pdo.mapping_index);
+            let message = format!("0x{:04X} excludes 0x{index:04X}, which is not described", pdo.mapping_index);
             diagnostics.push(codes::EXCLUDED_PDO_MISSING.at(pdo.origin.span, message));
         }
     }
@@ -32,23 +32,23 @@ pub(super) fn excluded(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
 
 fn sync_manager_exists(pdo: &Pdo, data: &ProcessData, diagnostics: &mut Diagnostics) {
     let Some(number) = pdo.sync_manager.filter(|&number| !data.has_sync_manager(number)) else { return };
-    let message = format!("0x{:04X} is assigned to sync manager {number}, which isn't described", pdo.mapping_index);
-    diagnostics.push(codes::NO_SUCH_SYNC_MANAGER.at(pdo.origin.span, message).label("not part of the process image"));
+    let message = format!("0x{:04X} is assigned to sync manager {number}, which is not described", pdo.mapping_index);
+    diagnostics.push(codes::NO_SUCH_SYNC_MANAGER.at(pdo.origin.span, message).label("left out of the process image"));
 }
 
 fn conflicts(by_default: &DefaultAssignment, diagnostics: &mut Diagnostics) {
-    // One described twice has a finding of its own.
+    // The lint `pdo-entries` reports PDOs that share an index.
     for (pdo, other) in by_default.left_out.iter().filter(|(pdo, other)| other.mapping_index != pdo.mapping_index) {
         let (first, second) = (other.mapping_index, pdo.mapping_index);
-        let message = format!("0x{first:04X} and 0x{second:04X} are both assigned by default, and exclude each other");
+        let message = format!("0x{first:04X} and 0x{second:04X} are both assigned by default, but exclude each other");
         let found = codes::DEFAULT_PDOS_CONFLICT.at(pdo.origin.span, message);
-        let found = found.label("left out of the process image by default");
-        diagnostics.push(found.note_at(other.origin.span, "this one is in it"));
+        let found = found.label("left out of the default process image");
+        diagnostics.push(found.note_at(other.origin.span, "used in the default process image"));
     }
 }
 
 fn lengths(by_default: &DefaultAssignment, sync_managers: &[SyncManager], diagnostics: &mut Diagnostics) {
-    // Number and bits of the PDOs of each sync manager.
+    // Number of PDOs and of their bits for each sync manager.
     let mut inside = [(0usize, 0u64); 256];
     for (pdo, number) in &by_default.assigned {
         let (count, bits) = &mut inside[usize::from(*number)];
@@ -59,15 +59,16 @@ fn lengths(by_default: &DefaultAssignment, sync_managers: &[SyncManager], diagno
         let number = manager.number;
         let (count, bits) = inside[usize::from(number)];
         if count > MAX_PDO_SUBS {
-            let message =
-                format!("sync manager {number} has {count} PDOs by default, and a list of them at most {MAX_PDO_SUBS}");
+            let message = format!(
+                "sync manager {number} has {count} PDOs by default, but an assignment has at most {MAX_PDO_SUBS}"
+            );
             diagnostics.push(codes::TOO_MANY_PDOS.at(manager.origin.span, message));
         }
         let Some(max) = manager.size_range.1.filter(|&max| max > 0) else { continue };
         let bytes = bits.div_ceil(8);
         if bytes > u64::from(max) {
             let message =
-                format!("the PDOs of sync manager {number} have {bytes} bytes by default, and at most {max} fit");
+                format!("the PDOs of sync manager {number} have {bytes} bytes by default, but its maximum is {max}");
             diagnostics.push(codes::IMAGE_TOO_LONG.at(manager.origin.span, message));
         }
     }

@@ -1,4 +1,4 @@
-//! Parameter records of PROFINET submodules: parameters within their record, and no two on the same bits.
+//! Parameter records of PROFINET submodules: parameters outside of their record, and overlapping parameters.
 
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Binding, Group, GroupKind, Item, Record};
@@ -12,7 +12,7 @@ pub(super) fn check(groups: &[Group], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// First bit and number of bits.
+/// Returns bit offset and number of bits.
 fn bits_of(item: &Item) -> Option<(u64, u64)> {
     item.bindings.iter().find_map(|binding| match binding {
         Binding::Record { bit_offset, bits, .. } => Some((u64::from(*bit_offset), u64::from(*bits))),
@@ -26,7 +26,7 @@ fn bounds(group: &Group, record: &Record, diagnostics: &mut Diagnostics) {
         let Some((offset, bits)) = bits_of(item) else { continue };
         let end = (offset + bits).div_ceil(8);
         if end > length {
-            let message = format!("the parameter reaches to byte {end} of a record of {length} bytes");
+            let message = format!("the parameter ends at byte {end}, but the record has {length} bytes");
             let found = codes::RECORD_BOUNDS.at(item.origin.span, message).label("kept as it is");
             diagnostics.push(found.note_at(group.origin.span, "the record"));
         }
@@ -34,7 +34,7 @@ fn bounds(group: &Group, record: &Record, diagnostics: &mut Diagnostics) {
     for (offset, bytes) in &record.constants {
         let end = u64::from(*offset) + bytes.len() as u64;
         if end > length {
-            let message = format!("a constant reaches to byte {end} of a record of {length} bytes");
+            let message = format!("a constant ends at byte {end}, but the record has {length} bytes");
             diagnostics.push(codes::RECORD_BOUNDS.at(group.origin.span, message).label("kept as it is"));
         }
     }
@@ -44,14 +44,14 @@ fn overlaps(group: &Group, diagnostics: &mut Diagnostics) {
     let mut items: Vec<(u64, u64, &Item)> = Vec::with_capacity(group.items.len());
     items.extend(group.items.iter().filter_map(|item| bits_of(item).map(|(offset, bits)| (offset, bits, item))));
     items.sort_by_key(|&(offset, ..)| offset);
-    // The item that reaches farthest so far.
+    // End and item of the previous parameter with the highest end.
     let mut last: Option<(u64, &Item)> = None;
     for (offset, bits, item) in items {
         let end = offset + bits;
         if let Some((reach, other)) = last.filter(|&(reach, _)| offset < reach && bits > 0) {
             let message = format!("the parameter `{}` shares bits with `{}`", item.name, other.name);
             let found = codes::PARAMETERS_OVERLAP.at(item.origin.span, message).label("both are kept");
-            diagnostics.push(found.note_at(other.origin.span, "the other one"));
+            diagnostics.push(found.note_at(other.origin.span, "the other parameter"));
             if end <= reach {
                 continue;
             }

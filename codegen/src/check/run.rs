@@ -7,18 +7,18 @@ use crate::diagnostics::Diagnostics;
 use crate::ir::owner::Owner;
 use crate::ir::{Catalog, Device, Format, Group, Module};
 
-/// Checks a resolved catalogue.
+/// Runs all lints on a resolved catalog.
 pub fn check(catalog: &Catalog, diagnostics: &mut Diagnostics) {
     run(LINTS, catalog, diagnostics);
 }
 
 impl Lint {
-    /// Runs this lint alone on a resolved catalogue.
+    /// Runs only this lint on a resolved catalog.
     pub fn check(&self, catalog: &Catalog, diagnostics: &mut Diagnostics) {
         run(std::slice::from_ref(self), catalog, diagnostics);
     }
 
-    /// Whether it runs for a format, and any of its codes is wanted.
+    /// Returns whether the lint runs for a format, and one of its codes is enabled.
     fn is_active(&self, format: Format, diagnostics: &Diagnostics) -> bool {
         let is_requested = || self.on_request && self.codes.iter().any(|code| diagnostics.asks_for(code));
         (self.formats.contains(&format) || is_requested()) && self.codes.iter().any(|code| diagnostics.wants(code))
@@ -26,7 +26,7 @@ impl Lint {
 }
 
 fn run(lints: &[Lint], catalog: &Catalog, diagnostics: &mut Diagnostics) {
-    // The first file describes the devices; the others only refer to it, or are overlays.
+    // The first file describes the devices. The other files are overlays, or files that it refers to.
     let format = catalog.files.first().map_or(WITHOUT_FILE, |file| file.format);
     let lints: Vec<&Lint> = lints.iter().filter(|lint| lint.is_active(format, diagnostics)).collect();
     for device in &catalog.devices {
@@ -69,7 +69,8 @@ fn check_module(lints: &[&Lint], module: &Module, diagnostics: &mut Diagnostics)
     }
 }
 
-/// The parameter records of PROFINET. Their lists of values are shared by parameters of several types and limits.
+/// Runs the lints for parameter records of PROFINET. Other lints on items do not apply, because parameters of different types and
+/// limits share lists of values.
 fn records(lints: &[&Lint], catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let of_submodules = catalog.submodules.iter().map(|submodule| submodule.records.as_slice());
     let settings = catalog.devices.iter().filter_map(|device| device.profinet.as_ref());

@@ -1,4 +1,4 @@
-//! Subslots of the built-in submodules of a PROFINET module or device.
+//! Built-in submodules of a PROFINET module or device: duplicate subslots.
 
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Catalog, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse};
@@ -35,7 +35,7 @@ fn distinct(uses: &[SubmoduleUse], submodules: &[Submodule], diagnostics: &mut D
 
 fn report(subslot: u16, pair: [Option<&Submodule>; 2], diagnostics: &mut Diagnostics) {
     let [Some(first), Some(second)] = pair else { return };
-    let message = format!("subslot {subslot:#06x} is that of another submodule");
+    let message = format!("another submodule already has subslot {subslot:#06x}");
     let found = codes::SUBSLOT_TAKEN.at(second.origin.span, message).label("both are kept");
-    diagnostics.push(found.note_at(first.origin.span, "the other one"));
+    diagnostics.push(found.note_at(first.origin.span, "the other submodule"));
 }

@@ -1,11 +1,11 @@
-//! Titles of columns in the place of the name of a bit or value.
+//! Column titles instead of names of bits or values.
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Shape, TypeDef};
 use crate::text::brief;
 
-/// Titles of the column in which manuals say what values mean, and which nothing else is called.
+/// Titles of table columns that are never names of bits or values.
 const TITLES: [&str; 11] = [
     "definition",
     "definitions",
@@ -35,8 +35,9 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 fn titles<'n>(definition: &TypeDef, names: impl Iterator<Item = &'n str>, diagnostics: &mut Diagnostics) {
     let is_title = |name: &&str| TITLES.contains(&name.trim().trim_end_matches('.').to_lowercase().as_str());
     for name in names.filter(is_title) {
-        let message = format!("`{}` of `{}` is the title of a column", brief(name), brief(&definition.name));
+        let message = format!("the name `{}` in `{}` is a column title", brief(name), brief(&definition.name));
         let found = codes::BROKEN_NAME.at(definition.origin.span, message);
-        diagnostics.push(found.help("a line of the printed table slid down or up: look at the values beside it"));
+        diagnostics
+            .push(found.help("compare the adjacent rows with the manual, because the text of the table has shifted"));
     }
 }

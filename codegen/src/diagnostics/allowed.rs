@@ -17,10 +17,10 @@ impl Allowed {
         }
         for list in self.0.values_mut() {
             list.sort_unstable();
-            let mut greatest = 0;
+            let mut maximum = 0;
             for (_, end) in list {
-                greatest = greatest.max(*end);
-                *end = greatest;
+                maximum = maximum.max(*end);
+                *end = maximum;
             }
         }
     }
@@ -28,8 +28,8 @@ impl Allowed {
     /// Returns whether a diagnostic is within a span in which its code is allowed.
     pub fn contains(&self, span: Span, code: &'static Code) -> bool {
         let Some(list) = self.0.get(&(span.file, code.id)) else { return false };
-        let behind = list.partition_point(|(start, _)| *start <= span.start);
-        behind.checked_sub(1).and_then(|at| list.get(at)).is_some_and(|(_, end)| span.end <= *end)
+        let after = list.partition_point(|(start, _)| *start <= span.start);
+        after.checked_sub(1).and_then(|at| list.get(at)).is_some_and(|(_, end)| span.end <= *end)
     }
 }
 
@@ -39,7 +39,7 @@ mod tests {
     use crate::diagnostics::codes;
 
     #[test]
-    fn a_span_counts_whatever_lies_between() {
+    fn codes_are_allowed_within_nested_spans() {
         let span = |start, end| Span::new(FileId(0), start, end);
         let mut allowed = Allowed::default();
         allowed.extend([(span(0, 90), &codes::ONE_LIMIT), (span(10, 20), &codes::ONE_LIMIT)]);

@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn warnings_names_what_would_be_a_warning_and_errors_stay_errors() {
+    fn warnings_means_all_default_warnings_and_errors_remain_errors() {
         let mut levels = Levels::lenient();
         levels.set("warnings", Level::Deny).unwrap();
         assert_eq!(levels.severity(&codes::SUB0_MISMATCH), Some(Severity::Error));

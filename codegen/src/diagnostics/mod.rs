@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn repeated_and_allowed_ones_are_not_counted() {
+    fn repeated_and_allowed_diagnostics_are_not_counted() {
         let many = MAX_SAME_DIAGNOSTICS as u32 + 3;
         let mut diagnostics = Diagnostics::default();
         for _ in 0..many {

@@ -1,4 +1,4 @@
-//! Addresses of items on every bus.
+//! Addresses of items on each bus.
 
 use super::register;
 use super::words::bus_name;
@@ -7,17 +7,17 @@ use crate::ir::{Binding, Item, ModbusTable, ObjectBuses, RegisterBinding, Regist
 /// An address of an item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Address {
-    /// The bus, or the buses.
+    /// Name of the bus, or names of the buses.
     pub bus: &'static str,
-    /// The address in a few characters, as the source prints it.
+    /// Short form of the address, as the source prints it.
     pub number: String,
-    /// By what a search finds it: printed and wire address; empty if it only repeats another address.
+    /// Search terms: printed address and wire address; empty if another address of the item has the same.
     pub lookup: String,
-    /// The address with all its facts.
+    /// Complete form of the address, with all its facts.
     pub text: String,
 }
 
-/// The addresses of an item, the one that it is named by first. `tables` are the requests that the device takes on Modbus.
+/// Returns the addresses of an item, main address first. `tables`: requests that the device accepts on Modbus.
 pub fn addresses(item: &Item, tables: &[ModbusTable]) -> Vec<Address> {
     item.bindings.iter().map(|binding| address(binding, item, tables)).collect()
 }
@@ -34,7 +34,7 @@ fn address(binding: &Binding, item: &Item, tables: &[ModbusTable]) -> Address {
         Binding::Image(image) => format!("{}, {}", image.image, bits_of(image.bit_offset, image.bits)),
         Binding::Object { .. } | Binding::Parameter { .. } | Binding::Ascii(_) => number(binding),
     };
-    // A window takes the number of a register or parameter, which is found anyway.
+    // The number of an indirect access is that of a register or parameter, which is a search term already.
     let lookup = if matches!(binding, Binding::Indirect(_)) { String::new() } else { text.clone() };
     Address { bus: bus(binding), number: text.clone(), lookup, text }
 }
@@ -47,7 +47,7 @@ fn register_address(register: &RegisterBinding, item: &Item, tables: &[ModbusTab
     Address { bus: "Modbus", lookup: format!("{number}{wire}"), number, text }
 }
 
-/// An element of a Modbus table.
+/// Returns the name of an element of a Modbus table.
 fn table(space: RegisterSpace) -> &'static str {
     match space {
         RegisterSpace::Coil => "coil",
@@ -57,7 +57,7 @@ fn table(space: RegisterSpace) -> &'static str {
     }
 }
 
-/// The address on the wire alone: `0x6040:00`, `register 101.3`, `record 0x0001 bit 8`.
+/// Returns the wire address: `0x6040:00`, `register 101.3`, `record 0x0001 bit 8`.
 pub fn number(binding: &Binding) -> String {
     match binding {
         Binding::Object { index, sub_index, .. } => object(*index, *sub_index),
@@ -74,12 +74,12 @@ pub fn number(binding: &Binding) -> String {
     }
 }
 
-/// `0x6040:00`: index and sub-index.
+/// Returns index and sub-index: `0x6040:00`.
 pub fn object(index: u16, sub_index: u8) -> String {
     format!("0x{index:04X}:{sub_index:02X}")
 }
 
-/// The bus of an address, or its buses.
+/// Returns the bus or buses of an address.
 pub fn bus(binding: &Binding) -> &'static str {
     match binding {
         Binding::Object { buses, .. } => object_bus(*buses),
@@ -93,7 +93,7 @@ pub fn bus(binding: &Binding) -> &'static str {
     }
 }
 
-/// The buses of an object.
+/// Returns the buses of an object.
 pub fn object_bus(buses: ObjectBuses) -> &'static str {
     match (buses.canopen, buses.coe) {
         (true, true) => "CANopen, EtherCAT",
@@ -102,7 +102,7 @@ pub fn object_bus(buses: ObjectBuses) -> &'static str {
     }
 }
 
-/// `byte 3`, `byte 3 bit 4`, `bytes 2–5`.
+/// Returns a range of bits: `byte 3`, `byte 3 bit 4`, `bytes 2–5`.
 pub fn bits_of(first: u32, bits: u32) -> String {
     let last = first.saturating_add(bits.max(1) - 1);
     let (byte, last_byte) = (first / 8, last / 8);

@@ -1,4 +1,4 @@
-//! The identifier of a CAN frame and its flags (CiA 301, 7.5.2.5 and 7.5.2.35).
+//! COB-IDs: identifiers of CAN frames with flags (CiA 301, 7.5.2.5 and 7.5.2.35).
 
 use crate::ir::{Direction, Item, Value};
 
@@ -6,10 +6,10 @@ use crate::ir::{Direction, Item, Value};
 const BIT_31: u32 = 1 << 31;
 const BIT_30: u32 = 1 << 30;
 
-/// The frame has an identifier of 29 bits.
+/// Flag of a 29-bit identifier.
 const EXTENDED: u32 = 1 << 29;
 
-/// The object that a COB-ID belongs to.
+/// The kind of object that a COB-ID belongs to. It determines the meaning of the flags.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CobId {
     /// 0x1400 to 0x15FF.
@@ -25,7 +25,7 @@ pub enum CobId {
 }
 
 impl CobId {
-    /// The COB-ID of a PDO of this direction.
+    /// Returns the kind for PDOs of this direction.
     pub fn of_pdo(direction: Direction) -> Self {
         match direction {
             Direction::Receive => CobId::Rpdo,
@@ -33,7 +33,7 @@ impl CobId {
         }
     }
 
-    /// What bits 31 and 30 mean; `None` for a reserved bit.
+    /// Returns the meanings of bits 31 and 30; `None` for a reserved bit.
     fn flags(self) -> [Option<&'static str>; 2] {
         match self {
             CobId::Rpdo => [Some("disabled"), None],
@@ -45,7 +45,7 @@ impl CobId {
     }
 }
 
-/// The COB-ID that an item is; `None` if it is none.
+/// Returns the kind of COB-ID that an item contains, or `None` if it contains another value.
 pub fn of(item: &Item) -> Option<CobId> {
     match item.object()? {
         (0x1400..=0x15FF, 1) => Some(CobId::Rpdo),
@@ -57,7 +57,7 @@ pub fn of(item: &Item) -> Option<CobId> {
     }
 }
 
-/// `0x182, disabled`, `$NODEID+0x180, no RTR`: identifier and flags. `None` if the value is no COB-ID.
+/// Returns identifier and flags: `0x182, disabled`, `$NODEID+0x180, no RTR`. Returns `None` if the value is not a COB-ID.
 pub fn text(value: &Value, kind: CobId) -> Option<String> {
     let (number, is_of_node) = match value {
         Value::Int(number) => (*number, false),
@@ -66,7 +66,7 @@ pub fn text(value: &Value, kind: CobId) -> Option<String> {
     };
     let raw = u32::try_from(number).ok()?;
     let mask = if raw & EXTENDED != 0 { 0x1FFF_FFFF } else { 0x7FF };
-    // Further bits make it no identifier.
+    // An identifier has no further bits.
     if raw & !(BIT_31 | BIT_30 | EXTENDED | mask) != 0 {
         return None;
     }

@@ -2,12 +2,12 @@
 
 use crate::ir::{CodeRow, Value};
 
-/// `0x8110`, `F125`, `0xFF13 to 0xFF15`: the code of a row, or its codes. Decimal if the source has no other notation.
+/// Returns the code or range of a row as printed: `0x8110`, `F125`, `0xFF13 to 0xFF15`. Codes without a printed notation are decimal.
 pub fn text(row: &CodeRow) -> String {
     row.printed_code()
 }
 
-/// A cell next to the code; empty if the row has none in this column.
+/// Returns the cell of a row in a further column, or an empty text if the row has none.
 pub fn cell(row: &CodeRow, column: usize) -> String {
     match (row.printed_cells.get(column).filter(|printed| !printed.is_empty()), row.cells.get(column)) {
         (Some(printed), _) => printed.to_string(),

@@ -1,22 +1,23 @@
-//! Default, range and unit of an item, and what it can be mapped into.
+//! Default value, range, unit and PDO mapping of an item.
 
 use super::physical::{shown_unit, Physical};
 use super::types;
 use super::words::PLAIN;
 use crate::ir::{Item, Limits, Mappable, Quantity, Scale, Type, TypeDef, Value};
 
-/// A value of an item: the physical value first. `types` are those of its owner.
+/// Returns a value of an item, physical value first. `types`: the types of its owner.
 pub fn value(item: &Item, value: &Value, types: &[TypeDef]) -> String {
     let basic = types::basic(types, item.ty);
     PLAIN.of_item(item, value, &|value| raw(item, value, basic))
 }
 
-/// The default value; empty if there is none.
+/// Returns the default value, or an empty text if there is none.
 pub fn default(item: &Item, types: &[TypeDef]) -> String {
     item.default.as_ref().map(|default| value(item, default, types)).unwrap_or_default()
 }
 
-/// `0 … 5`, `1, 3 to 7`, `-20.0 … 200.0 °C (raw -200 … 2000)`; empty without limits. At most `shown` of single values.
+/// Returns the range: `0 … 5`, `1, 3 to 7`, `-20.0 … 200.0 °C (raw -200 … 2000)`. It is empty without limits. Of a list of values, it
+/// has at most `shown`.
 pub fn range(item: &Item, limits: &Limits, types: &[TypeDef], shown: usize) -> String {
     let physical = Physical::of(item.quantity.as_deref());
     let basic = types::basic(types, item.ty);
@@ -27,7 +28,7 @@ pub fn range(item: &Item, limits: &Limits, types: &[TypeDef], shown: usize) -> S
     }
 }
 
-/// The unit of the physical value; empty if the raw value of the row isn't that and no physical one is shown.
+/// Returns the unit of the physical value, or an empty text if outputs only show the raw value.
 pub fn unit(item: &Item) -> &str {
     match item.quantity.as_deref() {
         Some(Quantity { scale: Some(Scale::Exponent { .. }), .. }) | None => "",
@@ -35,7 +36,7 @@ pub fn unit(item: &Item) -> &str {
     }
 }
 
-/// The PDOs that an item can be mapped into; `None` if it can't.
+/// Returns the PDOs that an item can be mapped into, or `None` if it cannot be mapped.
 pub fn mappable(mappable: Mappable) -> Option<&'static str> {
     match (mappable.rpdo, mappable.tpdo) {
         (true, true) => Some("any PDO"),
@@ -45,7 +46,7 @@ pub fn mappable(mappable: Mappable) -> Option<&'static str> {
     }
 }
 
-/// A raw value: decimal if it has a unit or a scale.
+/// Returns a raw value. It is decimal if the item has a unit or a scale factor.
 fn raw(item: &Item, value: &Value, ty: Type) -> String {
     match item.quantity {
         Some(_) => PLAIN.value(value),
@@ -53,7 +54,7 @@ fn raw(item: &Item, value: &Value, ty: Type) -> String {
     }
 }
 
-/// A value in a table: numbers of unsigned types that look like bit patterns in hexadecimal.
+/// Returns a value for a table. Large unsigned numbers are hexadecimal.
 fn number(value: &Value, ty: Type) -> String {
     match value {
         Value::Int(number) => integer(*number, matches!(ty, Type::Unsigned(_))),
@@ -61,7 +62,7 @@ fn number(value: &Value, ty: Type) -> String {
     }
 }
 
-/// A number; large unsigned ones in hexadecimal: most of them are bit patterns, addresses and signatures.
+/// Returns a number. Large unsigned numbers are hexadecimal, because most of them are bit patterns, addresses and signatures.
 pub fn integer(number: i128, is_unsigned: bool) -> String {
     match number {
         0x1_0000.. if is_unsigned => format!("0x{number:X}"),

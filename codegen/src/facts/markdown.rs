@@ -1,6 +1,6 @@
-//! Texts within Markdown: in doc comments, and on pages.
+//! Texts in Markdown: doc comments and pages.
 
-/// Text as one line of Markdown without any markup. Letters that `keep` doesn't have become spaces.
+/// Returns a text as one line of Markdown without markup. Characters for which `keep` is false become spaces.
 pub fn escape(text: &str, keep: fn(char) -> bool) -> String {
     let mut escaped = String::with_capacity(text.len() + 8);
     let mut start = true;
@@ -15,7 +15,7 @@ pub fn escape(text: &str, keep: fn(char) -> bool) -> String {
                 escaped.push('\\');
                 escaped.push(letter);
             }
-            // `1.` and `1)` would begin a list, `http://` a link.
+            // `1.` and `1)` start a list, `http://` starts a link.
             '.' | ')' if escaped.bytes().all(|byte| byte.is_ascii_digit()) && !escaped.is_empty() => {
                 escaped.push('\\');
                 escaped.push(letter);

@@ -1,21 +1,21 @@
-//! What is true of an element for a person or a program, stated once for every output.
+//! Facts about elements in the form that all outputs for people and programs use.
 //!
 //! | file | subject |
 //! |---|---|
-//! | `address` | addresses of items on every bus |
-//! | `cob_id` | the identifier of a CAN frame and its flags |
+//! | `address` | addresses of items on each bus |
+//! | `cob_id` | COB-IDs: identifiers of CAN frames with flags |
 //! | `code` | codes as their source prints them |
-//! | `device` | what a device is called, and what fits into its slots |
-//! | `item` | default, range and unit of an item |
-//! | `markdown` | texts within Markdown |
+//! | `device` | titles of devices, and modules that slots accept |
+//! | `item` | default value, range, unit and PDO mapping of an item |
+//! | `markdown` | texts in Markdown |
 //! | `number` | numbers in hexadecimal notation |
-//! | `pattern` | bits that have to be 0 or 1 |
+//! | `pattern` | bit patterns of states and commands |
 //! | `pdo` | names of PDOs on CANopen and EtherCAT |
-//! | `physical` | physical values next to the raw ones |
+//! | `physical` | physical values with raw values |
 //! | `referrers` | which elements refer to an item |
-//! | `register` | printed and wire addresses on Modbus |
+//! | `register` | printed addresses and wire addresses on Modbus |
 //! | `types` | types of values |
-//! | `words` | sentences about elements, for documentation of any kind |
+//! | `words` | sentences about elements for all kinds of documentation |
 
 pub mod address;
 pub mod cob_id;

@@ -1,8 +1,8 @@
-//! Bits that have to be 0 or 1.
+//! Bit patterns of states and commands.
 
 use crate::ir::Pattern;
 
-/// How many bits patterns have: those of their item, or without an item the fewest of 8, 16 and 32 that hold all of them.
+/// Returns the number of bits of patterns: that of their item. Without an item, it is the minimum of 8, 16 and 32 that fits all patterns.
 pub fn width(of_item: Option<u32>, patterns: &[Pattern]) -> u32 {
     of_item.unwrap_or_else(|| {
         let used = patterns.iter().fold(0, |used, pattern| used | pattern.mask);
@@ -14,7 +14,7 @@ pub fn width(of_item: Option<u32>, patterns: &[Pattern]) -> u32 {
     })
 }
 
-/// `xxxx xxxx x1xx 0000`: the bits of `mask` as `value` has them, all others as `x`. `bits` is the width of the item.
+/// Formats the bits of `value` that are in `mask`, and other bits as `x`: `xxxx xxxx x1xx 0000`. `bits` is the width of the item.
 pub fn text(mask: u32, value: u32, bits: u32) -> String {
     let used = 32 - mask.leading_zeros();
     let bits = bits.min(32).max(used);
@@ -37,7 +37,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn patterns_without_an_item_are_as_wide_as_they_need_to_be() {
+    fn patterns_without_an_item_have_the_minimum_width() {
         let of = |mask| Pattern { mask, ..Pattern::default() };
         assert_eq!(width(None, &[of(0x0F), of(0x80)]), 8);
         assert_eq!(width(None, &[of(0x0F), of(0x100)]), 16);

@@ -5,13 +5,14 @@ use std::collections::HashMap;
 use super::number::hex16;
 use crate::ir::{Device, Direction, Mappable, ObjectBuses, Pdo, PdoEntryKind};
 
-/// The buses whose objects a device has.
+/// Returns the buses on which a device has objects.
 pub fn buses(device: &Device) -> ObjectBuses {
     let is_ethercat = device.ethercat.is_some() || device.dictionary_only;
     ObjectBuses { canopen: device.canopen.is_some() || !is_ethercat, coe: is_ethercat }
 }
 
-/// `RPDO 1` on CANopen, `RxPDO 0x1701` on EtherCAT, `RPDO 1 / RxPDO 0x1600` on both. Numbers count from 1 (CiA 301, 7.5.2.35).
+/// Returns the name of a PDO: `RPDO 1` on CANopen, `RxPDO 0x1701` on EtherCAT, `RPDO 1 / RxPDO 0x1600` on both. Numbers count from 1
+/// (CiA 301, 7.5.2.35).
 pub fn title(pdo: &Pdo, buses: ObjectBuses) -> String {
     let buses = pdo.buses.unwrap_or(buses);
     let (canopen, coe) = match pdo.direction {
@@ -29,7 +30,8 @@ pub fn title(pdo: &Pdo, buses: ObjectBuses) -> String {
     }
 }
 
-/// The objects that PDOs map, and into which PDOs. What is mapped can be mapped, even if the description forgets to say so.
+/// Returns the objects that PDOs map, with the directions of these PDOs. These objects can be mapped even if the description does not
+/// state it.
 pub fn mapped_objects(pdos: &[Pdo]) -> HashMap<(u16, u8), Mappable> {
     let mut mapped: HashMap<(u16, u8), Mappable> = HashMap::new();
     for pdo in pdos {

@@ -1,8 +1,8 @@
-//! Physical values next to the raw ones.
+//! Physical values with raw values.
 
 use crate::ir::{Limits, Quantity, Scale, Value};
 
-/// How raw values of an item become physical ones.
+/// Conversion from raw values of an item to physical values.
 #[derive(Clone, Copy)]
 pub struct Physical<'q> {
     unit: &'q str,
@@ -10,19 +10,20 @@ pub struct Physical<'q> {
 }
 
 impl<'q> Physical<'q> {
-    /// `None` if the raw value is the physical one.
+    /// Returns the conversion of a quantity, or `None` if raw value and physical value are the same.
     pub fn of(quantity: Option<&'q Quantity>) -> Option<Self> {
         let quantity = quantity?;
         Physical::scaled(quantity.scale.as_ref()?, shown_unit(quantity))
     }
 
-    /// The same for another scale.
+    /// Returns the conversion of a scale, or `None` if raw value and physical value are the same.
     pub fn scaled(scale: &'q Scale, unit: &'q str) -> Option<Self> {
         let is_raw = matches!(scale, Scale::Linear { factor, offset } if *factor == 1.0 && *offset == 0.0);
         (!is_raw).then_some(Physical { unit, scale })
     }
 
-    /// `25.0` for the raw value 250 in 0.1; `None` if the scale depends on another item, a model or the machine.
+    /// Returns the physical number, such as `25.0` for raw value 250 with scale factor 0.1. Returns `None` if the scale factor depends on
+    /// another item, a model or the machine.
     fn number(&self, raw: &Value) -> Option<String> {
         match *self.scale {
             Scale::Linear { factor, offset } => linear(raw, factor, offset),
@@ -33,7 +34,7 @@ impl<'q> Physical<'q> {
         }
     }
 
-    /// `25.0 °C (raw 250)`; `raw 250` if the physical value is unknown. `raw` writes a raw value, `unit` the unit.
+    /// Formats a value: `25.0 °C (raw 250)`, or `raw 250` if the physical value is unknown. `raw` formats raw values, `unit` units.
     pub fn value(&self, value: &Value, raw: &dyn Fn(&Value) -> String, unit: &dyn Fn(&str) -> String) -> String {
         match self.number(value) {
             Some(number) => format!("{} (raw {})", self.with_unit(&number, unit), raw(value)),
@@ -41,7 +42,7 @@ impl<'q> Physical<'q> {
         }
     }
 
-    /// `-20.0 … 200.0 °C (raw -200 … 2000)`; a missing limit is left out, as in `≥ -20.0 °C (raw ≥ -200)`.
+    /// Formats a range: `-20.0 … 200.0 °C (raw -200 … 2000)`, or with one limit `≥ -20.0 °C (raw ≥ -200)`.
     pub fn range(
         &self,
         limits: (Option<&Value>, Option<&Value>),
@@ -60,14 +61,14 @@ impl<'q> Physical<'q> {
         format!("{} (raw {raw})", self.with_unit(&physical, unit))
     }
 
-    /// Whether the physical value jumps somewhere between two raw values.
+    /// Returns whether the conversion has a pole between two raw values.
     fn has_pole_in(&self, low: Option<&Value>, high: Option<&Value>) -> bool {
         let is_above = |value: Option<&Value>| value.and_then(Value::as_real).is_some_and(|value| value > 0.0);
         let is_below = |value: Option<&Value>| value.and_then(Value::as_real).is_some_and(|value| value < 0.0);
         matches!(self.scale, Scale::Reciprocal { .. }) && !is_above(low) && !is_below(high)
     }
 
-    /// Whether larger raw values are smaller physical ones.
+    /// Returns whether the physical value falls if the raw value rises.
     fn is_falling(&self) -> bool {
         match *self.scale {
             Scale::Linear { factor, .. } => factor < 0.0,
@@ -76,7 +77,7 @@ impl<'q> Physical<'q> {
         }
     }
 
-    /// `0.5 K (raw 5)`: a distance, to which no offset is added.
+    /// Formats a difference, without the offset of the scale: `0.5 K (raw 5)`.
     pub fn step(&self, step: &Value, raw: &dyn Fn(&Value) -> String, unit: &dyn Fn(&str) -> String) -> String {
         match *self.scale {
             Scale::Linear { factor, .. } => {
@@ -95,7 +96,7 @@ impl<'q> Physical<'q> {
     }
 }
 
-/// The unit as outputs show it: a ratio has none.
+/// Returns the unit that outputs show. A ratio has none.
 pub fn shown_unit(quantity: &Quantity) -> &str {
     if quantity.unit == "1" {
         ""
@@ -104,7 +105,7 @@ pub fn shown_unit(quantity: &Quantity) -> &str {
     }
 }
 
-/// `1 … 5`, `≥ 1`, `≤ 5`.
+/// Formats a range: `1 … 5`, `≥ 1`, `≤ 5`.
 pub fn span(limits: (Option<String>, Option<String>)) -> String {
     match limits {
         (Some(low), Some(high)) => format!("{low} … {high}"),
@@ -114,12 +115,13 @@ pub fn span(limits: (Option<String>, Option<String>)) -> String {
     }
 }
 
-/// Whether a limit depends on the node-ID, which is known only at run time.
+/// Returns whether a limit depends on the node-ID, which is only known at run time.
 pub fn depends_on_node(limits: &Limits) -> bool {
     [&limits.low, &limits.high].into_iter().any(|limit| matches!(limit, Some(Value::NodeId(_))))
 }
 
-/// The physical value with as many decimals as the scale has: 250 in 0.1 is `25.0`. Exact if both are decimal numbers.
+/// Returns the physical value with the decimals of the scale: raw value 250 with scale factor 0.1 is `25.0`. The result is exact if factor
+/// and offset are decimal numbers.
 fn linear(raw: &Value, factor: f64, offset: f64) -> Option<String> {
     let exact = || {
         let (factor, offset) = (Decimal::of(factor)?, Decimal::of(offset)?);
@@ -140,7 +142,7 @@ struct Decimal {
 }
 
 impl Decimal {
-    /// `None` for more than nine decimals.
+    /// Returns the decimal number, or `None` if it has more than nine decimals.
     fn of(number: f64) -> Option<Self> {
         let text = number.to_string();
         let (whole, decimals) = text.split_once('.').unwrap_or((&text, ""));
@@ -148,7 +150,7 @@ impl Decimal {
         Some(Decimal { number: format!("{whole}{decimals}").parse().ok()?, places })
     }
 
-    /// The number in units of 10^-`places`.
+    /// Returns the number in units of 10^-`places`.
     fn scaled(&self, places: u32) -> Option<i128> {
         self.number.checked_mul(10_i128.checked_pow(places.checked_sub(self.places)?)?)
     }
@@ -162,7 +164,7 @@ impl Decimal {
     }
 }
 
-/// A number with six significant digits at most, in scientific notation if it is very small or large.
+/// Formats a number with at most six significant digits. Very small and large numbers have scientific notation.
 fn short(number: f64) -> String {
     if number == 0.0 || !number.is_finite() {
         return (number + 0.0).to_string();

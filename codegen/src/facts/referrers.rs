@@ -1,4 +1,4 @@
-//! Which elements of a device refer to an item.
+//! References to items from other elements of a device.
 
 use std::collections::HashMap;
 
@@ -9,27 +9,27 @@ use crate::ir::{
 /// An element that refers to an item.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Referrer<'d> {
-    /// A PDO that maps it.
+    /// A PDO that maps the item.
     Pdo(&'d Pdo),
-    /// A machine whose state it holds, or that it commands.
+    /// A state machine with the item as status item or control item.
     Machine(&'d StateMachine),
-    /// A procedure that writes it, reads it or waits for it.
+    /// A procedure that writes the item, reads it or waits for it.
     Procedure(&'d Procedure),
-    /// A message that is accepted only for some of its values.
+    /// A message that the device accepts only for some values of the item.
     Message(&'d Message),
-    /// A composite value that it is a part of.
+    /// A composite number with the item as a part.
     Composite(&'d Composite),
-    /// A type whose bits or values depend on it.
+    /// A type whose bits or values depend on the item.
     Type(&'d TypeDef),
-    /// An item that can be written only for some of its values.
+    /// An item that can be written only for some values of this item.
     WritableWhen(&'d Item),
-    /// An item that it replaces.
+    /// An item that this item replaces.
     Replaced(&'d Item),
-    /// An item that is the same value, the same quantity, its other half or its count.
+    /// An item with the same value or quantity, the other half of the value, or the number of its elements.
     Related(&'d Item),
 }
 
-/// The elements that refer to each item.
+/// Elements that refer to each item.
 #[derive(Debug, Default)]
 pub struct Referrers<'d>(HashMap<ItemId, Vec<Referrer<'d>>>);
 
@@ -58,7 +58,7 @@ impl<'d> Referrers<'d> {
         referrers
     }
 
-    /// Returns the elements that refer to an item, in the order of the device's parts.
+    /// Returns the elements that refer to an item, grouped by their kind.
     pub fn of(&self, item: ItemId) -> &[Referrer<'d>] {
         self.0.get(&item).map_or(&[], Vec::as_slice)
     }
@@ -86,7 +86,7 @@ impl<'d> Referrers<'d> {
         items.into_iter().for_each(|item| self.add(item.id, referrer));
     }
 
-    /// Adds a referrer. One that refers to an item several times is listed once.
+    /// Adds a referrer, unless the item already has it.
     fn add(&mut self, item: Option<ItemId>, referrer: Referrer<'d>) {
         let Some(item) = item else { return };
         let referrers = self.0.entry(item).or_default();

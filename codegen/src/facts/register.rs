@@ -1,9 +1,9 @@
-//! Addresses on Modbus: as the manual prints them, and on the wire.
+//! Addresses on Modbus: printed addresses and wire addresses.
 
 use crate::ir::{Bus, Item, ModbusTable, RegisterBinding, RegisterSpace};
 
 impl RegisterSpace {
-    /// The table's name.
+    /// Returns the name of the table.
     pub fn title(self) -> &'static str {
         match self {
             RegisterSpace::Holding => "holding",
@@ -13,7 +13,7 @@ impl RegisterSpace {
         }
     }
 
-    /// Function codes that read, those that write one element, and those that write several (MODBUS Application Protocol V1.1b3, 6).
+    /// Returns the function codes to read, to write one element, and to write several elements (MODBUS Application Protocol V1.1b3, 6).
     fn functions(self) -> ([u8; 1], &'static [u8], &'static [u8]) {
         match self {
             RegisterSpace::Coil => ([1], &[5, 15], &[15]),
@@ -24,7 +24,7 @@ impl RegisterSpace {
     }
 }
 
-/// `40102–40103`, `R01`: the printed numbers, or the wire addresses if the source prints no other numbers.
+/// Returns the printed addresses: `40102–40103`, `R01`. These are the wire addresses if the source prints no others.
 pub fn printed(register: &RegisterBinding) -> String {
     match register.printed.as_str() {
         "" => wire(register),
@@ -32,7 +32,7 @@ pub fn printed(register: &RegisterBinding) -> String {
     }
 }
 
-/// `101–102`, `0x8001`: the addresses on the wire, counted from 0; hexadecimal if they have more than four digits.
+/// Returns the wire addresses: `101–102`, `0x8001`. Addresses with more than four digits are hexadecimal.
 pub fn wire(register: &RegisterBinding) -> String {
     match register.last() {
         last if last == register.address => wire_address(last),
@@ -40,7 +40,7 @@ pub fn wire(register: &RegisterBinding) -> String {
     }
 }
 
-/// One address on the wire: hexadecimal if it has more than four digits.
+/// Formats a wire address. It is hexadecimal if it has more than four digits.
 pub fn wire_address(address: u16) -> String {
     if address > 9999 {
         format!("0x{address:04X}")
@@ -49,13 +49,14 @@ pub fn wire_address(address: u16) -> String {
     }
 }
 
-/// `40102–40103 (holding; wire 101–102; FC 3/16; low word first)`. `tables` lists the function codes that the device accepts.
+/// Returns addresses with facts: `40102–40103 (holding; wire 101–102; FC 3/16; low word first)`. `tables`: function codes that the device
+/// accepts.
 pub fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> String {
     let mut facts = vec![register.space.title().to_owned(), format!("wire {}", wire(register))];
     let functions = functions(register, item, tables);
     facts.extend((!functions.is_empty()).then(|| format!("FC {}", functions.join("/"))));
     if register.words_per_address > 1 {
-        facts.push(format!("{} bits an address", 16 * u16::from(register.words_per_address)));
+        facts.push(format!("{} bits per address", 16 * u16::from(register.words_per_address)));
     }
     if let Some(bit) = register.bit_offset {
         facts.push(format!("from bit {bit}"));
@@ -71,15 +72,15 @@ pub fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> 
     format!("{} ({})", printed(register), facts.join("; "))
 }
 
-/// The function codes that read and write an item at this register, of those that the device accepts.
+/// Returns the function codes that read and write an item at this register, if the device accepts them.
 fn functions(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> Vec<String> {
-    /// Mask Write Register changes some bits of a register; a device has it only if its description lists it.
+    /// Mask Write Register, which changes some bits of a register. It is optional, so a description has to list it.
     const MASK_WRITE: u8 = 22;
     let table = tables.iter().find(|table| table.space == register.space);
     let accepted = table.map_or(&[][..], |table| &table.functions);
     let is_accepted = |function: &&u8| accepted.is_empty() || accepted.contains(function);
     let (reads, one, several) = register.space.functions();
-    // A device with one address for a longer register may take it in a function for one register.
+    // A device with longer registers may accept one of them in a function for a single register.
     let is_one = register.count == 1 || register.words_per_address > 1 && !accepted.is_empty();
     let is_split = table.is_some_and(|table| table.split);
     let is_part = register.bit_offset.is_some() && register.count == 1;
@@ -134,13 +135,13 @@ mod tests {
         is(&binding, (Type::Boolean, Access::WriteOnly), &[], "101 (coil; wire 101; FC 5/15; bytes swapped)");
         let binding =
             RegisterBinding { words_per_address: 2, low_word_first: false, printed: "40102".into(), ..register(2) };
-        is(&binding, READ_ONLY, &[], "40102 (holding; wire 101; FC 3; 32 bits an address; high word first)");
+        is(&binding, READ_ONLY, &[], "40102 (holding; wire 101; FC 3; 32 bits per address; high word first)");
         let binding = RegisterBinding { bit_offset: Some(8), ..register(1) };
         is(&binding, READ_ONLY, &[], "40102 (holding; wire 101; FC 3; from bit 8)");
     }
 
     #[test]
-    fn a_text_has_no_order_of_words() {
+    fn strings_have_no_word_order() {
         let text = (Type::VisibleString(None), Access::ReadWrite);
         is(&register(2), text, &[], "40102–40103 (holding; wire 101–102; FC 3/16)");
     }

@@ -1,9 +1,9 @@
-//! Types of values: the basic type below, and the type as a table shows it.
+//! Types of values: basic types, and names of types in tables.
 
 use crate::ir::owner::Owner;
 use crate::ir::{Type, TypeDef, TypeId};
 
-/// The basic type below; of arrays and records, nothing is known.
+/// Returns the basic type of a type. Arrays and records are opaque.
 pub fn basic(types: &[TypeDef], ty: Type) -> Type {
     match Owner::of_types(types).basic(ty) {
         Type::Named(_) => Type::Opaque(None),
@@ -11,12 +11,12 @@ pub fn basic(types: &[TypeDef], ty: Type) -> Type {
     }
 }
 
-/// A type as a table shows it: the basic type, with its length if it is a text.
+/// Returns the name of the basic type, with its length if it is a string.
 pub fn name(types: &[TypeDef], ty: Type) -> String {
     basic(types, ty).with_length()
 }
 
-/// The definition of a named type.
+/// Returns the definition of a named type.
 pub fn definition(types: &[TypeDef], ty: Type) -> Option<&TypeDef> {
     match ty {
         Type::Named(TypeId(id)) => types.get(id as usize),
@@ -24,7 +24,7 @@ pub fn definition(types: &[TypeDef], ty: Type) -> Option<&TypeDef> {
     }
 }
 
-/// `3`, `4 to 7`: a value of an enumeration, or a range of them.
+/// Formats a value or a range of an enumeration: `3`, `4 to 7`.
 pub fn numbers(first: i128, last: Option<i128>) -> String {
     match last.filter(|last| *last != first) {
         Some(last) => format!("{} to {}", number(first), number(last)),
@@ -32,7 +32,7 @@ pub fn numbers(first: i128, last: Option<i128>) -> String {
     }
 }
 
-/// A number; of large ones that are bit patterns more often than amounts, both forms.
+/// Formats a number. Large numbers are often bit patterns, so they have both decimal and hexadecimal notation.
 fn number(number: i128) -> String {
     match number {
         0..=255 => number.to_string(),

@@ -1,4 +1,4 @@
-//! Sentences about elements of the IR, for documentation of any kind.
+//! Sentences about elements of the IR for all kinds of documentation.
 
 use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
 use crate::facts::{address, cob_id};
@@ -8,33 +8,33 @@ use crate::ir::{
     Severity, Shape, Step, Storage, TypeDef, Value,
 };
 
-/// Makes sentences. Every text of a source goes through `escape` on its way into one.
+/// Writes sentences in the format of an output. It escapes all texts of the source.
 #[derive(Clone, Copy)]
 pub struct Words<'w> {
-    /// The text as the output shows it literally, on one line.
+    /// Escapes a text so that the output shows it literally, on one line.
     pub escape: fn(&str) -> String,
-    /// A link to an element that shows this name; `None` where the output has no such element.
+    /// Returns a link to an element with this text, or `None` if the output does not contain the element.
     pub link: &'w dyn Fn(ElementId, &str) -> Option<String>,
 }
 
-/// For an output without links.
+/// Function for an output without links.
 pub const NO_LINK: &dyn Fn(ElementId, &str) -> Option<String> = &|_, _| None;
 
-/// Sentences as they are.
+/// Sentences as plain text.
 pub const PLAIN: Words<'static> = Words { escape: one_line, link: NO_LINK };
 
-/// A text without breaks of lines.
+/// Returns a text as one line.
 pub fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The manual that a description was transcribed from.
+/// Returns the manual that a description was transcribed from.
 pub fn manual(device: &Device) -> Manual {
     device.manual.as_deref().cloned().unwrap_or_default()
 }
 
-/// What the manual calls the row of an item: its name in an ASCII protocol, or that of a register or parameter. Objects have names that
-/// a manual may not print.
+/// Returns the name of an item's row in the manual: the name in an ASCII protocol, or of a register or parameter. It is empty for
+/// objects, because manuals may not print their names.
 pub fn row_of(item: &Item) -> &str {
     let ascii = item.bindings.iter().find_map(|binding| match binding {
         Binding::Ascii(name) => Some(name.as_str()),
@@ -44,13 +44,13 @@ pub fn row_of(item: &Item) -> &str {
     ascii.or_else(|| item.bindings.iter().any(is_row).then_some(item.name.as_str())).unwrap_or_default()
 }
 
-/// At most so many allowed values are listed.
+/// Maximum number of allowed values in a sentence.
 pub const ALLOWED_SHOWN: usize = 16;
 
-/// At most so many sections are named in one citation.
+/// Maximum number of sections in a citation.
 const SECTIONS_NAMED: usize = 3;
 
-/// `PARAMETRI MOVIMENTO, Rvel (line 2178)`: section, row and page or line of a manual. Without sections, `line 2178`.
+/// Returns section, row and page or line of a manual: `PARAMETRI MOVIMENTO, Rvel (line 2178)`. Without sections, it returns `line 2178`.
 fn citation(manual: &Manual, row: &str, cite: &str) -> String {
     let numbers = cite.split(',').filter_map(|part| part.split('-').next()?.trim().parse().ok());
     let mut sections: Vec<&str> = Vec::new();
@@ -71,18 +71,18 @@ fn citation(manual: &Manual, row: &str, cite: &str) -> String {
         return number;
     }
     let more = sections.len().saturating_sub(SECTIONS_NAMED);
-    let mut place = sections[..sections.len() - more].join("; ");
+    let mut citation = sections[..sections.len() - more].join("; ");
     if more > 0 {
-        place += &format!("; {more} more {}", if more == 1 { "section" } else { "sections" });
+        citation += &format!("; {more} more {}", if more == 1 { "section" } else { "sections" });
     }
     if !row.is_empty() && !sections.contains(&row) {
-        place += ", ";
-        place += row;
+        citation += ", ";
+        citation += row;
     }
-    format!("{place} ({number})")
+    format!("{citation} ({number})")
 }
 
-/// `text` with a full stop, where it has none.
+/// Returns `text` with a full stop at its end.
 pub fn sentence(text: &str) -> String {
     match text.ends_with(['.', '!', '?', ':']) {
         true => text.to_owned(),
@@ -90,13 +90,13 @@ pub fn sentence(text: &str) -> String {
     }
 }
 
-/// `text` as the start of a sentence.
+/// Returns `text` with a capital letter at its start.
 pub fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
-/// A bus as people write it.
+/// Returns the name of a bus in a sentence.
 pub fn bus_name(bus: Bus) -> &'static str {
     match bus {
         Bus::CanOpen => "CANopen",
@@ -107,21 +107,21 @@ pub fn bus_name(bus: Bus) -> &'static str {
     }
 }
 
-/// Where a fact comes from: `CiA 402, 17.3.7`, `overlay pump.toml:12`.
+/// Returns the origin of a fact: `CiA 402, 17.3.7`, `overlay pump.toml:12`.
 pub fn origin_name(origin: &FactOrigin) -> String {
     match origin {
         FactOrigin::Stated => "the description".to_owned(),
         FactOrigin::Overlay { file, line, .. } => format!("overlay {file}:{line}"),
         FactOrigin::Standard(clause) => clause.to_string(),
-        FactOrigin::Rule(Rule::UnstatedAccess) => "the rule for access rights that are not stated".to_owned(),
+        FactOrigin::Rule(Rule::UnstatedAccess) => "the rule for missing access rights".to_owned(),
         FactOrigin::Rule(Rule::ReservedEntry) => "the rule for reserved sub-indices".to_owned(),
-        FactOrigin::Rule(Rule::AnnouncedPdo) => "the rule for PDOs that are only announced".to_owned(),
+        FactOrigin::Rule(Rule::AnnouncedPdo) => "the rule for PDOs without a description".to_owned(),
         FactOrigin::Rule(Rule::MappedObject) => "the rule for objects that only a PDO describes".to_owned(),
         FactOrigin::PrintedName => "the printed name".to_owned(),
     }
 }
 
-/// The name of a fact within a sentence.
+/// Returns the name of a fact in a sentence.
 pub fn fact_name(fact: Fact) -> &'static str {
     match fact {
         Fact::Name => "name",
@@ -133,13 +133,13 @@ pub fn fact_name(fact: Fact) -> &'static str {
         Fact::Default => "default",
         Fact::Limits => "range",
         Fact::Unit => "unit",
-        Fact::Behaviour => "storage and effects",
+        Fact::Behaviour => "storage and side effects",
         Fact::Availability => "availability",
         Fact::Variants => "differences between models",
     }
 }
 
-/// `type, access rights and range`.
+/// Joins names: `type, access rights and range`.
 fn enumerated(names: &[&str]) -> String {
     match names {
         [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
@@ -147,13 +147,13 @@ fn enumerated(names: &[&str]) -> String {
     }
 }
 
-/// What a raw value means that is no number.
+/// Returns the special meaning of a raw value.
 fn sentinel<'i>(item: &'i Item, value: &Value) -> Option<&'i str> {
     let quantity = item.quantity.as_deref()?;
     quantity.sentinels.iter().find(|(sentinel, _)| sentinel == value).map(|(_, meaning)| meaning.as_str())
 }
 
-/// Whether the values of an item are indices or mappings of objects: mapping parameters and assignments of PDOs.
+/// Returns whether the values of an item refer to objects: PDO mapping and PDO assignment.
 fn is_object_reference(item: &Item) -> bool {
     let is_mapping = |index| matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C10..=0x1C2F);
     item.object().is_some_and(|(index, sub)| sub > 0 && is_mapping(index))
@@ -164,7 +164,7 @@ impl Words<'_> {
         (self.escape)(text)
     }
 
-    /// The name of another element.
+    /// Returns the name of another element, with a link if possible.
     fn name<Id: Copy + Into<ElementId>>(&self, reference: &Reference<Id>) -> String {
         let link = reference.id.and_then(|id| (self.link)(id.into(), &reference.name));
         link.unwrap_or_else(|| self.escaped(&reference.name))
@@ -174,24 +174,24 @@ impl Words<'_> {
         names.iter().map(|name| self.escaped(name)).collect::<Vec<_>>().join(", ")
     }
 
-    /// The words of a description, as sentences.
+    /// Returns the lines of a description as sentences.
     pub fn description(&self, documentation: Option<&Documentation>) -> Vec<String> {
         let lines = documentation.into_iter().flat_map(|documentation| documentation.text.lines());
         lines.map(|line| self.escaped(line)).filter(|line| !line.is_empty()).map(|line| sentence(&line)).collect()
     }
 
-    /// Whether the access rights are an assumption.
+    /// Returns a sentence if the access rights are an assumption.
     pub fn access(&self, item: &Item) -> Option<String> {
         let assumed = if item.access.writable() { "read-write" } else { "read-only" };
-        item.is_access_assumed().then(|| format!("The manual states no access rights; {assumed} is assumed."))
+        item.is_access_assumed().then(|| format!("Access rights assumed: {assumed}. The manual does not state them."))
     }
 
-    /// What is known of storage, side effects and conditions of writing.
+    /// Returns sentences about storage, side effects and conditions of writing.
     pub fn behaviour(&self, behaviour: &Behaviour) -> Vec<String> {
         let mut sentences = Vec::new();
         sentences.extend(self.storage(&behaviour.storage).map(|storage| sentence(&capital(&storage))));
         if let Some(access) = behaviour.pdi_access {
-            sentences.push(format!("Access rights of the device's own processor: {}.", access.name()));
+            sentences.push(format!("Access rights of the slave application (PDI): {}.", access.name()));
         }
         if let Some(effective) = &behaviour.effective {
             sentences.push(format!("Takes effect at: {}", sentence(&self.escaped(effective))));
@@ -203,7 +203,7 @@ impl Words<'_> {
             sentences.push(format!("Only {} can be written.", self.values(&behaviour.writable_values)));
         }
         if behaviour.self_clearing {
-            sentences.push("The device clears it by itself.".to_owned());
+            sentences.push("The device clears the value automatically.".to_owned());
         }
         if behaviour.write_once {
             sentences.push("Can be written only once.".to_owned());
@@ -216,7 +216,7 @@ impl Words<'_> {
         sentences
     }
 
-    /// `volatile`, `non-volatile: stored by Save`; `None` if the source doesn't say.
+    /// Returns the storage: `volatile`, `non-volatile: stored by Save`. Returns `None` if the source does not state it.
     pub fn storage(&self, storage: &Storage) -> Option<String> {
         match storage {
             Storage::Unknown => None,
@@ -226,7 +226,7 @@ impl Words<'_> {
         }
     }
 
-    /// `Mode is 1 or 2`, `Status & 0x6F is 0x21`: hexadecimal where bits are compared.
+    /// Returns a condition: `Mode is 1 or 2`, `Status & 0x6F is 0x21`. Values of masked bits are hexadecimal.
     pub fn holds(&self, condition: &Condition) -> String {
         let name = self.name(&condition.item);
         match condition.mask {
@@ -239,7 +239,7 @@ impl Words<'_> {
         }
     }
 
-    /// A value as bits: hexadecimal.
+    /// Formats a value as hexadecimal bit pattern.
     fn bits(&self, value: &Value) -> String {
         match value.as_int().and_then(|number| u64::try_from(number).ok()) {
             Some(0) => "0".to_owned(),
@@ -248,7 +248,7 @@ impl Words<'_> {
         }
     }
 
-    /// A value in a step: large ones are codes, indices and mappings more often than amounts.
+    /// Formats a value in a step. Large values are hexadecimal, because most of them are codes, indices and mappings.
     fn step_value(&self, value: &Value) -> String {
         match value.as_int() {
             Some(0x100..) => self.bits(value),
@@ -260,7 +260,7 @@ impl Words<'_> {
         values.iter().map(|value| self.value(value)).collect::<Vec<_>>().join(" or ")
     }
 
-    /// What a step of a procedure does.
+    /// Returns a sentence about a step of a procedure.
     pub fn step(&self, step: &Step) -> String {
         let value = |value| self.step_value(value);
         let name = |name: &str| self.escaped(name);
@@ -272,22 +272,22 @@ impl Words<'_> {
             Step::WriteArgument(item, argument) => format!("Write {} to {}.", name(argument), name(item)),
             Step::Read(item) => format!("Read {}.", name(item)),
             Step::WaitFor(item, mask, to, limit) => {
-                let limit = limit.map(|limit| format!(", at most {limit} ms")).unwrap_or_default();
-                let what = match *mask {
+                let limit = limit.map(|limit| format!(", for at most {limit} ms")).unwrap_or_default();
+                let condition = match *mask {
                     u64::MAX => format!("{} is {}", name(item), value(to)),
                     mask => format!("{} {} is {}", name(item), self.escaped(&format!("& 0x{mask:X}")), self.bits(to)),
                 };
-                format!("Wait until {what}{limit}.")
+                format!("Wait until {condition}{limit}.")
             }
             Step::Delay(milliseconds) => format!("Wait {milliseconds} ms."),
             Step::Send(message) => format!("Send {}.", name(message)),
             Step::Exchange(Direction::Receive) => "Send the outputs once.".to_owned(),
-            Step::Exchange(Direction::Transmit) => "Take the inputs once.".to_owned(),
+            Step::Exchange(Direction::Transmit) => "Read the inputs once.".to_owned(),
             Step::Manual(text) => sentence(&name(text)),
         }
     }
 
-    /// A value; of a long text or block of bytes, the start.
+    /// Formats a value. Long strings and byte sequences are shortened.
     pub fn value(&self, value: &Value) -> String {
         const SHOWN: usize = 60;
         let text = value.to_string();
@@ -297,7 +297,7 @@ impl Words<'_> {
         }
     }
 
-    /// A value of an item: its physical value first, the flags of a COB-ID by name, or what `raw` writes.
+    /// Formats a value of an item: physical value first, names of the flags of a COB-ID, or otherwise the result of `raw`.
     pub fn of_item(&self, item: &Item, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
         let cob_id = cob_id::of(item).and_then(|kind| cob_id::text(value, kind));
         match (cob_id, Physical::of(item.quantity.as_deref())) {
@@ -312,7 +312,7 @@ impl Words<'_> {
         }
     }
 
-    /// A value that names an object, a PDO or a mapping: `0x1701`, `0x60410010`.
+    /// Formats a value that refers to an object, a PDO or a mapping: `0x1701`, `0x60410010`.
     fn reference(&self, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
         match value.as_int() {
             Some(number @ 0x1000..=0xFFFF_FFFF) => format!("0x{number:04X}"),
@@ -320,7 +320,7 @@ impl Words<'_> {
         }
     }
 
-    /// `range 0 to 5`, `one of 1, 3 to 7`, `range -20.0 … 200.0 °C (raw -200 … 2000)`; `None` without limits.
+    /// Returns the limits: `range 0 to 5`, `one of 1, 3 to 7`, `range -20.0 … 200.0 °C (raw -200 … 2000)`. Returns `None` without limits.
     pub fn limits(&self, limits: &Limits, physical: Option<&Physical<'_>>) -> Option<String> {
         if !limits.allowed.is_empty() {
             return Some(format!("one of {}", self.allowed(limits, physical, &|value| self.value(value))));
@@ -332,11 +332,11 @@ impl Words<'_> {
             (None, Some(low), None) => format!("at least {}", self.value(low)),
             (None, None, Some(high)) => format!("at most {}", self.value(high)),
         };
-        // What depends on the node-ID is known only at run time.
+        // Limits that depend on the node-ID are only known at run time.
         Some(if depends_on_node(limits) { text + " (not checked)" } else { text })
     }
 
-    /// `0 … 5`, `-20.0 … 200.0 °C (raw -200 … 2000)`; empty without limits. `raw` writes a raw value.
+    /// Returns the range: `0 … 5`, `-20.0 … 200.0 °C (raw -200 … 2000)`. It is empty without limits. `raw` formats raw values.
     pub fn range(&self, limits: &Limits, physical: Option<&Physical<'_>>, raw: &dyn Fn(&Value) -> String) -> String {
         let (low, high) = (limits.low.as_ref(), limits.high.as_ref());
         match physical.filter(|_| low.is_some() || high.is_some()) {
@@ -345,12 +345,12 @@ impl Words<'_> {
         }
     }
 
-    /// The only values and ranges of values, `1, 3 to 7`; of many, the first.
+    /// Returns the allowed values and ranges: `1, 3 to 7`. A long list is shortened.
     pub fn allowed(&self, limits: &Limits, physical: Option<&Physical<'_>>, raw: &dyn Fn(&Value) -> String) -> String {
         self.first_allowed(limits, physical, raw, ALLOWED_SHOWN)
     }
 
-    /// The first so many of them.
+    /// Returns the first `shown` allowed values and ranges.
     pub fn first_allowed(
         &self,
         limits: &Limits,
@@ -372,18 +372,18 @@ impl Words<'_> {
         list.join(", ")
     }
 
-    /// Models, firmware, buses and options that have an element; empty where all do.
+    /// Returns sentences about models, firmware versions, buses and options that have an element. The text is empty if all have it.
     pub fn availability(&self, availability: &Availability) -> String {
         let mut sentences = Vec::new();
         if !availability.models.is_empty() {
-            sentences.push(format!("Only of {}.", self.list(&availability.models)));
+            sentences.push(format!("Only on {}.", self.list(&availability.models)));
         }
         match (&availability.since, &availability.until) {
             (Some(since), Some(until)) => {
-                sentences.push(format!("From firmware {} to before {}.", self.escaped(since), self.escaped(until)));
+                sentences.push(format!("Since firmware {}, removed in {}.", self.escaped(since), self.escaped(until)));
             }
-            (Some(since), None) => sentences.push(format!("From firmware {} on.", self.escaped(since))),
-            (None, Some(until)) => sentences.push(format!("Before firmware {}.", self.escaped(until))),
+            (Some(since), None) => sentences.push(format!("Since firmware {}.", self.escaped(since))),
+            (None, Some(until)) => sentences.push(format!("Removed in firmware {}.", self.escaped(until))),
             (None, None) => {}
         }
         if let Some(other) = &availability.replaced_by {
@@ -394,31 +394,31 @@ impl Words<'_> {
             sentences.push(format!("Only on {}.", buses.join(", ")));
         }
         if !availability.options.is_empty() {
-            sentences.push(format!("Needs {}.", self.list(&availability.options)));
+            sentences.push(format!("Requires {}.", self.list(&availability.options)));
         }
         sentences.join(" ")
     }
 
-    /// `Note: … Chosen: … (why). Manual: ….`
+    /// Returns an ambiguity with the assumption: `Note: … Assumed: … (reason). Manual: ….`
     pub fn doubt(&self, manual: &Manual, doubt: &Doubt) -> String {
         let part = |text: &str| self.escaped(text.trim_end_matches('.'));
         let why = if doubt.why.is_empty() { String::new() } else { format!(" ({})", part(&doubt.why)) };
-        let place = doubt.cite.as_deref().map(|cite| format!(" {}.", self.citation(manual, "", cite)));
+        let citation = doubt.cite.as_deref().map(|cite| format!(" {}.", self.citation(manual, "", cite)));
         let hazard = if doubt.severity == Severity::Hazard { "Hazard" } else { "Note" };
-        let place = place.unwrap_or_default();
+        let citation = citation.unwrap_or_default();
         let element = doubt.subject.as_deref().map(|subject| subject.element.as_str()).unwrap_or_default();
         let element = if element.is_empty() { String::new() } else { format!("{}: ", self.escaped(element)) };
-        format!("{hazard}: {element}{}. Chosen: {}{why}.{place}", part(&doubt.says), part(&doubt.chosen))
+        format!("{hazard}: {element}{}. Assumed: {}{why}.{citation}", part(&doubt.says), part(&doubt.chosen))
     }
 
-    /// `Manual: PARAMETRI MOVIMENTO, Rvel (line 2178)`, or `Manual, line 2178` where no section is known.
+    /// Returns a citation: `Manual: PARAMETRI MOVIMENTO, Rvel (line 2178)`, or without a known section `Manual, line 2178`.
     pub fn citation(&self, manual: &Manual, row: &str, cite: &str) -> String {
-        let behind = if manual.sections.is_empty() { "," } else { ":" };
-        format!("Manual{behind} {}", self.escaped(&citation(manual, row, cite)))
+        let separator = if manual.sections.is_empty() { "," } else { ":" };
+        format!("Manual{separator} {}", self.escaped(&citation(manual, row, cite)))
     }
 
-    /// The place in the manual and its own words for an element: `Manual: PARAMETRI MOVIMENTO, Rvel (line 12): Posizione.`
-    pub fn place(
+    /// Returns the citation of an element and its name in the manual: `Manual: PARAMETRI MOVIMENTO, Rvel (line 12): Posizione.`
+    pub fn manual_entry(
         &self,
         manual: &Manual,
         row: &str,
@@ -433,20 +433,20 @@ impl Words<'_> {
             !is_same(row) && !manual.sections.iter().any(|section| is_same(&section.title))
         };
         let original = names.iter().find(is_original).filter(is_new).map(|text| self.escaped(&text.text));
-        let place = cite.map(|cite| self.citation(manual, row, cite));
-        let place = match (place, original) {
+        let citation = cite.map(|cite| self.citation(manual, row, cite));
+        let citation = match (citation, original) {
             (None, None) => None,
-            (Some(place), None) => Some(format!("{place}.")),
-            (place, Some(original)) => {
-                let place = place.unwrap_or_else(|| "Manual".to_owned());
-                Some(format!("{place}: {}", sentence(&original)))
+            (Some(citation), None) => Some(format!("{citation}.")),
+            (citation, Some(original)) => {
+                let citation = citation.unwrap_or_else(|| "Manual".to_owned());
+                Some(format!("{citation}: {}", sentence(&original)))
             }
         };
-        let sentences: Vec<String> = from.into_iter().chain(place).collect();
+        let sentences: Vec<String> = from.into_iter().chain(citation).collect();
         (!sentences.is_empty()).then(|| sentences.join(" "))
     }
 
-    /// `Bits from CiA 402, 10.3.1.`: whose bits or values a type has, where they aren't the description's own.
+    /// Returns the origin of the bits or values of a type, unless it is the description: `Bits from CiA 402, 10.3.1.`
     pub fn meaning_from(&self, definition: Option<&TypeDef>) -> Option<String> {
         let definition = definition?;
         let origin = definition.documentation.as_deref()?.text_from.as_deref()?;
@@ -454,7 +454,7 @@ impl Words<'_> {
         Some(format!("{what} from {}.", self.escaped(&origin_name(origin))))
     }
 
-    /// `Description from CiA 402, 17.3.7.`
+    /// Returns the origin of a description: `Description from CiA 402, 17.3.7.`
     fn text_from(&self, documentation: &Documentation) -> Option<String> {
         let origin = documentation.text_from.as_deref()?;
         let name = self.escaped(&origin_name(origin));
@@ -465,7 +465,7 @@ impl Words<'_> {
         })
     }
 
-    /// `, in 0.01 rev/s`: unit and scale as a part of a sentence.
+    /// Returns unit and scale factor as a part of a sentence: `, in rpm`, `, 1 LSB = 0.01 rev/s`.
     pub fn quantity(&self, quantity: &Quantity) -> String {
         match &quantity.scale {
             None if shown_unit(quantity).is_empty() => String::new(),
@@ -474,7 +474,7 @@ impl Words<'_> {
         }
     }
 
-    /// `1 LSB = 0.01 rev/s`: a scale with the unit of the physical value.
+    /// Returns the scale with the unit of the physical value: `1 LSB = 0.01 rev/s`.
     pub fn scale(&self, scale: &Scale, unit: &str) -> String {
         let unit = if unit.is_empty() { String::new() } else { format!(" {}", self.escaped(unit)) };
         match scale {
@@ -502,7 +502,7 @@ impl Words<'_> {
         }
     }
 
-    /// What else is known of a quantity: numbers that are none, and steps.
+    /// Returns sentences about special values and rounding steps of a quantity.
     pub fn notes(&self, quantity: &Quantity) -> Vec<String> {
         let sentinels = quantity.sentinels.iter();
         let mut notes: Vec<String> = sentinels
@@ -514,8 +514,8 @@ impl Words<'_> {
         notes
     }
 
-    /// `Unit from CiA 402, 17.3.7.`: which facts of an item don't come from its description. Other sentences name assumed access rights,
-    /// reserved entries, and bits and values of a standard.
+    /// Returns the origins of facts of an item that do not come from its description: `Unit from CiA 402, 17.3.7.` Other sentences state
+    /// assumed access rights, reserved entries, and bits and values of a standard.
     pub fn origins(&self, item: &Item) -> Vec<String> {
         let mut groups: Vec<(&FactOrigin, Vec<&str>)> = Vec::new();
         for fact in Fact::ALL {
@@ -546,39 +546,39 @@ impl Words<'_> {
         sentences
     }
 
-    /// `steps of 0.5 K (raw 5)`.
+    /// Returns a rounding step: `steps of 0.5 K (raw 5)`.
     fn step_of(&self, step: &Value, physical: Option<Physical<'_>>) -> String {
         let raw = |value: &Value| self.value(value);
         let step = physical.map_or_else(|| raw(step), |physical| physical.step(step, &raw, &|unit| self.escaped(unit)));
         format!("steps of {step}")
     }
 
-    /// What differs on some models or buses, and that the row of the item is about the others.
+    /// Returns sentences about the differences on some models or buses.
     pub fn variants(&self, item: &Item, manual: &Manual) -> Vec<String> {
         let is_by_model = item.variants.iter().any(|variant| !variant.models.is_empty());
         let others = is_by_model.then(|| "Default and range of the row apply to the other models.".to_owned());
         let of_item = item.documentation.as_deref().and_then(|documentation| documentation.cite.as_ref());
         let sentences = |variant: &ItemVariant| {
             let documentation = variant.documentation.as_deref().filter(|text| text.cite.as_ref() != of_item);
-            let place = self.place(manual, "", documentation, &[]);
-            std::iter::once(self.variant(variant, item)).chain(place).collect::<Vec<_>>().join(" ")
+            let citation = self.manual_entry(manual, "", documentation, &[]);
+            std::iter::once(self.variant(variant, item)).chain(citation).collect::<Vec<_>>().join(" ")
         };
         others.into_iter().chain(item.variants.iter().map(sentences)).collect()
     }
 
-    /// What of an item differs on some models or buses.
+    /// Returns sentences about the differences of an item on some models or buses.
     fn variant(&self, variant: &ItemVariant, item: &Item) -> String {
-        let own_unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
-        let scaled = variant.scale.as_ref().map(|scale| Physical::scaled(scale, own_unit));
+        let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
+        let scaled = variant.scale.as_ref().map(|scale| Physical::scaled(scale, unit));
         let physical = || scaled.unwrap_or_else(|| Physical::of(item.quantity.as_deref()));
         let raw = |value: &Value| self.value(value);
         let shown = |value: &Value| match physical() {
             Some(physical) => physical.value(value, &raw, &|unit| self.escaped(unit)),
             None => raw(value),
         };
-        let who = match (variant.models.is_empty(), variant.buses.is_empty()) {
-            (false, true) => format!("Of {}", self.list(&variant.models)),
-            (false, false) => format!("Of {} on {}", self.list(&variant.models), variant.buses),
+        let applies_to = match (variant.models.is_empty(), variant.buses.is_empty()) {
+            (false, true) => format!("On {}", self.list(&variant.models)),
+            (false, false) => format!("On {} via {}", self.list(&variant.models), variant.buses),
             (true, _) => format!("On {}", variant.buses),
         };
         let mut facts = Vec::new();
@@ -587,8 +587,8 @@ impl Words<'_> {
         facts.extend(variant.default.as_ref().map(|value| format!("default {}", shown(value))));
         facts.extend(self.limits(&variant.limits, physical().as_ref()));
         facts.extend(variant.step.as_ref().map(|step| format!("rounded to {}", self.step_of(step, physical()))));
-        facts.extend(variant.scale.as_ref().map(|scale| self.scale(scale, own_unit)));
-        let mut sentences = vec![format!("{who}: {}.", facts.join(", "))];
+        facts.extend(variant.scale.as_ref().map(|scale| self.scale(scale, unit)));
+        let mut sentences = vec![format!("{applies_to}: {}.", facts.join(", "))];
         sentences.extend(self.description(variant.documentation.as_deref()));
         sentences.join(" ")
     }

@@ -1,4 +1,4 @@
-//! Access, bindings, units, storage and availability of items.
+//! Access rights, bindings, units, storage and availability of items.
 
 use super::{
     Buses, CompactString, Condition, Documentation, Doubts, ElementRef, ItemRef, ProcedureRef, Scale, Texts, Type,
@@ -20,19 +20,19 @@ pub enum Access {
     /// `rw`.
     #[cfg_attr(feature = "serde", serde(rename = "rw"))]
     ReadWrite,
-    /// `rwr`: read and write, and a process input (may go in a TPDO).
+    /// `rwr`: read-write, and a process input (TPDO).
     #[cfg_attr(feature = "serde", serde(rename = "rwr"))]
     ReadWriteInput,
-    /// `rww`: read and write, and a process output (may come in an RPDO).
+    /// `rww`: read-write, and a process output (RPDO).
     #[cfg_attr(feature = "serde", serde(rename = "rww"))]
     ReadWriteOutput,
-    /// `const`: read-only and never changes.
+    /// `const`: read-only, and the value never changes.
     #[cfg_attr(feature = "serde", serde(rename = "const"))]
     Constant,
 }
 
 impl Access {
-    /// The access type that CiA 306 spells so, in any case.
+    /// Returns the access rights with this name in CiA 306, ignoring case.
     pub fn from_cia306(text: &str) -> Option<Self> {
         const SPELLINGS: [(&str, Access); 6] = [
             ("ro", Access::ReadOnly),
@@ -45,7 +45,7 @@ impl Access {
         SPELLINGS.iter().find(|(name, _)| name.eq_ignore_ascii_case(text)).map(|&(_, access)| access)
     }
 
-    /// The spelling of CiA 306.
+    /// Returns the name in CiA 306.
     pub fn name(self) -> &'static str {
         match self {
             Access::ReadOnly => "ro",
@@ -57,29 +57,29 @@ impl Access {
         }
     }
 
-    /// Whether it can be read.
+    /// Returns whether the item can be read.
     pub fn readable(self) -> bool {
         self != Access::WriteOnly
     }
 
-    /// Whether it can be written.
+    /// Returns whether the item can be written.
     pub fn writable(self) -> bool {
         !matches!(self, Access::ReadOnly | Access::Constant)
     }
 }
 
-/// Into which PDOs an item may be mapped, seen from the device: an RPDO is received by it.
+/// PDOs into which an item can be mapped. The device receives RPDOs and sends TPDOs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mappable {
-    /// Into an RPDO.
+    /// RPDOs.
     pub rpdo: bool,
-    /// Into a TPDO.
+    /// TPDOs.
     pub tpdo: bool,
 }
 
 impl Mappable {
-    /// What PDOMapping = 1 of CiA 306 means for an item of this access.
+    /// Returns the meaning of PDOMapping = 1 (CiA 306) for an item with these access rights.
     pub fn by_access(access: Access) -> Self {
         Mappable {
             rpdo: matches!(access, Access::WriteOnly | Access::ReadWrite | Access::ReadWriteOutput),
@@ -87,48 +87,48 @@ impl Mappable {
         }
     }
 
-    /// Whether it may be mapped at all.
+    /// Returns whether the item can be mapped into a PDO.
     pub fn any(self) -> bool {
         self.rpdo || self.tpdo
     }
 }
 
-/// Where an item is found on one bus.
+/// The address of an item on one bus.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Binding {
     /// An entry of the object dictionary.
     Object {
-        /// On which buses.
+        /// Buses.
         buses: ObjectBuses,
         /// Index.
         index: u16,
         /// Sub-index.
         sub_index: u8,
     },
-    /// Modbus registers, or single bits.
+    /// Modbus registers, coils or discrete inputs.
     Register(Box<RegisterBinding>),
     /// Bits of a record of a PROFINET submodule.
     Record {
         /// Record index.
         index: u16,
-        /// First bit: bit 0 is the least significant one of the first byte. A number of several bytes is big-endian and
-        /// begins at bit 0 of its first byte.
+        /// Bit offset: bit 0 is the least significant bit of the first byte. A number of several bytes is big-endian and
+        /// starts at bit 0 of its first byte.
         bit_offset: u32,
         /// Number of bits.
         bits: u32,
     },
     /// Bits of a fixed process image.
     Image(Box<ImageBinding>),
-    /// A numbered parameter in a named space, reached by messages.
+    /// A parameter of a parameter space. Messages transfer its value.
     Parameter {
-        /// The space.
+        /// Name of the parameter space.
         space: CompactString,
-        /// The number.
+        /// Number of the parameter.
         code: u32,
     },
-    /// A named parameter of an ASCII protocol.
+    /// Name of a parameter of an ASCII protocol.
     Ascii(CompactString),
     /// Memory of an EtherCAT slave controller.
     EscMemory {
@@ -137,17 +137,17 @@ pub enum Binding {
         /// Number of bytes.
         length: u16,
     },
-    /// Write the number to one item, and read or write the value through another.
+    /// Indirect access through a window: one item selects the parameter, another item transfers its value.
     Indirect(Box<IndirectBinding>),
 }
 
-/// The buses on which an object is found under one index.
+/// The buses on which an object has one index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ObjectBuses {
-    /// On CANopen.
+    /// CANopen.
     pub canopen: bool,
-    /// On EtherCAT (CAN application protocol over EtherCAT).
+    /// EtherCAT (CAN application protocol over EtherCAT, CoE).
     pub coe: bool,
 }
 
@@ -161,49 +161,49 @@ impl ObjectBuses {
 }
 
 impl Binding {
-    /// An entry of a CANopen object dictionary.
+    /// Creates the address of an entry of a CANopen object dictionary.
     pub fn canopen(index: u16, sub_index: u8) -> Self {
         Binding::Object { buses: ObjectBuses::CANOPEN, index, sub_index }
     }
 
-    /// An entry of the object dictionary of an EtherCAT slave.
+    /// Creates the address of an entry of the object dictionary of an EtherCAT slave.
     pub fn coe(index: u16, sub_index: u8) -> Self {
         Binding::Object { buses: ObjectBuses::COE, index, sub_index }
     }
 }
 
-/// Where an item is found on Modbus.
+/// The address of an item on Modbus, and its encoding.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RegisterBinding {
-    /// Which table.
+    /// Modbus table.
     pub space: RegisterSpace,
-    /// Address on the wire, counted from 0.
+    /// Register address: zero-based wire address.
     pub address: u16,
-    /// The number, or numbers, as the source prints them: `40102–40103`, `R01`; empty if it prints the address on the wire.
+    /// Printed address: `40102–40103`, `R01`; empty if the source prints the wire address.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub printed: CompactString,
-    /// Whether the order of words is an assumption.
+    /// Whether the word order is an assumption.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_false"))]
     pub is_order_assumed: bool,
-    /// Number of registers (of bits in a coil or input table).
+    /// Number of registers, coils or discrete inputs.
     pub count: u16,
-    /// Whether the less significant word comes first.
+    /// Whether the least significant word comes first.
     pub low_word_first: bool,
-    /// Whether the bytes of a word are swapped.
+    /// Whether the bytes of each word are swapped.
     pub bytes_swapped: bool,
-    /// First bit within the register, where the item is a part of it.
+    /// Bit offset in the register, if the item is a part of a register.
     pub bit_offset: Option<u8>,
-    /// How many registers of 16 bits one address stands for: 2 where a device gives each of its registers of 32 bits one.
+    /// Number of 16-bit registers at one address: 2 if a device has 32-bit registers.
     #[cfg_attr(feature = "serde", serde(default = "one", skip_serializing_if = "is_one"))]
     pub words_per_address: u8,
-    /// Whether a value with fewer bits than the registers have fills them: with copies of its sign, or zeros where it has none.
+    /// Whether a value with fewer bits than its registers is extended: sign-extended if it is signed, otherwise with zeros.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_false"))]
     pub extended: bool,
 }
 
 impl RegisterBinding {
-    /// The last address, counted from 0.
+    /// Returns the last wire address.
     pub fn last(&self) -> u16 {
         let addresses = self.count.div_ceil(u16::from(self.words_per_address.max(1)));
         self.address.saturating_add(addresses.saturating_sub(1))
@@ -225,7 +225,7 @@ fn is_one(value: &u8) -> bool {
     *value == 1
 }
 
-/// The four tables of Modbus.
+/// One of the four Modbus tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -240,131 +240,130 @@ pub enum RegisterSpace {
     Holding,
 }
 
-/// Bits of a fixed process image.
+/// The address of an item in a process image with a fixed layout.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ImageBinding {
     /// Name of the image.
     pub image: CompactString,
-    /// First bit.
+    /// Bit offset.
     pub bit_offset: u32,
     /// Number of bits.
     pub bits: u32,
-    /// The type that the value has there, where it isn't the item's.
+    /// Type in the image, if it differs from the type of the item.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub ty: Option<Type>,
 }
 
-/// Access through a window: the number of the item is written to one item, and its value read or written through another.
+/// Indirect access through a window: the number of the parameter is written to one item, and another item transfers its value.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IndirectBinding {
-    /// The space that the number is one of.
+    /// Name of the space that the number belongs to.
     pub space: CompactString,
-    /// Which window of the space it is, counted from 0.
+    /// Zero-based position of the window in the space.
     pub window: u8,
-    /// The buses on which it serves.
+    /// Buses on which the window exists.
     pub buses: Buses,
-    /// The number.
+    /// Number of the parameter.
     pub number: u32,
-    /// How the value is read.
+    /// Read access.
     pub read: Option<WindowSide>,
-    /// How it is written.
+    /// Write access.
     pub write: Option<WindowSide>,
 }
 
-/// One way through a window.
+/// Read or write access through a window.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WindowSide {
-    /// The item that takes the number.
+    /// Item that selects the parameter by its number.
     pub number: ItemRef,
-    /// The item that has, or takes, the value.
+    /// Item that transfers the value.
     pub value: ItemRef,
-    /// Whether the number is written before the value, where the source says so.
+    /// Whether a client writes the number before the value, if the source states it.
     pub number_first: Option<bool>,
-    /// Whether the device sets the number to 0 once it is done, where the source says so here.
+    /// Whether the device sets the number to 0 after the access, if the source states it.
     pub clears: Option<bool>,
-    /// How many milliseconds the device needs.
+    /// Duration of the access in milliseconds.
     pub wait: Option<u32>,
-    /// After how many milliseconds the device should have set the number to 0.
+    /// Timeout in milliseconds for the device to set the number to 0.
     pub timeout: Option<u32>,
-    /// The procedure that describes the handshake, if it has one.
+    /// Procedure of the handshake, if the source has one.
     pub procedure: Option<ProcedureRef>,
 }
 
-/// Unit and scale of an item.
+/// Unit and scale factor of an item.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Quantity {
-    /// Symbol of the unit of the physical value (`rpm`, `0.1 A`), as the source has it.
+    /// Unit symbol of the physical value as the source spells it (`rpm`, `0.1 A`).
     pub unit: CompactString,
-    /// The unit in other languages.
+    /// Unit in other languages.
     pub units: Texts,
-    /// How the raw number relates to the physical one.
+    /// Relation of raw value and physical value.
     pub scale: Option<Scale>,
-    /// Raw values that aren't numbers, with their meaning (0xFFFF = check off).
+    /// Raw values with a special meaning (0xFFFF = monitoring off).
     pub sentinels: Vec<(Value, CompactString)>,
-    /// Number of raw steps in which the device rounds.
+    /// Rounding step of the device in raw units.
     pub step: Option<Value>,
-    /// What the physical number is in a unit of the machine that the device drives.
+    /// Conversion of the physical value to a unit of the machine.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub machine: Option<Box<MachineUnit>>,
-    /// Numbers that the source converts as examples.
+    /// Example conversions in the source.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub conversions: Vec<Conversion>,
 }
 
-/// A number that a source converts as an example.
+/// An example conversion in the source.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Conversion {
-    /// The raw number.
+    /// Raw value.
     pub raw: Option<i128>,
-    /// The physical one.
+    /// Physical value.
     pub value: Option<f64>,
-    /// Its unit, where it isn't that of the item.
+    /// Unit, if it differs from the unit of the item.
     pub unit: Option<CompactString>,
-    /// Given numbers of the machine that the example has.
+    /// Values of machine constants in the example.
     pub given: Vec<(CompactString, f64)>,
-    /// The model whose constants it uses.
+    /// Model whose constants the example uses.
     pub model: Option<CompactString>,
-    /// The value of the item that the scale depends on.
+    /// Value of the item that the scale factor depends on.
     pub by: Option<f64>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Where it is declared.
+    /// Location in the source.
     pub at: Span,
 }
 
-/// A unit of the machine that a device drives: the physical number, multiplied and divided by numbers that only whoever builds the
-/// machine knows ([`GivenNumber`]).
+/// A unit of the machine. A value in this unit is the physical value, multiplied and divided by machine constants ([`GivenNumber`]).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MachineUnit {
-    /// Symbol of the unit.
+    /// Unit symbol.
     pub unit: CompactString,
-    /// The given numbers that multiply.
+    /// Machine constants that multiply.
     pub times: Vec<CompactString>,
-    /// The given numbers that divide.
+    /// Machine constants that divide.
     pub over: Vec<CompactString>,
 }
 
-/// A number that no device holds and whoever builds the machine knows, such as the pitch of a screw.
+/// A machine constant that the device does not store, such as the pitch of a lead screw.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GivenNumber {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// Symbol of its unit.
+    /// Unit symbol.
     pub unit: CompactString,
-    /// What it is on the models of the device, where these know it: the model and its number.
+    /// Values for models of the device that define the constant.
     pub models: Vec<(CompactString, Value)>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Contradictions of the source.
+    /// Ambiguities in the source, with assumptions.
     pub doubts: Doubts,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
@@ -372,41 +371,41 @@ pub struct GivenNumber {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Behaviour {
-    /// Where the value is kept over power-off.
+    /// Whether the value is volatile or non-volatile.
     pub storage: Storage,
-    /// When a write takes effect, where not at once.
+    /// When a write takes effect, if not immediately.
     pub effective: Option<CompactString>,
-    /// States, modes or orders in which writing is allowed.
+    /// Conditions on other items under which a client can write the item.
     pub write_when: Vec<Condition>,
-    /// The only values that may be written, where they aren't those that can be read.
+    /// Values that can be written, if they differ from those that can be read.
     pub writable_values: Vec<Value>,
-    /// What else writing does.
+    /// Side effects of writing.
     pub side_effects: Vec<CompactString>,
-    /// Whether the device clears the value by itself.
+    /// Whether the device clears the value automatically.
     pub self_clearing: bool,
     /// Whether it can be written only once.
     pub write_once: bool,
-    /// Whether the backup of a device keeps it (Backup of ETG.2000).
+    /// Whether it is a part of the device backup (Backup of ETG.2000).
     pub backup: bool,
     /// Whether it is a setting of the application (Setting of ETG.2000).
     pub setting: bool,
-    /// Its role in functional safety (SafetyMapping of ETG.2000: `si`, `so`, `sio`, `sp`).
+    /// Role in functional safety (SafetyMapping of ETG.2000: `si`, `so`, `sio`, `sp`).
     pub safety: Option<CompactString>,
-    /// Mapping into a safety-relevant data object of CANopen, if it is allowed (SRDOMapping of CiA 306-1).
+    /// Mapping into a safety-relevant data object of CANopen, if allowed (SRDOMapping of CiA 306-1).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub srdo: Option<Srdo>,
-    /// Whether a tool doesn't show it (Visible of GSDML).
+    /// Whether tools hide it (Visible of GSDML).
     pub hidden: bool,
-    /// What the slave's own side may do with memory of its slave controller (PDI access in ETG.1000.4).
+    /// Access rights of the slave application to ESC memory (PDI access in ETG.1000.4).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub pdi_access: Option<Access>,
-    /// Communication states in which reading is allowed (ETG.2000 ReadRestrictions); empty = all.
+    /// Communication states in which the item can be read (ETG.2000 ReadRestrictions); empty = all.
     pub read_states: Vec<CompactString>,
-    /// Communication states in which writing is allowed (ETG.2000 WriteRestrictions); empty = all.
+    /// Communication states in which the item can be written (ETG.2000 WriteRestrictions); empty = all.
     pub write_states: Vec<CompactString>,
 }
 
-/// How an object is mapped into a safety-relevant data object (EN 50325-5).
+/// Mapping of an object into a safety-relevant data object (EN 50325-5).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Srdo {
@@ -414,37 +413,37 @@ pub struct Srdo {
     pub inverted: Option<(u16, u8)>,
 }
 
-/// Where a value is kept over power-off.
+/// Storage of a value.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Storage {
-    /// The source doesn't say.
+    /// Not stated by the source.
     #[default]
     Unknown,
-    /// Lost.
+    /// Volatile.
     Volatile,
-    /// Kept as soon as it is written.
+    /// Non-volatile: stored immediately by each write.
     Immediate,
-    /// Kept once this command was given.
+    /// Non-volatile: stored on this command.
     OnCommand(ElementRef),
 }
 
-/// Models, firmware versions, options and buses that have an item.
+/// Models, firmware versions, options and buses on which an element exists.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Availability {
     /// Models; empty = all.
     pub models: Vec<CompactString>,
-    /// First firmware version that has it.
+    /// First firmware version that has the element.
     pub since: Option<CompactString>,
-    /// First firmware version that doesn't have it any more.
+    /// First firmware version that no longer has the element.
     pub until: Option<CompactString>,
-    /// What replaces it from then on: an item or a message, or of bits and values another one of these, which has no id.
+    /// Replacement: an item or a message, or for bits and values another bit or value, which has no id.
     pub replaced_by: Option<ElementRef>,
-    /// Options that have to be fitted.
+    /// Hardware options that the element requires.
     pub options: Vec<CompactString>,
-    /// The only buses on which it exists, where its addresses don't tell; empty = all.
+    /// Buses, if they do not follow from addresses; empty = all.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Buses::is_empty"))]
     pub buses: Buses,
 }

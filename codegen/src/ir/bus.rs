@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::ObjectBuses;
 
-/// A bus on which a device has values.
+/// A bus or protocol through which a client accesses a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -22,10 +22,10 @@ pub enum Bus {
 }
 
 impl Bus {
-    /// All buses, in the order of sets.
+    /// All buses, in the order of [`Buses::iter`].
     pub const ALL: [Bus; 5] = [Bus::CanOpen, Bus::EtherCat, Bus::Modbus, Bus::Profinet, Bus::Serial];
 
-    /// The name in register tables and in JSON.
+    /// Returns the name in register tables and in JSON.
     pub fn name(self) -> &'static str {
         match self {
             Bus::CanOpen => "canopen",
@@ -48,7 +48,7 @@ impl fmt::Display for Bus {
     }
 }
 
-/// A set of buses. Serialized, it is a list of their names.
+/// A set of buses. The serialized form is a list of names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(from = "Vec<Bus>", into = "Vec<Bus>"))]
@@ -60,22 +60,22 @@ impl Buses {
     /// Every bus.
     pub const ALL: Buses = Buses((1 << Bus::ALL.len()) - 1);
 
-    /// Whether no bus is in the set.
+    /// Returns whether the set is empty.
     pub fn is_empty(&self) -> bool {
         *self == Buses::NONE
     }
 
-    /// Whether a bus is in the set.
+    /// Returns whether the set contains a bus.
     pub fn contains(self, bus: Bus) -> bool {
         self.0 & (1 << bus as u8) != 0
     }
 
-    /// Returns the buses that are in one of both sets.
+    /// Returns the union of two sets.
     pub fn or(self, other: Buses) -> Buses {
         Buses(self.0 | other.0)
     }
 
-    /// Returns the buses that are in both sets.
+    /// Returns the intersection of two sets.
     pub fn and(self, other: Buses) -> Buses {
         Buses(self.0 & other.0)
     }
@@ -85,7 +85,7 @@ impl Buses {
         Bus::ALL.into_iter().filter(move |bus| self.contains(*bus))
     }
 
-    /// Returns the buses with an object dictionary that are in the set.
+    /// Returns the buses of the set that have an object dictionary.
     pub fn with_objects(self) -> ObjectBuses {
         ObjectBuses { canopen: self.contains(Bus::CanOpen), coe: self.contains(Bus::EtherCat) }
     }

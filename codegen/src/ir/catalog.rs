@@ -1,64 +1,64 @@
-//! The top of the IR: a catalogue, the files it came from, and what every element shares.
+//! The root of the IR: a catalog, its files, and types that all elements use.
 
 use thin_vec::ThinVec;
 
 use super::{
-    CodeTable, CompactString, Device, FactOrigin, Family, Format, Graphic, Module, ModuleId, ModuleUse, Places,
+    CodeTable, CompactString, Device, FactOrigin, Family, Format, Graphic, Module, ModuleId, ModuleUse, SlotNumbers,
     Submodule, Texts, TypeDef, UnitDiagnosis,
 };
 use crate::source::{Digest, Encoding, Origin, Span};
 
-/// The devices of one vendor, as one or more files describe them.
+/// The devices of one vendor, read from one or more files.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Catalog {
-    /// The files that were read; spans refer to them by position.
+    /// Files that were read. Spans refer to them by position.
     pub files: Vec<FileInfo>,
-    /// The devices, in the order of the source. A device access point of GSDML is a device.
+    /// Devices in the order of the source. A device access point of GSDML is a device.
     pub devices: Vec<Device>,
-    /// Modules that can be plugged into them.
+    /// Modules of the devices.
     pub modules: Vec<Module>,
     /// Submodules of PROFINET modules and device access points.
     pub submodules: Vec<Submodule>,
-    /// Types that items of submodules name. (Those of devices and modules are their own.)
+    /// Types of items of submodules. Devices and modules have their own lists of types.
     pub types: Vec<TypeDef>,
-    /// Codes that all devices share: channel diagnosis, log book.
+    /// Code tables of all devices: channel diagnosis, log book.
     pub code_tables: Vec<CodeTable>,
     /// User structures of PROFINET diagnosis.
     pub unit_diagnoses: Vec<UnitDiagnosis>,
-    /// Families that devices and modules belong to.
+    /// Families of devices and modules.
     pub families: Vec<Family>,
     /// Pictures that devices and modules refer to.
     pub graphics: Vec<Graphic>,
-    /// What the source says beyond that.
+    /// Facts of the source without a field in the IR.
     pub extensions: Extensions,
 }
 
 impl Catalog {
-    /// A catalogue of one device with modules of its own.
+    /// Creates a catalog of one device that accepts all `modules`.
     pub fn of_device(mut device: Device, modules: Vec<Module>) -> Self {
-        let places = (0..modules.len()).map(|position| ModuleId(position as u32));
-        device.modules.extend(places.map(|module| ModuleUse { module, places: Places::default() }));
+        let ids = (0..modules.len()).map(|position| ModuleId(position as u32));
+        device.modules.extend(ids.map(|module| ModuleUse { module, places: SlotNumbers::default() }));
         Catalog { devices: vec![device], modules, ..Catalog::default() }
     }
 
-    /// Whether it describes devices and submodules of PROFINET.
+    /// Returns whether the catalog contains PROFINET devices or submodules.
     pub fn is_of_profinet(&self) -> bool {
         !self.submodules.is_empty() || self.devices.iter().any(|device| device.profinet.is_some())
     }
 }
 
-/// One file of a catalogue.
+/// A file of a catalog.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FileInfo {
-    /// Its name, as the caller gave it.
+    /// Name that the caller passed.
     pub name: String,
-    /// Its format.
+    /// Format.
     pub format: Format,
-    /// How its bytes were decoded.
+    /// Character encoding.
     pub encoding: Encoding,
-    /// SHA-256 of its bytes.
+    /// SHA-256 of the bytes.
     pub sha256: Digest,
 }
 
@@ -66,77 +66,77 @@ pub struct FileInfo {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LocalText {
-    /// BCP 47 tag (`en`, `de-DE`), or the source's own number of the language (`lcid:1033`).
+    /// BCP 47 tag (`en`, `de-DE`), or the language number of the source (`lcid:1033`).
     pub language: CompactString,
     /// The text.
     pub text: CompactString,
 }
 
-/// A name with its value that the source has and the IR has no field for.
+/// A key with a value, for a fact that has no field in the IR.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extension {
-    /// The key, element or attribute, as the source spells it. A comment with content is kept under `;`. Those of a whole
-    /// EDS have the name of their section before them: `FileInfo/Author`, `Vendor stuff/;`.
+    /// Key, element or attribute as the source spells it. The key of a comment is `;`. Keys of a whole EDS have a prefix with
+    /// the name of their section: `FileInfo/Author`, `Vendor stuff/;`.
     pub key: CompactString,
-    /// Its value.
+    /// Value.
     pub value: CompactString,
-    /// Where it stands.
+    /// Location in the source.
     pub span: Span,
 }
 
-/// Most elements have none, so that an empty list takes one pointer.
+/// Extensions of an element. An empty list has the size of one pointer.
 pub type Extensions = ThinVec<Extension>;
 
-/// Most elements have none, so that an empty list takes one pointer.
+/// Ambiguities of an element. An empty list has the size of one pointer.
 pub type Doubts = ThinVec<Doubt>;
 
-/// A place where the source contradicts itself or leaves something open, and what was made of it.
+/// An ambiguity in the source, with the assumption that was made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Doubt {
-    /// What the source says, the contradicting statements side by side.
+    /// The contradictory statements of the source, or the missing fact.
     pub says: String,
-    /// What was chosen.
+    /// Assumption.
     pub chosen: String,
-    /// Why.
+    /// Reason for the assumption.
     pub why: String,
-    /// Where the source says it: file position, and for a manual also its page or line in `cite`.
+    /// Location in the source.
     pub origin: Origin,
-    /// Page, line or clause of a manual.
+    /// Page, line or clause of the manual.
     pub cite: Option<CompactString>,
-    /// What a wrong choice leads to.
+    /// Consequence of a wrong assumption.
     #[cfg_attr(feature = "serde", serde(default))]
     pub severity: Severity,
-    /// What it is about, if that has no list of doubts of its own.
+    /// Subject, if it is an element without a list of ambiguities.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub subject: Option<Box<Subject>>,
 }
 
-/// What a doubt of a device is about.
+/// The subject of an ambiguity.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Subject {
-    /// Its kind.
+    /// Kind of element.
     pub kind: SubjectKind,
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The row, bit, value or code within it; empty if the whole is meant.
+    /// Row, bit, value or code in the element; empty for the whole element.
     pub element: CompactString,
 }
 
-/// The kinds of elements that a doubt of a device is about.
+/// The kind of element that an ambiguity is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum SubjectKind {
-    /// Bits or values: a definition of a type.
+    /// A type definition: bits or values.
     Type,
-    /// A table of codes.
+    /// A code table.
     Codes,
-    /// A state machine, its commands or their outcomes.
+    /// A state machine, one of its commands or outcomes.
     Machine,
-    /// A sequence of steps.
+    /// A procedure.
     Procedure,
     /// A process image.
     Image,
@@ -144,33 +144,33 @@ pub enum SubjectKind {
     Composite,
     /// A model of the family.
     Model,
-    /// A choice that the manual leaves open.
+    /// An option of a register table, for which the user chooses a value.
     Option,
 }
 
 impl Doubt {
-    /// Whether the doubt is about the element of this kind and name.
+    /// Returns whether the ambiguity is about the element of this kind and name.
     pub fn is_about(&self, kind: SubjectKind, name: &str) -> bool {
         self.subject.as_ref().is_some_and(|subject| subject.kind == kind && subject.name == name)
     }
 }
 
-/// What a wrong choice in an ambiguity of the source leads to, the worst first.
+/// Consequence of a wrong assumption. The worst comes first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Severity {
-    /// A motor moves or wiring is damaged.
+    /// Unexpected motion, or damage to the wiring.
     Hazard,
-    /// A value is wrong: a unit, a limit, a default, an address.
+    /// A wrong value: a unit, a limit, a default, an address.
     #[default]
     Value,
-    /// Nothing: the source has a misprint that the rest of it corrects.
+    /// None: the rest of the source corrects the misprint.
     Print,
 }
 
 impl Severity {
-    /// The word of register tables.
+    /// Returns the name in register tables.
     pub fn name(self) -> &'static str {
         match self {
             Severity::Hazard => "hazard",
@@ -184,28 +184,28 @@ impl Severity {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Manual {
-    /// Its title.
+    /// Title.
     pub title: CompactString,
-    /// Its edition.
+    /// Edition.
     pub edition: CompactString,
-    /// Its language (BCP 47), where it isn't the one of the description.
+    /// Language (BCP 47), if it differs from the language of the description.
     pub language: CompactString,
-    /// What the numbers of citations count.
+    /// Unit of citations: pages or lines.
     pub counts: Option<CiteUnit>,
-    /// What it is, and what of it was left out.
+    /// Description of the manual, and of the parts that were left out.
     pub documentation: String,
-    /// Its sections and tables, by the number of their first page or line, ascending.
+    /// Sections and tables, sorted by their first page or line.
     pub sections: Vec<ManualSection>,
 }
 
-/// What the numbers of citations count.
+/// The unit of citations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum CiteUnit {
     /// Pages.
     Page,
-    /// Lines of the manual as text.
+    /// Lines of the text of the manual.
     Line,
 }
 
@@ -213,31 +213,31 @@ pub enum CiteUnit {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ManualSection {
-    /// The page or line of its title.
+    /// Page or line of the title.
     pub start: u32,
-    /// The title as printed.
+    /// Title as printed.
     pub title: CompactString,
 }
 
 impl Manual {
-    /// The section that a page or line is in: the last one that begins at or before it.
+    /// Returns the section that contains a page or line: the last section that begins at or before it.
     pub fn section(&self, number: u32) -> Option<&ManualSection> {
-        let behind = self.sections.partition_point(|section| section.start <= number);
-        self.sections.get(behind.checked_sub(1)?)
+        let after = self.sections.partition_point(|section| section.start <= number);
+        self.sections.get(after.checked_sub(1)?)
     }
 }
 
-/// What a source or a manual says about an element in words.
+/// Description of an element, from the source or a manual.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Documentation {
-    /// A description in English, or in the source's only language.
+    /// Text in English, or in the only language of the source.
     pub text: String,
-    /// The same in other languages.
+    /// Translations.
     pub translations: Texts,
-    /// Page, line or clause of the manual that the element was taken from.
+    /// Page, line or clause of the manual that describes the element.
     pub cite: Option<CompactString>,
-    /// Where the text comes from, unless from the source itself.
+    /// Origin of the text; `None` = the source itself.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub text_from: Option<Box<FactOrigin>>,
 }

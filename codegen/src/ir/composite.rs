@@ -1,26 +1,26 @@
-//! Numbers that a device keeps in several items.
+//! Numbers that are split over several items.
 
 use super::{CompactString, Documentation, ItemRef, Texts};
 use crate::source::Origin;
 
-/// One number in several items: digits to a base, and perhaps a sign.
+/// A number whose digits, and optionally its sign, are in several items.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Composite {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// The items of the digits, the most significant one first.
+    /// Items with the digits, most significant digit first.
     pub parts: Vec<ItemRef>,
-    /// What one digit is worth of the next: digits are below it.
+    /// Base of the number system: each digit is below it.
     pub base: u16,
-    /// The item that has the sign, and its value below zero; otherwise it is 0.
+    /// Item with the sign, and its value for negative numbers. For other numbers it is 0.
     pub sign: Option<(ItemRef, u16)>,
-    /// The unit of the number.
+    /// Unit of the number.
     pub unit: CompactString,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }

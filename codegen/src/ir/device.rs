@@ -1,4 +1,4 @@
-//! A device: identity, file header, bus settings, and what it consists of.
+//! Devices: identity, file header, bus settings and content.
 
 use super::{
     CodeTable, CompactString, Composite, Documentation, Doubts, EtherCatSettings, Extensions, Framing, Group, Item,
@@ -7,106 +7,106 @@ use super::{
 };
 use crate::source::{Origin, Span};
 
-/// One device.
+/// A device.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Device {
-    /// What it is called.
+    /// Name.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// Its identifier in the source, where it has one (ID of a device access point).
+    /// Identifier in the source, if any (ID of a device access point).
     pub id: CompactString,
-    /// Whether the source describes no device, only a dictionary that devices refer to (EtherCATDict of ETG.2000).
+    /// Whether it is not a device, but a dictionary that devices refer to (EtherCATDict of ETG.2000).
     pub dictionary_only: bool,
-    /// Who made it and which one it is.
+    /// Identity: vendor, product and revision.
     pub identity: Identity,
-    /// What the file says about itself.
+    /// Header of the file.
     pub header: Header,
-    /// What the device can on CANopen.
+    /// CANopen settings.
     pub canopen: Option<Box<CanOpenSettings>>,
-    /// What the device can on EtherCAT.
+    /// EtherCAT settings.
     pub ethercat: Option<Box<EtherCatSettings>>,
-    /// What the device can on PROFINET.
+    /// PROFINET settings.
     pub profinet: Option<Box<ProfinetSettings>>,
-    /// What its tables of Modbus take, where the source says so.
+    /// Requests that each Modbus table accepts, if the source states them.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub modbus: Vec<ModbusTable>,
-    /// Frames of Modbus that the source prints: node, function and data, with or without the CRC.
+    /// Example Modbus frames in the source: node address, function code and data, with or without CRC.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub modbus_examples: Vec<super::MessageExample>,
-    /// First and last of the numbers that a node, or a server, may have.
+    /// Node-ID range, or range of Modbus server addresses: first and last number.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub node_ids: Option<(u8, u8)>,
-    /// Device profiles that it follows, by number (402 = drives, 5001 = modular device).
+    /// Numbers of its device profiles (402 = drives, 5001 = modular device).
     pub profiles: Vec<u32>,
-    /// The place of this one device in a network (DCF, XDC).
+    /// Network settings of this single device (DCF, XDC).
     pub commissioning: Option<Box<Commissioning>>,
-    /// Types that it defines.
+    /// Type definitions.
     pub types: Vec<TypeDef>,
-    /// Its chapters of registers, and then its objects, sorted by index.
+    /// Chapters of registers, followed by objects sorted by index.
     pub groups: Vec<Group>,
     /// Cyclic data.
     pub process_data: ProcessData,
     /// Slots of a modular device.
     pub slots: Vec<Slot>,
-    /// Modules that can be plugged in.
+    /// Accepted modules.
     pub modules: Vec<ModuleUse>,
-    /// Submodules of a device access point itself, and those that can be plugged into it.
+    /// Submodules of a device access point, and submodules that it accepts.
     pub submodules: Vec<SubmoduleUse>,
-    /// Request and reply frames of a command protocol.
+    /// Messages of a command protocol.
     pub messages: Vec<Message>,
-    /// Numbers by which the command protocol addresses items.
+    /// Parameter spaces of the command protocol.
     pub parameter_spaces: Vec<super::ParameterSpace>,
-    /// How frames of the command protocol are delimited and checked.
+    /// Framing of the command protocol: delimiters, escapes and checksum.
     pub framing: Option<Box<Framing>>,
-    /// Numbers of the machine, of which units make use.
+    /// Machine constants for units.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub given: Vec<super::GivenNumber>,
-    /// Alarms, emergency codes, abort codes and the like.
+    /// Code tables: alarms, emergency codes, abort codes.
     pub code_tables: Vec<CodeTable>,
     /// State machines.
     pub machines: Vec<StateMachine>,
-    /// Sequences of steps.
+    /// Procedures.
     pub procedures: Vec<Procedure>,
     /// Numbers that are split over several items.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub composites: Vec<Composite>,
     /// Models and firmware versions that share this description.
     pub variants: Vec<Variant>,
-    /// How the objects of further axes follow from those of the first.
+    /// Rules for the objects of further axes.
     pub axes: Option<AxisRule>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// The manual that the description was transcribed from.
+    /// Manual that the description was transcribed from.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub manual: Option<Box<super::Manual>>,
-    /// Contradictions of the source.
+    /// Ambiguities in the source, with assumptions.
     pub doubts: Doubts,
-    /// What the source says beyond that.
+    /// Facts of the source without a field in the IR.
     pub extensions: Extensions,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
 impl Device {
-    /// All items, group by group.
+    /// Returns all items, group by group.
     pub fn items(&self) -> impl Iterator<Item = &Item> + Clone {
         self.groups.iter().flat_map(|group| &group.items)
     }
 
-    /// The object with this index. The objects have to be sorted, and to stand behind groups that are none.
+    /// Returns the object with this index. Objects have to be sorted by index, after all other groups.
     pub fn object(&self, index: u16) -> Option<&Group> {
         let position = self.groups.binary_search_by_key(&Some(index), Group::index).ok()?;
         self.groups.get(position)
     }
 
-    /// The modules that can be plugged in, of those of the catalogue.
+    /// Returns the accepted modules. `modules`: all modules of the catalog.
     pub fn own_modules<'m>(&self, modules: &'m [Module]) -> impl Iterator<Item = &'m Module> + use<'m, '_> {
-        self.modules.iter().filter_map(|own| modules.get(own.module.0 as usize))
+        self.modules.iter().filter_map(|accepted| modules.get(accepted.module.0 as usize))
     }
 
-    /// The item at an index and sub-index: of an object, or a register that is an object too.
+    /// Returns the item at an index and sub-index: a value of an object, or a register with an object address.
     pub fn entry(&self, index: u16, sub_index: u8) -> Option<&super::Item> {
         match self.object(index) {
             Some(object) => object.sub(sub_index),
@@ -118,11 +118,11 @@ impl Device {
     }
 }
 
-/// Who made a device and which one it is (object 0x1018, CiA 301 7.5.2.19).
+/// Identity of a device: vendor, product and revision (object 0x1018, CiA 301 7.5.2.19).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Identity {
-    /// Number of the vendor.
+    /// Vendor ID.
     pub vendor_id: Option<u32>,
     /// Name of the vendor.
     pub vendor_name: CompactString,
@@ -134,30 +134,30 @@ pub struct Identity {
     pub revision_number: Option<u32>,
     /// Order code.
     pub order_code: CompactString,
-    /// Serial number, where the file is about one device.
+    /// Serial number, if the file describes a single device.
     pub serial_number: Option<u32>,
-    /// Ident number of a PROFINET device access point, or other identity numbers by name.
+    /// Further identity numbers with their names, such as the module ident number of a PROFINET device access point.
     pub others: Vec<(CompactString, u32)>,
 }
 
-/// The requests that a table of Modbus takes.
+/// Requests that a Modbus table accepts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModbusTable {
-    /// The table.
+    /// Table.
     pub space: RegisterSpace,
-    /// Numbers of the functions; empty = not given.
+    /// Function codes; empty = not given.
     pub functions: Vec<u8>,
-    /// The greatest number of registers, or bits, that one request reads.
+    /// Maximum number of registers, coils or discrete inputs that one request reads.
     pub max_read: Option<u16>,
-    /// The greatest number that one request writes.
+    /// Maximum number of registers or coils that one request writes.
     pub max_write: Option<u16>,
-    /// Whether a value that is longer than that may be read and written in several requests.
+    /// Whether several requests can read or write a longer value.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub split: bool,
 }
 
-/// What a file says about itself (`[FileInfo]` of CiA 306, ISO15745 ProfileHeader). Texts are kept as written.
+/// Header of a description file (`[FileInfo]` of CiA 306, ISO15745 ProfileHeader). Texts are not changed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Header {
@@ -171,61 +171,61 @@ pub struct Header {
     pub format_version: CompactString,
     /// Description of the file.
     pub description: CompactString,
-    /// Creation, time of day.
+    /// Time of creation.
     pub creation_time: CompactString,
-    /// Creation, date.
+    /// Date of creation.
     pub creation_date: CompactString,
-    /// Who created it.
+    /// Author.
     pub created_by: CompactString,
-    /// Last change, time of day.
+    /// Time of the last modification.
     pub modification_time: CompactString,
-    /// Last change, date.
+    /// Date of the last modification.
     pub modification_date: CompactString,
-    /// Who changed it last.
+    /// Author of the last modification.
     pub modified_by: CompactString,
-    /// The EDS from which a DCF was made (LastEDS).
+    /// EDS that the DCF is based on (LastEDS).
     pub last_eds: CompactString,
     /// Lines of `[Comments]`.
     pub comments: Vec<CompactString>,
 }
 
-/// What a device can on CANopen (`[DeviceInfo]`, `[DummyUsage]`, `[DynamicChannels]` of CiA 306).
+/// Capabilities of a device on CANopen (`[DeviceInfo]`, `[DummyUsage]`, `[DynamicChannels]` of CiA 306).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CanOpenSettings {
     /// Supported bit rates in kbit/s.
     pub bit_rates: Vec<u16>,
-    /// Whether it can detect the bit rate by itself.
+    /// Whether it detects the bit rate automatically.
     pub auto_bit_rate: bool,
     /// Whether it can be an NMT boot-up master.
     pub boot_up_master: bool,
     /// Whether it can be an NMT boot-up slave.
     pub boot_up_slave: bool,
-    /// Granularity of PDO mapping in bits; 0 = mapping is fixed, `None` = not given.
+    /// Granularity of the PDO mapping in bits; 0 = fixed mapping, `None` = not given.
     pub granularity: Option<u8>,
-    /// Whether it supports dynamic channels (CiA 302-4), and how.
+    /// Support of dynamic channels (CiA 302-4); 0 = not supported.
     pub dynamic_channels_supported: u32,
     /// Whether it supports multiplexed PDOs.
     pub group_messaging: bool,
-    /// Number of RPDOs that the file announces.
+    /// Number of RPDOs according to the file (NrOfRXPDO).
     pub rx_pdos: Option<u16>,
-    /// Number of TPDOs that the file announces.
+    /// Number of TPDOs according to the file (NrOfTXPDO).
     pub tx_pdos: Option<u16>,
-    /// Whether it supports layer setting services.
+    /// Whether it supports layer setting services (LSS).
     pub lss: bool,
-    /// CompactPDO: which communication sub-indices an implicit PDO has; bit 0 is sub-index 1.
+    /// Communication sub-indices of implicit PDOs (CompactPDO); bit 0 is sub-index 1.
     pub compact_pdo: u8,
-    /// Data types that may stand as dummy entries in a PDO mapping.
+    /// Data types that are allowed as dummy entries in a PDO mapping.
     pub dummies: Vec<u8>,
-    /// Whether the file has a list of dummies at all.
+    /// Whether the file has a list of dummy entries.
     pub dummies_given: bool,
     /// Segments of dynamic channels.
     pub dynamic_channels: Vec<DynamicChannel>,
-    /// Where its facts stand.
+    /// Locations of facts in the source.
     pub at: CanOpenSpans,
 }
 
-/// Where facts of [`CanOpenSettings`] stand in the source; an empty span for what the source doesn't say.
+/// Locations of facts of [`CanOpenSettings`] in the source. Spans of missing facts are empty.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CanOpenSpans {
@@ -239,21 +239,21 @@ pub struct CanOpenSpans {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DynamicChannel {
-    /// Number of the data type.
+    /// Code of the data type.
     pub data_type: u32,
-    /// Direction, as the source spells it.
+    /// Direction as the source spells it.
     pub direction: CompactString,
-    /// Range of indices, as the source spells it.
+    /// Range of indices as the source spells it.
     pub range: CompactString,
     /// Offset in the process image.
     pub offset: i64,
-    /// Difference between two channels in the process image, where given.
+    /// Distance between two channels in the process image, if given.
     pub difference: Option<i64>,
-    /// Greatest number of channels, where given (CiA 311).
+    /// Maximum number of channels, if given (CiA 311).
     pub max_number: Option<u32>,
 }
 
-/// The place of one device in a network (`[DeviceComissioning]` of CiA 306).
+/// Network settings of a single device (`[DeviceComissioning]` of CiA 306).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Commissioning {
@@ -269,37 +269,37 @@ pub struct Commissioning {
     pub network_name: CompactString,
     /// Whether it is the CANopen manager.
     pub manager: bool,
-    /// Serial number for layer setting services.
+    /// Serial number for layer setting services (LSS).
     pub lss_serial_number: Option<u32>,
-    /// Modules that are plugged in, by their number in the device description (`[ConnectedModules]`).
+    /// Connected modules by their number in the device description (`[ConnectedModules]`).
     pub connected_modules: Vec<u16>,
 }
 
-/// A model or firmware version of a family that shares one description.
+/// A model or firmware version of a device family with a common description.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Variant {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// Its identity, where it differs.
+    /// Identity, if it differs.
     pub identity: Identity,
-    /// Constants of the variant, by name (a base of scaled numbers).
+    /// Names and values of constants, such as base values of fractions.
     pub constants: Vec<(CompactString, Value)>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
-/// How the items of further axes follow from those of the first.
+/// Rules that derive the items of further axes from those of the first axis.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AxisRule {
     /// Number of axes.
     pub axes: u8,
-    /// Models that have so many; empty = all.
+    /// Models with this number of axes; empty = all.
     pub models: Vec<CompactString>,
-    /// Rules by range of index: the first that contains an item's index holds.
+    /// Rules for ranges of indices. The first range that contains the index of an item applies.
     pub rules: Vec<AxisRange>,
 }
 
@@ -309,11 +309,11 @@ pub struct AxisRule {
 pub struct AxisRange {
     /// First and last index.
     pub indices: (u16, u16),
-    /// How to get to the next axis.
+    /// Step from one axis to the next.
     pub step: AxisStep,
 }
 
-/// How to get from one axis to the next.
+/// The step from one axis to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

@@ -1,35 +1,35 @@
-//! What an EtherCAT slave can, and how its controller is set up (ETG.2000, `Device`).
+//! Capabilities and configuration of EtherCAT slaves (ETG.2000, `Device`).
 
 use super::CompactString;
 use crate::source::Origin;
 
-/// What a device can on EtherCAT, and how a master sets it up.
+/// Capabilities of a device on EtherCAT, and settings for its master.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EtherCatSettings {
-    /// The kind of each of up to four ports (`Physics`): Y = MII, K = LVDS, H = enhanced, blank = none.
+    /// Physical layer of each of up to four ports (`Physics`): Y = MII, K = LVDS, H = enhanced link, blank = no port.
     pub physics: CompactString,
-    /// Name of the family that it belongs to (`GroupType`).
+    /// Name of the device family (`GroupType`).
     pub group: CompactString,
-    /// Revisions that this description hides from a list of devices (`HideType`): product code and revision.
+    /// Product code and revision of each device that tools hide because of this description (`HideType`).
     pub hides: Vec<(Option<u32>, Option<u32>)>,
-    /// Whether it isn't offered in a list of devices itself (`Invisible`).
+    /// Whether tools hide the device itself (`Invisible`).
     pub invisible: bool,
-    /// FMMUs, in the order of the slave controller.
+    /// FMMUs in the order of the slave controller.
     pub fmmus: Vec<Fmmu>,
     /// Sync units.
     pub sync_units: Vec<SyncUnit>,
-    /// The mailbox, where there is one.
+    /// Mailbox, if any.
     pub mailbox: Option<Box<Mailbox>>,
-    /// Distributed clocks, where it has them.
+    /// Distributed clocks, if any.
     pub clocks: Option<Box<DistributedClocks>>,
-    /// How its slots are counted, where it is modular.
+    /// Rules for slots of a modular device.
     pub slots: Option<Box<SlotRules>>,
-    /// Registers of the slave controller that a master writes: address and value (`ESC`).
+    /// ESC registers that a master writes: address and value (`ESC`).
     pub registers: Vec<(u16, u32)>,
-    /// Content of the EEPROM.
+    /// EEPROM content.
     pub eeprom: Option<Box<Eeprom>>,
-    /// Time limits in milliseconds, by the name of the element (`PreopTimeout`, `RequestTimeout`, …).
+    /// Timeouts in milliseconds, with the name of the element (`PreopTimeout`, `RequestTimeout`, …).
     pub timeouts: Vec<(CompactString, u32)>,
 }
 
@@ -37,25 +37,25 @@ pub struct EtherCatSettings {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fmmu {
-    /// What it maps: `Outputs`, `Inputs`, `MBoxState`, or what the source says.
+    /// Purpose as the source spells it: `Outputs`, `Inputs`, `MBoxState`.
     pub purpose: CompactString,
-    /// The sync manager that it maps, where given.
+    /// Number of the mapped sync manager, if given.
     pub sync_manager: Option<u8>,
-    /// The sync unit that it maps, where given.
+    /// Number of the mapped sync unit, if given.
     pub sync_unit: Option<u8>,
-    /// Whether it is to be enabled in Op only.
+    /// Whether it is enabled only in the state Op.
     pub op_only: bool,
 }
 
-/// A sync unit: process data that is exchanged together.
+/// A sync unit: process data that are exchanged together.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SyncUnit {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// Whether it has a sync unit of its own in the master (`SeparateSu`).
+    /// Whether it needs a separate sync unit in the master (`SeparateSu`).
     pub separate: bool,
-    /// Whether it needs a frame of its own.
+    /// Whether it needs a separate frame.
     pub separate_frame: bool,
     /// Whether its data depend on the input state.
     pub depends_on_input_state: bool,
@@ -67,7 +67,7 @@ pub struct SyncUnit {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mailbox {
-    /// Whether the data link layer of the mailbox is supported (repeat requests).
+    /// Whether the data link layer of the mailbox is supported, which repeats lost requests.
     pub data_link_layer: bool,
     /// Whether it runs in real-time mode.
     pub real_time: bool,
@@ -85,13 +85,13 @@ pub struct Mailbox {
     pub voe: Option<Protocol>,
 }
 
-/// A mailbox protocol of which nothing but its flags matters.
+/// A mailbox protocol, described by its attributes only.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Protocol {
-    /// Its attributes, by name, as the source spells them (`IP`, `MAC`, `ChannelCount`).
+    /// Attributes as the source spells them (`IP`, `MAC`, `ChannelCount`).
     pub attributes: Vec<(CompactString, CompactString)>,
-    /// What a master sends at start-up.
+    /// Commands that a master sends at start-up.
     pub init_commands: Vec<InitCommand>,
 }
 
@@ -101,51 +101,51 @@ pub struct Protocol {
 pub struct Coe {
     /// Whether the SDO information service is supported.
     pub sdo_info: bool,
-    /// Whether the assignment of PDOs may be written (0x1C12, 0x1C13).
+    /// Whether the PDO assignment can be written (0x1C12, 0x1C13).
     pub pdo_assign: bool,
-    /// Whether the mapping of PDOs may be written (0x1600 …, 0x1A00 …).
+    /// Whether the PDO mapping can be written (0x1600 …, 0x1A00 …).
     pub pdo_config: bool,
-    /// Whether a master reads the assignment from the device.
+    /// Whether a master reads the PDO assignment from the device.
     pub pdo_upload: bool,
-    /// Whether all sub-indices may be transferred at once.
+    /// Whether complete access is supported: the transfer of all sub-indices at once.
     pub complete_access: bool,
     /// Whether segmented SDO transfer is supported.
     pub segmented_sdo: bool,
     /// Whether there is a diagnosis history (0x10F3).
     pub diag_history: bool,
-    /// Further attributes, by name, as the source spells them (`EdsFile`, `DS402Channels`).
+    /// Further attributes as the source spells them (`EdsFile`, `DS402Channels`).
     pub attributes: Vec<(CompactString, CompactString)>,
-    /// What a master writes at start-up.
+    /// Commands that a master sends at start-up.
     pub init_commands: Vec<InitCommand>,
 }
 
-/// Something that a master sends to the mailbox on a change of state.
+/// A command that a master sends to the mailbox at a state transition.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InitCommand {
-    /// The changes of state: `IP`, `PS`, `SP`, `SO`, `OP`, `OS`.
+    /// State transitions: `IP`, `PS`, `SP`, `SO`, `OP`, `OS`.
     pub transitions: Vec<CompactString>,
-    /// Index of the object (CoE), IDN (SoE) or type of the frame (EoE).
+    /// Index of the object (CoE), IDN (SoE) or frame type (EoE).
     pub index: u16,
     /// Sub-index of the object (CoE) or drive channel (SoE).
     pub sub_index: u8,
-    /// What is sent, in the order of the wire.
+    /// Data in the byte order of the wire.
     pub data: Vec<u8>,
-    /// Whether the index grows with the slot.
+    /// Whether the index depends on the slot of its module.
     pub depends_on_slot: bool,
-    /// Whether the index grows with the slot group.
+    /// Whether the index depends on the slot group of its module.
     pub depends_on_slot_group: bool,
-    /// Whether all sub-indices are written at once.
+    /// Whether the command uses complete access.
     pub complete_access: bool,
-    /// Whether a user may not change it.
+    /// Whether users cannot change it.
     pub fixed: bool,
-    /// Whether a master adapts the data itself (`AdaptAutomatically`).
+    /// Whether a master adapts the data (`AdaptAutomatically`).
     pub adapt: bool,
-    /// Whether a module may replace it.
+    /// Whether a module can replace it.
     pub overwritten_by_module: bool,
-    /// What it is for.
+    /// Purpose.
     pub comment: CompactString,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
@@ -153,9 +153,9 @@ pub struct InitCommand {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DistributedClocks {
-    /// Its attributes, by name, as the source spells them (`UnknownFRMW`, `PotentialReferenceClock`).
+    /// Attributes as the source spells them (`UnknownFRMW`, `PotentialReferenceClock`).
     pub attributes: Vec<(CompactString, CompactString)>,
-    /// The modes of operation, the default one first.
+    /// Modes of operation, default mode first.
     pub modes: Vec<ClockMode>,
 }
 
@@ -163,21 +163,21 @@ pub struct DistributedClocks {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClockMode {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// What it does.
+    /// Description.
     pub description: CompactString,
-    /// Value of the register 0x0980 (`AssignActivate`).
+    /// Value of register 0x0980 (`AssignActivate`).
     pub assign_activate: u32,
-    /// Cycle of Sync0.
+    /// Cycle time of SYNC0.
     pub cycle_sync0: ClockTime,
-    /// Shift of Sync0.
+    /// Shift time of SYNC0.
     pub shift_sync0: ClockTime,
-    /// Cycle of Sync1.
+    /// Cycle time of SYNC1.
     pub cycle_sync1: ClockTime,
-    /// Shift of Sync1.
+    /// Shift time of SYNC1.
     pub shift_sync1: ClockTime,
-    /// What holds for single sync managers in this mode.
+    /// Settings of sync managers in this mode.
     pub sync_managers: Vec<ClockSyncManager>,
 }
 
@@ -185,82 +185,82 @@ pub struct ClockMode {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClockTime {
-    /// The time in ns; 0 where it follows from the cycle time.
+    /// Time in nanoseconds; 0 if it follows from the cycle time.
     pub nanoseconds: i32,
-    /// The factor to the cycle time (of Sync1: to Sync0's); negative = a divisor.
+    /// Factor of the cycle time (for SYNC1: of the cycle time of SYNC0); a negative number is a divisor.
     pub factor: Option<i32>,
     /// Whether the shift is relative to the inputs.
     pub input: bool,
 }
 
-/// What a clock mode says of a sync manager.
+/// Settings of a sync manager in a mode of the distributed clocks.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClockSyncManager {
     /// Number of the sync manager.
     pub number: u8,
-    /// Synchronisation type, as 0x1C32:01 has it, where given.
+    /// Synchronization type as in object 0x1C32:01, if given.
     pub sync_type: Option<u16>,
     /// Index of each PDO with its oversampling factor.
     pub pdos: Vec<(u16, Option<u16>)>,
 }
 
-/// How the slots of a modular device are counted (`Slots`).
+/// Rules for the slots of a modular device (`Slots`).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SlotRules {
-    /// Greatest number of slots, where given.
+    /// Maximum number of slots, if given.
     pub max_slots: Option<u16>,
-    /// Greatest number of slot groups, where given.
+    /// Maximum number of slot groups, if given.
     pub max_groups: Option<u16>,
-    /// What the index of an object grows by from slot to slot.
+    /// Increment of the index of an object from slot to slot.
     pub index_increment: u16,
-    /// What the index of a PDO grows by from slot to slot.
+    /// Increment of the index of a PDO from slot to slot.
     pub pdo_increment: u16,
-    /// What the index of an object grows by from slot group to slot group.
+    /// Increment of the index of an object from slot group to slot group.
     pub group_index_increment: u16,
-    /// What the index of a PDO grows by from slot group to slot group.
+    /// Increment of the index of a PDO from slot group to slot group.
     pub group_pdo_increment: u16,
     /// Whether a master writes the list of configured modules to 0xF030 (`DownloadModuleIdentList`).
     pub download_idents: bool,
     /// Whether a master writes the list of module addresses.
     pub download_addresses: bool,
-    /// The change of state on which it writes the lists; `PS` by default.
+    /// State transition at which a master writes the lists; default `PS`.
     pub download_transition: CompactString,
-    /// Groups of modules whose process data are put together.
+    /// Groups of modules with contiguous process data.
     pub pdo_groups: Vec<ModulePdoGroup>,
-    /// Names of slot groups, by number.
+    /// Numbers and names of slot groups.
     pub groups: Vec<(u16, CompactString)>,
-    /// Arrangements of modules that go by a name.
+    /// Named arrangements of modules.
     pub selections: Vec<(CompactString, Vec<u32>)>,
 }
 
-/// Modules whose process data stand one after the other (`ModulePdoGroup`).
+/// Modules with contiguous process data (`ModulePdoGroup`).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModulePdoGroup {
-    /// Alignment of each module's data in bytes; 0 and 1 = none.
+    /// Alignment of the data of each module in bytes; 0 and 1 = none.
     pub alignment: u16,
-    /// Index of the device's RPDO behind which the modules' RPDOs stand, where given.
+    /// Index of the RPDO of the device before the RPDOs of the modules, if given.
     pub rx_pdo: Option<u16>,
-    /// Index of the device's TPDO behind which the modules' TPDOs stand, where given.
+    /// Index of the TPDO of the device before the TPDOs of the modules, if given.
     pub tx_pdo: Option<u16>,
 }
 
-/// Content of the EEPROM of a slave (ETG.1000.6 5.4, ETG.2010).
+/// EEPROM content of a slave (ETG.1000.6 5.4, ETG.2010).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Eeprom {
-    /// All of it, where the source gives it whole.
+    /// The complete content, if the source has it.
     pub data: Vec<u8>,
-    /// Its size in bytes.
+    /// Size in bytes.
     pub byte_size: Option<u32>,
-    /// The first words: configuration of the slave controller.
+    /// The first words, which configure the slave controller.
     pub config_data: Vec<u8>,
-    /// Mailbox of the bootstrap state.
+    /// Mailbox configuration of the Bootstrap state.
     pub boot_strap: Vec<u8>,
-    /// Further categories: number and content.
+    /// Numbers and contents of further categories.
     pub categories: Vec<(u16, Vec<u8>)>,
-    /// Whether it is assigned to the process data interface.
+    /// Whether it is assigned to the process data interface (PDI).
     pub assign_to_pdi: bool,
 }

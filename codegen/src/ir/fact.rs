@@ -1,4 +1,4 @@
-//! Origins of facts, and which of two origins takes precedence.
+//! Origins of facts, and their precedence.
 
 use thin_vec::ThinVec;
 
@@ -9,29 +9,29 @@ use super::{CompactString, Item};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Fact {
-    /// Its name.
+    /// Name.
     Name,
-    /// Its addresses.
+    /// Addresses.
     Addresses,
-    /// Its data type.
+    /// Data type.
     Type,
-    /// The names of its bits or values.
+    /// Names of bits or values.
     Meaning,
     /// Access rights.
     Access,
-    /// Into which PDOs it may be mapped.
+    /// PDO mapping.
     Mappable,
     /// Default value.
     Default,
-    /// Minimum, maximum and list of values.
+    /// Minimum, maximum and list of allowed values.
     Limits,
-    /// Unit, scale and rounding.
+    /// Unit, scale factor and rounding.
     Unit,
     /// Storage, side effects and conditions of writing.
     Behaviour,
-    /// Models, firmware versions and buses that have it.
+    /// Models, firmware versions and buses on which the item exists.
     Availability,
-    /// What differs between models or buses.
+    /// Differences between models or buses.
     Variants,
 }
 
@@ -52,7 +52,7 @@ impl Fact {
         Fact::Variants,
     ];
 
-    /// Whether two items state this fact differently. A type with other names of bits or values differs in its meaning.
+    /// Returns whether this fact differs between two items. Types that only differ in the names of bits or values differ in their meaning.
     #[cfg(feature = "table")]
     pub(crate) fn differs(self, one: &Item, other: &Item) -> bool {
         match self {
@@ -70,7 +70,7 @@ impl Fact {
         }
     }
 
-    /// Whether the description of an item states this fact.
+    /// Returns whether the description of an item states this fact.
     pub(crate) fn is_stated(self, item: &Item) -> bool {
         match self {
             Fact::Name => !item.name.is_empty(),
@@ -86,22 +86,22 @@ impl Fact {
     }
 }
 
-/// Where a fact comes from.
+/// The origin of a fact.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum FactOrigin {
-    /// The description itself. It is only recorded of a fact that the description states to be absent.
+    /// The description itself. It is recorded only if the description states that the item lacks the fact.
     Stated,
-    /// The name that the manual prints, which a text spells out.
+    /// The printed name in the manual, which the description spells out.
     PrintedName,
     /// An overlay of the user.
     Overlay {
-        /// The name of its file, without folders.
+        /// File name of the overlay, without folders.
         file: CompactString,
-        /// The line of the row.
+        /// Line of the row in the file.
         line: u32,
-        /// Whether the description states the fact too.
+        /// Whether the overlay replaces a fact of the description.
         replaces: bool,
     },
     /// A standard with its clause: `CiA 402, 17.3.7`.
@@ -110,23 +110,23 @@ pub enum FactOrigin {
     Rule(Rule),
 }
 
-/// The rules by which the compiler completes descriptions.
+/// A rule by which the compiler completes descriptions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Rule {
-    /// Access rights that a manual doesn't state are read-write, and read-only for inputs of Modbus.
+    /// Missing access rights are read-write, and read-only for Modbus inputs.
     UnstatedAccess,
-    /// Reserved sub-indices that inherit read-write access are read-only.
+    /// Reserved sub-indices are read-only if they inherit read-write access.
     ReservedEntry,
-    /// Objects of PDOs that a device announces and does not describe follow CiA 301.
+    /// Objects of PDOs that the description counts but does not describe follow CiA 301.
     AnnouncedPdo,
-    /// An object that only an entry of a PDO describes can be written if the device receives the PDO.
+    /// An object that only PDO entries describe can be written if an RPDO maps it.
     MappedObject,
 }
 
 impl FactOrigin {
-    /// Overlay, then description, then standard, then rule.
+    /// Returns the precedence: overlay, then description, then standard, then rule.
     fn rank(&self) -> u8 {
         match self {
             FactOrigin::Rule(_) => 0,
@@ -136,21 +136,21 @@ impl FactOrigin {
         }
     }
 
-    /// Whether a fact of this origin is used instead of one that is there. Of two overlays, the later one is used; of two standards, the
-    /// first.
+    /// Returns whether a fact of this origin replaces the present one. The later of two overlays takes precedence, and the first of two
+    /// standards.
     pub(crate) fn takes_precedence_over(&self, present: Option<&FactOrigin>) -> bool {
         let Some(present) = present else { return true };
         self.rank() > present.rank() || matches!(self, FactOrigin::Overlay { .. })
     }
 }
 
-/// The facts of an element that do not come from the description itself, with their origins.
+/// Origins of facts that do not come from the description itself.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FactOrigins(pub ThinVec<(Fact, FactOrigin)>);
 
 impl FactOrigins {
-    /// Whether all facts come from the description itself.
+    /// Returns whether all facts come from the description itself.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -160,18 +160,18 @@ impl FactOrigins {
         self.0.iter().find(|(recorded, _)| *recorded == fact).map(|(_, origin)| origin)
     }
 
-    /// Records the origin of a fact; `None` is the description itself.
+    /// Records the origin of a fact. `None` is the description itself.
     pub(crate) fn set(&mut self, fact: Fact, origin: Option<FactOrigin>) {
         self.0.retain(|(recorded, _)| *recorded != fact);
         self.0.extend(origin.map(|origin| (fact, origin)));
     }
 
-    /// Records a rule as the origin of facts that had no other.
+    /// Creates origins that are the same rule for all `facts`.
     pub(crate) fn by_rule(facts: &[Fact], rule: Rule) -> Self {
         FactOrigins(facts.iter().map(|fact| (*fact, FactOrigin::Rule(rule))).collect())
     }
 
-    /// Whether a fact of this origin is used. `is_stated` tells whether the element has the fact.
+    /// Returns whether a fact of this origin is used. `is_stated`: the element already has the fact.
     pub(crate) fn admits(&self, fact: Fact, is_stated: bool, origin: &FactOrigin) -> bool {
         origin.takes_precedence_over(self.get(fact).or(is_stated.then_some(&FactOrigin::Stated)))
     }
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn an_overlay_comes_before_the_description_before_a_standard_before_a_rule() {
+    fn precedence_is_overlay_description_standard_rule() {
         let standard = FactOrigin::Standard("CiA 402, 17.3.7".into());
         let order = [FactOrigin::Rule(Rule::UnstatedAccess), standard.clone(), FactOrigin::Stated, overlay()];
         for (at, lower) in order.iter().enumerate() {

@@ -1,11 +1,12 @@
-//! Firmware versions as numbers, and whether two elements ever exist together.
+//! Comparison of firmware versions and of availability.
 
 use std::cmp::Ordering;
 
 use super::{Availability, CompactString};
 use crate::text::glob;
 
-/// A version as numbers: `6.27` is later than `6.3`, and `6` is `6.0`. `None` where it has another form.
+/// Returns the numbers of a version without trailing zeros: `6.27` is later than `6.3`, and `6` is `6.0`. Other forms of versions return
+/// `None`.
 pub(crate) fn version(text: &str) -> Option<Vec<u32>> {
     let mut numbers = text.split('.').map(|part| part.parse().ok()).collect::<Option<Vec<u32>>>()?;
     while numbers.len() > 1 && numbers.last() == Some(&0) {
@@ -14,18 +15,19 @@ pub(crate) fn version(text: &str) -> Option<Vec<u32>> {
     Some(numbers)
 }
 
-/// Compares two versions. Returns `None` if one is missing or is not numbers with points.
+/// Compares two versions. Returns `None` if one is missing or has another form than numbers with points.
 pub(crate) fn compare(one: Option<&str>, other: Option<&str>) -> Option<Ordering> {
     Some(version(one?)?.cmp(&version(other?)?))
 }
 
-/// Whether no model and no firmware has both.
+/// Returns whether no model and firmware version has both elements.
 pub(crate) fn apart(one: Option<&Availability>, other: Option<&Availability>) -> bool {
     let (Some(one), Some(other)) = (one, other) else { return false };
     let before = |first: &Availability, second: &Availability| {
         compare(first.until.as_deref(), second.since.as_deref()).is_some_and(|order| order != Ordering::Greater)
     };
-    let shared = |own: &CompactString| other.models.iter().any(|model| glob(own, model) || glob(model, own));
+    let shared =
+        |pattern: &CompactString| other.models.iter().any(|other| glob(pattern, other) || glob(other, pattern));
     let models = !one.models.is_empty() && !other.models.is_empty() && !one.models.iter().any(shared);
     models || before(one, other) || before(other, one)
 }
@@ -43,7 +45,7 @@ mod tests {
     }
 
     #[test]
-    fn windows_and_models_keep_apart() {
+    fn elements_of_other_versions_or_models_never_exist_together() {
         let window = |since: Option<&str>, until: Option<&str>, models: &[&str]| Availability {
             since: since.map(Into::into),
             until: until.map(Into::into),

@@ -1,6 +1,6 @@
-//! The formats of descriptions.
+//! Formats of device descriptions.
 
-/// A format that Lexibus reads.
+/// A format of description files that Lexibus reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -24,10 +24,10 @@ impl Format {
     pub const ALL: &'static [Format] =
         &[Format::Eds, Format::Dcf, Format::Xdd, Format::Esi, Format::Gsdml, Format::Table];
 
-    /// The formats of files by vendors: all except register tables.
+    /// Formats of vendor files: all except register tables.
     pub const OF_VENDORS: &'static [Format] = &[Format::Eds, Format::Dcf, Format::Xdd, Format::Esi, Format::Gsdml];
 
-    /// Register tables alone.
+    /// Register tables only.
     pub const TABLES: &'static [Format] = &[Format::Table];
 
     /// Returns the name that `lexibus info` prints.
@@ -42,7 +42,7 @@ impl Format {
         }
     }
 
-    /// Returns the endings of file names that only this format has.
+    /// Returns the file name extensions that only this format uses.
     pub fn endings(self) -> &'static [&'static str] {
         match self {
             Format::Eds => &["eds"],
@@ -52,7 +52,7 @@ impl Format {
         }
     }
 
-    /// What an object without sub-indices lacks, and how to describe them (CompactSubObj of CiA 306).
+    /// Returns what is missing in an object without sub-indices, and how to describe them (CompactSubObj of CiA 306).
     pub(crate) fn missing_subs(self) -> (&'static str, &'static str) {
         match self {
             Format::Eds | Format::Dcf => (
@@ -63,18 +63,18 @@ impl Format {
         }
     }
 
-    /// How to write a default, if its form depends on the element that gives it (DefaultData of ETG.2000).
+    /// Returns how to write a default value, if its notation depends on the element (DefaultData of ETG.2000).
     pub(crate) fn default_forms(self, default: u8) -> Option<String> {
         let forms = || format!("write `{default:02X}` in DefaultData, or `{default}` in DefaultValue");
         (self == Format::Esi).then(forms)
     }
 
-    /// Whether one element of the format can describe several items: a row of a table, a type or parameter of XML.
+    /// Returns whether one element of the format can describe several items: a row of a table, an XML type or parameter.
     pub fn has_shared_descriptions(self) -> bool {
         matches!(self, Format::Table | Format::Esi | Format::Xdd)
     }
 
-    /// Whether the format is a transcript of a manual.
+    /// Returns whether files of the format are transcripts of manuals.
     pub fn is_of_manual(self) -> bool {
         self == Format::Table
     }

@@ -1,4 +1,4 @@
-//! Items and the groups that hold them.
+//! Items and groups of items.
 
 use smallvec::SmallVec;
 use thin_vec::ThinVec;
@@ -9,67 +9,67 @@ use super::{
 };
 use crate::source::{Origin, Span};
 
-/// One value of the device.
+/// One value of a device.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Item {
-    /// Its name as the source spells it (ParameterName in CiA 306); may be empty.
+    /// Name as the source spells it (ParameterName of CiA 306); may be empty.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// Where it is found on each bus.
+    /// Addresses on each bus.
     pub bindings: SmallVec<[Binding; 1]>,
-    /// Its type.
+    /// Type.
     pub ty: Type,
     /// Access rights.
     pub access: Access,
-    /// Into which PDOs it may be mapped.
+    /// PDO mapping.
     pub mappable: Mappable,
-    /// Its value before anybody wrote it.
+    /// Default value.
     pub default: Option<Value>,
-    /// The values it may have, where the source says so; else all of its type.
+    /// Minimum, maximum and allowed ranges; empty = all values of the type.
     pub limits: Limits,
-    /// What differs between models or buses, in the order of the source.
+    /// Differences between models or buses, in the order of the source.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "ThinVec::is_empty"))]
     pub variants: ThinVec<ItemVariant>,
-    /// What a DCF or XDC sets for this one device.
+    /// Configuration of a single device by a DCF or XDC.
     pub configured: Option<Box<Configured>>,
-    /// Unit and scale.
+    /// Unit and scale factor.
     pub quantity: Option<Box<Quantity>>,
     /// Storage, side effects and conditions of writing.
     pub behaviour: Option<Box<Behaviour>>,
-    /// Models, firmware versions and options that have it.
+    /// Models, firmware versions, options and buses on which the item exists.
     pub availability: Option<Box<Availability>>,
-    /// Other items that hold the same value, a part of it, or its length.
+    /// Items with the same value, a part of it, or its length.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub related: Option<Box<RelatedItems>>,
-    /// Whether the sub-index exists and means nothing.
+    /// Whether the sub-index is reserved: it exists, but has no meaning.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub is_reserved: bool,
-    /// Whether it exists only at times.
+    /// Whether the sub-index does not always exist, such as an entry of an error history.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub is_optional: bool,
-    /// Of a device with several axes: whether there is one for all of them.
+    /// Whether all axes of a multi-axis device share the item.
     pub shared_by_axes: bool,
-    /// ObjFlags of CiA 306: bit 0 refuse write on download, bit 1 refuse read on scan; further bits are kept.
+    /// ObjFlags (CiA 306): bit 0 refuse write on download, bit 1 refuse read on scan. Other bits are kept.
     pub flags: u32,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Contradictions of the source.
+    /// Ambiguities in the source, with assumptions.
     pub doubts: Doubts,
-    /// What the source says beyond that.
+    /// Facts of the source without a field in the IR.
     pub extensions: Extensions,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
-    /// Where its facts stand.
+    /// Locations of facts in the source.
     pub at: ItemSpans,
-    /// The facts that do not come from the description itself.
+    /// Origins of facts that do not come from the description itself.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "FactOrigins::is_empty"))]
     pub origins: FactOrigins,
 }
 
 impl Item {
-    /// An item with nothing but an address: read-only, type unknown.
+    /// Creates a read-only item with an address and no further facts.
     pub fn new(binding: Binding) -> Self {
         Item {
             name: CompactString::default(),
@@ -99,7 +99,7 @@ impl Item {
         }
     }
 
-    /// Index and sub-index, where the item is an entry of an object dictionary.
+    /// Returns index and sub-index, if the item is in an object dictionary.
     pub fn object(&self) -> Option<(u16, u8)> {
         self.bindings.iter().find_map(|binding| match binding {
             Binding::Object { index, sub_index, .. } => Some((*index, *sub_index)),
@@ -107,12 +107,12 @@ impl Item {
         })
     }
 
-    /// Whether the source says nothing of the access rights, so that `access` is an assumption.
+    /// Returns whether the source does not state the access rights, so that `access` is an assumption.
     pub fn is_access_assumed(&self) -> bool {
         self.origins.get(Fact::Access) == Some(&FactOrigin::Rule(Rule::UnstatedAccess))
     }
 
-    /// The access rights as documentation shows them: `rw?` where they are an assumption.
+    /// Returns the access rights for documentation. Assumed access rights have a question mark: `rw?`.
     pub fn access_name(&self) -> &'static str {
         match self.is_access_assumed() {
             true if self.access == Access::ReadOnly => "ro?",
@@ -121,64 +121,64 @@ impl Item {
         }
     }
 
-    /// What differs on a bus, whatever the model.
+    /// Returns the differences on a bus that apply to all models.
     fn variants_on(&self, bus: Bus) -> impl Iterator<Item = &ItemVariant> {
         self.variants.iter().filter(move |variant| variant.models.is_empty() && variant.buses.contains(bus))
     }
 
-    /// The type that the value has on a bus.
+    /// Returns the type on a bus.
     pub fn type_on(&self, bus: Bus) -> Type {
         self.variants_on(bus).find_map(|variant| variant.ty).unwrap_or(self.ty)
     }
 
-    /// The type that the value has as an object: on CANopen, or on EtherCAT where it is no object of CANopen.
+    /// Returns the type of the object on CANopen, or on EtherCAT if it does not exist on CANopen.
     pub fn object_type(&self) -> Type {
         let is_on_canopen = |binding: &Binding| matches!(binding, Binding::Object { buses, .. } if buses.canopen);
         self.type_on(if self.bindings.iter().any(is_on_canopen) { Bus::CanOpen } else { Bus::EtherCat })
     }
 
-    /// What may be done on a bus.
+    /// Returns the access rights on a bus.
     pub fn access_on(&self, bus: Bus) -> Access {
         self.variants_on(bus).find_map(|variant| variant.access).unwrap_or(self.access)
     }
 
-    /// The only values on a bus, where they are fewer than elsewhere.
+    /// Returns the limits on a bus, if they differ from those of the item.
     pub fn limits_on(&self, bus: Bus) -> Option<&Limits> {
         self.variants_on(bus)
             .map(|variant| &variant.limits)
             .find(|limits| !limits.is_empty() || !limits.allowed.is_empty())
     }
 
-    /// The value that a DCF sets.
+    /// Returns the value that a DCF sets.
     pub fn configured_value(&self) -> Option<&Value> {
         self.configured.as_ref()?.value.as_ref()
     }
 
-    /// The value a device starts with: the configured one of a DCF, else the default.
+    /// Returns the initial value: the value that a DCF sets, or the default value.
     pub fn initial(&self) -> Option<&Value> {
         self.configured_value().or(self.default.as_ref())
     }
 
-    /// The default, if it is an integer.
+    /// Returns the default value, if it is an integer.
     pub fn default_integer(&self) -> Option<i128> {
         self.default.as_ref().and_then(Value::as_int)
     }
 }
 
-/// Other items that hold the value of an item, a part of it, or its length.
+/// References to items with the same value, a part of it, or its length.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RelatedItems {
-    /// The item that is the same value under another name.
+    /// Item with the same value under another name.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub same_as: Option<ItemRef>,
-    /// The item that is the same quantity in another scale.
+    /// Item with the same quantity in another scaling.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub same_quantity: Option<ItemRef>,
-    /// The item that holds the upper half of the value.
+    /// Item with the upper half of the value.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub upper_half: Option<ItemRef>,
-    /// The item that holds how many elements are valid.
+    /// Item with the number of valid elements.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub valid_count: Option<ItemRef>,
 }
@@ -190,14 +190,14 @@ impl RelatedItems {
         [same_as, same_quantity, upper_half, valid_count].into_iter().flatten()
     }
 
-    /// Returns all references, to be changed.
+    /// Returns mutable references to all references.
     pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut ItemRef> {
         let RelatedItems { same_as, same_quantity, upper_half, valid_count } = self;
         [same_as, same_quantity, upper_half, valid_count].into_iter().flatten()
     }
 }
 
-/// Where the facts of an item stand in the source; an empty span for what the source doesn't say.
+/// Locations of the facts of an item in the source. Spans of missing facts are empty.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ItemSpans {
@@ -217,61 +217,61 @@ pub struct ItemSpans {
     pub high: Span,
     /// The configured value.
     pub configured: Span,
-    /// The words that say what it is.
+    /// The description.
     pub documentation: Span,
 }
 
-/// What a configuration file (DCF, XDC) sets for one device.
+/// Settings of an item in a configuration file (DCF, XDC).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Configured {
-    /// ParameterValue: the value of this device.
+    /// Value for this device (ParameterValue).
     pub value: Option<Value>,
-    /// Denotation: the name of the item in this application.
+    /// Name of the item in this application (Denotation).
     pub denotation: Option<CompactString>,
-    /// UploadFile: where a domain that was read is kept.
+    /// File for the content of a domain that was read (UploadFile).
     pub upload_file: Option<CompactString>,
-    /// DownloadFile: what is written into a domain.
+    /// File whose content is written to a domain (DownloadFile).
     pub download_file: Option<CompactString>,
 }
 
-/// Items that the source keeps together.
+/// Items that belong together in the source.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Group {
-    /// Its name as the source spells it; may be empty.
+    /// Name as the source spells it; may be empty.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// What it is.
+    /// Kind of group, with its address.
     pub kind: GroupKind,
-    /// Its items, by sub-index or in the order of the source.
+    /// Items, sorted by sub-index or in the order of the source.
     pub items: Vec<Item>,
-    /// Items that name further objects or parameters of interest (ObjectLinks of CiA 306), by index.
+    /// Indices of related objects (ObjectLinks of CiA 306).
     pub links: Vec<u16>,
-    /// ObjFlags of the object itself.
+    /// ObjFlags of the object (CiA 306).
     pub flags: u32,
-    /// Whether its index grows with the slot of its module (ETG.2000).
+    /// Whether its index depends on the slot of its module (ETG.2000).
     pub depends_on_slot: bool,
-    /// Whether its index grows with the slot group of its module (ETG.2000).
+    /// Whether its index depends on the slot group of its module (ETG.2000).
     pub depends_on_slot_group: bool,
-    /// How many of its items the source describes at the object itself (SubItem in Info of ETG.2000); the others follow
+    /// Number of items that the source describes in the object itself (SubItem in Info of ETG.2000). The other items follow
     /// from its type.
     pub described: u32,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Contradictions of the source.
+    /// Ambiguities in the source, with assumptions.
     pub doubts: Doubts,
-    /// What the source says beyond that.
+    /// Facts of the source without a field in the IR.
     pub extensions: Extensions,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
-    /// Where its name stands.
+    /// Location of the name in the source.
     pub name_at: Span,
 }
 
 impl Group {
-    /// An object without items.
+    /// Creates an object without items.
     pub fn object(index: u16, code: ObjectCode) -> Self {
         Group {
             name: CompactString::default(),
@@ -291,7 +291,7 @@ impl Group {
         }
     }
 
-    /// The index, where the group is an object.
+    /// Returns the index, if the group is an object.
     pub fn index(&self) -> Option<u16> {
         match self.kind {
             GroupKind::Object { index, .. } => Some(index),
@@ -299,7 +299,7 @@ impl Group {
         }
     }
 
-    /// The object code, where the group is an object.
+    /// Returns the object code, if the group is an object.
     pub fn object_code(&self) -> Option<ObjectCode> {
         match self.kind {
             GroupKind::Object { code, .. } => Some(code),
@@ -307,12 +307,12 @@ impl Group {
         }
     }
 
-    /// The item at a sub-index.
+    /// Returns the item at a sub-index.
     pub fn sub(&self, sub_index: u8) -> Option<&Item> {
         self.items.get(self.position(sub_index)?)
     }
 
-    /// The position of the item at a sub-index.
+    /// Returns the position of the item at a sub-index.
     pub(crate) fn position(&self, sub_index: u8) -> Option<usize> {
         let at = |item: &Item| item.object().map(|(_, sub)| sub);
         let sorted = self.items.binary_search_by_key(&Some(sub_index), at);
@@ -320,32 +320,32 @@ impl Group {
     }
 }
 
-/// What a group is.
+/// The kind of a group, with its address.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum GroupKind {
     /// An object of an object dictionary (CiA 301 7.4, ETG.1000.6 5.6).
     Object {
-        /// Its index.
+        /// Index.
         index: u16,
-        /// Its object code.
+        /// Object code.
         code: ObjectCode,
-        /// Mandatory, optional or conditional, where the source says so.
+        /// Whether a device has to have the object, if the source states it.
         category: Option<Category>,
     },
     /// A chapter of a register table.
     Chapter,
     /// A parameter record of a PROFINET submodule.
     Record(Box<Record>),
-    /// A fixed process image.
+    /// A process image with a fixed layout.
     Image {
         /// Length in bytes.
         length: u32,
     },
 }
 
-/// What a parameter record of a PROFINET submodule is (ParameterRecordDataItem of GSDML).
+/// Facts of a parameter record of a PROFINET submodule (ParameterRecordDataItem of GSDML).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Record {
@@ -353,30 +353,30 @@ pub struct Record {
     pub index: u16,
     /// Length in bytes.
     pub length: u32,
-    /// Order of transfer at start-up; 0 = any.
+    /// Position in the order of transfer at start-up; 0 = any.
     pub transfer_sequence: u16,
-    /// Whether a change while the device runs disturbs it, where given (`ChangeableWithBump`).
+    /// Whether a change during operation disturbs the device, if stated (`ChangeableWithBump`).
     pub changeable_with_bump: Option<bool>,
-    /// Fixed bytes, by offset; bytes that neither a constant nor an item covers are 0.
+    /// Fixed bytes with their byte offsets. Bytes without a constant or an item are 0.
     pub constants: Vec<(u32, Vec<u8>)>,
 }
 
-/// Whether an object has to exist.
+/// Whether a device has to have an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Category {
-    /// It has to.
+    /// Mandatory.
     Mandatory,
-    /// It may.
+    /// Optional.
     Optional,
-    /// It has to under a condition.
+    /// Mandatory under a condition.
     Conditional,
-    /// The vendor's own.
+    /// Manufacturer-specific.
     Manufacturer,
 }
 
-/// Object codes of CiA 301 7.4.3.
+/// Object code (CiA 301 7.4.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -385,20 +385,20 @@ pub enum ObjectCode {
     Null,
     /// 2: a block of data of any length.
     Domain,
-    /// 5: the definition of a basic type.
+    /// 5: definition of a basic type.
     DefType,
-    /// 6: the definition of a record type.
+    /// 6: definition of a record type.
     DefStruct,
-    /// 7: one value.
+    /// 7: a single value.
     Var,
-    /// 8: equal elements.
+    /// 8: elements of one type.
     Array,
-    /// 9: different elements.
+    /// 9: elements of different types.
     Record,
 }
 
 impl ObjectCode {
-    /// The object code with this number.
+    /// Returns the object code with this number.
     pub fn from_number(number: i128) -> Option<Self> {
         Some(match number {
             0 => ObjectCode::Null,
@@ -412,7 +412,7 @@ impl ObjectCode {
         })
     }
 
-    /// The name in CiA 301.
+    /// Returns the name in CiA 301.
     pub fn name(self) -> &'static str {
         match self {
             ObjectCode::Null => "NULL",
@@ -425,7 +425,7 @@ impl ObjectCode {
         }
     }
 
-    /// Whether an object of this code has sub-indices.
+    /// Returns whether an object of this code has sub-indices.
     pub fn has_subs(self) -> bool {
         matches!(self, ObjectCode::Array | ObjectCode::Record | ObjectCode::DefStruct)
     }

@@ -1,32 +1,32 @@
-//! Finding many items, in a time that doesn't grow with the number of items: indexes that are made once.
+//! Indexes for fast lookup of items.
 
 use std::cell::OnceCell;
 use std::collections::{BTreeSet, HashMap};
 
 use super::{Group, Item, ItemId};
 
-/// The items at indices and sub-indices: of objects, and registers that are objects too.
+/// Index of items by index and sub-index. It includes registers with an object address.
 ///
-/// The objects have to be sorted, and to stand behind groups that are none.
+/// Objects have to be sorted by index, after all other groups.
 #[derive(Clone, Debug)]
 pub struct Entries<'a> {
     groups: &'a [Group],
-    /// Registers that are objects too, made when one is first asked for.
+    /// Registers with an object address. The map is built at the first lookup.
     registers: OnceCell<HashMap<(u16, u8), ItemId>>,
 }
 
 impl<'a> Entries<'a> {
-    /// The items of a device or of a module.
+    /// Creates an index of the items of a device or module.
     pub fn new(groups: &'a [Group]) -> Self {
         Entries { groups, registers: OnceCell::new() }
     }
 
-    /// The item at an index and sub-index. Where there is an object, it alone counts.
+    /// Returns the item at an index and sub-index. Registers are ignored if there is an object with this index.
     pub fn get(&self, index: u16, sub_index: u8) -> Option<&'a Item> {
         self.find(index, sub_index)?.of(self.groups)
     }
 
-    /// The id of the item at an index and sub-index.
+    /// Returns the id of the item at an index and sub-index.
     pub fn find(&self, index: u16, sub_index: u8) -> Option<ItemId> {
         match self.groups.binary_search_by_key(&Some(index), Group::index) {
             Ok(group) => {
@@ -37,7 +37,7 @@ impl<'a> Entries<'a> {
         }
     }
 
-    /// Whether there are neither objects nor chapters.
+    /// Returns whether there are neither objects nor chapters.
     pub fn is_empty(&self) -> bool {
         self.groups.is_empty()
     }
@@ -56,7 +56,7 @@ impl<'a> Entries<'a> {
     }
 }
 
-/// The items by what they are called: the first of each name. Each index is made when it is first asked for.
+/// Index of items by name and path. Of items that share a name, it contains the first. It is built at the first lookup.
 #[derive(Clone, Debug)]
 pub struct ItemNames<'a> {
     groups: &'a [Group],
@@ -65,12 +65,12 @@ pub struct ItemNames<'a> {
 }
 
 impl<'a> ItemNames<'a> {
-    /// The items of a device or of a module.
+    /// Creates an index of the items of a device or module.
     pub fn new(groups: &'a [Group]) -> Self {
         ItemNames { groups, names: OnceCell::new(), paths: OnceCell::new() }
     }
 
-    /// The item of this name.
+    /// Returns the item with this name.
     pub fn by_name(&self, name: &str) -> Option<&'a Item> {
         let names = self.names.get_or_init(|| {
             let mut names = HashMap::new();
@@ -82,35 +82,35 @@ impl<'a> ItemNames<'a> {
         names.get(name).copied()
     }
 
-    /// The item at this path: the name of its chapter, and its own (`Chapter/Item`).
+    /// Returns the item at a path of chapter name and item name (`Chapter/Item`).
     pub fn by_path(&self, path: &str) -> Option<&'a Item> {
         self.paths.get_or_init(|| ItemPaths::new(self.groups)).find(path).map(|(_, item)| item)
     }
 }
 
-/// The items by the names of their chapter and their own, `Chapter/Item`.
+/// Index of items by path (`Chapter/Item`).
 #[derive(Clone, Debug, Default)]
 pub struct ItemPaths<'a> {
     chapters: HashMap<&'a str, HashMap<&'a str, (ItemId, &'a Item)>>,
-    /// How many slashes the names of chapters have.
+    /// Numbers of slashes that occur in chapter names.
     slashes: BTreeSet<usize>,
 }
 
 impl<'a> ItemPaths<'a> {
-    /// The items of these groups.
+    /// Creates an index of the items of these groups.
     pub fn new(groups: impl IntoIterator<Item = &'a Group>) -> Self {
         let mut paths = ItemPaths::default();
-        for (place, group) in (0..).zip(groups) {
+        for (position, group) in (0..).zip(groups) {
             paths.slashes.insert(group.name.matches('/').count());
             let chapter = paths.chapters.entry(group.name.as_str()).or_default();
-            for (id, item) in group.items_at(place) {
+            for (id, item) in group.items_at(position) {
                 chapter.entry(item.name.as_str()).or_insert((id, item));
             }
         }
         paths
     }
 
-    /// The item at a path, with its id; of several the first.
+    /// Returns the first item at a path, with its id.
     pub fn find(&self, path: &str) -> Option<(ItemId, &'a Item)> {
         // A slash may belong to either name.
         let found = self.slashes.iter().filter_map(|&slashes| {
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn an_object_counts_before_a_register_that_is_one_too() {
+    fn an_object_takes_precedence_over_a_register_with_the_same_index() {
         let mut registers = chapter("Registers", &[]);
         registers.items = vec![item("a", 0x2000, 1), item("again", 0x2000, 1), item("hidden", 0x3000, 1)];
         let mut object = Group::object(0x3000, ObjectCode::Record);

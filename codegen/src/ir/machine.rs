@@ -9,128 +9,128 @@ use crate::source::{Origin, Span};
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StateMachine {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The item that tells the state, or `Message.field` where a reply does.
+    /// Item that contains the state, or `Message.field` for a field of a reply.
     pub status_item: ItemRef,
-    /// The item that commands it.
+    /// Item that takes the commands.
     pub control_item: ItemRef,
-    /// The enumeration whose values are the states, where the source has one.
+    /// Enumeration of the states, if the source has one.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub state_type: Option<TypeRef>,
-    /// States, by the bits of the status item; with a `state_type`, one for each of its values.
+    /// States as patterns of the status item. With a `state_type`, each of its values is a state.
     pub states: SharedList<Pattern>,
-    /// The state after power-on.
+    /// State after power-on.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub initial: Option<CompactString>,
-    /// Commands, by the bits of the control item.
+    /// Commands as patterns of the control item.
     pub commands: SharedList<Pattern>,
-    /// From which state to which.
+    /// Transitions between states.
     pub transitions: SharedList<Transition>,
-    /// What commands do in each state, where the source has a table of that.
+    /// Effects of commands in each state, if the source has a table of them.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub outcomes: Vec<CommandOutcomes>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
 }
 
-/// What a command does in each state: a row of a table of commands and states.
+/// Effects of a command in each state: a row of a table of commands and states.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CommandOutcomes {
-    /// Its name in that table.
+    /// Name of the row.
     pub name: CompactString,
-    /// The messages, or commands of the machine, that the row is about; none where the source describes it nowhere else.
+    /// Messages or commands of the row; empty if the source does not describe the command elsewhere.
     pub commands: Vec<CompactString>,
-    /// Who has it.
+    /// Models, firmware versions and buses that have the command.
     pub availability: Option<Box<Availability>>,
-    /// What it does, state by state.
+    /// Effects, one entry for each state.
     pub cells: Vec<StateOutcome>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
-/// What a command does in one state.
+/// Effect of a command in one state.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StateOutcome {
-    /// The state in which it comes.
+    /// State in which the device receives the command.
     pub state: CompactString,
-    /// What happens, one of these; none where the source says nothing.
+    /// Possible outcomes; empty if the source does not state any.
     pub outcomes: Vec<Outcome>,
-    /// On what it depends, and what happens besides.
+    /// Conditions and further effects.
     pub documentation: Option<Box<Documentation>>,
 }
 
-/// What happens to a command.
+/// The outcome of a command.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Outcome {
-    /// It is carried out, and the state stays.
+    /// The device executes the command, and its state does not change.
     Unchanged,
-    /// The device refuses it.
+    /// The device rejects the command.
     Refused,
-    /// It leads to the first of these states, which leads by itself to the next.
+    /// The device changes to the first of these states, and from each state automatically to the next.
     States(Vec<CompactString>),
 }
 
-/// A state or a command: bits that have to have a value.
+/// A state or a command as a pattern of bits.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pattern {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The bits that count.
+    /// Bits that the pattern includes.
     pub mask: u32,
-    /// The value that they have.
+    /// Value of these bits.
     pub value: u32,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
 }
 
-/// A change from one state to another.
+/// A transition from one state to another.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Transition {
-    /// Its number in the source.
+    /// Number in the source.
     pub number: Option<u16>,
-    /// The state that it leaves; `None` = any.
+    /// State before the transition; `None` = any state.
     pub from: Option<CompactString>,
-    /// The state that it leads to.
+    /// State after the transition.
     pub to: CompactString,
-    /// The command or the message that causes it; `None` where the device does. Only a message has an id.
+    /// Command or message that causes the transition; `None` = the device itself causes it. Only a message has an id.
     pub command: Option<MessageRef>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
 }
 
-/// A sequence of steps.
+/// A procedure: a sequence of steps.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Procedure {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// What its caller gives: names that steps write.
+    /// Names of the arguments, which the caller provides and steps write.
     pub arguments: Vec<CompactString>,
-    /// Its steps.
+    /// Steps in order.
     pub steps: Vec<Step>,
-    /// Where its steps stand.
+    /// Locations of the steps in the source.
     pub step_spans: Vec<Span>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
 impl Procedure {
-    /// The steps, each with its place; without one of its own, that of the procedure.
+    /// Returns the steps with their locations in the source. A step without a location has the location of the procedure.
     pub fn spanned(&self) -> impl Iterator<Item = (&Step, Span)> {
         let span = |at: usize| self.step_spans.get(at).copied().unwrap_or_default().or(self.origin.span);
         self.steps.iter().enumerate().map(move |(at, step)| (step, span(at)))
@@ -144,26 +144,26 @@ impl Procedure {
 pub enum Step {
     /// Write a value to an item.
     Write(ItemRef, Value),
-    /// Write a value to some bits of an item, and leave the others as they are: item, mask, value.
+    /// Write a value to some bits of an item and keep the other bits: item, mask, value.
     WriteBits(ItemRef, u64, Value),
-    /// Write to an item what the caller gives: item, name of the argument.
+    /// Write an argument to an item: item, name of the argument.
     WriteArgument(ItemRef, CompactString),
-    /// Read an item: its value is what the procedure gives.
+    /// Read an item and return its value to the caller.
     Read(ItemRef),
-    /// Wait until an item, under a mask, has a value; at most so many milliseconds, where the source says.
+    /// Wait until the masked bits of an item have a value: item, mask, value, timeout in milliseconds if the source states one.
     WaitFor(ItemRef, u64, Value, Option<u32>),
-    /// Wait so many milliseconds.
+    /// Wait for a time in milliseconds.
     Delay(u32),
     /// Send a message.
     Send(MessageRef),
-    /// Exchange process data once in this direction.
+    /// Exchange process data once, in this direction.
     Exchange(Direction),
-    /// Something a person has to do.
+    /// Instruct a person to do something.
     Manual(String),
 }
 
 impl Step {
-    /// The item that it writes, reads or waits for.
+    /// Returns the item that the step writes, reads or waits for.
     pub fn item(&self) -> Option<&ItemRef> {
         match self {
             Step::Write(item, _) | Step::WriteBits(item, ..) | Step::WriteArgument(item, _) => Some(item),

@@ -10,47 +10,47 @@ use crate::source::{Origin, Span};
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Message {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// What the request carries, in order; empty where only the device sends.
+    /// Fields of the request in order; empty if only the device sends.
     pub request: Vec<MessageField>,
-    /// What the reply carries, in order; empty where none is sent.
+    /// Fields of the reply in order; empty if the device sends none.
     pub reply: Vec<MessageField>,
-    /// When the order is carried out.
+    /// When the command is complete.
     pub completion: Completion,
-    /// About how many milliseconds the reply takes where it comes late, and where the source says.
+    /// Approximate reply time in milliseconds, if the source states that the reply is delayed.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub reply_time: Option<u32>,
-    /// The message after which a device answers so: the meaning of the reply to one request depends on an earlier one.
+    /// The earlier message that selects this reply, if the meaning of the reply depends on an earlier request.
     pub after: Option<MessageRef>,
-    /// Whether the device answers so after power-on too, before any message of those that others name in `after`.
+    /// Whether the device also sends this reply after power-on, before it has received one of the messages in `after`.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub by_default: bool,
-    /// The message that comes instead of the reply where the device refuses.
+    /// The message that the device sends instead of the reply if it rejects the request.
     pub error: Option<MessageRef>,
-    /// What else it does.
+    /// Side effects.
     pub side_effects: Vec<CompactString>,
-    /// Values of items for which the device accepts it.
+    /// Conditions on items under which the device accepts the message.
     pub accepted_when: Vec<Condition>,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// Who has it.
+    /// Models, firmware versions and buses that support the message.
     pub availability: Option<Box<Availability>>,
-    /// States in which the device accepts it; empty = all.
+    /// States in which the device accepts the message; empty = all.
     pub accepted_in: Vec<CompactString>,
-    /// Frames that the source prints as examples.
+    /// Example frames in the source.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub examples: Vec<MessageExample>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Contradictions of the source.
+    /// Ambiguities in the source, with assumptions.
     pub doubts: Doubts,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
 impl Message {
-    /// The values of request and reply, those of repeated fields too.
+    /// Returns the typed values of request and reply, including those in repeated fields.
     pub fn values(&self) -> impl Iterator<Item = &MessageValue> {
         values(&self.request).chain(values(&self.reply))
     }
@@ -66,23 +66,23 @@ fn values(fields: &[MessageField]) -> Box<dyn Iterator<Item = &MessageValue> + '
     }))
 }
 
-/// A request, and what a device answered, byte for byte.
+/// A request and the reply of a device, as bytes.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MessageExample {
-    /// The bytes of the request; empty where the source has none.
+    /// Bytes of the request; empty if the source prints none.
     pub request: Vec<u8>,
-    /// The bytes of the reply; empty where the source has none.
+    /// Bytes of the reply; empty if the source prints none.
     pub reply: Vec<u8>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Where the bytes of the request stand.
+    /// Location of the request in the source.
     pub request_at: Span,
-    /// Where the bytes of the reply stand.
+    /// Location of the reply in the source.
     pub reply_at: Span,
 }
 
-/// When an order is carried out.
+/// When a command is complete.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -90,85 +90,85 @@ pub enum Completion {
     /// Before the reply.
     #[default]
     Immediate,
-    /// When the reply comes, which may take long.
+    /// With the reply, which can take a long time.
     Reply,
-    /// When this item, or field of replies, says so.
+    /// When this item, or this field of a reply, has a value.
     Polled {
-        /// Its name, perhaps with that of a bit behind a dot. Only an item has an id.
+        /// Name of the item or field, optionally followed by a dot and the name of a bit. Only an item has an id.
         item: ItemRef,
-        /// The bits that count; all where the source names none.
+        /// The bits to compare; `None` = all.
         mask: Option<u64>,
-        /// The value that tells that the order is carried out; `None` = any but 0.
+        /// The value of a completed command; `None` = any except 0.
         value: Option<Value>,
-        /// Whether the reply to the order tells it already: as long as the order isn't carried out, the reply has another value
-        /// for certain. Else what it has may still be about the order before.
+        /// Whether the reply to the command itself already has a valid value. If not, this value can still refer to the previous
+        /// command.
         #[cfg_attr(feature = "serde", serde(default))]
         in_reply: bool,
     },
-    /// After so many milliseconds.
+    /// After this time in milliseconds.
     Delayed(u32),
 }
 
-/// One field of a frame. Fields of less than a byte follow each other from the most significant bit on.
+/// One field of a frame. Fields below one byte are packed from the most significant bit.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum MessageField {
     /// Fixed bytes.
     Constant(Vec<u8>),
-    /// Fixed bits where there is no whole byte of them.
+    /// Fixed bits that do not fill a byte.
     FixedBits {
-        /// How many.
+        /// Number of bits.
         bits: u8,
         /// Their value.
         value: u64,
     },
     /// A typed value.
     Value(Box<MessageValue>),
-    /// A copy of a field of the request, or of a part of it.
+    /// A copy of a request field, or of some of its bytes.
     Echo {
-        /// The field.
+        /// Name of the field.
         field: CompactString,
-        /// First and last byte of the part, the first byte on the wire numbered 0; `None` = all.
+        /// First and last byte of the copy, counted from 0 in the order on the wire; `None` = all.
         bytes: Option<(u8, u8)>,
     },
-    /// Bytes of the request, whatever they mean there: first and last, the first byte of the data numbered 0. Where a request
-    /// is shorter, nothing is known of those that it lacks.
+    /// Bytes of the request, whatever their meaning, counted from 0 at the start of the data. If the request is shorter, the
+    /// missing bytes are unknown.
     Copy {
         /// First byte.
         first: u16,
         /// Last byte.
         last: u16,
     },
-    /// The code of an item, in the named space. In a reply it is the first code of the request.
+    /// The code of an item in a parameter space. In a reply, it is the first code of the request.
     ItemCode {
-        /// The space.
+        /// Name of the parameter space.
         space: CompactString,
         /// Length of the code in bits.
         bits: u8,
     },
-    /// The value of the item whose code stands in front, in the named space.
+    /// The value of the item whose code comes before it.
     ItemValue {
-        /// The space.
+        /// Name of the parameter space.
         space: CompactString,
     },
-    /// Zeros, as many as the value of the item has whose code stands in front, in the named space.
+    /// Zero bytes in the length of the value of the item whose code comes before them.
     ItemPadding {
-        /// The space.
+        /// Name of the parameter space.
         space: CompactString,
     },
-    /// Bytes without meaning.
+    /// Number of unused bytes.
     Padding(u8),
-    /// Fields that occur several times.
+    /// Repeated fields.
     Repeat {
-        /// The field that holds the number of repetitions; `None` = up to the end.
+        /// Name of the field with the number of repetitions; `None` = up to the end of the data.
         count: Option<CompactString>,
-        /// The greatest number of repetitions.
+        /// Maximum number of repetitions.
         max: Option<u16>,
-        /// What is repeated.
+        /// The fields of each repetition.
         fields: Vec<MessageField>,
     },
-    /// All bytes that follow.
+    /// All remaining bytes.
     Rest,
 }
 
@@ -176,32 +176,32 @@ pub enum MessageField {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MessageValue {
-    /// What it is: an item that is found nowhere else, so that it has no binding.
+    /// Name, type and other facts of the value. This item has no binding.
     pub item: Item,
-    /// Order of its bytes on the wire, the most significant numbered 0; empty = big-endian.
+    /// Order of the bytes on the wire. 0 is the most significant byte. Empty = big-endian.
     pub byte_order: Vec<u8>,
-    /// The field of the same frame from which on the value counts the bytes, where it is a length.
+    /// The field of the same frame from which the bytes are counted, if the value is a length.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub counts: Option<CompactString>,
 }
 
-/// Numbers by which a command protocol addresses items, and the messages that carry their values.
+/// A parameter space of a command protocol: numbers that address items, and the messages that transfer their values.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ParameterSpace {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The message that reads a value.
+    /// Message that reads a value.
     pub read: Option<MessageRef>,
-    /// The message that writes it.
+    /// Message that writes a value.
     pub write: Option<MessageRef>,
-    /// The message that keeps values over power-off.
+    /// Message that writes a value to non-volatile memory.
     pub store: Option<MessageRef>,
-    /// Order of the bytes of longer values on the wire, the most significant numbered 0; empty = big-endian.
+    /// Order of the bytes of longer values on the wire. 0 is the most significant byte. Empty = big-endian.
     pub byte_order: Vec<u8>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
@@ -213,81 +213,80 @@ pub struct Framing {
     pub start: Option<u8>,
     /// Last byte.
     pub end: Option<u8>,
-    /// Byte that announces an escaped one.
+    /// Byte before an escaped byte.
     pub escape: Option<u8>,
-    /// What an escaped byte is combined with (exclusive or).
+    /// Value that is combined with an escaped byte by exclusive or.
     pub escape_xor: u8,
     /// Bytes that are escaped.
     pub escaped: Vec<u8>,
-    /// How the check is formed: `xor`, `sum`, `crc16`, ….
+    /// Algorithm of the checksum: `xor`, `sum`, `crc16`, ….
     pub check: CompactString,
-    /// The field of the data from which on the check counts; `None` = from the first byte behind `start`.
+    /// First field that the checksum covers; `None` = from the first byte after `start`.
     pub check_from: Option<CompactString>,
-    /// Whether the check itself is escaped.
+    /// Whether bytes of the checksum are escaped.
     pub check_escaped: bool,
-    /// Start value of the check.
+    /// Initial value of the checksum.
     pub check_seed: u32,
-    /// Greatest number of data bytes, without start, end, escapes and check.
+    /// Maximum number of data bytes, without start, end, escape bytes and checksum.
     pub max_data: Option<u16>,
-    /// The field of requests that holds the number of the device for which they are; `None` = devices have no numbers.
+    /// Request field with the address of the device; `None` = the protocol has no device addresses.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub address: Option<CompactString>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
-/// A table of codes with their meaning: alarms, emergency codes, abort codes, channel diagnosis.
+/// A table of codes with their meanings: alarms, emergency codes, abort codes, channel diagnosis.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CodeTable {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// Names of the columns beside code and meaning.
+    /// Names of further columns, after code and meaning.
     pub columns: Vec<CompactString>,
-    /// Its rows.
+    /// Rows.
     pub rows: SharedList<CodeRow>,
-    /// The only buses on which its codes mean this; all of them where it is empty.
+    /// Buses on which the codes have these meanings; empty = all.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Buses::is_empty"))]
     pub buses: Buses,
-    /// What it is.
+    /// Description.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub documentation: Option<Box<Documentation>>,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
-/// One code.
+/// A row of a code table.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CodeRow {
-    /// The code, or codes, in the notation of the source (`0x8700`, `F125`, `0xFF13 to 0xFF15`); empty if that is decimal.
+    /// The code or range as printed (`0x8700`, `F125`, `0xFF13 to 0xFF15`); empty if the source prints decimal numbers.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub printed: CompactString,
-    /// The cells in the notation of the source; empty for all that it doesn't write as hexadecimal numbers.
+    /// Cells as printed, with an empty text for each cell that is not a hexadecimal number.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub printed_cells: Vec<CompactString>,
-    /// The code; the first of a range.
+    /// Code, or first code of a range.
     pub code: i128,
-    /// The last code of a range.
+    /// Last code of a range.
     pub last: Option<i128>,
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// Models and firmware versions that have it.
+    /// Models and firmware versions that use the code.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub availability: Option<Box<Availability>>,
     /// Cause and remedy.
     pub documentation: Option<Box<Documentation>>,
-    /// The other columns.
+    /// Values of the further columns.
     pub cells: Vec<Value>,
 }
 
 impl CodeRow {
-    /// Returns the code, or the codes, as the source prints them: `0x8110`, `F125`, `0xFF13 to 0xFF15`. Decimal if the source has no
-    /// other notation.
+    /// Returns the code or range as printed: `0x8110`, `F125`, `0xFF13 to 0xFF15`. Codes without a printed notation are decimal.
     pub fn printed_code(&self) -> String {
         match (self.printed.as_str(), self.last) {
             ("", None) => self.code.to_string(),

@@ -1,23 +1,23 @@
 //! The intermediate representation: plain data that every front end produces and every back end reads.
 //!
-//! A [`Catalog`] holds the [`Device`]s of one vendor. What a device has falls into a few ideas:
+//! A [`Catalog`] holds the [`Device`]s of one vendor. The main elements of a device are:
 //!
-//! - An [`Item`] is *one value* of the device: an object's sub-entry, a register, a parameter, a field of a record or of
-//!   a process image. It has a [`Type`], an [`Access`], a default, limits, and **bindings**: where it is found on each
-//!   bus. One item may have several addresses.
-//! - A [`Group`] keeps together the items that the source keeps together: the sub-entries of an object, the registers
-//!   of a chapter, the fields of a parameter record. On CANopen and EtherCAT a group is an object.
-//! - A [`Type`] is either basic or names a [`TypeDef`]: a bit field, an enumeration, an array, a record.
-//! - [`ProcessData`] is what is exchanged cyclically: PDOs with exact bit positions, sync managers, submodule data.
-//! - A [`Message`] is a request or reply frame of a drive that speaks a command protocol.
-//! - [`Module`]s and [`Submodule`]s extend a modular device; they belong to the catalogue, because several devices may
-//!   take the same ones. [`CodeTable`]s, [`StateMachine`]s and [`Procedure`]s are what a manual tells
-//!   beside the dictionary.
+//! - An [`Item`] is *one value*: a sub-index of an object, a register, a parameter, a field of a record or of a process
+//!   image. It has a [`Type`], an [`Access`], a default, limits, and **bindings**: its address on each bus. One item may
+//!   have several addresses.
+//! - A [`Group`] is a list of items that belong together in the source: the sub-indices of an object, the registers of a
+//!   chapter, the fields of a parameter record. On CANopen and EtherCAT a group is an object.
+//! - A [`Type`] is either basic or refers to a [`TypeDef`]: a bit field, an enumeration, an array, a record.
+//! - [`ProcessData`] is the cyclic data: PDOs with exact bit positions, sync managers, submodule data.
+//! - A [`Message`] is a request of a command protocol, with its reply.
+//! - [`Module`]s and [`Submodule`]s extend a modular device. They belong to the catalog, because several devices may
+//!   accept the same modules.
+//! - [`CodeTable`]s, [`StateMachine`]s and [`Procedure`]s are the parts of a manual that are not items.
 //!
-//! Every element knows its [`Origin`](crate::source::Origin), and where the source contradicts itself a [`Doubt`] says
-//! what it says, what was chosen and why. What a source says and the IR has no place for is kept as an [`Extension`].
+//! Every element has an [`Origin`](crate::source::Origin). A [`Doubt`] describes an ambiguity in the source and the
+//! assumption that was made. Facts without a field in the IR are kept as [`Extension`]s.
 //!
-//! The IR is never wrong by construction: it holds what a source says, even where that makes no sense. Passes check it.
+//! The IR can hold contradictory descriptions, because it holds what the source states. The lints of `check` report them.
 
 mod behaviour;
 mod bus;

@@ -1,49 +1,49 @@
-//! Modular devices: slots, and modules that can be plugged into them.
+//! Modular devices: slots and modules.
 
 use super::{
-    CompactString, Documentation, Extensions, Group, Identity, InitCommand, Item, Numbers, Places, ProcessData,
+    CompactString, Documentation, Extensions, Group, Identity, InitCommand, Item, Numbers, ProcessData, SlotNumbers,
     SubmoduleUse, SubslotName, Texts, TypeDef,
 };
 use crate::source::Origin;
 
-/// A place for modules.
+/// A slot for modules, or several equal slots.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Slot {
-    /// Its number, or first number.
+    /// Number of the first slot.
     pub number: u16,
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// Least and greatest number of modules in it.
+    /// Minimum and maximum number of modules.
     pub instances: (u16, u16),
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// What fits; empty = all modules of the device.
+    /// Accepted modules; empty = all modules of the device.
     pub fits: Vec<Fit>,
-    /// The module that is there by default.
+    /// Default module.
     pub default: Option<Fit>,
-    /// Number of the slot group, where it belongs to one.
+    /// Number of the slot group, if any.
     pub group: Option<u16>,
-    /// What to add to the index of a module's objects per slot.
+    /// Increment of the index of a module's objects per slot.
     pub index_increment: u16,
-    /// What to add to the number of a module's PDOs per slot.
+    /// Increment of the number of a module's PDOs per slot.
     pub pdo_increment: u16,
-    /// What to add to the index of a module's objects per slot group.
+    /// Increment of the index of a module's objects per slot group.
     pub group_index_increment: u16,
-    /// What to add to the number of a module's PDOs per slot group.
+    /// Increment of the number of a module's PDOs per slot group.
     pub group_pdo_increment: u16,
 }
 
-/// What fits into a slot.
+/// Modules that a slot accepts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Fit {
     /// The module with this ident number.
     Ident(u32),
-    /// Every module of this class.
+    /// All modules of this class.
     Class(CompactString),
-    /// The module that goes by this name.
+    /// The module with this name.
     Name(CompactString),
 }
 
@@ -52,65 +52,65 @@ pub enum Fit {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModuleId(pub u32);
 
-/// A module, and the slots that it may or has to be in.
+/// A module, and the slots that accept or contain it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModuleUse {
     /// The module.
     pub module: ModuleId,
     /// The slots.
-    pub places: Places,
+    pub places: SlotNumbers,
 }
 
 /// A module of a modular device (`[M1ModuleInfo]` … of CiA 306, Module of ETG.2000, ModuleItem of GSDML).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Module {
-    /// Its number in the description, counted from 1 (CiA 306), or its ident number (ETG.2000, GSDML).
+    /// Number in the description, counted from 1 (CiA 306), or module ident number (ETG.2000, GSDML).
     pub number: u32,
-    /// Its identifier in the source, where it has one (ID of a ModuleItem, Type of a Module).
+    /// Identifier in the source, if any (ID of a ModuleItem, Type of a Module).
     pub id: CompactString,
-    /// The class that slots name (ModuleClass of ETG.2000).
+    /// Class to which slots refer (ModuleClass of ETG.2000).
     pub class: CompactString,
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// Its version, as the source spells it.
+    /// Version as the source spells it.
     pub version: CompactString,
-    /// Its revision, as the source spells it.
+    /// Revision as the source spells it.
     pub revision: CompactString,
     /// Order code and identity numbers.
     pub identity: Identity,
-    /// Lines of comment.
+    /// Lines of comments.
     pub comments: Vec<CompactString>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Types that its objects name.
+    /// Types of its objects.
     pub types: Vec<TypeDef>,
-    /// Objects that exist once however many such modules are plugged in.
+    /// Objects that exist once for any number of these modules.
     pub fixed_objects: Vec<Group>,
-    /// Sub-indices that each such module adds to objects of the device.
+    /// Sub-indices that each of these modules adds to objects of the device.
     pub sub_extensions: Vec<SubExtension>,
-    /// Objects of the module itself (ETG.2000), relative to its slot.
+    /// Objects of the module, relative to its slot (ETG.2000).
     pub groups: Vec<Group>,
-    /// Its cyclic data, relative to its slot.
+    /// Cyclic data, relative to its slot.
     pub process_data: ProcessData,
-    /// Number of the group of modules whose process data are put together (ModulePdoGroup of ETG.2000).
+    /// Number of the group of modules with contiguous process data (ModulePdoGroup of ETG.2000).
     pub pdo_group: Option<u16>,
-    /// What a master writes at start-up (ETG.2000).
+    /// Commands that a master sends at start-up (ETG.2000).
     pub init_commands: Vec<InitCommand>,
-    /// Submodules that it has, and those that can be plugged into it (GSDML).
+    /// Submodules of the module, and submodules that it accepts (GSDML).
     pub submodules: Vec<SubmoduleUse>,
-    /// Subslots that there are (GSDML, PhysicalSubslots); empty = those of its own submodules.
+    /// Physical subslots (GSDML, PhysicalSubslots); empty = the subslots of its submodules.
     pub subslots: Numbers,
-    /// Names of its subslots (GSDML, SubslotList).
+    /// Names of subslots (GSDML, SubslotList).
     pub subslot_names: Vec<SubslotName>,
-    /// Device profiles that it follows, by number.
+    /// Numbers of its device profiles.
     pub profiles: Vec<u32>,
-    /// What the source says beyond that.
+    /// Facts of the source without a field in the IR.
     pub extensions: Extensions,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
@@ -122,10 +122,10 @@ pub struct SubExtension {
     pub index: u16,
     /// Number of sub-indices that the module adds.
     pub count: u16,
-    /// With bit-wise packing: the sub-indices are added to every module of so many. `None` for plain counting.
+    /// Number of modules that share one set of sub-indices, with bit-wise packing; `None` = each module adds the sub-indices.
     pub per: Option<u16>,
-    /// Whether a full object is continued at the next index (ObjExtend).
+    /// Whether the object at the next index continues a full object (ObjExtend).
     pub extends_object: bool,
-    /// What each added sub-index looks like; its sub-index is 1.
+    /// Template of each added sub-index. Its sub-index is 1.
     pub template: Item,
 }

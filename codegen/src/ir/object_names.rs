@@ -1,23 +1,23 @@
-//! Items that names spell as objects (`0x6040`, `0x1018:1`): overlays and profiles use them where the name of an item isn't known.
+//! References to items by index and sub-index (`0x6040`, `0x1018:1`), as overlays and profiles use them.
 
 use super::owner::object;
 use super::{CompactString, Condition, Group, Item, ItemRef, Shape, TypeDef};
 
-/// The groups of objects with these indices; groups have to be sorted, as [`Device::object`](super::Device::object) says.
+/// Returns the objects with these indices. Groups have to be sorted as for [`Device::object`](super::Device::object).
 pub(crate) fn in_range(groups: &mut [Group], first: u16, last: u16) -> &mut [Group] {
     let start = groups.partition_point(|group| group.index() < Some(first));
     let end = groups.partition_point(|group| group.index() <= Some(last));
     groups.get_mut(start..end).unwrap_or_default()
 }
 
-/// The item at the object that a name spells, where it spells one.
+/// Returns the item whose index and sub-index a name spells.
 pub(crate) fn item_at<'g>(groups: &'g [Group], name: &str) -> Option<&'g Item> {
     let (index, sub_index) = object(name)?;
     let position = groups.binary_search_by_key(&Some(index), Group::index).ok()?;
     groups.get(position)?.sub(sub_index)
 }
 
-/// The name of the item at the object that `reference` spells, or `reference` itself.
+/// Returns the reference with the name of its item, if it spells index and sub-index of an item with a name.
 pub(crate) fn item_name(groups: &[Group], reference: &ItemRef) -> ItemRef {
     match item_at(groups, reference) {
         Some(item) if !item.name.is_empty() => ItemRef { name: item.name.clone(), ..reference.clone() },
@@ -25,7 +25,7 @@ pub(crate) fn item_name(groups: &[Group], reference: &ItemRef) -> ItemRef {
     }
 }
 
-/// Names that conditions of bits and values give as objects become those of the items there. Their values get names.
+/// Names the items in conditions of bits and values that refer to them by index, and the values of these conditions.
 pub(crate) fn name_conditions(
     groups: &[Group],
     types: &mut [TypeDef],

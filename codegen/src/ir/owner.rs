@@ -1,4 +1,4 @@
-//! What has items and types of its own: a device, a module, or all submodules of a catalogue.
+//! Access to the items and types of a device, a module, or all submodules of a catalog.
 
 use std::cell::OnceCell;
 use std::collections::HashMap;
@@ -6,25 +6,25 @@ use std::collections::HashMap;
 use super::{EnumValue, Group, Item, ItemId, ItemPaths, Shape, Type, TypeDef, TypeId, Value, Zone};
 use crate::source::Span;
 
-/// How many names of types may lead from one to the next.
+/// Maximum length of a chain of type aliases.
 const MAX_ALIASES: usize = 16;
 
-/// Groups of items, and the types that the items name.
+/// Groups of items, and the types of these items.
 #[derive(Clone, Copy)]
 pub struct Owner<'a> {
-    /// The types that the items name.
+    /// Types of the items.
     pub types: &'a [TypeDef],
     /// Lists of groups.
     pub groups: &'a [&'a [Group]],
 }
 
 impl<'a> Owner<'a> {
-    /// Types alone.
+    /// Creates an owner of types without items.
     pub fn of_types(types: &'a [TypeDef]) -> Self {
         Owner { types, groups: &[] }
     }
 
-    /// Returns the item with an id that counts the groups of all lists.
+    /// Returns the item with this id. The id counts the groups of all lists.
     pub fn item(self, id: ItemId) -> Option<&'a Item> {
         let mut position = id.group as usize;
         for groups in self.groups {
@@ -36,12 +36,12 @@ impl<'a> Owner<'a> {
         None
     }
 
-    /// All items.
+    /// Returns all items.
     pub fn items(self) -> impl Iterator<Item = &'a Item> {
         self.groups.iter().flat_map(|groups| groups.iter()).flat_map(|group| &group.items)
     }
 
-    /// The definition of a type, below other names of it.
+    /// Returns the definition of a type, after following aliases.
     pub fn definition(self, ty: Type) -> Option<&'a TypeDef> {
         let mut ty = ty;
         for _ in 0..MAX_ALIASES {
@@ -55,7 +55,7 @@ impl<'a> Owner<'a> {
         None
     }
 
-    /// Returns the length of a type in bits, if all its values have the same.
+    /// Returns the length of a type in bits, if it is fixed.
     pub fn fixed_bits(self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(TypeId(id)) => self.types.get(id as usize)?.bits,
@@ -65,7 +65,7 @@ impl<'a> Owner<'a> {
         }
     }
 
-    /// The type below other names, bit fields, enumerations and scales.
+    /// Returns the basic type under aliases, bit fields, enumerations and scaled types.
     pub fn basic(self, ty: Type) -> Type {
         let mut ty = ty;
         for _ in 0..MAX_ALIASES {
@@ -79,7 +79,7 @@ impl<'a> Owner<'a> {
         ty
     }
 
-    /// The integer below an enumeration or a bit field; any other type as it is.
+    /// Returns the integer type of an enumeration or bit field, and each other type unchanged.
     pub(crate) fn integer(self, ty: Type) -> Type {
         let Type::Named(TypeId(id)) = ty else { return ty };
         match self.types.get(id as usize).map(|definition| &definition.shape) {
@@ -88,7 +88,7 @@ impl<'a> Owner<'a> {
         }
     }
 
-    /// The values of an enumeration, and whether there are no others.
+    /// Returns the values of an enumeration, and whether the list is complete.
     pub fn enumeration(self, ty: Type) -> Option<(&'a [EnumValue], bool)> {
         match &self.definition(ty)?.shape {
             Shape::Enumeration { values, closed, .. } => Some((values, *closed)),
@@ -97,7 +97,7 @@ impl<'a> Owner<'a> {
     }
 }
 
-/// The first use of each type. The list is made when it is first asked for: most types are as they should be.
+/// First use of each type. The map is built at the first call, because it is only needed for diagnostics.
 pub(crate) struct TypeUses<'a> {
     uses: OnceCell<HashMap<TypeId, Span>>,
     owner: Owner<'a>,
@@ -108,7 +108,7 @@ impl<'a> TypeUses<'a> {
         TypeUses { uses: OnceCell::new(), owner }
     }
 
-    /// Where a type is used first, else where it is defined.
+    /// Returns the location of the first use of a type, or of its definition.
     pub fn first(&self, id: TypeId) -> Span {
         let defined = || self.owner.types.get(id.0 as usize).map(|definition| definition.origin.span);
         self.uses().get(&id).copied().or_else(defined).unwrap_or_default()
@@ -127,7 +127,7 @@ impl<'a> TypeUses<'a> {
     }
 }
 
-/// Ids of items by what refers to them. Each list is made when it is first asked for: most descriptions refer to nothing.
+/// Index of items by the names in references. Each map is built at the first lookup, because most descriptions have no references.
 pub(crate) struct Index<'a> {
     names: OnceCell<HashMap<&'a str, ItemId>>,
     objects: OnceCell<HashMap<(u16, u8), ItemId>>,
@@ -144,22 +144,22 @@ impl<'a> Index<'a> {
         self.owner.groups.iter().flat_map(|groups| groups.iter())
     }
 
-    /// The groups with the ids of their items.
+    /// Returns all items with their groups and ids.
     fn items(&self) -> impl Iterator<Item = (&'a Group, ItemId, &'a Item)> {
         let ids =
             |(position, group): (u32, &'a Group)| group.items_at(position).map(move |(id, item)| (group, id, item));
         (0..).zip(self.groups()).flat_map(ids)
     }
 
-    /// Of the items that share a name, the first counts. An object of one value goes by the object's name too; a record and a
-    /// chapter are none of their values.
+    /// Returns the first item of each name. The name of an object with a single value also refers to that value. Names of records and
+    /// chapters do not refer to items.
     fn names(&self) -> &HashMap<&'a str, ItemId> {
         self.names.get_or_init(|| {
-            let own = self.items().map(|(_, id, item)| (item.name.as_str(), id));
-            let only = self.items().filter(|(group, ..)| group.index().is_some() && group.items.len() == 1);
-            let only = only.map(|(group, id, _)| (group.name.as_str(), id));
+            let items = self.items().map(|(_, id, item)| (item.name.as_str(), id));
+            let single = self.items().filter(|(group, ..)| group.index().is_some() && group.items.len() == 1);
+            let single = single.map(|(group, id, _)| (group.name.as_str(), id));
             let mut names = HashMap::new();
-            for (name, id) in own.chain(only).filter(|(name, _)| !name.is_empty()) {
+            for (name, id) in items.chain(single).filter(|(name, _)| !name.is_empty()) {
                 names.entry(name).or_insert(id);
             }
             names
@@ -170,7 +170,7 @@ impl<'a> Index<'a> {
         self.objects.get_or_init(|| self.items().filter_map(|(_, id, item)| Some((item.object()?, id))).collect())
     }
 
-    /// The item that goes by this name, is at this place (`0x6040`, `0x1018:1`), or is in this chapter (`Chapter/Item`).
+    /// Returns the item with this name, address (`0x6040`, `0x1018:1`) or path (`Chapter/Item`).
     pub fn find(&self, name: &str) -> Option<ItemId> {
         let by_name = || self.names().get(name).copied();
         let by_object = || self.objects().get(&object(name)?).copied();
@@ -179,7 +179,7 @@ impl<'a> Index<'a> {
     }
 }
 
-/// Index and sub-index of `0x6040`, `0x1018:1`.
+/// Parses an index and sub-index: `0x6040`, `0x1018:1`.
 pub(crate) fn object(text: &str) -> Option<(u16, u8)> {
     let (index, sub_index) = text.split_once(':').unwrap_or((text, "0"));
     let number = |text: &str| match text.strip_prefix("0x") {
@@ -189,15 +189,15 @@ pub(crate) fn object(text: &str) -> Option<(u16, u8)> {
     Some((number(index)?, u8::try_from(number(sub_index)?).ok()?))
 }
 
-/// Whether a value is reserved; `None` where it has no name at all. A name within a reserved zone counts.
+/// Returns whether a value is reserved, or `None` if it is not listed. A named value in a reserved zone is not reserved.
 pub(crate) fn reserved(labels: &[EnumValue], value: i128) -> Option<bool> {
-    let own = |label: &&EnumValue| (label.value..=label.last.unwrap_or(label.value)).contains(&value);
-    let mut own = labels.iter().filter(own).map(|label| label.zone == Some(Zone::Reserved));
-    let first = own.next()?;
-    Some(first && own.all(|is_reserved| is_reserved))
+    let matches = |label: &&EnumValue| (label.value..=label.last.unwrap_or(label.value)).contains(&value);
+    let mut zones = labels.iter().filter(matches).map(|label| label.zone == Some(Zone::Reserved));
+    let first = zones.next()?;
+    Some(first && zones.all(|is_reserved| is_reserved))
 }
 
-/// The only value that an item may have.
+/// Returns the value of an item whose minimum and maximum are the same.
 pub(crate) fn fixed(item: &Item) -> Option<i128> {
     let low = item.limits.low.as_ref().and_then(Value::as_int)?;
     (item.limits.high.as_ref().and_then(Value::as_int) == Some(low)).then_some(low)
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn an_object_of_one_value_goes_by_its_name_and_nothing_else_does() {
+    fn only_the_name_of_an_object_with_a_single_value_refers_to_that_value() {
         let chapter = Group { kind: GroupKind::Chapter, ..object(0x2002, "Chapter", &["Only"]) };
         let groups = [object(0x2000, "Speed", &["Value"]), object(0x2001, "Gains", &["Count", "P"]), chapter];
         let all = [groups.as_slice()];
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn a_type_is_where_it_is_used_first() {
+    fn the_location_of_a_type_is_its_first_use() {
         let mut groups = [object(0x2000, "Speed", &["a"]), object(0x2001, "Limit", &["b"])];
         for (group, at) in groups.iter_mut().zip([5, 9]) {
             group.items[0].ty = Type::Named(TypeId(0));

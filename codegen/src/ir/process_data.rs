@@ -1,4 +1,4 @@
-//! What is exchanged cyclically, with exact bit positions.
+//! Cyclic data with exact bit positions.
 
 use std::collections::HashMap;
 
@@ -9,26 +9,26 @@ use crate::source::Origin;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ProcessData {
-    /// PDOs, RPDOs first, each by number.
+    /// PDOs: RPDOs, then TPDOs, each sorted by number.
     pub pdos: Vec<Pdo>,
-    /// Sync managers of an EtherCAT slave, by number.
+    /// Sync managers of an EtherCAT slave, sorted by number.
     pub sync_managers: Vec<SyncManager>,
-    /// Other images with a fixed layout, such as the data of a PROFINET submodule.
+    /// Process images with a fixed layout.
     pub images: Vec<ProcessImage>,
 }
 
-/// How many sub-indices an object has for the entries of a mapping, or the PDOs of an assignment, beside sub-index 0
-/// (ETG.1000.6 5.6.7.4).
+/// Maximum number of sub-indices of a PDO mapping or PDO assignment object, except sub-index 0 (ETG.1000.6 5.6.7.4).
 pub const MAX_PDO_SUBS: usize = 254;
 
 impl ProcessData {
-    /// The PDOs that are assigned by default, each with its sync manager: outputs first, in the order of the source. Of
-    /// PDOs that exclude each other, and of those of one index, the first one counts (ETG.2000, Sm of RxPdo and TxPdo).
+    /// Returns the PDOs that are assigned by default with their sync managers: outputs, then inputs, in the order of the source.
+    ///
+    /// Of PDOs that exclude each other or share an index, the first is assigned (ETG.2000, Sm of RxPdo and TxPdo).
     pub fn assigned_by_default(&self) -> Vec<(&Pdo, u8)> {
         self.default_assignment().assigned
     }
 
-    /// The same, with what is left out for it.
+    /// Returns the PDOs that are assigned by default, and the PDOs that conflict with them.
     pub(crate) fn default_assignment(&self) -> DefaultAssignment<'_> {
         let mut all = DefaultAssignment::default();
         for direction in [Direction::Receive, Direction::Transmit] {
@@ -43,33 +43,33 @@ impl ProcessData {
         all
     }
 
-    /// Whether there is a sync manager with this number. Some descriptions have no list of them at all.
+    /// Returns whether there is a sync manager with this number, or the description has no list of sync managers.
     pub fn has_sync_manager(&self, number: u8) -> bool {
-        self.sync_managers.is_empty() || self.sync_managers.iter().any(|own| own.number == number)
+        self.sync_managers.is_empty() || self.sync_managers.iter().any(|manager| manager.number == number)
     }
 }
 
-/// Which PDOs are assigned by default, looked up by index: a file may have as many as there are indices.
+/// The default PDO assignment. Its maps keep the time linear for files with thousands of PDOs.
 #[derive(Debug, Default)]
 pub(crate) struct DefaultAssignment<'a> {
-    /// Each with its sync manager.
+    /// Assigned PDOs with their sync managers.
     pub assigned: Vec<(&'a Pdo, u8)>,
-    /// Each with the first one that it conflicts with.
+    /// PDOs that are not assigned, with the first PDO that they conflict with.
     pub left_out: Vec<(&'a Pdo, &'a Pdo)>,
-    /// Places in `assigned` by mapping index: several where they are on different buses.
+    /// Positions in `assigned` by mapping index. PDOs on different buses can share an index.
     by_index: HashMap<u16, Vec<usize>>,
-    /// The first place in `assigned` that excludes an index.
+    /// Position in `assigned` of the first PDO that excludes an index.
     excluded: HashMap<u16, usize>,
 }
 
 impl<'a> DefaultAssignment<'a> {
-    /// The first one for which [`Pdo::conflicts_with`] is true.
+    /// Returns the first assigned PDO that conflicts with `pdo` ([`Pdo::conflicts_with`]).
     fn conflict(&self, pdo: &Pdo) -> Option<&'a Pdo> {
         let of_index = |index: &u16| self.by_index.get(index).into_iter().flatten().copied();
-        let twin = of_index(&pdo.mapping_index).find(|&at| !self.assigned[at].0.is_apart(pdo));
+        let same_index = of_index(&pdo.mapping_index).find(|&at| !self.assigned[at].0.is_apart(pdo));
         let by_others = self.excluded.get(&pdo.mapping_index).copied();
         let by_itself = pdo.excludes.iter().filter_map(|index| of_index(index).next()).min();
-        [twin, by_others, by_itself].into_iter().flatten().min().map(|at| self.assigned[at].0)
+        [same_index, by_others, by_itself].into_iter().flatten().min().map(|at| self.assigned[at].0)
     }
 
     fn assign(&mut self, pdo: &'a Pdo, sync_manager: u8) {
@@ -87,77 +87,77 @@ impl<'a> DefaultAssignment<'a> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Direction {
-    /// Received by the device: outputs of the controller, RPDO.
+    /// The device receives the data: outputs of the controller, RPDO.
     Receive,
-    /// Sent by the device: inputs of the controller, TPDO.
+    /// The device sends the data: inputs of the controller, TPDO.
     Transmit,
 }
 
-/// One process data object.
+/// A process data object (PDO).
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pdo {
     /// Direction.
     pub direction: Direction,
-    /// Number, counted from 1 (CANopen) or the offset of its mapping object.
+    /// Number: counted from 1 (CANopen), or the distance of the mapping object from 0x1600 or 0x1A00.
     pub number: u16,
-    /// Its name, where the source has one.
+    /// Name, if the source has one.
     pub name: CompactString,
     /// Index of its mapping object (0x1600 …, 0x1A00 …).
     pub mapping_index: u16,
     /// Communication parameters (CANopen).
     pub communication: Option<PdoCommunication>,
-    /// What it carries, in order.
+    /// Entries in order.
     pub entries: Vec<PdoEntry>,
-    /// Whether the mapping can't be changed.
+    /// Whether the mapping cannot be changed.
     pub fixed: bool,
-    /// Whether it has to be assigned.
+    /// Whether a master has to assign it.
     pub mandatory: bool,
-    /// The sync manager to which it is assigned by default.
+    /// Sync manager in the default assignment.
     pub sync_manager: Option<u8>,
-    /// Mapping objects of PDOs that can't be assigned together with this one.
+    /// Mapping objects of PDOs that cannot be assigned together with this one.
     pub excludes: Vec<u16>,
-    /// Sync managers to which it can't be assigned (ExcludedSm of ETG.2000).
+    /// Sync managers that cannot contain it (ExcludedSm of ETG.2000).
     pub excluded_sync_managers: Vec<u8>,
-    /// The sync unit that it belongs to (ETG.2000).
+    /// Sync unit (ETG.2000).
     pub sync_unit: Option<u8>,
-    /// Whether its index grows with the slot of its module.
+    /// Whether its index depends on the slot of its module.
     pub depends_on_slot: bool,
-    /// Whether its index grows with the slot group of its module.
+    /// Whether its index depends on the slot group of its module.
     pub depends_on_slot_group: bool,
-    /// Whether it carries no data of its own and isn't assigned (Virtual of ETG.2000).
+    /// Whether it has no data and is not assigned (Virtual of ETG.2000).
     pub is_virtual: bool,
-    /// Whether the PDO of a module takes its place (OverwrittenByModule).
+    /// Whether the PDO of a module replaces it (OverwrittenByModule).
     pub overwritten_by_module: bool,
-    /// Oversampling, where it is sampled several times a cycle.
+    /// Oversampling: several samples in one cycle.
     pub oversampling: Option<Box<Oversampling>>,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// Greatest length of its own in bytes, where the source gives one that isn't its sync manager's.
+    /// Maximum length in bytes, if the source states it for this PDO instead of its sync manager.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub max_bytes: Option<u16>,
-    /// What the source says about it.
+    /// Description from the source.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub documentation: Option<Box<Documentation>>,
-    /// Contradictions of the source.
+    /// Ambiguities in the source, with assumptions.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
     pub doubts: Doubts,
-    /// What the source says beyond that.
+    /// Facts of the source without a field in the IR.
     pub extensions: Extensions,
-    /// The buses on which it is mapped so; all those of the device where none is said.
+    /// Buses with this mapping; `None` = all buses of the device.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub buses: Option<ObjectBuses>,
-    /// Whether no section describes it and it follows from NrOfRXPDO or NrOfTXPDO and CompactPDO (CiA 306).
+    /// Whether it has no section and follows from NrOfRXPDO, NrOfTXPDO and CompactPDO (CiA 306).
     pub implicit: bool,
-    /// Whether it follows from its mapping object, and is not declared as a PDO.
+    /// Whether the source declares only its mapping object.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub from_object: bool,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
 impl Pdo {
-    /// A PDO with nothing but an index.
+    /// Creates a PDO without entries.
     pub fn new(direction: Direction, mapping_index: u16) -> Self {
         let first = if direction == Direction::Receive { 0x1600 } else { 0x1A00 };
         Pdo {
@@ -190,30 +190,30 @@ impl Pdo {
         }
     }
 
-    /// Returns whether the mapping can be written to the device: every entry has an index, or is padding.
+    /// Returns whether the mapping can be written to the device, because each entry is padding or has an index.
     pub fn is_mapping_known(&self) -> bool {
         self.entries.iter().all(|entry| entry.kind != PdoEntryKind::Unnumbered)
     }
 
-    /// Whether no bus has both.
+    /// Returns whether the two PDOs are on different buses.
     pub fn is_apart(&self, other: &Pdo) -> bool {
         let of_both = self.buses.zip(other.buses);
         of_both.is_some_and(|(one, other)| !(one.canopen && other.canopen || one.coe && other.coe))
     }
 
-    /// Whether the two can't be assigned together: one excludes the other, or they are one PDO described twice.
+    /// Returns whether the two PDOs cannot be assigned together: one excludes the other, or both describe the same PDO.
     pub fn conflicts_with(&self, other: &Pdo) -> bool {
         self.mapping_index == other.mapping_index && !self.is_apart(other)
             || self.excludes.contains(&other.mapping_index)
             || other.excludes.contains(&self.mapping_index)
     }
 
-    /// Length in bits.
+    /// Returns the length in bits.
     pub fn bits(&self) -> u32 {
         self.entries.iter().fold(0, |bits, entry| bits.saturating_add(entry.bits))
     }
 
-    /// Length in bytes, the last one perhaps not full.
+    /// Returns the length in bytes, rounded up.
     pub fn bytes(&self) -> usize {
         self.bits().div_ceil(8) as usize
     }
@@ -225,11 +225,11 @@ impl Pdo {
 pub struct PdoCommunication {
     /// Index of the communication object (0x1400 …, 0x1800 …).
     pub index: u16,
-    /// Sub-index 1: COB-ID with the valid, RTR and frame bits.
+    /// Sub-index 1: COB-ID, including the valid, RTR and frame bits.
     pub cob_id: Option<Value>,
     /// Sub-index 2: transmission type.
     pub transmission_type: Option<u8>,
-    /// Sub-index 3: inhibit time in 100 µs.
+    /// Sub-index 3: inhibit time in units of 100 µs.
     pub inhibit_time: Option<u16>,
     /// Sub-index 5: event timer in ms.
     pub event_timer: Option<u16>,
@@ -247,33 +247,33 @@ pub struct PdoEntry {
     pub index: u16,
     /// Sub-index of the mapped object.
     pub sub_index: u8,
-    /// First bit, counted from the PDO's first.
+    /// Bit offset from the start of the PDO.
     pub bit_offset: u32,
     /// Length in bits.
     pub bits: u32,
-    /// What it is.
+    /// Kind of entry.
     pub kind: PdoEntryKind,
-    /// The mapped item, once resolved; `None` for an object of another module. Of a module, the id counts its fixed objects first.
+    /// The mapped item, after `resolve`; `None` for an object of another module. Ids of a module count its fixed objects first.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub item: Option<ItemId>,
-    /// Its name: that of the mapped item, or the source's own.
+    /// Name of the mapped item, or the name in the mapping.
     pub name: CompactString,
-    /// Its type: that of the mapped item, or the source's own.
+    /// Type of the mapped item, or the type in the mapping.
     pub ty: Type,
-    /// Whether it can't be taken out of the mapping (Fixed of ETG.2000).
+    /// Whether it cannot be removed from the mapping (Fixed of ETG.2000).
     pub fixed: bool,
-    /// Whether its index grows with the slot of its module.
+    /// Whether its index depends on the slot of its module.
     pub depends_on_slot: bool,
-    /// Whether its index grows with the slot group of its module.
+    /// Whether its index depends on the slot group of its module.
     pub depends_on_slot_group: bool,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// Where the entry stands.
+    /// Location in the source.
     pub origin: Origin,
 }
 
 impl PdoEntry {
-    /// An entry of an object that is not described yet, as raw bits; with index 0, padding.
+    /// Creates an entry for an unknown object, or padding if the index is 0.
     pub fn new(index: u16, sub_index: u8, bits: u32) -> Self {
         PdoEntry {
             index,
@@ -293,32 +293,32 @@ impl PdoEntry {
     }
 }
 
-/// Several samples of a PDO in one cycle (OSFac, OSMin, OSMax, OSIndexInc of ETG.2000).
+/// Oversampling: several samples of a PDO in one cycle (OSFac, OSMin, OSMax, OSIndexInc of ETG.2000).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Oversampling {
-    /// Number of samples by default.
+    /// Default number of samples.
     pub factor: Option<u16>,
-    /// Least number of samples.
+    /// Minimum number of samples.
     pub min: Option<u16>,
-    /// Greatest number of samples.
+    /// Maximum number of samples.
     pub max: Option<u16>,
-    /// What the index grows by from sample to sample.
+    /// Difference of the index from sample to sample.
     pub index_increment: Option<u16>,
 }
 
-/// What a PDO entry is.
+/// The kind of a PDO entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum PdoEntryKind {
     /// An item of the device.
     Item,
-    /// An object that the source doesn't describe: raw bits.
+    /// An object that the source does not describe: raw bits.
     Unknown,
-    /// An object whose index the source doesn't give: raw bits under a name, with index 0.
+    /// An object without a known index: raw bits with a name. Its index is 0.
     Unnumbered,
-    /// Room that nobody uses: a dummy entry of CANopen, padding of EtherCAT.
+    /// Unused bits: a dummy entry (CANopen) or padding (EtherCAT).
     Padding,
 }
 
@@ -326,31 +326,31 @@ pub enum PdoEntryKind {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SyncManager {
-    /// Its number.
+    /// Number.
     pub number: u8,
-    /// Mailbox or process data, and the direction.
+    /// Mailbox or process data, with the direction.
     pub purpose: SyncManagerPurpose,
-    /// The same as the source spells it.
+    /// Purpose as the source spells it.
     pub label: CompactString,
     /// Physical start address.
     pub start_address: u16,
-    /// Length in bytes by default.
+    /// Default length in bytes.
     pub default_size: Option<u16>,
-    /// Least and greatest length in bytes.
+    /// Minimum and maximum length in bytes.
     pub size_range: (Option<u16>, Option<u16>),
-    /// Control register.
+    /// Value of the control register.
     pub control: u8,
     /// Whether it is enabled.
     pub enable: bool,
-    /// Whether it is used in Op only.
+    /// Whether it is enabled only in the state Op.
     pub op_only: bool,
-    /// Whether it exists for the description's sake only (Virtual of ETG.2000).
+    /// Whether it exists only in the description (Virtual of ETG.2000).
     pub is_virtual: bool,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
-/// What a sync manager is for.
+/// Purpose of a sync manager.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -366,7 +366,7 @@ pub enum SyncManagerPurpose {
 }
 
 impl SyncManagerPurpose {
-    /// What an ESI calls it (ETG.2000, Sm).
+    /// Returns the name in an ESI (ETG.2000, Sm).
     pub fn label(self) -> &'static str {
         match self {
             SyncManagerPurpose::MailboxOut => "MBoxOut",
@@ -381,16 +381,16 @@ impl SyncManagerPurpose {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ProcessImage {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
     /// Direction.
     pub direction: Direction,
-    /// Length in bytes of the user data.
+    /// Length of the user data in bytes.
     pub length: u32,
-    /// Bytes that belong to the image but aren't user data (a PROFIsafe message trailer, status bytes).
+    /// Number of bytes that are not user data (PROFIsafe message trailer, status bytes).
     pub overhead: u32,
     /// Whether numbers are big-endian.
     pub big_endian: bool,
-    /// Its fields; `index` and `sub_index` are 0 where the bus has none.
+    /// Fields. Their `index` and `sub_index` are 0 if the bus has no object dictionary.
     pub fields: Vec<PdoEntry>,
 }

@@ -1,6 +1,6 @@
-//! What a PROFINET IO device can, and its submodules (GSDML).
+//! Capabilities of PROFINET IO devices, and submodules (GSDML).
 
-use super::{CompactString, Documentation, Extensions, Group, Identity, Places, ProcessImage, Texts, TypeId};
+use super::{CompactString, Documentation, Extensions, Group, Identity, ProcessImage, SlotNumbers, Texts, TypeId};
 use crate::source::Origin;
 
 /// Position of a [`Submodule`] in [`Catalog::submodules`](super::Catalog::submodules).
@@ -8,59 +8,59 @@ use crate::source::Origin;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SubmoduleId(pub u32);
 
-/// A device access point: what it can, and how a controller sets it up.
+/// Capabilities of a device access point, and settings for its controller.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ProfinetSettings {
     /// Module ident number of the device access point.
     pub ident: u32,
-    /// Number that tells the devices of a vendor apart (`DeviceID`).
+    /// Device ID, unique for the vendor (`DeviceID`).
     pub device_id: u16,
     /// Main family and product family (`Family`).
     pub family: (CompactString, CompactString),
-    /// Version of PROFINET that it follows (`PNIO_Version`).
+    /// Supported PROFINET version (`PNIO_Version`).
     pub pnio_version: CompactString,
-    /// Slots that there are.
+    /// Numbers of the physical slots (`PhysicalSlots`).
     pub slots: super::Numbers,
-    /// Name by which a new device answers (`DNS_CompatibleName`).
+    /// Initial name of station (`DNS_CompatibleName`).
     pub dns_name: CompactString,
-    /// Least interval between two frames in units of 31.25 µs (`MinDeviceInterval`).
+    /// Minimum interval between two frames in units of 31.25 µs (`MinDeviceInterval`).
     pub min_device_interval: Option<u16>,
-    /// Greatest length of a record in bytes; 4068 where the source doesn't say.
+    /// Maximum length of a record in bytes; 4068 unless the source states it.
     pub max_record_size: u32,
-    /// Greatest number of application relations.
+    /// Maximum number of application relations.
     pub relations: u16,
     /// Start-up modes (`Legacy`, `Advanced`).
     pub startup_modes: Vec<CompactString>,
-    /// Greatest length in bytes of inputs, outputs, and both, provider and consumer status included.
+    /// Maximum lengths of inputs and outputs, including provider and consumer status.
     pub max_lengths: IoLengths,
     /// Send clock factors in units of 31.25 µs.
     pub send_clocks: super::Numbers,
-    /// Reduction ratios, a power of two.
+    /// Reduction ratios, each a power of two.
     pub reduction_ratios: super::Numbers,
-    /// Slots in which the device access point itself may or has to be.
-    pub places: Places,
-    /// Names of its subslots (`SubslotList`).
+    /// Slots of the device access point itself.
+    pub places: SlotNumbers,
+    /// Names of subslots (`SubslotList`).
     pub subslot_names: Vec<SubslotName>,
-    /// What a controller may send when it connects (`ARVendorBlock`).
+    /// Vendor-specific blocks of the connect request (`ARVendorBlock`).
     pub vendor_blocks: Vec<VendorBlock>,
-    /// Further attributes, as the source spells them; those of an element within it as `Element@Attribute`.
+    /// Further attributes as the source spells them. Attributes of child elements have keys like `Element@Attribute`.
     pub attributes: Vec<(CompactString, CompactString)>,
 }
 
-/// The name of a subslot.
+/// Number and name of a subslot.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SubslotName {
-    /// Its number.
+    /// Number.
     pub number: u16,
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
 }
 
-/// A block of a vendor's data in the request that opens an application relation (`Request` of `ARVendorBlock`).
+/// A vendor-specific block of the request that opens an application relation (`Request` of `ARVendorBlock`).
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VendorBlock {
@@ -68,13 +68,13 @@ pub struct VendorBlock {
     pub api: u32,
     /// Structure identifier (`APStructureIdentifier`).
     pub identifier: u16,
-    /// Its fields, as those of a record whose index is the structure identifier.
+    /// Fields, as a record whose index is the structure identifier.
     pub record: Group,
     /// Menus of an engineering tool.
     pub menus: Vec<Menu>,
 }
 
-/// Greatest lengths of the data that a device access point exchanges (`IOConfigData`), in bytes.
+/// Maximum lengths of the cyclic data of a device access point in bytes (`IOConfigData`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoLengths {
@@ -82,53 +82,53 @@ pub struct IoLengths {
     pub input: Option<u16>,
     /// Outputs of the controller.
     pub output: Option<u16>,
-    /// Both together, where limited.
+    /// Sum of inputs and outputs, if limited.
     pub data: Option<u16>,
 }
 
-/// A submodule: what has data, records and diagnosis.
+/// A submodule, which has data, records and diagnosis.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Submodule {
-    /// Its identifier in the source.
+    /// Identifier in the source.
     pub id: CompactString,
     /// Submodule ident number.
     pub ident: u32,
-    /// What kind of submodule it is.
+    /// Kind of submodule.
     pub kind: SubmoduleKind,
-    /// API number: 0, or that of a profile (0x3A00 PROFIdrive, 0x3E00 encoder).
+    /// API number: 0, or the number of a profile (0x3A00 PROFIdrive, 0x3E00 encoder).
     pub api: u32,
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Order code and the like.
+    /// Identity, such as the order code.
     pub identity: Identity,
-    /// Inputs of the controller, where it has some.
+    /// Inputs of the controller, if any.
     pub input: Option<Box<IoData>>,
-    /// Outputs of the controller, where it has some.
+    /// Outputs of the controller, if any.
     pub output: Option<Box<IoData>>,
-    /// Length in bytes of the provider status, and of the consumer status.
+    /// Lengths of provider status and consumer status in bytes.
     pub status_lengths: (u8, u8),
     /// Parameter records, in the order of transfer.
     pub records: Vec<Group>,
-    /// The parameters of functional safety, where it has them.
+    /// F-parameters, if it is a safety submodule.
     pub f_parameters: Option<Box<FParameters>>,
     /// Menus of an engineering tool.
     pub menus: Vec<Menu>,
-    /// Pictures, by kind.
+    /// Pictures: type and identifier.
     pub graphics: Vec<(CompactString, CompactString)>,
-    /// Whether it may be pulled while the device runs; and further attributes, as the source spells them.
+    /// Further attributes as the source spells them, for example whether it may be removed during operation.
     pub attributes: Vec<(CompactString, CompactString)>,
-    /// What the source says beyond that.
+    /// Facts of the source without a field in the IR.
     pub extensions: Extensions,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
-/// Kinds of submodules.
+/// The kind of a submodule.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -150,49 +150,49 @@ pub enum SubmoduleKind {
 pub struct IoData {
     /// Layout of the data; `overhead` counts the bytes of an F message trailer.
     pub image: ProcessImage,
-    /// Whether all items have to be consistent with each other.
+    /// Whether all items are transferred consistently.
     pub consistent: bool,
-    /// Data items that aren't one field of the image each, in their order; every other field is a data item.
+    /// Data items that have no field of the image, or several, in order. Each of the other fields is a data item.
     pub items: Vec<IoItem>,
-    /// Channels (V2.45), by number.
+    /// Channels by number (V2.45).
     pub channels: Vec<IoChannel>,
 }
 
-/// A data item that became several fields (bits, a value with its status), or none (an F message trailer).
+/// A data item with several fields in the image (bits, a value with its status), or none (an F message trailer).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoItem {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// Its data type, as the source spells it.
+    /// Data type as the source spells it.
     pub data_type: CompactString,
-    /// First bit, counted from the start of the data.
+    /// Bit offset from the start of the data.
     pub bit_offset: u32,
     /// Number of bits.
     pub bits: u32,
     /// Position of its first field in the image.
     pub first_field: u32,
-    /// Number of its fields, padding included.
+    /// Number of its fields, including padding.
     pub fields: u32,
-    /// Whether it belongs to the item before it (`Subordinate`).
+    /// Whether it is a part of the previous item (`Subordinate`).
     pub subordinate: bool,
 }
 
-/// A channel of V2.45: which bits belong to it, and which bits tell their quality.
+/// A channel of V2.45: the bits of its value and of its quality.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoChannel {
-    /// Its number.
+    /// Number.
     pub number: u16,
-    /// First bit and number of bits of its value, counted from the start of the data, where given.
+    /// Bit offset and number of bits of the value, if given.
     pub data: Option<(u32, u32)>,
-    /// First bit and number of bits of its quality, where given.
+    /// Bit offset and number of bits of the quality, if given.
     pub quality: Option<(u32, u32)>,
-    /// What the quality is (`Format`), as the source spells it.
+    /// Format of the quality as the source spells it (`Format`).
     pub quality_format: CompactString,
-    /// Further attributes, as the source spells them.
+    /// Further attributes as the source spells them.
     pub attributes: Vec<(CompactString, CompactString)>,
 }
 
@@ -206,27 +206,27 @@ pub struct FParameters {
     pub transfer_sequence: u16,
     /// Checksum over the description of the F-parameters (`F_ParamDescCRC`).
     pub description_crc: Option<u16>,
-    /// Each parameter with its default and what is allowed, in the order of the record.
+    /// Parameters in the order of the record.
     pub parameters: Vec<FParameter>,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
-/// One F-parameter.
+/// An F-parameter.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FParameter {
-    /// Its name (`F_Check_iPar`, `F_SIL`, `F_Source_Add`, …).
+    /// Name (`F_Check_iPar`, `F_SIL`, `F_Source_Add`, …).
     pub name: CompactString,
-    /// Its value by default as a number.
+    /// Default value as a number.
     pub default: i128,
-    /// Its value by default as the source spells it (`SIL3`, `3-Byte-CRC`), where that is no number.
+    /// Default value as the source spells it (`SIL3`, `3-Byte-CRC`); empty if it is a number.
     pub label: CompactString,
-    /// First and last of each range of allowed values; empty = all.
+    /// Minimum and maximum of each allowed range; empty = all values.
     pub allowed: Vec<(i128, i128)>,
-    /// The labels that are allowed, where the values have names.
+    /// Names of the allowed values, if values have names.
     pub allowed_labels: Vec<CompactString>,
-    /// Whether a user may change it.
+    /// Whether a user can change it.
     pub changeable: bool,
     /// Whether a tool shows it.
     pub visible: bool,
@@ -236,37 +236,37 @@ pub struct FParameter {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Menu {
-    /// Its identifier.
+    /// Identifier.
     pub id: CompactString,
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
     /// Identifiers of parameters and menus, in order.
     pub targets: Vec<CompactString>,
 }
 
-/// A submodule, and the subslots it may or has to be in.
+/// A submodule, and the subslots that accept or contain it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SubmoduleUse {
     /// The submodule.
     pub submodule: SubmoduleId,
     /// The subslots.
-    pub places: Places,
+    pub places: SlotNumbers,
 }
 
 /// A picture.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Graphic {
-    /// Its identifier.
+    /// Identifier.
     pub id: CompactString,
-    /// Name of its file, without ending.
+    /// File name without extension.
     pub file: CompactString,
 }
 
-/// Diagnosis of a user structure (`UnitDiagTypeItem`): the fields that follow a user structure identifier.
+/// Layout of vendor-specific diagnosis (`UnitDiagTypeItem`): the fields after a user structure identifier.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UnitDiagnosis {
@@ -274,17 +274,17 @@ pub struct UnitDiagnosis {
     pub api: u32,
     /// User structure identifier.
     pub identifier: u16,
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Its fields.
+    /// Fields.
     pub fields: Vec<UnitDiagnosisField>,
-    /// What the source says beyond that.
+    /// Facts of the source without a field in the IR.
     pub extensions: Extensions,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
@@ -292,18 +292,18 @@ pub struct UnitDiagnosis {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UnitDiagnosisField {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// First bit, counted from the first of the structure.
+    /// Bit offset from the start of the structure.
     pub bit_offset: u32,
     /// Number of bits.
     pub bits: u32,
-    /// Its type.
+    /// Type.
     pub ty: super::Type,
-    /// The enumeration of its values, where it has one.
+    /// Enumeration of its values, if it has one.
     pub values: Option<TypeId>,
-    /// The value that it has where the structure is meant, or by default.
+    /// Default value, or the value that identifies the structure.
     pub default: Option<super::Value>,
 }

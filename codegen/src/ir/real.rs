@@ -1,11 +1,11 @@
-//! Real numbers in serialized form: JSON has no word for an infinite one, nor for one that is none.
+//! Serialization of real numbers. JSON numbers can be neither infinite nor NaN.
 
 use std::fmt;
 
 use serde::de::{Error, Unexpected, Visitor};
 use serde::{Deserializer, Serializer};
 
-/// A finite number is a number, any other a text: `"inf"`, `"-inf"`, `"NaN"`.
+/// Writes a finite number as a number, and other numbers as `"inf"`, `"-inf"` or `"NaN"`.
 pub(super) fn serialize<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     if number.is_finite() {
         serializer.serialize_f64(*number)
@@ -53,7 +53,7 @@ impl Visitor<'_> for Number {
 mod tests {
     use crate::ir::Value;
 
-    fn again(number: f64) -> (String, f64) {
+    fn round_trip(number: f64) -> (String, f64) {
         let text = serde_json::to_string(&Value::Real(number)).expect("JSON");
         let read = serde_json::from_str(&text).expect("the same JSON");
         let Value::Real(read) = read else { panic!("{text}") };
@@ -70,7 +70,7 @@ mod tests {
             (f64::NEG_INFINITY, "\"-inf\""),
             (f64::NAN, "\"NaN\""),
         ] {
-            let (written, read) = again(number);
+            let (written, read) = round_trip(number);
             assert_eq!(written, format!("{{\"real\":{text}}}"));
             assert_eq!(read.to_bits(), number.to_bits());
         }

@@ -1,4 +1,4 @@
-//! References from one element to another: a name with its place, and once resolved an id.
+//! References between elements: a name with its location, and an id after `resolve`.
 
 use std::fmt;
 use std::hash::{Hash, Hasher};
@@ -17,16 +17,16 @@ pub struct ItemId {
 }
 
 impl ItemId {
-    /// Returns the item in these groups.
+    /// Returns the item with this id in `groups`.
     pub fn of(self, groups: &[Group]) -> Option<&Item> {
         groups.get(self.group as usize)?.items.get(self.item as usize)
     }
 }
 
 impl Group {
-    /// Returns the items with their ids, if the group is at this position.
+    /// Returns the items with their ids, for a group at this position in its device.
     pub fn items_at(&self, position: u32) -> impl Iterator<Item = (ItemId, &Item)> {
-        (0..).zip(&self.items).map(move |(item, found)| (ItemId { group: position, item }, found))
+        (0..).zip(&self.items).map(move |(id, item)| (ItemId { group: position, item: id }, item))
     }
 }
 
@@ -38,7 +38,7 @@ pub struct MessageId(pub u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ProcedureId(pub u32);
 
-/// What a reference leads to that may name either.
+/// Target of a reference to an item or a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ElementId {
     /// An item.
@@ -48,7 +48,7 @@ pub enum ElementId {
 }
 
 impl ElementId {
-    /// Returns the id of an item, if it is one.
+    /// Returns the item, if the target is an item.
     pub fn item(self) -> Option<ItemId> {
         match self {
             ElementId::Item(id) => Some(id),
@@ -75,12 +75,12 @@ impl Device {
         id.of(&self.groups)
     }
 
-    /// Returns the item that a resolved reference leads to.
+    /// Returns the target of a resolved reference.
     pub fn referred(&self, reference: &ItemRef) -> Option<&Item> {
         self.item(reference.id?)
     }
 
-    /// Returns the procedure that a resolved reference leads to.
+    /// Returns the target of a resolved reference to a procedure.
     pub fn procedure(&self, reference: &ProcedureRef) -> Option<&Procedure> {
         self.procedures.get(reference.id?.0 as usize)
     }
@@ -88,18 +88,18 @@ impl Device {
 
 /// A reference to another element of the same device.
 ///
-/// It dereferences to its name, and is equal to another reference of that name. Serialized, it is the name alone: an id is only valid as
-/// long as no element is added or removed before the other one.
+/// It dereferences to its name. References with the same name are equal. The serialized form is the name, because adding or removing
+/// an element changes ids.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(from = "CompactString", into = "CompactString", bound = "Id: Clone"))]
 #[derive(Clone, Debug)]
 pub struct Reference<Id> {
-    /// The name as the source writes it. An item goes by its name or that of its object, by `Chapter/Item`, and by index and sub-index
+    /// The name as the source spells it. An item is named by `Item`, `Chapter/Item`, the name of its object, or index and sub-index
     /// (`0x6040`, `0x1018:1`).
     pub name: CompactString,
-    /// Where the name stands.
+    /// Location of the name in the source.
     pub span: Span,
-    /// The other element; `None` if there is none of this name, or the reference is not resolved.
+    /// The target; `None` if the reference is not resolved, or no element has this name.
     pub id: Option<Id>,
 }
 

@@ -1,4 +1,4 @@
-//! What modular devices of all buses share: places, families, and texts that many elements have in common.
+//! Types that several parts of the IR use: shared lists, ranges of numbers, families, slot numbers.
 
 use std::fmt;
 use std::ops::Deref;
@@ -9,15 +9,17 @@ use smallvec::SmallVec;
 use super::{CompactString, LocalText};
 use crate::source::{Origin, Span};
 
-/// A list whose copies share it until one of them is changed: a device of 50,000 parameters names many of them alike, and every
-/// drive has the codes and states that its profile gives it. An empty one takes no memory.
+/// A copy-on-write list. An empty list allocates no memory.
+///
+/// Copies share their elements until one copy is changed. This saves memory: items of large devices share names, and drives share the
+/// codes and states of their profile.
 pub struct SharedList<T>(Option<Arc<Vec<T>>>);
 
-/// A text in further languages.
+/// Translations of a text.
 pub type Texts = SharedList<LocalText>;
 
 impl<T: Clone> SharedList<T> {
-    /// The list of this copy alone, to be changed.
+    /// Returns the elements for modification. Other copies of the list do not change.
     pub fn to_mut(&mut self) -> &mut Vec<T> {
         Arc::make_mut(self.0.get_or_insert_with(Arc::default))
     }
@@ -45,7 +47,7 @@ impl<T> Deref for SharedList<T> {
 
 impl<T: PartialEq> PartialEq for SharedList<T> {
     fn eq(&self, other: &Self) -> bool {
-        let same = self.0.as_ref().zip(other.0.as_ref()).is_some_and(|(own, others)| Arc::ptr_eq(own, others));
+        let same = self.0.as_ref().zip(other.0.as_ref()).is_some_and(|(one, other)| Arc::ptr_eq(one, other));
         same || **self == **other
     }
 }
@@ -93,28 +95,28 @@ impl<'de, T: serde::Deserialize<'de>> serde::Deserialize<'de> for SharedList<T> 
     }
 }
 
-/// Numbers of slots or subslots, and the like: ranges in the order of the source (`1..3 7`).
+/// Ranges of numbers, such as slots or subslots, in the order of the source (`1..3 7`). Each range includes its last number.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Numbers(pub SmallVec<[(u16, u16); 2]>);
 
 impl Numbers {
-    /// Whether there is none.
+    /// Returns whether the list is empty.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Whether `number` is one of them.
+    /// Returns whether a range contains `number`.
     pub fn contains(&self, number: u16) -> bool {
         self.0.iter().any(|&(first, last)| (first..=last).contains(&number))
     }
 
-    /// Each of them.
+    /// Returns each number of each range.
     pub fn iter(&self) -> impl Iterator<Item = u16> + '_ {
         self.0.iter().flat_map(|&(first, last)| first..=last)
     }
 
-    /// How many there are, where no two ranges overlap.
+    /// Returns how many numbers the ranges contain. Numbers in overlapping ranges are counted repeatedly.
     pub fn count(&self) -> usize {
         self.0.iter().map(|&(first, last)| usize::from(last.saturating_sub(first)) + 1).sum()
     }
@@ -126,7 +128,7 @@ impl FromIterator<u16> for Numbers {
     }
 }
 
-/// A place in the source that is no fact: elements that differ in nothing else are equal, and no output has it.
+/// A location in the source that comparisons ignore.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Mark(pub Span);
 
@@ -140,27 +142,27 @@ impl PartialEq for Mark {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Family {
-    /// Its key.
+    /// Key by which devices and modules refer to the family.
     pub id: CompactString,
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// What the source says about it, in each language.
+    /// Descriptions, one for each language.
     pub descriptions: Vec<LocalText>,
-    /// Where it is declared.
+    /// Location in the source.
     pub origin: Origin,
 }
 
-/// The numbers of the slots, or subslots, that something may or has to be in. All empty = wherever the place allows it.
+/// Slots of a module, or subslots of a submodule. If all lists are empty, each slot that accepts the module can contain it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Places {
-    /// Where it may be plugged (`AllowedInSlots`, `AllowedInSubslots`).
+pub struct SlotNumbers {
+    /// Slots that accept it (`AllowedInSlots`, `AllowedInSubslots`).
     pub allowed: Numbers,
-    /// Where it is and can't be removed (`FixedInSlots`, `FixedInSubslots`).
+    /// Slots that always contain it (`FixedInSlots`, `FixedInSubslots`).
     pub fixed: Numbers,
-    /// Where it is by default (`UsedInSlots`, `UsedInSubslots`).
+    /// Slots that contain it by default (`UsedInSlots`, `UsedInSubslots`).
     pub used: Numbers,
 }
 
@@ -169,7 +171,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_change_is_seen_in_its_own_copy_alone() {
+    fn a_change_affects_one_copy_only() {
         let first: SharedList<u8> = [1, 2].into_iter().collect();
         let mut other = first.clone();
         assert!(first == other && std::ptr::eq(&*first, &*other));

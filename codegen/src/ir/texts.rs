@@ -1,20 +1,21 @@
-//! The texts of a register table: what documentation, names, effects and steps say, each with its place and whose it is.
+//! All texts of a register table: documentation, names, side effects and steps.
 
 use super::{CompactString, Device, Documentation, Item, LocalText, Shape, Step, TypeDef};
 use crate::source::Span;
 
-/// A text, and what it belongs to.
+/// A text with its location.
 pub(crate) struct Text<'a> {
     pub span: Span,
+    /// Name of the element that has the text.
     pub of: &'a str,
     pub words: &'a str,
 }
 
-/// All texts of a device.
+/// Returns all texts of a device.
 pub(crate) fn all(device: &Device) -> Vec<Text<'_>> {
     let mut list = List(Vec::new());
     for group in &device.groups {
-        // What is said of an object of one value is said of the value.
+        // An object with a single value has the texts of that value.
         if group.items.is_empty() || group.object_code().is_none_or(|code| code.has_subs()) {
             list.documented(group.origin.span, &group.name, &group.documentation, &group.names);
         }
@@ -48,8 +49,8 @@ impl<'a> List<'a> {
         documentation: &'a Option<Box<Documentation>>,
         names: &'a [LocalText],
     ) {
-        if let Some(own) = documentation {
-            self.push(span, of, &own.text);
+        if let Some(documentation) = documentation {
+            self.push(span, of, &documentation.text);
         }
         names.iter().for_each(|name| self.push(span, of, &name.text));
     }
@@ -63,8 +64,8 @@ impl<'a> List<'a> {
 
     fn definition(&mut self, definition: &'a TypeDef) {
         let span = definition.origin.span;
-        if let Some(own) = &definition.documentation {
-            self.push(span, &definition.name, &own.text);
+        if let Some(documentation) = &definition.documentation {
+            self.push(span, &definition.name, &documentation.text);
         }
         match &definition.shape {
             Shape::BitField { fields, .. } => fields.iter().for_each(|field| {

@@ -5,26 +5,26 @@ use std::fmt;
 use super::{Access, Availability, CompactString, Documentation, ItemRef, Mark, Texts, Value};
 use crate::source::Origin;
 
-/// The type of an item: basic, or the position of a [`TypeDef`] in its device.
+/// The type of an item: basic, or a reference to a [`TypeDef`] of its device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Type {
-    /// BOOLEAN (CiA 301 code 0x01): one bit in a PDO, one byte in an SDO.
+    /// BOOLEAN (CiA 301, 0x01): one bit in a PDO, one byte in an SDO.
     Boolean,
-    /// INTEGER8 … INTEGER64, of any number of bits up to 64.
+    /// INTEGER8 to INTEGER64, with any number of bits up to 64.
     Integer(u8),
-    /// UNSIGNED8 … UNSIGNED64, of any number of bits up to 64.
+    /// UNSIGNED8 to UNSIGNED64, with any number of bits up to 64.
     Unsigned(u8),
     /// REAL32 (0x08).
     Real32,
     /// REAL64 (0x11).
     Real64,
-    /// VISIBLE_STRING (0x09), at most so many bytes where known.
+    /// VISIBLE_STRING (0x09), with the maximum length in bytes if known.
     VisibleString(Option<u32>),
-    /// OCTET_STRING (0x0A), at most so many bytes where known.
+    /// OCTET_STRING (0x0A), with the maximum length in bytes if known.
     OctetString(Option<u32>),
-    /// UNICODE_STRING (0x0B), at most so many UTF-16 units where known.
+    /// UNICODE_STRING (0x0B), with the maximum length in UTF-16 code units if known.
     UnicodeString(Option<u32>),
     /// TIME_OF_DAY (0x0C).
     TimeOfDay,
@@ -32,15 +32,15 @@ pub enum Type {
     TimeDifference,
     /// DOMAIN (0x0F): a block of data of any length.
     Domain,
-    /// A type of time of IEC 61158-6 that CANopen doesn't have.
+    /// A time type of IEC 61158-6 that does not exist in CANopen.
     Time(TimeFormat),
-    /// A type that the source names or numbers and nobody defines: raw bytes. The number is the source's code, if any.
+    /// Raw bytes of a type without a definition. The number is the code of the type in the source, if any.
     Opaque(Option<u32>),
     /// A type that the source defines.
     Named(TypeId),
 }
 
-/// Types of time of IEC 61158-6-10, all big-endian on PROFINET.
+/// A time type of IEC 61158-6-10. All are big-endian on PROFINET.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -64,7 +64,7 @@ pub enum TimeFormat {
 }
 
 impl TimeFormat {
-    /// Length in bytes.
+    /// Returns the length in bytes.
     pub fn bytes(self) -> u32 {
         match self {
             TimeFormat::Date => 7,
@@ -74,7 +74,7 @@ impl TimeFormat {
         }
     }
 
-    /// The name in IEC 61158-6-10.
+    /// Returns the name in IEC 61158-6-10.
     pub fn name(self) -> &'static str {
         match self {
             TimeFormat::Date => "Date",
@@ -89,14 +89,14 @@ impl TimeFormat {
     }
 }
 
-/// Position of a [`TypeDef`] in the types of what holds it: the device's, the module's, or for everything in a PROFINET
-/// submodule [`Catalog::types`](super::Catalog::types).
+/// Position of a [`TypeDef`] in the types of its device or module. Types of PROFINET submodules are in
+/// [`Catalog::types`](super::Catalog::types).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TypeId(pub u32);
 
 impl Type {
-    /// Length in bits, where the type has a fixed one and needs no [`TypeDef`] to know it.
+    /// Returns the length in bits, if the type is basic and has a fixed length.
     pub fn bits(self) -> Option<u32> {
         match self {
             Type::Boolean => Some(1),
@@ -109,7 +109,7 @@ impl Type {
         }
     }
 
-    /// The name with the greatest length of a text, where that is known: `VISIBLE_STRING(25)`.
+    /// Returns the name in CiA 301, with the maximum length of a string if known: `VISIBLE_STRING(25)`.
     pub fn with_length(self) -> String {
         match self {
             Type::VisibleString(Some(length)) | Type::OctetString(Some(length)) | Type::UnicodeString(Some(length)) => {
@@ -119,7 +119,7 @@ impl Type {
         }
     }
 
-    /// The basic type with this code in CiA 301 (7.4.7, table of the data type area); `None` for every other code.
+    /// Returns the basic type with this code in CiA 301 (7.4.7, table of the data type area), or `None` for other codes.
     pub fn from_cia301(code: u32) -> Option<Type> {
         Some(match code {
             0x01 => Type::Boolean,
@@ -151,7 +151,7 @@ impl Type {
         })
     }
 
-    /// The least and greatest value of an integer type.
+    /// Returns minimum and maximum of an integer type.
     pub fn integer_range(self) -> Option<(i128, i128)> {
         match self {
             Type::Boolean => Some((0, 1)),
@@ -161,7 +161,7 @@ impl Type {
         }
     }
 
-    /// The name of an integer as a part of another name: `U16`, `I8`.
+    /// Returns an abbreviation of an integer type as a part of another name: `U16`, `I8`.
     pub(crate) fn integer_suffix(self) -> String {
         match self {
             Type::Unsigned(bits) => format!("U{bits}"),
@@ -170,12 +170,12 @@ impl Type {
         }
     }
 
-    /// Whether the value is a number with a sign.
+    /// Returns whether the type is a signed integer.
     pub fn is_signed(self) -> bool {
         matches!(self, Type::Integer(_))
     }
 
-    /// Whether the value is a sequence of bytes: text or raw data, for which a register has no order of words.
+    /// Returns whether values are byte sequences: strings or raw data. They have no word order in registers.
     pub fn is_bytes(self) -> bool {
         use Type::{Domain, OctetString, Opaque, UnicodeString, VisibleString};
         matches!(self, VisibleString(_) | OctetString(_) | UnicodeString(_) | Domain | Opaque(_))
@@ -183,7 +183,7 @@ impl Type {
 }
 
 impl fmt::Display for Type {
-    /// The name in CiA 301.
+    /// Writes the name in CiA 301.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Type::Boolean => f.write_str("BOOLEAN"),
@@ -209,57 +209,57 @@ impl fmt::Display for Type {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TypeDef {
-    /// Its name in the source.
+    /// Name in the source.
     pub name: CompactString,
-    /// Its number in the source (a DEFTYPE or DEFSTRUCT's index), if it has one.
+    /// Number in the source (index of a DEFTYPE or DEFSTRUCT), if any.
     pub code: Option<u32>,
-    /// What it is made of.
+    /// Definition.
     pub shape: Shape,
-    /// Its length in bits, where fixed.
+    /// Length in bits, if fixed.
     pub bits: Option<u32>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Where it is defined.
+    /// Location in the source.
     pub origin: Origin,
 }
 
-/// What a defined type is made of.
+/// The kind and content of a type definition.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Shape {
-    /// Another name of a type.
+    /// Another name of an existing type.
     Alias(Type),
-    /// Equal elements, in up to three dimensions, the outermost first.
+    /// Elements of one type in up to three dimensions, outermost dimension first.
     Array {
         /// Type of an element.
         element: Type,
         /// Lower bound and number of elements of each dimension.
         dimensions: Vec<(i32, u32)>,
     },
-    /// Fields at bit offsets (ETG.2000 SubItem, a parameter record of GSDML).
+    /// Fields at bit offsets (ETG.2000 SubItem, GSDML parameter record).
     Record(Vec<Field>),
     /// Named bits of an integer.
     BitField {
-        /// The integer below.
+        /// The underlying integer type.
         base: Type,
-        /// The fields, by offset.
+        /// Fields, sorted by offset.
         fields: Vec<BitFieldEntry>,
     },
     /// Named values of an integer.
     Enumeration {
-        /// The integer below.
+        /// The underlying integer type.
         base: Type,
-        /// The values, in the order of the source.
+        /// Values in the order of the source.
         values: Vec<EnumValue>,
-        /// Whether a device never has a value that isn't listed.
+        /// Whether the list is complete: a device never has another value.
         closed: bool,
     },
-    /// An integer that stands for a physical number.
+    /// An integer with a scale factor.
     Scaled {
-        /// The integer below.
+        /// The underlying integer type.
         base: Type,
-        /// How the two relate.
+        /// Relation of raw and physical value.
         scale: Scale,
     },
 }
@@ -268,15 +268,15 @@ pub enum Shape {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Field {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// Its sub-index, where records are addressed by sub-index.
+    /// Sub-index, if fields of the record have sub-indices.
     pub sub_index: Option<u16>,
-    /// Its type.
+    /// Type.
     pub ty: Type,
-    /// Its length in bits.
+    /// Length in bits.
     pub bits: u32,
-    /// Its first bit, counted from the record's first.
+    /// Bit offset from the start of the record.
     pub bit_offset: u32,
 }
 
@@ -284,34 +284,34 @@ pub struct Field {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BitFieldEntry {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// Its first bit.
+    /// Bit offset.
     pub offset: u8,
-    /// Its length in bits.
+    /// Length in bits.
     pub bits: u8,
-    /// What the bits mean.
+    /// Meaning of the bits.
     pub meaning: BitMeaning,
-    /// The value of another item that gives the bits this meaning (the mode of operation, say).
+    /// Condition on another item under which the bits have this meaning, such as the mode of operation.
     pub when: Option<Condition>,
-    /// Whether the field acts on an edge, clears itself, or toggles.
+    /// When the bits take effect, if not while set.
     pub trigger: Option<Trigger>,
-    /// Who may do what with the bits, where it isn't what the item says.
+    /// Access rights of the bits, if they differ from those of the item.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub access: Option<Access>,
-    /// Models and firmware versions in which the bits mean this.
+    /// Models and firmware versions in which the bits have this meaning.
     pub availability: Option<Box<Availability>>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Where it stands.
+    /// Location in the source.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub at: Mark,
 }
 
 impl BitFieldEntry {
-    /// Bits of which nothing else is known.
+    /// Creates a field without further facts.
     pub fn new(name: CompactString, offset: u8, bits: u8, meaning: BitMeaning) -> Self {
         BitFieldEntry {
             name,
@@ -328,95 +328,95 @@ impl BitFieldEntry {
         }
     }
 
-    /// Whether the bits are reserved.
+    /// Returns whether the bits are reserved.
     pub fn is_reserved(&self) -> bool {
         matches!(self.meaning, BitMeaning::Reserved { .. })
     }
 
-    /// The first bit behind the field.
+    /// Returns the number of the first bit after the field.
     pub fn end(&self) -> u32 {
         u32::from(self.offset) + u32::from(self.bits)
     }
 
-    /// `bit 3`, `bits 7-4`: the bits in messages.
-    pub(crate) fn place(&self) -> String {
+    /// Returns the bits for messages: `bit 3`, `bits 7-4`.
+    pub(crate) fn bit_range(&self) -> String {
         match self.bits {
             1 => format!("bit {}", self.offset),
             _ => format!("bits {}-{}", self.end().saturating_sub(1), self.offset),
         }
     }
 
-    /// Returns the bits of the field.
+    /// Returns a mask with the bits of the field.
     pub(crate) fn mask(&self) -> u64 {
         let bits = u64::MAX.checked_shr(64u32.saturating_sub(self.bits.into())).unwrap_or(0);
         bits.checked_shl(self.offset.into()).unwrap_or(0)
     }
 }
 
-/// What the bits of a field mean.
+/// The meaning of the bits of a field.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum BitMeaning {
-    /// One bit that is set or not.
+    /// A single bit.
     Flag {
-        /// Whether 0 means "set".
+        /// Whether 0 means active.
         inverted: bool,
     },
     /// An unsigned number.
     Number,
-    /// Named values; the type is an enumeration.
+    /// Named values of an enumeration.
     Enumeration(TypeId),
-    /// Reserved: what a writer has to put there, where known.
+    /// Reserved bits.
     Reserved {
-        /// 0, 1, or `None` for "as it was read".
+        /// The value to write; `None` = the value that was read.
         write: Option<bool>,
     },
 }
 
-/// When a bit acts.
+/// When a bit takes effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Trigger {
-    /// On the change from 0 to 1.
+    /// On the rising edge.
     Rising,
-    /// On the change from 1 to 0.
+    /// On the falling edge.
     Falling,
-    /// On every change.
+    /// On each edge.
     Toggle,
-    /// While set; the device clears it by itself.
+    /// While set. The device clears the bit automatically.
     SelfClearing,
 }
 
-/// One value, or a range of values, of an enumeration.
+/// A value or a range of values of an enumeration.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EnumValue {
-    /// Its name.
+    /// Name.
     pub name: CompactString,
-    /// The value; the first of a range.
+    /// Value, or first value of a range.
     pub value: i128,
-    /// The last value of a range.
+    /// Last value of a range.
     pub last: Option<i128>,
-    /// Whether the value, or the range, is reserved or left to the vendor.
+    /// Whether the value or range is reserved, or vendor-specific.
     pub zone: Option<Zone>,
-    /// The name in other languages.
+    /// Name in other languages.
     pub names: Texts,
-    /// The value of another item with which the device has it (the mode of operation, say).
+    /// Condition on another item under which the device has this value, such as the mode of operation.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub when: Option<Condition>,
-    /// Models, firmware versions and buses that have it.
+    /// Models, firmware versions and buses that have the value.
     pub availability: Option<Box<Availability>>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Where it stands.
+    /// Location in the source.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub at: Mark,
 }
 
 impl EnumValue {
-    /// One value of which nothing else is known.
+    /// Creates a value without further facts.
     pub fn new(name: CompactString, value: i128) -> Self {
         EnumValue {
             name,
@@ -431,17 +431,17 @@ impl EnumValue {
         }
     }
 
-    /// The first and the last value.
+    /// Returns the first and the last value.
     pub fn range(&self) -> (i128, i128) {
         (self.value, self.last.unwrap_or(self.value))
     }
 
-    /// Whether it is a name, and no zone.
+    /// Returns whether the value has a name, and is not a zone.
     pub fn is_named(&self) -> bool {
         self.zone.is_none()
     }
 
-    /// `3`, `4 to 7`: the value, or the range of values, in messages.
+    /// Returns the value or range for messages: `3`, `4 to 7`.
     pub(crate) fn numbers(&self) -> String {
         match self.last {
             Some(last) => format!("{} to {last}", self.value),
@@ -450,28 +450,28 @@ impl EnumValue {
     }
 }
 
-/// A zone of an enumeration.
+/// A range of an enumeration without names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Zone {
     /// Must not be used.
     Reserved,
-    /// Left to the vendor.
+    /// Vendor-specific.
     Vendor,
 }
 
-/// How a raw number relates to a physical one.
+/// The relation of raw value and physical value.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Scale {
     /// physical = raw × factor + offset.
     Linear {
-        /// Physical units per count.
+        /// Scale factor: physical value of 1 LSB.
         #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         factor: f64,
-        /// The physical value of raw 0.
+        /// Physical value of raw value 0.
         #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         offset: f64,
     },
@@ -481,27 +481,27 @@ pub enum Scale {
         #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         numerator: f64,
     },
-    /// A fraction of a base value: physical = raw / 2^bits × base.
+    /// physical = raw / 2^bits × base.
     Fraction {
         /// Number of fractional bits (15 for Q15).
         bits: u8,
-        /// The name of the base value, a constant of the variant.
+        /// Name of the base value, a constant of the model.
         base: CompactString,
     },
-    /// physical = raw / 2^fraction × base^exponent, in two items or two halves of one.
+    /// physical = raw / 2^fraction × base^exponent. Mantissa and exponent are two items, or two halves of one item.
     Exponent {
-        /// The item that holds the exponent.
+        /// Item with the exponent.
         exponent: ItemRef,
-        /// What is raised to it: 10, or 2.
+        /// Base of the power: 10 or 2.
         base: u8,
-        /// Number of fractional bits of the raw number (15 for Q15); 0 for an integer.
+        /// Number of fractional bits of the raw value (15 for Q15); 0 for an integer.
         fraction: u8,
     },
     /// physical = raw × factor / value of another item.
     ByItem {
         /// The other item.
         item: ItemRef,
-        /// The constant part.
+        /// Constant factor.
         #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         factor: f64,
     },
@@ -509,24 +509,24 @@ pub enum Scale {
     TimesItem {
         /// The other item.
         item: ItemRef,
-        /// The constant part.
+        /// Constant factor.
         #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         factor: f64,
     },
 }
 
-/// "While the item `item` has one of these values."
+/// A condition: another item has one of these values.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Condition {
     /// The other item.
     pub item: ItemRef,
-    /// Its values.
+    /// Values that fulfill the condition.
     pub values: Vec<Value>,
-    /// The names of all values, where a profile has the condition and names them; else empty.
+    /// Names of all values, if a profile states the condition and names them; otherwise empty.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub names: Vec<CompactString>,
-    /// The bits of the item that are compared with the values; `None` = all.
+    /// Bits of the item to compare with the values; `None` = all.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub mask: Option<u64>,
 }

@@ -7,7 +7,7 @@ use thin_vec::ThinVec;
 
 use super::{CompactString, Type};
 
-/// A value as its source means it, converted to its type.
+/// A value, converted to the type of its item.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -16,27 +16,27 @@ pub enum Value {
     Bool(bool),
     /// An integer of any width and sign.
     Int(i128),
-    /// A real number; also the value of an integer type's limit where the source gives a fraction.
+    /// A real number; also a fractional limit of an integer.
     Real(#[cfg_attr(feature = "serde", serde(with = "super::real"))] f64),
-    /// A text.
+    /// A string.
     Text(CompactString),
     /// An octet string.
     Bytes(Vec<u8>),
-    /// `$NODEID + offset`: known only once the device has its node-ID (CiA 306, formulas).
+    /// `$NODEID + offset`, which depends on the node-ID of the device (CiA 306, formulas).
     NodeId(i128),
-    /// A time of day or a difference: milliseconds and days (CiA 301 7.1.6.5, 7.1.6.6).
+    /// TIME_OF_DAY or TIME_DIFFERENCE (CiA 301 7.1.6.5, 7.1.6.6).
     Time {
-        /// Milliseconds after midnight.
+        /// Milliseconds after midnight, or milliseconds of the difference in addition to its days.
         milliseconds: u32,
-        /// Days since 1984-01-01, or days of a difference.
+        /// Days since 1984-01-01, or days of the difference.
         days: u16,
     },
-    /// Text that could not be converted to the item's type; a diagnostic said so.
+    /// Text that the compiler could not convert to the type of the item. It has reported that.
     Raw(CompactString),
 }
 
 impl Value {
-    /// The number, where the value is an integer or a boolean.
+    /// Returns the number, if the value is an integer or a boolean.
     pub fn as_int(&self) -> Option<i128> {
         match self {
             Value::Int(value) => Some(*value),
@@ -45,7 +45,7 @@ impl Value {
         }
     }
 
-    /// The value with `$NODEID` resolved.
+    /// Returns the value for a node-ID.
     pub fn resolved(&self, node_id: u8) -> Value {
         match self {
             Value::NodeId(offset) => Value::Int(offset + i128::from(node_id)),
@@ -53,7 +53,7 @@ impl Value {
         }
     }
 
-    /// Compares two numbers; `None` if one is no number.
+    /// Compares two numbers. Returns `None` if one of the values is not a number.
     pub fn compare(&self, other: &Value) -> Option<Ordering> {
         match (self.as_int(), other.as_int()) {
             (Some(one), Some(other)) => Some(one.cmp(&other)),
@@ -61,7 +61,7 @@ impl Value {
         }
     }
 
-    /// The number as a real, for comparisons across integer and real values.
+    /// Returns the number as a real number, for comparisons of integers with real values.
     pub fn as_real(&self) -> Option<f64> {
         match self {
             Value::Real(value) => Some(*value),
@@ -91,28 +91,28 @@ impl fmt::Display for Value {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
-    /// The least value.
+    /// Minimum.
     pub low: Option<Value>,
-    /// The greatest value.
+    /// Maximum.
     pub high: Option<Value>,
-    /// Where the values are a list, or several ranges: first and last of each, in the order of the source. `low` and
-    /// `high` are the least and the greatest of them.
+    /// Minimum and maximum of each allowed range, in the order of the source, if the values are a list or several ranges. `low` and
+    /// `high` are the minimum and maximum of all ranges.
     pub allowed: ThinVec<(Value, Value)>,
 }
 
 impl Limits {
-    /// Whether neither limit is given.
+    /// Returns whether both minimum and maximum are missing.
     pub fn is_empty(&self) -> bool {
         self.low.is_none() && self.high.is_none()
     }
 
-    /// Returns the lower and the upper limit that are integers.
+    /// Returns minimum and maximum, each if it is an integer.
     pub fn integers(&self) -> (Option<i128>, Option<i128>) {
         let integer = |limit: &Option<Value>| limit.as_ref().and_then(Value::as_int);
         (integer(&self.low), integer(&self.high))
     }
 
-    /// Returns whether the lower limit is above the upper one. Limits of an integer are rounded to the integers between them.
+    /// Returns whether the minimum is above the maximum. Limits of an integer type are rounded inwards before the comparison.
     pub fn are_swapped(&self, ty: Type) -> bool {
         let (Some(low), Some(high)) = (&self.low, &self.high) else { return false };
         let is_whole = matches!(ty, Type::Integer(_) | Type::Unsigned(_));
@@ -123,7 +123,7 @@ impl Limits {
     }
 }
 
-/// Why limits exclude a value.
+/// The reason why limits exclude a value.
 pub(crate) enum Excluded<'l> {
     Below(&'l Value),
     Above(&'l Value),
@@ -140,7 +140,7 @@ impl fmt::Display for Excluded<'_> {
     }
 }
 
-/// Returns why limits exclude a value. Values that are no numbers are never excluded.
+/// Returns why limits exclude a value. Values that are not numbers are never excluded.
 pub(crate) fn excluded<'l>(limits: &'l Limits, value: &Value) -> Option<Excluded<'l>> {
     let is = |limit: &&Value, order| value.compare(limit) == Some(order);
     let below = || limits.low.as_ref().filter(|low| is(low, Ordering::Less)).map(Excluded::Below);
@@ -149,7 +149,7 @@ pub(crate) fn excluded<'l>(limits: &'l Limits, value: &Value) -> Option<Excluded
     below().or_else(above).or_else(not_allowed)
 }
 
-/// Whether a number is in one of the ranges, where there are any.
+/// Returns whether a number is in one of the ranges, or there are no ranges.
 fn is_allowed(value: &Value, allowed: &[(Value, Value)]) -> bool {
     let within = |(first, last): &(Value, Value)| {
         first.compare(value).is_none_or(|order| order != Ordering::Greater)

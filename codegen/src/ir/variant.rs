@@ -1,32 +1,32 @@
-//! What differs of an item between models, or between buses.
+//! Differences of an item between models or buses.
 
 use super::{Access, Buses, CompactString, Documentation, Limits, Scale, Type, Value};
 use crate::source::Span;
 
-/// Facts of an item that hold on some models or buses only; those that aren't given are the item's.
+/// Facts of an item that differ on some models or buses. Facts without a value are those of the item.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ItemVariant {
-    /// The models, in which `*` stands for any letters; empty = all.
+    /// Models; `*` matches any characters; empty = all.
     pub models: Vec<CompactString>,
-    /// The buses; empty = all.
+    /// Buses; empty = all.
     pub buses: Buses,
-    /// The type that the value has there: another width, on some buses.
+    /// Type, if its width differs on some buses.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub ty: Option<Type>,
-    /// What may be done with it there: less than elsewhere, on some buses.
+    /// Access rights, if they are restricted on some buses.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub access: Option<Access>,
-    /// The value before anybody wrote it.
+    /// Default value.
     pub default: Option<Value>,
-    /// The least and the greatest value.
+    /// Minimum and maximum.
     pub limits: Limits,
-    /// Number of raw steps in which the device rounds.
+    /// Rounding step of the device in raw units.
     pub step: Option<Value>,
-    /// How the raw number relates to the physical one.
+    /// Relation of raw value and physical value.
     pub scale: Option<Scale>,
-    /// What the source says about it.
+    /// Description from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Where it is declared.
+    /// Location in the source.
     pub at: Span,
 }

@@ -1,4 +1,4 @@
-//! The profiles, and the devices and modules that follow them.
+//! Applies profiles to the devices and modules that follow them.
 
 use std::sync::OnceLock;
 
@@ -8,7 +8,7 @@ use super::stored;
 use crate::ir::{Catalog, Device, Group, Value};
 use crate::source::FileId;
 
-/// The profiles in the order in which they are applied: what one of them says, later ones leave alone.
+/// Profiles in the order in which they are applied. The first profile that states a fact takes precedence.
 pub(super) const STORED: [&str; 4] = [
     include_str!("stored/cia402.txt"),
     include_str!("stored/coe.txt"),
@@ -16,10 +16,10 @@ pub(super) const STORED: [&str; 4] = [
     include_str!("stored/profidrive.txt"),
 ];
 
-/// The number of the profile of modular devices, whose modules follow profiles of their own (ETG.5001).
+/// Number of the profile of modular devices (ETG.5001). Their modules follow other profiles.
 const MODULAR: u32 = 5001;
 
-/// All profiles, read once.
+/// Returns all profiles. They are parsed at the first call.
 fn all() -> &'static [Profile] {
     static PROFILES: OnceLock<Vec<Profile>> = OnceLock::new();
     PROFILES.get_or_init(|| STORED.iter().filter_map(|text| stored::read(text)).collect())
@@ -28,7 +28,7 @@ fn all() -> &'static [Profile] {
 /// Completes all devices and modules of `catalog`.
 pub(crate) fn apply(catalog: &mut Catalog) {
     let Catalog { files, devices, modules, submodules, types, .. } = catalog;
-    // Overlays are in no list of files.
+    // A file that is not in the list is an overlay.
     let is_table = |FileId(id): FileId| files.get(id as usize).is_none_or(|file| file.format.is_of_manual());
     for profile in all() {
         let mut completion = Completion::new(profile);
@@ -60,8 +60,8 @@ fn is_device_of(device: &Device, profile: &Profile) -> bool {
     follows(&numbers, &device.groups, profile)
 }
 
-/// Whether something that declares these profiles, and has these objects, follows a profile: it declares it, or has the
-/// object that shows it and declares no other one.
+/// Returns whether a device or module follows a profile. It declares the profile, or it has the object that identifies the profile and
+/// declares no other profile.
 fn follows(numbers: &[u32], groups: &[Group], profile: &Profile) -> bool {
     if profile.api.is_some() {
         return false;

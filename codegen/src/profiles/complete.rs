@@ -1,7 +1,7 @@
-//! A profile adds what a description leaves unsaid.
+//! Adds the facts of a profile that a description lacks.
 //!
-//! What a device says of itself stays: its names, its types of bits and values, its units, its words. Where its object is
-//! of another width than the profile's, or isn't there, the profile has nothing to add, and nobody is told.
+//! Facts of the description do not change: names, types of bits and values, units, descriptions. A profile adds nothing to
+//! an object of another width, or to a missing object. This is not reported.
 
 use std::collections::HashMap;
 
@@ -14,22 +14,22 @@ use crate::ir::{
 };
 use crate::source::{FileId, Origin};
 
-/// Indices of which each axis has its own.
+/// Indices of the first axis. Further axes have the same objects at other indices.
 const AXIS: std::ops::RangeInclusive<u16> = 0x6000..=0x67FF;
 
-/// The greatest number of axes (CiA 402: 0x6000 to 0x9FFF).
+/// Maximum number of axes (CiA 402: 0x6000 to 0x9FFF).
 const AXES: u16 = 8;
 
-/// A profile while it is applied to one device after another.
+/// State of the application of a profile to several devices.
 pub(crate) struct Completion<'p> {
     profile: &'p Profile,
-    /// The types of the device, with those that the profile adds behind them.
+    /// Types of the device, followed by added types.
     types: Vec<TypeDef>,
-    /// The types that were added, by that of the profile and the integer.
+    /// Added types, by the type of the profile and the underlying integer.
     added: HashMap<(TypeId, Type), TypeId>,
 }
 
-/// Types of items that were replaced, by object.
+/// Old and new types of changed items, by object.
 type Replaced = HashMap<(u16, u8), (Type, Type)>;
 
 impl<'p> Completion<'p> {
@@ -37,10 +37,10 @@ impl<'p> Completion<'p> {
         Completion { profile, types: Vec::new(), added: HashMap::new() }
     }
 
-    /// Completes a device; `is_table` tells register tables and overlays from other files.
+    /// Completes a device. `is_table` returns whether a file is a register table or overlay.
     pub(crate) fn device(&mut self, device: &mut Device, is_table: &dyn Fn(FileId) -> bool) {
         self.objects(&mut device.groups, &mut device.types, &mut device.process_data.pdos);
-        // The codes that a manual lists may contradict those of the profile. Diagnosis texts of an ESI are other codes.
+        // The codes of a manual may contradict those of the profile. The diagnosis texts of an ESI are different codes.
         let of_manual = |table: &CodeTable| is_table(table.origin.span.file) && !is_from_profile(table);
         let has_codes = device.code_tables.iter().any(of_manual);
         for (table, doubts) in self.profile.codes.iter().filter(|_| !has_codes) {
@@ -62,12 +62,12 @@ impl<'p> Completion<'p> {
         }
     }
 
-    /// The enumeration of the device that is the profile's own of the machine's states; without it, the states have a type of
-    /// their own.
+    /// Returns a reference to the enumeration of states, if the device has the same as the profile. Otherwise, the states get a
+    /// separate type.
     fn state_type(&self, machine: &StateMachine, types: &[TypeDef]) -> Option<TypeRef> {
         let name = machine.state_type.as_ref()?;
         let named = |types: &'_ [TypeDef]| {
-            types.iter().find(|definition| definition.name == *name).map(|own| own.shape.clone())
+            types.iter().find(|definition| definition.name == *name).map(|definition| definition.shape.clone())
         };
         (named(&self.profile.types)? == named(types)?).then(|| name.clone())
     }
@@ -104,7 +104,7 @@ impl<'p> Completion<'p> {
         }
     }
 
-    /// What to add to indices for each axis that there is; 0 is the first.
+    /// Returns the index offset of each axis of the device. That of the first axis is 0.
     fn axes(&self, groups: &[Group]) -> Vec<u16> {
         let mut shifts = vec![0];
         let (Some(step), Some(when)) = (self.profile.axis_index, self.profile.when) else { return shifts };
@@ -128,7 +128,7 @@ impl<'p> Completion<'p> {
         }
     }
 
-    /// Adds to an item what it doesn't say; gives its old and new type where that is another one.
+    /// Adds missing facts to an item. Returns its old and new type if the type has changed.
     fn item(&mut self, item: &mut Item, described: &Described) -> Option<(Type, Type)> {
         let (old, base) = (item.ty, self.underlying(item.ty));
         if !self.profile.is_alike(base, described.ty, described.meaning) || !is_on_bus(item, described) {
@@ -156,8 +156,8 @@ impl<'p> Completion<'p> {
         (item.ty != old).then_some((old, item.ty))
     }
 
-    /// A type of the profile over the integer `base`, as one of the device. Over the integer that the profile names, it has its plain
-    /// name.
+    /// Adds a type of the profile with the underlying integer `base` to the device. If `base` differs from that of the profile, the name of
+    /// the type has a suffix.
     fn meaning(&mut self, id: TypeId, base: Type) -> Option<TypeId> {
         if let Some(added) = self.added.get(&(id, base)) {
             return Some(*added);
@@ -165,7 +165,7 @@ impl<'p> Completion<'p> {
         let mut definition = self.profile.definition(id)?.clone();
         let base_of_profile = match &mut definition.shape {
             Shape::BitField { base, fields } => {
-                // Types of fields come first, in the order in which the profile has them.
+                // Types of fields come first, in the order of the profile.
                 let mut of_fields: Vec<_> = fields.iter_mut().filter_map(named_values).collect();
                 of_fields.sort_by_key(|(id, _)| **id);
                 for (id, base) in of_fields {
@@ -186,10 +186,10 @@ impl<'p> Completion<'p> {
         Some(added)
     }
 
-    /// The basic type below a bit field, an enumeration or an alias.
+    /// Returns the basic type of a bit field, an enumeration or an alias.
     fn underlying(&self, ty: Type) -> Type {
         let mut ty = ty;
-        // Definitions never lead back: each refers to earlier ones.
+        // The loop ends, because definitions only refer to earlier ones.
         while let Type::Named(TypeId(id)) = ty {
             match self.types.get(id as usize).map(|definition| &definition.shape) {
                 Some(Shape::Alias(base) | Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => ty = *base,
@@ -200,13 +200,13 @@ impl<'p> Completion<'p> {
         ty
     }
 
-    /// Whether a type says nothing of bits and values.
+    /// Returns whether a type names neither bits nor values.
     fn is_plain(&self, ty: Type) -> bool {
         let mut ty = ty;
         loop {
             let Type::Named(TypeId(id)) = ty else { return true };
             match self.types.get(id as usize).map(|definition| &definition.shape) {
-                // Later types may refer to earlier ones only, so that this ends.
+                // The loop ends, because it only follows references to earlier types.
                 Some(Shape::Alias(Type::Named(TypeId(next)))) if *next >= id => return false,
                 Some(Shape::Alias(other)) => ty = *other,
                 _ => return false,
@@ -214,13 +214,13 @@ impl<'p> Completion<'p> {
         }
     }
 
-    /// New types go behind those of the device.
+    /// Prepares for adding types to those of a device.
     fn start(&mut self, types: &mut Vec<TypeDef>) {
         self.types = std::mem::take(types);
         self.added.clear();
     }
 
-    /// Gives the types back. The names of those that are new must not change those of the types that the device has.
+    /// Returns the types to the device. Renames new types whose name a type of the device already has.
     fn finish(&mut self, types: &mut Vec<TypeDef>, before: usize) {
         *types = std::mem::take(&mut self.types);
         let before = before.min(types.len());
@@ -250,12 +250,13 @@ impl<'p> Completion<'p> {
         self.finish(types, before);
     }
 
-    /// Its fields by their names, and where it is one of the profile's telegrams also by their offsets.
+    /// Completes the fields of a submodule by their names. In a telegram of the profile, offsets identify fields too.
     fn submodule(&mut self, submodule: &mut Submodule) {
         let data = [(Direction::Receive, &mut submodule.output), (Direction::Transmit, &mut submodule.input)];
         for (direction, data) in data {
-            let is_telegram =
-                |own: &&Telegram| own.direction == direction && is_called(&submodule.name, own.name.as_str());
+            let is_telegram = |telegram: &&Telegram| {
+                telegram.direction == direction && is_called(&submodule.name, telegram.name.as_str())
+            };
             let telegram = self.profile.telegrams.iter().find(is_telegram);
             if let Some(data) = data {
                 self.fields(data, telegram);
@@ -285,7 +286,7 @@ impl<'p> Completion<'p> {
     }
 }
 
-/// The enumeration of some bits, and the integer that they are.
+/// Returns the enumeration of a field, and the integer type with the length of the field.
 fn named_values(field: &mut BitFieldEntry) -> Option<(&mut TypeId, Type)> {
     match &mut field.meaning {
         BitMeaning::Enumeration(id) => Some((id, Type::Unsigned(field.bits))),
@@ -301,7 +302,7 @@ fn is_on_bus(item: &Item, described: &Described) -> bool {
     })
 }
 
-/// Adds the words of a profile where a description has none; a citation that it has stays.
+/// Adds the description of a profile if there is none. An existing citation does not change.
 fn describe(documentation: &mut Option<Box<Documentation>>, of_profile: Option<&Documentation>) {
     match (documentation, of_profile) {
         (documentation @ None, of_profile) => *documentation = of_profile.cloned().map(Box::new),
@@ -313,21 +314,21 @@ fn describe(documentation: &mut Option<Box<Documentation>>, of_profile: Option<&
     }
 }
 
-/// Whether a table of codes is a profile's.
+/// Returns whether a code table comes from a profile.
 fn is_from_profile(table: &CodeTable) -> bool {
     table.documentation.as_deref().is_some_and(|documentation| documentation.text_from.is_some())
 }
 
-/// Letters and digits alone, for names that differ in nothing else are one name in Rust.
+/// Returns the letters and digits of a name in lower case. Names that only differ in other characters have the same Rust name.
 fn letters(name: &str) -> String {
     name.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// Whether a submodule is the telegram of this name: its words, and no digit behind them.
+/// Returns whether the name of a submodule contains the name of a telegram without a further digit.
 fn is_called(name: &str, telegram: &str) -> bool {
     let (name, telegram) = (name.to_lowercase(), telegram.to_lowercase());
-    let mut places = name.match_indices(telegram.as_str());
-    places.any(|(at, _)| !name[at + telegram.len()..].starts_with(|letter: char| letter.is_ascii_digit()))
+    let mut matches = name.match_indices(telegram.as_str());
+    matches.any(|(at, _)| !name[at + telegram.len()..].starts_with(|letter: char| letter.is_ascii_digit()))
 }
 
 #[cfg(test)]
@@ -335,7 +336,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn telegrams_are_told_apart_by_their_number() {
+    fn telegrams_are_distinguished_by_their_number() {
         assert!(is_called("Standard telegram 1, PZD-2/2", "standard telegram 1"));
         assert!(!is_called("Standard telegram 102", "standard telegram 1"));
         assert!(!is_called("Drive", "standard telegram 1"));

@@ -1,15 +1,15 @@
-//! Profiles: what standards say of the objects of every device that follows them.
+//! Profiles: facts of standards about the objects of all devices that follow them.
 //!
-//! They are tables with `[profile]`, written like overlays (`dictionaries/README.md`). The compiler contains what they state in a
-//! shorter form, so that it applies them without the front end of register tables. A profile is applied last, when everything that a
-//! device and its overlays say of an object is known: it never changes any of it, and no check needs what it adds.
+//! A profile is a table with `[profile]`, written like an overlay (`dictionaries/README.md`). The compiler contains it in a compact form,
+//! so that profiles do not need the front end of register tables. Profiles are applied after overlays and checks. They do not change
+//! facts of a device or its overlays.
 //!
 //! | file | subject |
 //! |---|---|
-//! | `profile` | a profile as plain data |
-//! | `stored`, `stored/*.txt` | the same as text, and how it is written and read |
-//! | `apply` | the profiles, and the devices and modules that follow them |
-//! | `complete` | adds what a description leaves unsaid |
+//! | `profile` | data of a profile |
+//! | `stored`, `stored/*.txt` | profiles as text, with reader and writer |
+//! | `apply` | applies profiles to the devices and modules that follow them |
+//! | `complete` | adds the facts of a profile that a description lacks |
 
 mod apply;
 mod complete;

@@ -1,4 +1,4 @@
-//! A profile as plain data.
+//! Data of a profile.
 
 use crate::ir::owner::object;
 use crate::ir::{
@@ -6,61 +6,61 @@ use crate::ir::{
     Quantity, Shape, StateMachine, Type, TypeDef, TypeId, Value,
 };
 
-/// What a standard says of the objects of every device that follows it.
+/// Facts of a standard about the objects of all devices that follow it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Profile {
-    /// The standard's name.
+    /// Name of the standard.
     pub name: CompactString,
     /// Number of the device profile.
     pub number: Option<u32>,
-    /// The object that shows that a device follows it.
+    /// Index of the object that identifies a device that follows the profile.
     pub when: Option<u16>,
-    /// The number of the API of submodules that follow it (PROFINET).
+    /// API number of submodules that follow it (PROFINET).
     pub api: Option<u32>,
-    /// The buses on which devices follow it.
+    /// Whether it applies to devices on CANopen, and on EtherCAT.
     pub on_canopen: bool,
     pub on_ethercat: bool,
-    /// What is added to indices from 0x6000 to 0x67FF for each further axis.
+    /// Index offset from axis to axis for the objects 0x6000 to 0x67FF.
     pub axis_index: Option<u16>,
-    /// Its objects.
+    /// Objects.
     pub objects: Vec<Described>,
     /// Signals of submodules.
     pub signals: Vec<Signal>,
     /// Telegrams of submodules.
     pub telegrams: Vec<Telegram>,
-    /// The types of objects and signals, each over the integer that the profile names.
+    /// Types of objects and signals.
     pub types: Vec<TypeDef>,
-    /// Its codes and state machines, which are the same for every device, each with its doubts.
+    /// Code tables and state machines of all devices, with their ambiguities.
     pub codes: Vec<(CodeTable, Doubts)>,
     pub machines: Vec<(StateMachine, Doubts)>,
 }
 
-/// What a profile says of objects, or of sub-entries.
+/// Facts of a profile about objects or sub-indices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Described {
     /// First and last index.
     pub indices: (u16, u16),
     /// First and last sub-index; `None` for the objects themselves.
     pub subs: Option<(u8, u8)>,
-    /// The only type, but for the sign, of entries that the profile speaks of.
+    /// Type of the entries, ignoring signedness.
     pub ty: Option<Type>,
-    /// The only buses on which it holds.
+    /// Buses on which the facts apply; `None` = all.
     pub buses: Option<ObjectBuses>,
-    /// The bits or values: one of [`Profile::types`].
+    /// Bits or values: one of [`Profile::types`].
     pub meaning: Option<TypeId>,
-    /// The standard with its clause.
+    /// Standard with clause.
     pub standard: CompactString,
     pub quantity: Option<Box<Quantity>>,
     pub behaviour: Option<Box<Behaviour>>,
     pub documentation: Option<Box<Documentation>>,
 }
 
-/// A word of a telegram.
+/// A signal of a telegram.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Signal {
     pub name: CompactString,
     pub ty: Option<Type>,
-    /// Its bits: one of [`Profile::types`].
+    /// Bits: one of [`Profile::types`].
     pub meaning: Option<TypeId>,
 }
 
@@ -69,12 +69,12 @@ pub(crate) struct Signal {
 pub(crate) struct Telegram {
     pub name: CompactString,
     pub direction: Direction,
-    /// First byte and name of each signal.
+    /// Byte offset and name of each signal.
     pub signals: Vec<(u32, CompactString)>,
 }
 
 impl Profile {
-    /// Whether these objects are those of something that follows the profile. Without an object that would show it, they are.
+    /// Returns whether the objects contain the object that identifies the profile. It is true if the profile has no such object.
     pub fn is_shown_by(&self, groups: &[Group]) -> bool {
         let Some(index) = self.when else { return true };
         let found = groups.binary_search_by_key(&Some(index), Group::index).ok().and_then(|at| groups.get(at));
@@ -82,23 +82,23 @@ impl Profile {
             return false;
         };
         let described = self.objects.iter().find(|described| described.indices == (index, index));
-        // A type that the description defines may be anything.
+        // The definition of a named type is not known here.
         let is_alike = |ty: Type| {
-            matches!(ty, Type::Named(_)) || described.is_none_or(|own| self.is_alike(ty, own.ty, own.meaning))
+            matches!(ty, Type::Named(_)) || described.is_none_or(|known| self.is_alike(ty, known.ty, known.meaning))
         };
         group.sub(0).is_some_and(|item| is_alike(item.ty))
     }
 
-    /// A type by its position.
+    /// Returns the type with this id.
     pub fn definition(&self, id: TypeId) -> Option<&TypeDef> {
         self.types.get(id.0 as usize)
     }
 
-    /// The names of the values of an object with which a condition compares it, if the profile names all of them.
+    /// Returns the names of the values in a condition, if the profile names all of them.
     pub fn value_names(&self, when: &Condition) -> Option<Vec<CompactString>> {
         let (index, sub_index) = object(&when.item)?;
-        let is_described = |own: &&Described| {
-            own.indices == (index, index) && own.subs.is_none_or(|subs| subs == (sub_index, sub_index))
+        let is_described = |described: &&Described| {
+            described.indices == (index, index) && described.subs.is_none_or(|subs| subs == (sub_index, sub_index))
         };
         let meaning = self.objects.iter().find(is_described)?.meaning?;
         let Shape::Enumeration { values, .. } = &self.definition(meaning)?.shape else { return None };
@@ -109,8 +109,8 @@ impl Profile {
         when.values.iter().map(name_of).collect()
     }
 
-    /// Whether values of a type are as long as those that the profile speaks of, and of its kind. Numbers with a sign aren't bits,
-    /// whatever their object is elsewhere; named values may well have another sign.
+    /// Returns whether a type has the kind and length that the profile expects. Named values may differ in signedness. A signed type never
+    /// matches a bit field.
     pub fn is_alike(&self, ty: Type, expected: Option<Type>, meaning: Option<TypeId>) -> bool {
         let Some(expected) = expected else { return true };
         let shape = meaning.and_then(|id| self.definition(id)).map(|definition| &definition.shape);

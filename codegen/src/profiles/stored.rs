@@ -1,6 +1,6 @@
-//! A profile as text: the fields of each structure in order, each ended by a tab. Elements of lists are on lines of their own.
+//! Profiles as text: the fields of each structure in order, each with a tab at its end. Each element of a list starts a line.
 //!
-//! A unit test writes the files `stored/*.txt` from `dictionaries/profiles/*.toml`, and holds them to it:
+//! A unit test checks that the files `stored/*.txt` contain the facts of `dictionaries/profiles/*.toml`. It writes them with
 //! `LEXIBUS_BLESS=1 cargo test -p lexibus-codegen --lib profiles::stored`.
 
 use super::profile::{Described, Profile, Signal, Telegram};
@@ -11,10 +11,10 @@ use crate::ir::{
     Type, TypeDef, TypeId, TypeRef, Value, Zone,
 };
 
-/// The fields of a stored profile that aren't read yet.
+/// The remaining fields of a stored profile.
 type Fields<'t> = std::str::Split<'t, char>;
 
-/// Reads a stored profile; `None` for any other text.
+/// Reads a stored profile. Returns `None` for any other text.
 pub(super) fn read(text: &str) -> Option<Profile> {
     Stored::read(&mut text.split('\t'))
 }
@@ -26,7 +26,7 @@ trait Stored: Sized {
     fn write(&self, text: &mut String);
 }
 
-/// The next field; the line before it ends at an element of a list.
+/// Returns the next field, without the line feed before an element of a list.
 fn next<'t>(fields: &mut Fields<'t>) -> Option<&'t str> {
     fields.next().map(|field| field.strip_prefix('\n').unwrap_or(field))
 }
@@ -34,12 +34,12 @@ fn next<'t>(fields: &mut Fields<'t>) -> Option<&'t str> {
 /// Writes one field.
 #[cfg(test)]
 fn write(text: &mut String, field: &str) {
-    assert!(!field.contains(['\t', '\n']), "{field:?} can't be stored");
+    assert!(!field.contains(['\t', '\n']), "{field:?} cannot be stored");
     text.push_str(field);
     text.push('\t');
 }
 
-/// Types that have one field, which they are parsed from.
+/// Types with a single field, which is parsed.
 macro_rules! parsed {
     ($($name:ty),*) => {$(
         impl Stored for $name {
@@ -57,7 +57,7 @@ macro_rules! parsed {
 
 parsed!(bool, u8, u16, u32, u64, i128, f64, usize, String, CompactString);
 
-/// Types that are the same as another one.
+/// Types that are stored as another type.
 macro_rules! wrapped {
     ($($name:ty: $inner:ty, $read:expr, $write:expr;)*) => {$(
         impl Stored for $name {
@@ -82,7 +82,7 @@ wrapped! {
     TypeRef: CompactString, TypeRef::from, |reference| &reference.name;
 }
 
-/// Structures: the fields that are stored, and behind the bar those that a profile has no use for.
+/// Structures: stored fields, and after the bar the fields that profiles do not use.
 macro_rules! structures {
     ($($name:ident { $($field:ident),* $(| $($default:ident),*)? })*) => {$(
         impl Stored for $name {
@@ -125,7 +125,7 @@ structures! {
     Subject { kind, name, element }
 }
 
-/// Enumerations: the name of the variant, and its fields.
+/// Enumerations: name of the variant, and its fields.
 macro_rules! enumerations {
     ($($name:ident { $($variant:ident $(($($item:ident),*))? $({ $($field:ident),* })?),* })*) => {$(
         impl Stored for $name {
@@ -149,7 +149,7 @@ macro_rules! enumerations {
                         $($($item.write(text);)*)?
                         $($($field.write(text);)*)?
                     })*
-                    other => panic!("{other:?} can't be stored"),
+                    other => panic!("{other:?} cannot be stored"),
                 }
             }
         }
@@ -213,7 +213,7 @@ impl<T: Stored> Stored for Option<T> {
     }
 }
 
-/// Lists: the number of their elements, and each on a line of its own.
+/// Lists: number of elements, and the elements, each on a new line.
 macro_rules! lists {
     ($($name:ty where $element:ident;)*) => {$(
         impl<$element: Stored> Stored for $name {
@@ -267,7 +267,7 @@ mod tests {
         Source::new("profile.toml", text.as_bytes().to_vec())
     }
 
-    fn findings(text: &str) -> Vec<Diagnostic> {
+    fn diagnostics(text: &str) -> Vec<Diagnostic> {
         let mut diagnostics = Diagnostics::default();
         profile::read(&source(text), &mut diagnostics);
         diagnostics.list().to_vec()
@@ -279,41 +279,41 @@ mod tests {
     }
 
     #[test]
-    fn stored_profiles_are_those_of_the_tables() {
+    fn stored_profiles_have_the_facts_of_the_tables() {
         for (name, stored) in FILES.into_iter().zip(STORED) {
             let profile = profile::read(&source(&table(name)), &mut Diagnostics::default()).expect(name);
             let mut text = String::new();
             profile.write(&mut text);
-            assert_eq!(read(&text).as_ref(), Some(&profile), "{name} has facts that can't be stored");
+            assert_eq!(read(&text).as_ref(), Some(&profile), "{name} has facts that cannot be stored");
             if std::env::var_os("LEXIBUS_BLESS").is_some() {
                 let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/profiles/stored");
                 std::fs::write(Path::new(folder).join(name).with_extension("txt"), &text).expect("written");
             } else {
-                assert!(text == stored, "{name}.txt is stale: `tests/bindings.sh` writes it");
+                assert!(text == stored, "{name}.txt is stale: run `tests/bindings.sh`");
             }
         }
         assert_eq!(read("CiA 402\t"), None);
     }
 
     #[test]
-    fn every_profile_is_without_fault() {
+    fn profiles_have_no_diagnostics() {
         let mut names: HashMap<String, &str> = HashMap::new();
         for name in FILES {
             let text = table(name);
-            let findings = findings(&text);
-            let messages: Vec<&String> = findings.iter().map(|finding| &finding.message).collect();
-            assert!(findings.is_empty(), "{name}: {messages:?}");
-            // Definitions of one name in two profiles would be two types of one name in one device.
+            let found = diagnostics(&text);
+            let messages: Vec<&String> = found.iter().map(|diagnostic| &diagnostic.message).collect();
+            assert!(found.is_empty(), "{name}: {messages:?}");
+            // A device can follow two profiles, so their definitions must have different names.
             for line in text.lines() {
                 let head = line.strip_prefix("[bits.").or(line.strip_prefix("[enums.")).unwrap_or_default();
-                if let Some(own) = head.strip_suffix(".at]").or(head.strip_suffix(".values]")) {
-                    let other = names.insert(own.to_lowercase(), name);
-                    assert_eq!(other, None, "`{own}` is defined in {name} and elsewhere");
+                if let Some(definition) = head.strip_suffix(".at]").or(head.strip_suffix(".values]")) {
+                    let other = names.insert(definition.to_lowercase(), name);
+                    assert_eq!(other, None, "`{definition}` is defined in {name} and elsewhere");
                 }
             }
         }
         assert!(names.len() > 40, "only {} definitions", names.len());
-        assert!(!findings("lexibus = 1\n[profile]\nnumber = 402\nwhen = \"x\"\n").is_empty());
-        assert!(!findings("lexibus = 1\n[device]\nname = \"x\"\n").is_empty());
+        assert!(!diagnostics("lexibus = 1\n[profile]\nnumber = 402\nwhen = \"x\"\n").is_empty());
+        assert!(!diagnostics("lexibus = 1\n[device]\nname = \"x\"\n").is_empty());
     }
 }

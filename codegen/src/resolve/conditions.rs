@@ -1,4 +1,4 @@
-//! Values of conditions as the other item holds them: a bit pattern that is negative there becomes a negative number.
+//! Signs of values in conditions: a bit pattern becomes a negative number if the other item is signed.
 
 use std::collections::HashMap;
 
@@ -6,9 +6,9 @@ use super::references::for_each_condition;
 use crate::ir::owner::Owner;
 use crate::ir::{Condition, Device, ItemId, Value};
 
-/// Corrects the signs of the conditions of a device, whose references are resolved.
+/// Corrects the signs in the conditions of a device. Its references have to be resolved.
 pub(super) fn run(device: &mut Device) {
-    // Some bits of an item have no sign.
+    // Values of masked bits have no sign.
     let can_be_negative = |condition: &Condition| {
         condition.mask.is_none() && condition.values.iter().any(|value| value.as_int() > Some(0))
     };

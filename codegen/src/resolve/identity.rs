@@ -1,8 +1,8 @@
-//! Identity of a device: numbers that its header leaves out come from object 0x1018 (CiA 301 7.5.2.19).
+//! Identity of a device: missing numbers come from object 0x1018 (CiA 301 7.5.2.19).
 
 use crate::ir::{Device, Value};
 
-/// Fills in the numbers that the header leaves out. Those of ETG.2000's Type select the device: a missing one fits any number.
+/// Completes the identity of a device. EtherCAT devices are not changed, because a missing number in Type (ETG.2000) matches any number.
 pub(super) fn run(device: &mut Device) {
     if device.ethercat.is_some() {
         return;
@@ -27,20 +27,20 @@ pub(crate) enum IdentityNumber {
 }
 
 impl IdentityNumber {
-    /// All of them.
+    /// All identity numbers.
     pub(crate) const ALL: [IdentityNumber; 3] =
         [IdentityNumber::Vendor, IdentityNumber::Product, IdentityNumber::Revision];
 
-    /// Returns its name in messages.
+    /// Returns the name for messages.
     pub(crate) fn name(self) -> &'static str {
         match self {
-            IdentityNumber::Vendor => "vendor number",
+            IdentityNumber::Vendor => "vendor ID",
             IdentityNumber::Product => "product code",
             IdentityNumber::Revision => "revision number",
         }
     }
 
-    /// Returns the number that the device states.
+    /// Returns the number that the identity of the device contains.
     pub(crate) fn stated(self, device: &Device) -> Option<u32> {
         match self {
             IdentityNumber::Vendor => device.identity.vendor_id,
@@ -57,7 +57,7 @@ impl IdentityNumber {
         }
     }
 
-    /// Returns the default of the object's entry, and where it stands.
+    /// Returns the default value of the object's entry, with its location.
     pub(crate) fn in_object(self, device: &Device) -> Option<(u32, crate::source::Span)> {
         let item = device.entry(0x1018, self as u8 + 1)?;
         let value = item.default.as_ref().and_then(Value::as_int)?;

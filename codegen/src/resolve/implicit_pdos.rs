@@ -1,14 +1,14 @@
-//! Objects of the PDOs that a device announces and does not describe (CiA 306, CompactPDO).
+//! Objects of implicit PDOs, which a device counts but does not describe (CiA 306, CompactPDO).
 //!
-//! A device that says "CompactPDO" and NrOfRXPDO = 4, and describes two RPDOs, has two more. Their objects get line 0,
-//! for they stand nowhere in the file.
+//! For example, a device with CompactPDO, NrOfRXPDO = 4 and two described RPDOs has two implicit RPDOs. The line number of
+//! their objects is 0, because the file does not contain them.
 
 use crate::ir::{
     Access, Binding, CompactString, Device, Fact, FactOrigins, Group, Item, ObjectCode, Rule, Type, Value,
 };
 use crate::limits;
 
-/// Mapping entries of an implicit PDO: one a byte of a CAN frame.
+/// Number of mapping entries of an implicit PDO: one for each byte of a CAN frame.
 const MAPPING_ENTRIES: u8 = 8;
 
 pub(super) fn run(device: &mut Device) {
@@ -52,7 +52,7 @@ fn item(index: u16, sub: u8, name: CompactString, bits: u8, default: Option<Valu
     item
 }
 
-/// Names and widths of the sub-indices of a communication object, from 1 on (CiA 301 7.5.2.35).
+/// Names and widths of the sub-indices of a communication object, starting with sub-index 1 (CiA 301 7.5.2.35).
 const COMMUNICATION: [(&str, u8); 6] = [
     ("COB-ID", 32),
     ("Transmission type", 8),
@@ -81,8 +81,8 @@ fn communication(index: u16, number: u16, mask: u8, receive: bool) -> Group {
     group
 }
 
-/// The first four PDOs have identifiers of the pre-defined connection set; the others are not valid (bit 31) until
-/// somebody gives them one (CiA 301 7.3.5).
+/// Returns the default COB-ID. The first four PDOs have identifiers of the pre-defined connection set. The other PDOs are
+/// disabled (bit 31) until they are configured (CiA 301 7.3.5).
 fn default_cob_id(number: u16, receive: bool) -> Value {
     let first = if receive { 0x200 } else { 0x180 };
     match number {
@@ -109,7 +109,7 @@ mod tests {
     use crate::ir::CanOpenSettings;
 
     #[test]
-    fn announced_pdos_get_their_objects() {
+    fn counted_pdos_get_objects() {
         let canopen = CanOpenSettings { compact_pdo: 0x17, rx_pdos: Some(5), tx_pdos: Some(1), ..Default::default() };
         let mut device = Device { canopen: Some(Box::new(canopen)), ..Device::default() };
         device.groups.push(Group::object(0x1401, ObjectCode::Record));

@@ -1,7 +1,7 @@
-//! Objects that a PDO of an EtherCAT slave or module maps and that nothing describes.
+//! Mapped objects of EtherCAT slaves and modules that the dictionary does not describe.
 //!
-//! What is mapped is there: a device without a dictionary, or with one that lacks an object, gets it with the name, type
-//! and length that the entry tells. Such objects get line 0, for they stand nowhere in the file as objects.
+//! A mapped object exists. If the dictionary lacks it, the compiler adds it with the name, type and length of the PDO entry.
+//! The line number of these objects is 0, because the file does not contain them as objects.
 
 use std::collections::BTreeMap;
 
@@ -10,17 +10,17 @@ use crate::ir::{
 };
 use crate::source::Origin;
 
-/// Of a device. Entries whose index grows with the slot map objects of a module.
+/// Completes a device. Entries whose index depends on the slot are skipped, because they map objects of a module.
 pub(super) fn device(device: &mut Device) {
     complete(&mut device.groups, &mut device.process_data.pdos, false);
 }
 
-/// Of a module.
+/// Completes a module.
 pub(super) fn module(module: &mut Module) {
     complete(&mut module.groups, &mut module.process_data.pdos, true);
 }
 
-/// What the entries tell of an object that isn't described.
+/// An object that only PDO entries describe.
 #[derive(Default)]
 struct Implied {
     items: BTreeMap<u8, Item>,
@@ -60,7 +60,7 @@ fn complete(groups: &mut Vec<Group>, pdos: &mut [Pdo], is_module: bool) {
     add(groups, objects);
 }
 
-/// Adds what is implied to the objects, which are sorted by index.
+/// Adds implied objects to the described objects, which are sorted by index.
 fn add(groups: &mut Vec<Group>, objects: BTreeMap<u16, Implied>) {
     let described = groups.len();
     for (index, object) in objects {
@@ -93,7 +93,7 @@ mod tests {
     use crate::ir::{PdoEntry, Type};
 
     #[test]
-    fn what_is_mapped_exists() {
+    fn mapped_objects_exist() {
         let entry = |index, sub, name: &str| PdoEntry {
             name: name.into(),
             ty: Type::Unsigned(8),

@@ -1,15 +1,15 @@
-//! The only stage that changes the IR after front ends and overlays: it computes what follows from a description.
+//! Derives facts from a description. After front ends and overlays, only this stage changes the IR.
 //!
 //! | file | subject |
 //! |---|---|
-//! | `run` | the order of the steps |
+//! | `run` | order of the steps |
 //! | `conditions` | signs of the values in conditions |
-//! | `references` | names of items to ids |
+//! | `references` | ids for the names in references |
 //! | `identity` | identity numbers of object 0x1018 |
-//! | `implicit_pdos` | objects of PDOs that a device only announces |
-//! | `pdo_mapping` | PDOs of mapping objects |
-//! | `pdo_entries`, `mapped_objects` | entries of EtherCAT's PDOs; objects that nothing but an entry describes |
-//! | `messages` | what the frames of a command protocol consist of; computed on request, not kept in the IR |
+//! | `implicit_pdos` | objects of PDOs that a device counts but does not describe |
+//! | `pdo_mapping` | PDOs from mapping objects |
+//! | `pdo_entries`, `mapped_objects` | entries of EtherCAT PDOs, and objects that only these entries describe |
+//! | `messages` | layout of the frames of a command protocol; computed on request and not stored in the IR |
 
 mod conditions;
 mod identity;

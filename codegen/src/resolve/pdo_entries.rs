@@ -1,23 +1,22 @@
-//! Entries of the PDOs of an EtherCAT slave or module: bit positions, and the types of the items that they map (ETG.2000, RxPdo
-//! and TxPdo).
+//! PDO entries of EtherCAT slaves and modules: bit positions, and types of mapped items (ETG.2000, RxPdo and TxPdo).
 
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{CompactString, Device, Entries, Item, Module, Pdo, PdoEntry, PdoEntryKind, Type, TypeDef};
 
-/// Of a device.
+/// Completes the PDO entries of a device.
 pub(super) fn device(device: &mut Device, diagnostics: &mut Diagnostics) {
     let dictionary = Dictionary { items: Entries::new(&device.groups), types: &device.types };
     pdos(&mut device.process_data.pdos, &dictionary, diagnostics);
 }
 
-/// Of a module.
+/// Completes the PDO entries of a module.
 pub(super) fn module(module: &mut Module, diagnostics: &mut Diagnostics) {
     let dictionary = Dictionary { items: Entries::new(&module.groups), types: &module.types };
     pdos(&mut module.process_data.pdos, &dictionary, diagnostics);
 }
 
-/// The dictionary that has the mapped items, and their types.
+/// Mapped items and their types.
 struct Dictionary<'o> {
     items: Entries<'o>,
     types: &'o [TypeDef],
@@ -38,11 +37,11 @@ fn pdos(pdos: &mut [Pdo], dictionary: &Dictionary<'_>, diagnostics: &mut Diagnos
 
 fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut Diagnostics) {
     let Some(item) = dictionary.items.get(entry.index, entry.sub_index) else {
-        // The objects of a slot belong to its module, and without a dictionary there is nothing to hold against.
+        // Objects that depend on the slot belong to a module. Without a dictionary, no object is missing.
         if !entry.depends_on_slot && !dictionary.items.is_empty() && diagnostics.wants(&codes::MAPPED_OBJECT_MISSING) {
-            let message = format!("{} is mapped, but the dictionary doesn't have it", address(entry));
+            let message = format!("{} is mapped, but not in the dictionary", address(entry));
             let found = codes::MAPPED_OBJECT_MISSING.at(entry.origin.span, message);
-            diagnostics.push(found.label("taken as the entry describes it"));
+            diagnostics.push(found.label("added an object with the facts of the entry"));
         }
         return;
     };
@@ -50,7 +49,7 @@ fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut 
     if entry.name.is_empty() {
         (entry.name, entry.names) = (entry_name(item), item.names.clone());
     }
-    // A type without a length of its own is as long as the entry, which may know better what it is.
+    // A type without a fixed length has the length of the entry. The entry keeps its own type unless that is opaque.
     let fits = match Owner::of_types(dictionary.types).fixed_bits(item.ty) {
         Some(bits) => bits == entry.bits,
         None => matches!(entry.ty, Type::Opaque(_)),
@@ -60,7 +59,7 @@ fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut 
     }
 }
 
-/// The name of an entry without a name. Any number of entries may get the name of one object, so a long one is cut.
+/// Returns the name of an item for an unnamed entry. Long names are shortened, because many entries can map the same item.
 pub(super) fn entry_name(item: &Item) -> CompactString {
     const LONG: usize = 512;
     if item.name.len() > LONG {
@@ -70,7 +69,7 @@ pub(super) fn entry_name(item: &Item) -> CompactString {
     }
 }
 
-/// Index and sub-index of an entry in messages.
+/// Returns index and sub-index of an entry for messages.
 pub(crate) fn address(entry: &PdoEntry) -> String {
     format!("0x{:04X} sub-index {:#x}", entry.index, entry.sub_index)
 }
@@ -81,7 +80,7 @@ mod tests {
     use crate::ir::{Binding, Direction, Group, ObjectCode};
 
     #[test]
-    fn offsets_add_up_and_types_are_those_of_the_items() {
+    fn entries_have_offsets_and_the_types_of_their_items() {
         let mut group = Group::object(0x6040, ObjectCode::Var);
         let mut item = Item::new(Binding::coe(0x6040, 0));
         (item.name, item.ty) = ("Controlword".into(), Type::Unsigned(16));

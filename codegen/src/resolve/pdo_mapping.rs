@@ -1,4 +1,4 @@
-//! PDOs of the mapping objects of a CANopen dictionary, with exact bit positions (CiA 301 7.5.2.36, 7.5.2.38).
+//! PDOs from the mapping objects of a CANopen dictionary, with exact bit positions (CiA 301 7.5.2.36, 7.5.2.38).
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,7 +8,7 @@ use crate::ir::{
 };
 use crate::source::Span;
 
-/// PDOs of each direction in the dictionary.
+/// Maximum number of PDOs in each direction.
 const PDOS: u16 = 512;
 
 /// Adds the PDOs of all mapping objects.
@@ -23,13 +23,13 @@ pub(super) fn run(device: &mut Device, modules: &[Module]) {
     device.process_data.pdos.extend(pdos);
 }
 
-/// The objects of a PDO.
+/// The communication object and mapping object of a PDO.
 pub(crate) struct PdoObjects<'a> {
     /// Direction.
     pub direction: Direction,
     /// Index of the communication object.
     pub index: u16,
-    /// Its number, counted from 1.
+    /// Number, counted from 1.
     pub number: u16,
     /// Communication parameters.
     pub communication: Option<&'a Group>,
@@ -38,7 +38,7 @@ pub(crate) struct PdoObjects<'a> {
 }
 
 impl<'a> PdoObjects<'a> {
-    /// Returns the objects of the PDOs of a direction, by number.
+    /// Returns the objects of all PDOs with this direction, sorted by number.
     pub(crate) fn of_direction(device: &'a Device, direction: Direction) -> impl Iterator<Item = Self> {
         Self::numbers(device, direction).into_iter().map(move |number| Self::new(device, direction, number))
     }
@@ -49,7 +49,7 @@ impl<'a> PdoObjects<'a> {
         PdoObjects { direction, index, number: number + 1, communication, mapping }
     }
 
-    /// Returns the numbers of the PDOs of a direction that have an object, counted from 0.
+    /// Returns the numbers of the PDOs with this direction that have an object, counted from 0.
     pub(crate) fn numbers(device: &Device, direction: Direction) -> Vec<u16> {
         let first = first_index(direction);
         let indices = device.groups.iter().filter_map(Group::index);
@@ -66,7 +66,7 @@ impl<'a> PdoObjects<'a> {
     }
 }
 
-/// Index of the first communication object.
+/// Returns the index of the first communication object.
 fn first_index(direction: Direction) -> u16 {
     match direction {
         Direction::Receive => 0x1400,
@@ -74,12 +74,12 @@ fn first_index(direction: Direction) -> u16 {
     }
 }
 
-/// What can be mapped: the items of the device, and those that its modules add.
+/// Index of the items that PDOs can map: items of the device, and items that modules add.
 pub(crate) struct MappableItems<'a> {
     entries: Entries<'a>,
-    /// The items of objects that a module always brings along.
+    /// Items of fixed objects of modules.
     of_modules: HashMap<(u16, u8), &'a Item>,
-    /// Objects whose number of sub-indices depends on the modules that are plugged in.
+    /// Objects whose number of sub-indices depends on the connected modules.
     extended: HashSet<u16>,
 }
 
@@ -106,44 +106,44 @@ impl<'a> MappableItems<'a> {
         self.of_device(index, sub_index).or_else(|| self.of_modules.get(&(index, sub_index)).copied())
     }
 
-    /// Whether modules add sub-indices to the object.
+    /// Returns whether modules add sub-indices to the object.
     pub(crate) fn is_extended(&self, index: u16) -> bool {
         self.extended.contains(&index)
     }
 }
 
-/// The value of a mapping object at a sub-index from 1 on.
+/// A value of a mapping object at a sub-index above 0.
 pub(crate) struct MappingValue<'a> {
-    /// The sub-index.
+    /// Item at the sub-index.
     pub item: &'a Item,
-    /// Where the value stands.
+    /// Location of the value in the source.
     pub span: Span,
-    /// What it says.
+    /// Meaning of the value.
     pub word: MappingWord<'a>,
 }
 
-/// What a mapping value says.
+/// The meaning of a mapping value.
 #[derive(Clone, Copy)]
 pub(crate) enum MappingWord<'a> {
-    /// It maps an object: index, sub-index, length in bits.
+    /// A mapped object: index, sub-index, length in bits.
     Object(u16, u8, u32),
-    /// It maps nothing.
+    /// An empty entry.
     Empty,
-    /// It is no number of 32 bits.
+    /// A value that is not a 32-bit number.
     Unreadable(&'a Value),
 }
 
-/// The number of mapped objects that sub-index 0 announces. 254 and 255 mean a multiplexed PDO.
+/// Returns the number of mapped objects in sub-index 0. 254 and 255 mean a multiplexed PDO.
 pub(crate) fn announced_count(mapping: &Group) -> Option<i128> {
     mapping.sub(0).and_then(Item::initial).and_then(Value::as_int)
 }
 
-/// Whether an announced number of mapped objects is that of a multiplexed PDO.
+/// Returns whether a number of mapped objects means a multiplexed PDO.
 pub(crate) fn is_multiplexed(count: Option<i128>) -> bool {
     matches!(count, Some(254 | 255))
 }
 
-/// The values of a mapping object, as many as it announces.
+/// Returns the values of a mapping object, up to the number in sub-index 0.
 pub(crate) fn mapping_values(mapping: &Group) -> impl Iterator<Item = MappingValue<'_>> {
     let count = announced_count(mapping);
     let subs = mapping.items.iter().filter_map(|item| Some((item.object()?.1, item))).filter(|(sub, _)| *sub > 0);
@@ -173,7 +173,7 @@ fn pdo(device: &Device, items: &MappableItems<'_>, objects: &PdoObjects<'_>) -> 
         origin: mapping.origin,
         ..Pdo::new(objects.direction, objects.mapping_index())
     };
-    // Where the source says what it carries on EtherCAT, the objects' own mapping is that of CANopen.
+    // If the source declares the mapping on EtherCAT, the mapping objects apply to CANopen only.
     let declared = |other: &Pdo| other.mapping_index == pdo.mapping_index && other.buses == Some(ObjectBuses::COE);
     if device.process_data.pdos.iter().any(declared) {
         pdo.buses = Some(ObjectBuses::CANOPEN);
@@ -187,7 +187,7 @@ fn pdo(device: &Device, items: &MappableItems<'_>, objects: &PdoObjects<'_>) -> 
     Some(pdo)
 }
 
-/// The object that a mapping value names, at the bit position `bit_offset`.
+/// Returns an entry for the object of a mapping value.
 fn entry(items: &MappableItems<'_>, value: &MappingValue<'_>, bit_offset: u32) -> Option<PdoEntry> {
     let MappingWord::Object(index, sub_index, bits) = value.word else { return None };
     let mut entry = PdoEntry { bit_offset, origin: value.item.origin, ..PdoEntry::new(index, sub_index, bits) };
@@ -201,7 +201,7 @@ fn entry(items: &MappableItems<'_>, value: &MappingValue<'_>, bit_offset: u32) -
     Some(entry)
 }
 
-/// Whether an index is that of a data type, a dummy entry of a mapping (CiA 301 7.4.7).
+/// Returns whether a mapped index is a dummy entry: a data type (CiA 301 7.4.7).
 pub(crate) fn is_dummy(index: u16) -> bool {
     index < 0x20
 }

@@ -1,4 +1,4 @@
-//! Names of items to ids.
+//! Resolves the names in references to ids.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use crate::ir::{
     Transition, TypeDef, TypeId, WindowSide,
 };
 
-/// Resolves the references of a device. Returns whether any is a name.
+/// Resolves the references of a device. Returns whether there is a reference to an item.
 pub(super) fn device(device: &mut Device) -> bool {
     mapped_items(&mut device.process_data.pdos, &device.groups, 0);
     messages(device);
@@ -26,7 +26,7 @@ pub(super) fn device(device: &mut Device) -> bool {
     true
 }
 
-/// Resolves the references of a module. Their ids count its fixed objects first.
+/// Resolves the references of a module. Ids count its fixed objects first.
 pub(super) fn module(module: &mut Module) {
     let mut names = HashMap::new();
     let Module { fixed_objects, groups, types, process_data, .. } = module;
@@ -67,7 +67,7 @@ impl Positions {
     }
 }
 
-/// A reference that may lead to an item.
+/// A reference that can refer to an item.
 enum Mention<'r> {
     Item(&'r mut ItemRef),
     Element(&'r mut ElementRef),
@@ -115,7 +115,7 @@ fn messages(device: &mut Device) {
         device.parameter_spaces.iter_mut().flat_map(|space| [&mut space.read, &mut space.write, &mut space.store]);
     of_messages.chain(of_spaces).flatten().for_each(|reference| positions.resolve(reference, MessageId));
     for machine in &mut device.machines {
-        // A list that is shared is only copied if it changes.
+        // Changing a shared list copies it.
         let is_message = |transition: &Transition| {
             transition.command.as_ref().is_some_and(|command| positions.find(command).is_some())
         };
@@ -152,7 +152,7 @@ fn state_types(device: &mut Device) {
     }
 }
 
-/// How the value behind a window is read and written.
+/// Returns the read access and write access of an indirect binding.
 fn window_sides(binding: &mut Binding) -> impl Iterator<Item = &mut WindowSide> {
     let window = match binding {
         Binding::Indirect(window) => Some(window),
@@ -161,7 +161,7 @@ fn window_sides(binding: &mut Binding) -> impl Iterator<Item = &mut WindowSide> 
     window.into_iter().flat_map(|window| [&mut window.read, &mut window.write]).flatten()
 }
 
-/// Finds the items that PDOs map, in groups that come after `first` others.
+/// Sets the ids of mapped items. `first`: number of groups before `groups`.
 fn mapped_items(pdos: &mut [Pdo], groups: &[Group], first: u32) {
     let items = Entries::new(groups);
     for entry in pdos.iter_mut().flat_map(|pdo| &mut pdo.entries).filter(|entry| entry.kind == PdoEntryKind::Item) {
@@ -170,7 +170,7 @@ fn mapped_items(pdos: &mut [Pdo], groups: &[Group], first: u32) {
     }
 }
 
-/// The items of names; `None` for a name that leads nowhere.
+/// Items by name; `None` for a name without an item.
 type Found = HashMap<CompactString, Option<ItemId>>;
 
 fn collect(names: &mut Found, mention: &Mention<'_>) {
@@ -187,7 +187,7 @@ fn find(names: &mut Found, groups: &[&[Group]], types: &[TypeDef]) {
     }
 }
 
-/// Visits every reference of a device.
+/// Visits all references to items in a device.
 fn for_each(device: &mut Device, visit: Visit<'_>) {
     of_items_and_types(device.groups.iter_mut(), &mut device.types, visit);
     for message in &mut device.messages {
@@ -281,7 +281,7 @@ pub(super) fn for_each_condition(types: &mut [TypeDef], visit: &mut dyn FnMut(&m
     }
 }
 
-/// The item that a step writes, reads or waits for.
+/// Returns the item that a step writes, reads or waits for.
 fn target(step: &mut Step) -> Option<&mut ItemRef> {
     match step {
         Step::Write(item, _) | Step::WriteBits(item, ..) | Step::WriteArgument(item, _) => Some(item),
@@ -338,7 +338,7 @@ mod tests {
         let related = device.groups[0].items[0].related.as_deref().expect("relations");
         assert_eq!(related.same_as.as_ref().and_then(|reference| reference.id), id(0, 1));
         assert_eq!(related.same_quantity.as_ref().and_then(|reference| reference.id), None);
-        // Ids follow when a group is removed.
+        // Resolving again after the removal of a group updates the ids.
         device.groups.remove(0);
         super::device(&mut device);
         let ids: Vec<_> =

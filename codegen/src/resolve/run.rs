@@ -1,10 +1,10 @@
-//! The steps of the stage, in order.
+//! Runs the steps of the stage.
 
 use super::{conditions, identity, implicit_pdos, mapped_objects, pdo_entries, pdo_mapping, references};
 use crate::diagnostics::Diagnostics;
 use crate::ir::{Catalog, Device, Module};
 
-/// Computes what follows from the descriptions in `catalog`, and reports references that lead nowhere.
+/// Derives facts from the descriptions in `catalog`, and reports PDO entries whose object is missing.
 pub fn resolve(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     for device in &mut catalog.devices {
         resolve_device(device, &catalog.modules, diagnostics);

@@ -2,7 +2,7 @@
 
 use lexibus_codegen::compile::check;
 use lexibus_codegen::ir::{
-    Catalog, CodeTable, CompactString, Device, Module, Places, ProfinetSettings, Shape, Submodule, SubmoduleKind,
+    Catalog, CodeTable, CompactString, Device, Module, ProfinetSettings, Shape, SlotNumbers, Submodule, SubmoduleKind,
     SubmoduleUse, SubslotName, TypeDef, UnitDiagnosis, Value,
 };
 
@@ -112,7 +112,7 @@ fn settings(own: &ProfinetSettings) -> Facts {
     facts
 }
 
-fn places(own: &Places) -> Facts {
+fn places(own: &SlotNumbers) -> Facts {
     let mut facts = Facts::new();
     put(&mut facts, "allowed", numbers(&own.allowed));
     put(&mut facts, "fixed", numbers(&own.fixed));

@@ -2,7 +2,7 @@
 
 use lexibus_codegen::ir::{
     Binding, Catalog, CompactString, Device, Format, Graphic, Group, ModbusTable, Module, ModuleId, ModuleUse,
-    ObjectBuses, Places, ProcessData, RegisterSpace, SubExtension,
+    ObjectBuses, ProcessData, RegisterSpace, SlotNumbers, SubExtension,
 };
 
 use super::bytes::Bytes;
@@ -69,7 +69,9 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
         commissioning: b.maybe(8, |b| Box::new(settings::commissioning(b))),
         process_data,
         slots: b.few(4, 2, settings::slot),
-        modules: (0..modules as u32).map(|at| ModuleUse { module: ModuleId(at), places: Places::default() }).collect(),
+        modules: (0..modules as u32)
+            .map(|at| ModuleUse { module: ModuleId(at), places: SlotNumbers::default() })
+            .collect(),
         parameter_spaces: spaces.iter().map(|own| messages::space(b, own.clone(), &message_names)).collect(),
         framing: if is_table { b.maybe(3, |b| Box::new(messages::framing(b, &messages))) } else { None },
         given,

@@ -3,7 +3,7 @@
 use lexibus_codegen::ir::{
     Access, Binding, Catalog, CompactString, Device, Direction, FParameter, FParameters, Family, Graphic, Group,
     GroupKind, Identity, IoChannel, IoData, IoItem, IoLengths, Item, LocalText, Menu, Module, ModuleId, ModuleUse,
-    Numbers, ObjectCode, Places, ProfinetSettings, Record, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse,
+    Numbers, ObjectCode, ProfinetSettings, Record, SlotNumbers, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse,
     SubslotName, Type, TypeDef, TypeId, UnitDiagnosis, UnitDiagnosisField, VendorBlock,
 };
 use lexibus_codegen::source::Origin;
@@ -129,8 +129,8 @@ fn numbers(b: &mut Bytes<'_>) -> Numbers {
     Numbers(ranges.into_iter().collect())
 }
 
-fn places(b: &mut Bytes<'_>) -> Places {
-    Places { allowed: numbers(b), fixed: numbers(b), used: numbers(b) }
+fn places(b: &mut Bytes<'_>) -> SlotNumbers {
+    SlotNumbers { allowed: numbers(b), fixed: numbers(b), used: numbers(b) }
 }
 
 fn subslot_name(b: &mut Bytes<'_>) -> SubslotName {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use lexibus_codegen::diagnostics::render::place::{self, Place};
+use lexibus_codegen::diagnostics::render::marked::{self, MarkedSource};
 use lexibus_codegen::diagnostics::{Diagnostic, Note, Severity};
 use lexibus_codegen::source::Source;
 
@@ -45,7 +45,7 @@ struct NoteLine<'a> {
 /// marked text starts. A line of over 200 characters is shortened around the mark, with `…` for the omitted text. A
 /// diagnostic of a whole file has a `file` and no position.
 pub fn line(diagnostic: &Diagnostic, sources: &[Source]) -> String {
-    let place = Place::of(diagnostic.span, sources);
+    let place = MarkedSource::of(diagnostic.span, sources);
     let mark = place.and_then(|place| place.mark);
     let line = Line {
         code: diagnostic.code.id,
@@ -59,7 +59,7 @@ pub fn line(diagnostic: &Diagnostic, sources: &[Source]) -> String {
         end_column: mark.map(|mark| mark.to.column),
         start: mark.map(|mark| mark.start),
         end: mark.map(|mark| mark.end),
-        source: place.and_then(|place| Some(place::quoted(place.source, &place.mark?))),
+        source: place.and_then(|place| Some(marked::quoted(place.source, &place.mark?))),
         label: Some(diagnostic.label.as_str()).filter(|label| !label.is_empty()),
         notes: notes(diagnostic, sources),
         help: diagnostic.help.as_deref(),
@@ -70,7 +70,7 @@ pub fn line(diagnostic: &Diagnostic, sources: &[Source]) -> String {
 
 fn notes<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source]) -> Vec<NoteLine<'a>> {
     let line = |note: &'a Note| {
-        let place = note.span.and_then(|span| Place::of(span, sources));
+        let place = note.span.and_then(|span| MarkedSource::of(span, sources));
         let from = place.and_then(|place| place.mark).map(|mark| mark.from);
         NoteLine {
             message: &note.message,
@@ -117,7 +117,7 @@ mod tests {
             let diagnostic = Diagnostic::new(&codes::JUNK_LINE, Span::new(FileId(0), start, end), "");
             let line: serde_json::Value = serde_json::from_str(&line(&diagnostic, &sources)).unwrap();
             let source = line["source"].as_str().unwrap_or_default();
-            assert!(source.chars().count() <= place::MAX_CHARS + 2);
+            assert!(source.chars().count() <= marked::MAX_CHARS + 2);
         }
         let diagnostic = Diagnostic::new(&codes::JUNK_LINE, Span::new(FileId(0), 501, 502), "");
         let line: serde_json::Value = serde_json::from_str(&line(&diagnostic, &sources)).unwrap();

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use lexibus_codegen::diagnostics::render::place::{Mark, Place};
+use lexibus_codegen::diagnostics::render::marked::{Mark, MarkedSource};
 use lexibus_codegen::diagnostics::{Code, Diagnostic, Level, Note, Severity};
 use lexibus_codegen::source::Source;
 
@@ -173,10 +173,10 @@ fn rule(code: &'static Code) -> Rule {
 }
 
 fn outcome<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source], rule_index: usize) -> Outcome<'a> {
-    let place = Place::of(diagnostic.span, sources);
+    let place = MarkedSource::of(diagnostic.span, sources);
     let label = Some(diagnostic.label.as_str()).filter(|label| !label.is_empty()).map(message);
     let fixes: Vec<Fix> = place.and_then(|place| fix(diagnostic, place)).into_iter().collect();
-    let related = |note: &'a Note| Some(location(Place::of(note.span?, sources)?, Some(message(&note.message))));
+    let related = |note: &'a Note| Some(location(MarkedSource::of(note.span?, sources)?, Some(message(&note.message))));
     Outcome {
         rule_id: diagnostic.code.id,
         rule_index,
@@ -195,7 +195,7 @@ fn outcome<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source], rule_index: us
 fn full_message(diagnostic: &Diagnostic, sources: &[Source], with_help: bool) -> String {
     let mut text = diagnostic.message.clone();
     for note in &diagnostic.notes {
-        if note.span.is_none_or(|span| !Place::exists(span, sources)) {
+        if note.span.is_none_or(|span| !MarkedSource::exists(span, sources)) {
             text += &format!("\nnote: {}", note.message);
         }
     }
@@ -204,17 +204,17 @@ fn full_message(diagnostic: &Diagnostic, sources: &[Source], with_help: bool) ->
             text += &format!("\nhelp: {help}");
         }
         if let Some(fix) = &diagnostic.fix {
-            text += &format!("\nhelp: write it so: `{fix}`");
+            text += &format!("\nhelp: write `{fix}` instead");
         }
     }
     text
 }
 
-fn fix<'a>(diagnostic: &'a Diagnostic, place: Place<'a>) -> Option<Fix<'a>> {
+fn fix<'a>(diagnostic: &'a Diagnostic, place: MarkedSource<'a>) -> Option<Fix<'a>> {
     let (replacement, mark) = (diagnostic.fix.as_deref()?, place.mark?);
     let deleted_region = Region { snippet: None, ..region(place.source, mark) };
     Some(Fix {
-        description: message(diagnostic.help.as_deref().unwrap_or("write it so")),
+        description: message(diagnostic.help.as_deref().unwrap_or("write this instead")),
         artifact_changes: [ArtifactChange {
             artifact_location: artifact(place.source),
             replacements: [Replacement { deleted_region, inserted_content: message(replacement) }],
@@ -222,7 +222,7 @@ fn fix<'a>(diagnostic: &'a Diagnostic, place: Place<'a>) -> Option<Fix<'a>> {
     })
 }
 
-fn location<'a>(place: Place<'a>, message: Option<Message<'a>>) -> Location<'a> {
+fn location<'a>(place: MarkedSource<'a>, message: Option<Message<'a>>) -> Location<'a> {
     let region = place.mark.map(|mark| region(place.source, mark));
     Location { physical_location: PhysicalLocation { artifact_location: artifact(place.source), region }, message }
 }
@@ -439,7 +439,7 @@ mod tests {
             }
           ],
           "message": {
-            "text": "no section\nhelp: take another\nhelp: write it so: `[1000]`"
+            "text": "no section\nhelp: take another\nhelp: write `[1000]` instead"
           },
           "ruleId": "EDS002",
           "ruleIndex": 0

@@ -10,7 +10,8 @@ use crate::note::{self, NoteKind, Notes, Subject};
 use crate::options::MissingFacts;
 use lexibus_codegen::ir::{
     Binding, Catalog, Device, Direction, Header, Identity, IoData, IoItem, IoLengths, Numbers, PdoEntry, PdoEntryKind,
-    Places, ProcessImage, ProfinetSettings, Shape, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse, Type, TypeDef,
+    ProcessImage, ProfinetSettings, Shape, SlotNumbers, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse, Type,
+    TypeDef,
 };
 
 /// Subslots of the first interface and of the first port.
@@ -87,7 +88,7 @@ impl Maker<'_> {
 
     fn add(&mut self, device: &mut Device, submodule: Submodule, subslot: u16) {
         let position = u32::try_from(self.target.submodules.len()).unwrap_or(u32::MAX);
-        let places = Places { fixed: Numbers::from_iter([subslot]), ..Places::default() };
+        let places = SlotNumbers { fixed: Numbers::from_iter([subslot]), ..SlotNumbers::default() };
         device.submodules.push(SubmoduleUse { submodule: SubmoduleId(position), places });
         self.target.submodules.push(submodule);
     }
@@ -113,7 +114,7 @@ impl Maker<'_> {
             max_lengths: IoLengths { input: Some(input), output: Some(output), data: None },
             send_clocks: options.send_clocks().unwrap_or_default(),
             reduction_ratios: options.reduction_ratios().unwrap_or_default(),
-            places: Places { fixed: Numbers(smallvec![(0, 0)]), ..Places::default() },
+            places: SlotNumbers { fixed: Numbers(smallvec![(0, 0)]), ..SlotNumbers::default() },
             ..ProfinetSettings::default()
         };
         settings.attributes = self.attributes();

@@ -6,7 +6,7 @@ use super::elements::{self, Attributes};
 use super::{submodule, Context};
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
-use lexibus_codegen::ir::{CompactString, Documentation, Extension, Module, Numbers, Places, SubslotName, Texts};
+use lexibus_codegen::ir::{CompactString, Documentation, Extension, Module, Numbers, SlotNumbers, SubslotName, Texts};
 
 /// The facts of ModuleInfo.
 pub(super) struct Info<'i> {
@@ -80,7 +80,7 @@ pub(super) fn range<T: PartialEq + Display>(first: T, last: T) -> String {
 }
 
 /// Writes the attributes that list slots or subslots; `what` is `Slots` or `Subslots`.
-pub(super) fn slot_lists(xml: &mut Xml, slots: &Places, what: &str) {
+pub(super) fn slot_lists(xml: &mut Xml, slots: &SlotNumbers, what: &str) {
     let lists = [("AllowedIn", &slots.allowed), ("UsedIn", &slots.used), ("FixedIn", &slots.fixed)];
     for (name, numbers) in lists.into_iter().filter(|(_, numbers)| !numbers.is_empty()) {
         xml.attribute(&format!("{name}{what}"), ranges(numbers));

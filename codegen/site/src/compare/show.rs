@@ -5,7 +5,7 @@ use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
     Access, AxisStep, Bus, Buses, Category, CompactString, Condition, Direction, Fit, LocalText, Numbers, ObjectBuses,
-    ObjectCode, Oversampling, Places, Reference, SharedList, Trigger, Value, Zone,
+    ObjectCode, Oversampling, Reference, SharedList, SlotNumbers, Trigger, Value, Zone,
 };
 
 /// A text for reports. Different values have different texts.
@@ -75,7 +75,7 @@ show_as_name! {
         true => first.to_string(),
         false => format!("{first} to {last}"),
     }).collect::<Vec<_>>().join(", ") }
-    Places { places => [("allowed", &places.allowed), ("fixed", &places.fixed), ("used", &places.used)].into_iter()
+    SlotNumbers { places => [("allowed", &places.allowed), ("fixed", &places.fixed), ("used", &places.used)].into_iter()
         .filter(|(_, numbers)| !numbers.is_empty()).map(|(kind, numbers)| format!("{kind} {}", numbers.show())).collect::<Vec<_>>().join("; ") }
     Oversampling { oversampling => {
         let Oversampling { factor, min, max, index_increment } = oversampling;

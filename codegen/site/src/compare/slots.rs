@@ -2,14 +2,14 @@
 
 use super::change::Judgement;
 use super::comparison::{fact, slices, Comparison, Elements};
-use lexibus_codegen::ir::Places;
+use lexibus_codegen::ir::SlotNumbers;
 
 /// A module or submodule that fits into a device or module.
 pub(super) struct Use {
     pub title: String,
     /// Key that pairs uses.
     pub key: String,
-    pub slots: Places,
+    pub slots: SlotNumbers,
 }
 
 /// Compares the pluggable modules or submodules and their slots or subslots.

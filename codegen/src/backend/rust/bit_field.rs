@@ -431,7 +431,7 @@ impl Fields<'_, '_> {
         if let Some(availability) = &entry.availability {
             sentences.push(WORDS.availability(availability));
         }
-        sentences.extend(WORDS.place(&self.context.manual, "", entry.documentation.as_deref(), &entry.names));
+        sentences.extend(WORDS.manual_entry(&self.context.manual, "", entry.documentation.as_deref(), &entry.names));
         sentences.join(" ")
     }
 }

@@ -48,7 +48,10 @@ fn model(
         docs.extend([String::new(), docs::sentence(&docs::escape(text))]);
     }
     docs.extend(
-        WORDS.place(manual, "", table.documentation.as_deref(), &[]).into_iter().flat_map(|text| [String::new(), text]),
+        WORDS
+            .manual_entry(manual, "", table.documentation.as_deref(), &[])
+            .into_iter()
+            .flat_map(|text| [String::new(), text]),
     );
     docs::doubts_about(context, SubjectKind::Codes, &table.name, &mut docs);
     if !table.buses.is_empty() {

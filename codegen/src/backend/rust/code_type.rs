@@ -142,7 +142,7 @@ fn variant(span: Span, row: &CodeRow, name: &str, manual: &Manual) -> CodeVarian
     let mut sentences = Vec::new();
     docs::words(row.documentation.as_deref(), &mut sentences);
     sentences.extend(row.availability.as_ref().map(|availability| WORDS.availability(availability)));
-    sentences.extend(WORDS.place(manual, "", row.documentation.as_deref(), &row.names));
+    sentences.extend(WORDS.manual_entry(manual, "", row.documentation.as_deref(), &row.names));
     for sentence in sentences {
         text.push(' ');
         text.push_str(&sentence);

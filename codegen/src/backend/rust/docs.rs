@@ -65,7 +65,7 @@ pub(super) fn item(
     if let Some(availability) = &item.availability {
         paragraphs.push(words.availability(availability));
     }
-    let place = WORDS.place(&context.manual, row_of(item), item.documentation.as_deref(), &item.names);
+    let place = WORDS.manual_entry(&context.manual, row_of(item), item.documentation.as_deref(), &item.names);
     let chapter = chapter.filter(|chapter| !chapter.trim().is_empty());
     let chapter = chapter.map(|chapter| format!("Chapter {}", sentence(&escape(chapter))));
     paragraphs.push(chapter.into_iter().chain(place).collect::<Vec<_>>().join(" "));
@@ -124,7 +124,7 @@ pub(super) fn words(documentation: Option<&Documentation>, sentences: &mut Vec<S
 pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual, lines: &mut Vec<String>) {
     let mut sentences = Vec::new();
     words(documentation, &mut sentences);
-    sentences.extend(WORDS.place(manual, "", documentation, &[]));
+    sentences.extend(WORDS.manual_entry(manual, "", documentation, &[]));
     for sentence in sentences {
         lines.extend([String::new(), sentence]);
     }

@@ -130,7 +130,7 @@ fn further_facts(value: &EnumValue, context: &Context<'_>) -> Vec<String> {
     if let Some(availability) = &value.availability {
         sentences.push(WORDS.availability(availability));
     }
-    sentences.extend(WORDS.place(&context.manual, "", value.documentation.as_deref(), &value.names));
+    sentences.extend(WORDS.manual_entry(&context.manual, "", value.documentation.as_deref(), &value.names));
     sentences
 }
 

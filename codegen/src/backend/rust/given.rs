@@ -44,7 +44,7 @@ pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOption
         let mut lines = vec![format!("{}{}.", docs::escape(&number.name), in_unit(&number.unit))];
         let mut sentences = Vec::new();
         docs::words(number.documentation.as_deref(), &mut sentences);
-        sentences.extend(WORDS.place(&context.manual, "", number.documentation.as_deref(), &[]));
+        sentences.extend(WORDS.manual_entry(&context.manual, "", number.documentation.as_deref(), &[]));
         sentences.extend(number.doubts.iter().map(|doubt| WORDS.doubt(&context.manual, doubt)));
         lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
         NumberModel { name: names::escaped(name), docs: lines }

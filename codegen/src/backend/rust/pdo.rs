@@ -120,7 +120,7 @@ fn documentation(context: &Context<'_>, pdo: &Pdo, fields: &[FieldModel]) -> Vec
     }
     let mut sentences = vec![docs::sentence(&facts.join(", "))];
     docs::words(pdo.documentation.as_deref(), &mut sentences);
-    sentences.extend(WORDS.place(&context.manual, "", pdo.documentation.as_deref(), &[]));
+    sentences.extend(WORDS.manual_entry(&context.manual, "", pdo.documentation.as_deref(), &[]));
     sentences.extend(pdo.doubts.iter().map(|doubt| WORDS.doubt(&context.manual, doubt)));
     for sentence in sentences {
         lines.extend([String::new(), sentence]);

@@ -40,7 +40,7 @@ fn documentation(context: &Context<'_>, procedure: &Procedure) -> Vec<String> {
     if sentences.is_empty() {
         sentences.push(docs::sentence(&docs::escape(&procedure.name)));
     }
-    sentences.extend(WORDS.place(&context.manual, "", procedure.documentation.as_deref(), &procedure.names));
+    sentences.extend(WORDS.manual_entry(&context.manual, "", procedure.documentation.as_deref(), &procedure.names));
     let mut lines: Vec<String> = sentences.into_iter().flat_map(|sentence| [String::new(), sentence]).collect();
     docs::doubts_about(context, SubjectKind::Procedure, &procedure.name, &mut lines);
     let rows: Vec<[String; 2]> = procedure.steps.iter().filter_map(|step| row(context, step)).collect();

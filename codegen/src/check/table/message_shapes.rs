@@ -6,7 +6,7 @@ use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Device, Framing, Type};
 use crate::resolve::messages::{
-    carrier_problems, is_told, numbered, problem, refusal, shapes, Problem, Shaped, LONGEST,
+    carrier_problems, is_reported_elsewhere, numbered, problem, refusal, shapes, Problem, Shaped, LONGEST,
 };
 use crate::source::Span;
 use crate::text::brief;
@@ -40,7 +40,7 @@ fn every_message(device: &Device, shapes: &[Shaped<'_>], diagnostics: &mut Diagn
         let name = brief(&message.name);
         let span = message.origin.span;
         let problem = match problem(device, message) {
-            Err(problem) if is_told(device, message, problem) => continue,
+            Err(problem) if is_reported_elsewhere(device, message, problem) => continue,
             Err(problem) => Some(problem),
             Ok(()) => (!known.contains(message.name.as_str())).then_some(SELECTOR),
         };

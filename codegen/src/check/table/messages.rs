@@ -57,7 +57,7 @@ fn length(framed: &Framed<'_>, max: Option<usize>, diagnostics: &mut Diagnostics
             diagnostics.push(found.help("adjacent fields of less than a byte must fill whole bytes"));
         }
         let Some(max) = max else { continue };
-        let problem = match (frame.least.div_ceil(8), frame.most.div_ceil(8)) {
+        let problem = match (frame.min_bits.div_ceil(8), frame.max_bits.div_ceil(8)) {
             (shortest, _) if shortest > max => format!("is at least {shortest} bytes long"),
             (_, longest) if longest > max => format!("is {longest} bytes long with all its repetitions"),
             _ => continue,

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::check::context::Context;
-use crate::check::names::{is_meant, place};
+use crate::check::names::{has_meaning, name_span};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{CompactString, Device, Group, GroupKind, Item};
 use crate::source::Span;
@@ -24,8 +24,8 @@ fn whole(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
         GroupKind::Object { .. } => {
             unbroken(&group.name, group.name_at.or(group.origin.span), diagnostics);
             if group.object_code().is_some_and(|code| code.has_subs()) {
-                for item in group.items.iter().filter(is_meant) {
-                    unbroken(&item.name, place(item), diagnostics);
+                for item in group.items.iter().filter(has_meaning) {
+                    unbroken(&item.name, name_span(item), diagnostics);
                 }
             }
         }
@@ -40,7 +40,7 @@ fn case_only<'g>(names: &mut HashMap<CompactString, &'g Item>, item: &'g Item, d
     if first.name != item.name {
         let (name, other) = (brief(&item.name), brief(&first.name));
         let message = format!("`{name}` and `{other}` differ only in upper and lower case");
-        let found = codes::NAME_TWICE.at(place(item), message).note_at(place(first), "the other one");
+        let found = codes::NAME_TWICE.at(name_span(item), message).note_at(name_span(first), "the other one");
         diagnostics.push(found.help("use one spelling if both are the same name"));
     }
 }
@@ -48,7 +48,7 @@ fn case_only<'g>(names: &mut HashMap<CompactString, &'g Item>, item: &'g Item, d
 fn registers(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
     let mut names = HashMap::new();
     for item in &group.items {
-        let at = place(item);
+        let at = name_span(item);
         case_only(&mut names, item, diagnostics);
         if item.name.trim().is_empty() {
             diagnostics.push(codes::EMPTY_NAME.at(at, "the row has no name"));

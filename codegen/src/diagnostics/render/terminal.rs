@@ -5,7 +5,7 @@ use std::ops::Range;
 use annotate_snippets::{AnnotationKind, Element, Group, Level, Origin, Patch, Renderer, Snippet};
 
 use super::super::{Diagnostic, Severity};
-use super::place::{self, Mark, Place};
+use super::marked::{self, Mark, MarkedSource};
 use crate::source::Source;
 use crate::text::steers;
 
@@ -16,67 +16,68 @@ const MAX_LINES: u32 = 6;
 const MAX_TEXT: usize = 2000;
 
 /// Width of the renderer. It is greater than any window, so that the renderer does not shorten lines a second time.
-const WIDTH: usize = 10 * place::MAX_CHARS;
+const WIDTH: usize = 10 * marked::MAX_CHARS;
 
 /// End mark of `file:line:column`. A noncharacter, which [`visible`] removes from the text of a file.
 const END_OF_ORIGIN: char = '\u{fdd0}';
 
 /// Renders a diagnostic with its marked lines, notes, help and fix, without a line feed at the end.
 ///
-/// `colour` adds ANSI escapes for colors. Control characters in the file or message are rendered as pictures (`␛`) or as `�`. A
+/// `color` adds ANSI escapes for colors. Control characters in the file or message are rendered as pictures (`␛`) or as `�`. A
 /// diagnostic about a whole file shows only the name of the file. The time depends on the marked lines, not on the size of the file.
-pub fn render(diagnostic: &Diagnostic, sources: &[Source], colour: bool) -> String {
-    let place = Place::of(diagnostic.span, sources);
-    let suggestion = suggestion(diagnostic, place);
-    let (mut facts, mut placed_notes) = (Vec::new(), Vec::new());
+pub fn render(diagnostic: &Diagnostic, sources: &[Source], color: bool) -> String {
+    let location = MarkedSource::of(diagnostic.span, sources);
+    let suggestion = suggestion(diagnostic, location);
+    let (mut facts, mut located_notes) = (Vec::new(), Vec::new());
     for note in &diagnostic.notes {
         let text = paragraph(&note.message);
-        match note.span.and_then(|span| Place::of(span, sources)) {
-            Some(place) => placed_notes.push(Level::NOTE.secondary_title(text).element(quote(place, ""))),
+        match note.span.and_then(|span| MarkedSource::of(span, sources)) {
+            Some(location) => located_notes.push(Level::NOTE.secondary_title(text).element(quote(location, ""))),
             None => facts.push(Level::NOTE.message(text)),
         }
     }
     if suggestion.is_none() {
         facts.extend(diagnostic.help.as_deref().map(|help| Level::HELP.message(paragraph(help))));
         let fix = diagnostic.fix.as_deref();
-        facts.extend(fix.map(|fix| Level::HELP.message(format!("write it so: `{}`", visible(fix)))));
+        facts.extend(fix.map(|fix| Level::HELP.message(format!("write `{}` instead", visible(fix)))));
     }
 
-    let mut groups = vec![finding(diagnostic, place).elements(facts)];
-    groups.extend(placed_notes);
+    let mut groups = vec![primary(diagnostic, location).elements(facts)];
+    groups.extend(located_notes);
     groups.extend(suggestion);
-    let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
+    let renderer = if color { Renderer::styled() } else { Renderer::plain() };
     without_counted_origins(&renderer.term_width(WIDTH).render(&groups))
 }
 
 /// Returns the message and the marked lines.
-fn finding(diagnostic: &Diagnostic, place: Option<Place>) -> Group<'static> {
+fn primary(diagnostic: &Diagnostic, location: Option<MarkedSource>) -> Group<'static> {
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
     let label = diagnostic.label.as_str();
-    let has_mark = place.is_some_and(|place| place.mark.is_some());
+    let has_mark = location.is_some_and(|location| location.mark.is_some());
     let label_alone = (!has_mark && !label.is_empty()).then(|| Level::NOTE.message(paragraph(label)));
     let title = level.primary_title(visible(&diagnostic.message)).id(diagnostic.code.id);
-    title.elements(place.map(|place| quote(place, label))).elements(label_alone)
+    title.elements(location.map(|location| quote(location, label))).elements(label_alone)
 }
 
 /// Returns the replacement as a change of the marked lines, or `None` if the lines are not shown in full.
-fn suggestion(diagnostic: &Diagnostic, place: Option<Place>) -> Option<Group<'static>> {
-    let (fix, place) = (diagnostic.fix.as_deref()?, place?);
-    let window = Window::new(place.source, place.mark?);
-    if !window.is_whole || fix.chars().nth(place::MAX_CHARS).is_some() {
+fn suggestion(diagnostic: &Diagnostic, location: Option<MarkedSource>) -> Option<Group<'static>> {
+    let (fix, location) = (diagnostic.fix.as_deref()?, location?);
+    let window = Window::new(location.source, location.mark?);
+    if !window.is_whole || fix.chars().nth(marked::MAX_CHARS).is_some() {
         return None;
     }
-    let title = diagnostic.help.as_deref().map_or("write it so".into(), paragraph);
+    let title = diagnostic.help.as_deref().map_or("write this instead".into(), paragraph);
     let patch = Patch::new(window.mark, paragraph(fix));
     let snippet = Snippet::source(window.text).line_start(window.first_line).patch(patch);
     Some(Level::HELP.secondary_title(title).element(snippet))
 }
 
 /// Returns the marked lines below the name of their file, or only the name for a whole file.
-fn quote(Place { source, mark }: Place, label: &str) -> Element<'static> {
+fn quote(location: MarkedSource, label: &str) -> Element<'static> {
+    let MarkedSource { source, mark } = location;
     let name = visible(source.name());
     let Some(mark) = mark else { return Origin::path(name).into() };
 
@@ -136,10 +137,10 @@ impl Window {
 
     /// Appends a line, and adjusts the mark to the part of `marked`, a range of the file, on that line.
     fn push_line(&mut self, source: &Source, number: u32, marked: Range<usize>) {
-        let (line, offset) = place::line(source, number);
+        let (line, offset) = marked::line(source, number);
         let in_line = |at: usize| at.saturating_sub(offset).min(line.len());
         let (start, end) = (in_line(marked.start), in_line(marked.end));
-        let shown = place::shown(line, start);
+        let shown = marked::shown(line, start);
         let end = end.min(shown.end);
         self.is_whole &= shown == (0..line.len());
 
@@ -223,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn the_marked_text_is_underlined_and_labelled() {
+    fn the_marked_text_is_underlined_and_labeled() {
         insta::assert_snapshot!(plain(&on(OCTAL, "012"), &file(OCTAL)), @r"
         warning[EDS020]: `012` is octal
          --> drive.eds:3:11
@@ -239,7 +240,7 @@ mod tests {
         let diagnostic = on(OCTAL, "012")
             .note("CiA 306 numbers are C numbers")
             .note_at(Span::new(FileId(0), start, start + 4), "in this object")
-            .note_at(Span::new(FileId(7), 0, 1), "in a file that isn't here")
+            .note_at(Span::new(FileId(7), 0, 1), "in a missing file")
             .help("write the number in decimal")
             .fix("10");
         insta::assert_snapshot!(plain(&diagnostic, &file(OCTAL)), @r"
@@ -250,7 +251,7 @@ mod tests {
           |           ^^^ read as 10
           |
           = note: CiA 306 numbers are C numbers
-          = note: in a file that isn't here
+          = note: in a missing file
         note: in this object
          --> drive.eds:1:2
           |
@@ -265,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fix_without_help_says_what_it_is() {
+    fn a_fix_without_help_has_a_title() {
         insta::assert_snapshot!(plain(&on(OCTAL, "012").fix("0x012"), &file(OCTAL)), @r"
         warning[EDS020]: `012` is octal
          --> drive.eds:3:11
@@ -273,18 +274,18 @@ mod tests {
         3 | SubNumber=012
           |           ^^^ read as 10
           |
-        help: write it so
+        help: write this instead
           |
         3 | SubNumber=0x012
           |           ++
         ");
         // There is no marked text to replace.
-        insta::assert_snapshot!(plain(&at(0, 0).fix("a\u{1b}b").help("mend it"), &file(OCTAL)), @r"
+        insta::assert_snapshot!(plain(&at(0, 0).fix("a\u{1b}b").help("correct it"), &file(OCTAL)), @r"
         warning[EDS020]: `012` is octal
         --> drive.eds
          = note: read as 10
-         = help: mend it
-         = help: write it so: `a␛b`
+         = help: correct it
+         = help: write `a␛b` instead
         ");
     }
 
@@ -297,7 +298,7 @@ mod tests {
         3 | SubNumber=012
           |           ^^^ read as 10
           |
-        help: write it so
+        help: write this instead
           |
         3 - SubNumber=012
         3 + SubNumber=
@@ -310,7 +311,7 @@ mod tests {
         3 | SubNumber=012
           |           ^^^ read as 10
           |
-        help: write it so
+        help: write this instead
           |
         3 | SubNumber=012
           |
@@ -322,7 +323,7 @@ mod tests {
         3 | SubNumber=012
           |           ^^^ read as 10
           |
-        help: write it so
+        help: write this instead
           |
         3 ~ SubNumber=10
         4 + DataType=7
@@ -331,11 +332,11 @@ mod tests {
     }
 
     #[test]
-    fn colours_only_add_escapes() {
+    fn colors_only_add_escapes() {
         let diagnostic = on(OCTAL, "012").note("fact").note_at(Span::new(FileId(0), 1, 5), "here").fix("10");
-        let coloured = render(&diagnostic, &file(OCTAL), true);
-        assert!(coloured.contains("\u{1b}["));
-        let mut parts = coloured.split("\u{1b}[");
+        let colored = render(&diagnostic, &file(OCTAL), true);
+        assert!(colored.contains("\u{1b}["));
+        let mut parts = colored.split("\u{1b}[");
         let mut stripped = parts.next().unwrap().to_owned();
         parts.for_each(|part| stripped += part.split_once('m').unwrap().1);
         assert_eq!(stripped, plain(&diagnostic, &file(OCTAL)));
@@ -358,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_not_there_is_no_place() {
+    fn a_missing_file_has_no_location() {
         insta::assert_snapshot!(plain(&at(0, 3).help("write 10"), &[]), @r"
         warning[EDS020]: `012` is octal
          |
@@ -470,7 +471,7 @@ mod tests {
         1 | <a>
           | ^^^ read as 10 (up to line 5000)
           |
-          = help: write it so: `<b/>`
+          = help: write `<b/>` instead
         ");
     }
 
@@ -478,7 +479,7 @@ mod tests {
     fn a_long_line_is_shortened_around_the_mark() {
         let text = format!("first=1\n{}012{}", "x".repeat(100_000), "y".repeat(100_000));
         let rendered = plain(&on(&text, "012").fix("10"), &file(&text));
-        assert!(rendered.lines().all(|line| line.chars().count() < place::MAX_CHARS + 10), "{rendered}");
+        assert!(rendered.lines().all(|line| line.chars().count() < marked::MAX_CHARS + 10), "{rendered}");
         insta::assert_snapshot!(rendered.replace(&"x".repeat(60), "<60>").replace(&"y".repeat(137), "<137>"), @r"
         warning[EDS020]: `012` is octal
          --> drive.eds:2:100001
@@ -486,7 +487,7 @@ mod tests {
         2 | …<60>012<137>…
           |                                                              ^^^ read as 10
           |
-          = help: write it so: `10`
+          = help: write `10` instead
         ");
     }
 
@@ -505,7 +506,7 @@ mod tests {
         1 | a=7<198>…
           |   ^<198> read as 10
           |
-          = help: write it so: `8<2000>…`
+          = help: write `8<2000>…` instead
         ");
     }
 

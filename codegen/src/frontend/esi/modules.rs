@@ -14,7 +14,7 @@ use super::reader::{Names, Reader};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::xml::Read;
 use crate::ir::{
-    Catalog, CompactString, Device, Extension, Fit, Mailbox, Module, ModuleId, ModuleUse, Numbers, Places,
+    Catalog, CompactString, Device, Extension, Fit, Mailbox, Module, ModuleId, ModuleUse, Numbers, SlotNumbers,
 };
 use crate::limits;
 use crate::syntax::xml::Tag;
@@ -172,7 +172,7 @@ impl<'m> Known<'m> {
         is_reported: &mut bool,
         diagnostics: &mut Diagnostics,
     ) -> bool {
-        let mut places: BTreeMap<u32, Places> = BTreeMap::new();
+        let mut places: BTreeMap<u32, SlotNumbers> = BTreeMap::new();
         for slot in &device.slots {
             let last = slot.number.saturating_add(slot.instances.1.max(1) - 1);
             let all: Vec<u32> = if slot.fits.is_empty() { (0..self.count as u32).collect() } else { Vec::new() };

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::xml::Given;
-use crate::ir::{Catalog, ModuleId, ModuleUse, Places, SubmoduleId, SubmoduleUse};
+use crate::ir::{Catalog, ModuleId, ModuleUse, SlotNumbers, SubmoduleId, SubmoduleUse};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -50,8 +50,8 @@ pub(super) enum Owner {
 #[derive(Default)]
 pub(super) struct Links<'a> {
     ids: HashMap<(ElementKind, Cow<'a, str>), (u32, Span)>,
-    modules: Vec<(usize, Given<'a>, Places)>,
-    submodules: Vec<(Owner, Given<'a>, Places)>,
+    modules: Vec<(usize, Given<'a>, SlotNumbers)>,
+    submodules: Vec<(Owner, Given<'a>, SlotNumbers)>,
     /// References whose targets must exist, but that the IR does not resolve.
     others: Vec<(ElementKind, Given<'a>)>,
 }
@@ -66,12 +66,12 @@ impl<'a> Links<'a> {
     }
 
     /// Adds a reference to a module that can be plugged into the device `device`.
-    pub fn module(&mut self, device: usize, target: Given<'a>, places: Places) {
+    pub fn module(&mut self, device: usize, target: Given<'a>, places: SlotNumbers) {
         self.modules.push((device, target, places));
     }
 
     /// Adds a reference to a submodule that can be plugged into `owner`.
-    pub fn submodule(&mut self, owner: Owner, target: Given<'a>, places: Places) {
+    pub fn submodule(&mut self, owner: Owner, target: Given<'a>, places: SlotNumbers) {
         self.submodules.push((owner, target, places));
     }
 

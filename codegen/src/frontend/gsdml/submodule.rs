@@ -7,7 +7,9 @@ use super::module_info::Info;
 use super::number::tokens;
 use super::reader::Reader;
 use crate::frontend::xml::{Attributes, Given, Read};
-use crate::ir::{Numbers, Places, ProfinetSettings, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse, SubslotName};
+use crate::ir::{
+    Numbers, ProfinetSettings, SlotNumbers, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse, SubslotName,
+};
 use crate::syntax::xml::Tag;
 
 /// Subslot of the first interface.
@@ -51,7 +53,7 @@ impl<'a> Reader<'a, '_> {
             let fixed = if fixed.is_empty() { Numbers::from_iter([default_subslot(kind)]) } else { fixed };
             holder.submodules.push(submodule);
             let submodule = SubmoduleId(u32::try_from(position).unwrap_or(u32::MAX));
-            holder.uses.push(SubmoduleUse { submodule, places: Places { fixed, ..Places::default() } });
+            holder.uses.push(SubmoduleUse { submodule, places: SlotNumbers { fixed, ..SlotNumbers::default() } });
         }
         Ok(())
     }
@@ -165,9 +167,9 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Returns the slots or subslots in the attributes Allowed…, Fixed… and Used….
-    pub fn places(&mut self, given: [Given<'a>; 3]) -> Places {
+    pub fn places(&mut self, given: [Given<'a>; 3]) -> SlotNumbers {
         let [allowed, fixed, used] = given.map(|given| self.numbers(&given));
-        Places { allowed, fixed, used }
+        SlotNumbers { allowed, fixed, used }
     }
 
     /// Reads SubslotList.

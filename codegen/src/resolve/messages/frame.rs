@@ -1,55 +1,55 @@
-//! Frames of messages as far as their bytes are fixed: constants at their places, and lengths.
+//! Fixed parts of frames: constants at their byte offsets, and lengths.
 
 use std::collections::BTreeMap;
 
 use crate::ir::owner::Owner;
 use crate::ir::{Binding, Device, MessageField};
 
-/// A frame: its data, without start, check and end.
+/// The data of a frame, without start, checksum and end.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Frame {
-    /// The constant bytes up to the first field of unknown length, by their place.
+    /// Constant bytes before the first field with a variable length, by byte offset.
     pub constants: BTreeMap<usize, u8>,
-    /// The least length in bits.
-    pub least: usize,
-    /// The greatest number of bits that a frame needs for all repetitions that it declares.
-    pub most: usize,
-    /// Whether it can be longer than `least`.
+    /// Minimum length in bits.
+    pub min_bits: usize,
+    /// Length in bits with the maximum number of all declared repetitions.
+    pub max_bits: usize,
+    /// Whether it can be longer than `min_bits`.
     pub is_open: bool,
-    /// The first bit of a field that doesn't begin with a byte though it has whole bytes, or of the end.
+    /// Bit offset of the first field of whole bytes that does not start at a byte, or of an end within a byte.
     pub broken: Option<usize>,
 }
 
 impl Frame {
-    /// The frame of these fields; `request` is the one that a reply answers.
+    /// Creates the frame of these fields. `request`: the fields of the request if the frame is a reply.
     pub fn new<'d>(device: &'d Device, fields: &'d [MessageField], request: &'d [MessageField]) -> Self {
         let mut frame = Frame::default();
         let groups = [device.groups.as_slice()];
         Reader { device, owner: Owner { types: &device.types, groups: &groups }, request, frame: &mut frame, times: 1 }
             .fields(fields);
-        if !frame.least.is_multiple_of(8) {
-            frame.broken = frame.broken.or(Some(frame.least));
+        if !frame.min_bits.is_multiple_of(8) {
+            frame.broken = frame.broken.or(Some(frame.min_bits));
         }
         frame
     }
 
-    /// Whether some bytes are frames of both kinds.
+    /// Returns whether the same bytes can be a frame of both kinds.
     pub fn overlaps(&self, other: &Frame) -> bool {
-        let shared = self.constants.iter().filter_map(|(place, byte)| Some((byte, other.constants.get(place)?)));
+        let shared = self.constants.iter().filter_map(|(offset, byte)| Some((byte, other.constants.get(offset)?)));
         let mut shared = shared.peekable();
         let lengths = match (self.is_open, other.is_open) {
-            (false, false) => self.least == other.least,
-            (true, false) => self.least <= other.least,
-            (false, true) => other.least <= self.least,
+            (false, false) => self.min_bits == other.min_bits,
+            (true, false) => self.min_bits <= other.min_bits,
+            (false, true) => other.min_bits <= self.min_bits,
             (true, true) => true,
         };
         lengths && shared.all(|(one, other)| one == other)
     }
 
-    /// The constants that stand together first.
+    /// Returns the first contiguous constants.
     pub fn first_run(&self) -> Vec<u8> {
         let Some(first) = self.constants.keys().next().copied() else { return Vec::new() };
-        (first..).map_while(|place| self.constants.get(&place).copied()).collect()
+        (first..).map_while(|offset| self.constants.get(&offset).copied()).collect()
     }
 }
 
@@ -58,7 +58,7 @@ struct Reader<'d, 'f> {
     owner: Owner<'d>,
     request: &'d [MessageField],
     frame: &'f mut Frame,
-    /// How often what is read occurs at most.
+    /// Maximum number of occurrences of the current field.
     times: usize,
 }
 
@@ -72,9 +72,9 @@ impl Reader<'_, '_> {
     fn field(&mut self, field: &MessageField) {
         match field {
             MessageField::Constant(bytes) => {
-                if !self.frame.is_open && self.frame.least.is_multiple_of(8) {
-                    let place = self.frame.least / 8;
-                    self.frame.constants.extend(bytes.iter().enumerate().map(|(at, byte)| (place + at, *byte)));
+                if !self.frame.is_open && self.frame.min_bits.is_multiple_of(8) {
+                    let offset = self.frame.min_bits / 8;
+                    self.frame.constants.extend(bytes.iter().enumerate().map(|(at, byte)| (offset + at, *byte)));
                 }
                 self.known(bytes.len() * 8);
             }
@@ -95,40 +95,40 @@ impl Reader<'_, '_> {
             },
             MessageField::ItemCode { bits, .. } => self.known(usize::from(*bits)),
             MessageField::ItemValue { space } | MessageField::ItemPadding { space } => {
-                let least = self.least_value(space);
-                self.open(least);
+                let bits = self.shortest_value(space);
+                self.open(bits);
             }
             MessageField::Padding(bytes) => self.known(usize::from(*bytes) * 8),
             MessageField::Repeat { max, fields, .. } => {
-                let before = self.frame.least;
+                let before = self.frame.min_bits;
                 let outer = self.times;
                 self.times = outer.saturating_mul(max.map_or(1, usize::from));
                 self.frame.is_open = true;
                 self.fields(fields);
-                // None of them is a frame, too.
-                self.frame.least = before;
+                // The minimum number of repetitions is 0.
+                self.frame.min_bits = before;
                 self.times = outer;
             }
             MessageField::Rest => self.open(0),
         }
     }
 
-    /// A field of so many bits.
+    /// Adds a field with a fixed length.
     fn known(&mut self, bits: usize) {
-        if bits.is_multiple_of(8) && !self.frame.least.is_multiple_of(8) {
-            self.frame.broken = self.frame.broken.or(Some(self.frame.least));
+        if bits.is_multiple_of(8) && !self.frame.min_bits.is_multiple_of(8) {
+            self.frame.broken = self.frame.broken.or(Some(self.frame.min_bits));
         }
-        self.frame.least += bits;
-        self.frame.most = self.frame.most.saturating_add(bits.saturating_mul(self.times));
+        self.frame.min_bits += bits;
+        self.frame.max_bits = self.frame.max_bits.saturating_add(bits.saturating_mul(self.times));
     }
 
-    /// A field of at least so many bits.
+    /// Adds a field with a minimum length.
     fn open(&mut self, bits: usize) {
         self.known(bits);
         self.frame.is_open = true;
     }
 
-    /// The length of a field of the request.
+    /// Returns the length of a field of the request.
     fn echoed(&self, name: &str) -> Option<u32> {
         let bits_of = |field: &MessageField| match field {
             MessageField::Value(value) if value.item.name == name => Some(self.owner.basic(value.item.ty).bits()),
@@ -137,8 +137,8 @@ impl Reader<'_, '_> {
         self.request.iter().find_map(bits_of).flatten()
     }
 
-    /// The length of the shortest value in a space.
-    fn least_value(&self, space: &str) -> usize {
+    /// Returns the length of the shortest value in a parameter space.
+    fn shortest_value(&self, space: &str) -> usize {
         let is_in = |binding: &Binding| matches!(binding, Binding::Parameter { space: other, .. } if other == space);
         let items = self.device.items().filter(|item| item.bindings.iter().any(is_in));
         items.filter_map(|item| self.owner.basic(item.ty).bits()).min().unwrap_or(0) as usize

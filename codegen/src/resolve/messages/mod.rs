@@ -1,12 +1,11 @@
-//! What the frames of a command protocol consist of: steps of known length one after the other, of which at most one is as long
-//! as the data.
+//! Layout of the frames of a command protocol: a sequence of steps. At most one step has a variable length.
 //!
 //! | file | subject |
 //! |---|---|
 //! | `frame` | constants and lengths of a frame |
-//! | `step`, `shaper` | the steps of a request or reply |
-//! | `shape` | the messages that have such steps |
-//! | `parameters` | the messages that carry numbered parameters |
+//! | `step`, `shaper` | steps of a request or reply |
+//! | `shape` | messages with supported steps |
+//! | `parameters` | messages that transfer parameters of a parameter space |
 
 mod frame;
 mod parameters;
@@ -16,5 +15,5 @@ mod step;
 
 pub(crate) use frame::Frame;
 pub(crate) use parameters::{carrier_problems, carriers, numbered, LONGEST};
-pub(crate) use shape::{is_told, problem, refusal, shapes, Problem, Shaped};
+pub(crate) use shape::{is_reported_elsewhere, problem, refusal, shapes, Problem, Shaped};
 pub(crate) use step::{tail, Step};

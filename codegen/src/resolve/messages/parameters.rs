@@ -1,4 +1,4 @@
-//! The messages that read and write numbered parameters one by one.
+//! Messages that read and write single parameters of a parameter space.
 
 use std::collections::BTreeMap;
 
@@ -6,23 +6,23 @@ use super::shape::{Problem, Shaped};
 use super::step::Step;
 use crate::ir::{Binding, Device, Item, MessageRef, ParameterSpace};
 
-const OTHERS: Problem = "its request has fields beside the parameter, which a client couldn't fill in";
-const NO_NUMBER: Problem = "its request has no number of a parameter of this space";
-const NO_VALUE: Problem = "its reply has no value of a parameter of this space";
-const NO_SETTING: Problem = "its request has no parameter of this space with a value";
-const NO_CODE: Problem = "there is no code for it";
+const OTHERS: Problem = "its request has further fields whose values a client does not know";
+const NO_NUMBER: Problem = "its request has no parameter number of this space";
+const NO_VALUE: Problem = "its reply has no parameter value of this space";
+const NO_SETTING: Problem = "its request has no parameter number of this space with a value";
+const NO_CODE: Problem = "no code is generated for it";
 
-/// The longest value that a message carries, in bits.
+/// Maximum length of a parameter value in a message, in bits.
 pub(crate) const LONGEST: u32 = 64;
 
-/// The messages of a space, by their places among the shapes.
+/// The messages of a parameter space, as positions in the list of shapes.
 pub(crate) struct Carriers<'d> {
     pub space: &'d str,
     pub read: Option<usize>,
     pub write: Option<usize>,
 }
 
-/// The spaces whose parameters are read or written by messages.
+/// Returns the parameter spaces whose messages read or write parameters.
 pub(crate) fn carriers<'d>(device: &'d Device, shapes: &[Shaped<'_>]) -> Vec<Carriers<'d>> {
     let with = device.parameter_spaces.iter().filter(|space| !numbered(device, &space.name).is_empty());
     let all = with.map(|space| Carriers {
@@ -33,7 +33,7 @@ pub(crate) fn carriers<'d>(device: &'d Device, shapes: &[Shaped<'_>]) -> Vec<Car
     all.filter(|carriers| carriers.read.is_some() || carriers.write.is_some()).collect()
 }
 
-/// The place of the message called `name`, or why it doesn't do; `None` where there is no name.
+/// Returns the position of the message called `name`, or why it is not suitable. Returns `None` without a name.
 fn carrier(
     shapes: &[Shaped<'_>],
     name: &Option<MessageRef>,
@@ -44,7 +44,7 @@ fn carrier(
     Some(shapes.get(at).map_or(Err(NO_CODE), check).map(|()| at))
 }
 
-/// Whether a message reads a parameter of a space whose number alone is given.
+/// Checks that a message reads a parameter, and its request needs only the parameter number.
 fn reads(shaped: &Shaped<'_>, space: &str) -> Result<(), Problem> {
     let mut found = false;
     for step in &shaped.request.steps {
@@ -67,7 +67,7 @@ fn reads(shaped: &Shaped<'_>, space: &str) -> Result<(), Problem> {
     }
 }
 
-/// Whether a message writes a parameter of a space that alone is given, with its value.
+/// Checks that a message writes a parameter, and its request needs only the parameter number and value.
 fn writes(shaped: &Shaped<'_>, space: &str) -> Result<(), Problem> {
     let mut found = false;
     for step in &shaped.request.steps {
@@ -83,7 +83,7 @@ fn writes(shaped: &Shaped<'_>, space: &str) -> Result<(), Problem> {
     found.then_some(()).ok_or(NO_SETTING)
 }
 
-/// Whether whoever sends a step has to say what it holds.
+/// Returns whether the sender has to provide a value for a step.
 fn has_value(step: &Step<'_>) -> bool {
     match step {
         Step::Value { .. } | Step::Count { .. } | Step::List { .. } | Step::Rest | Step::ValueOnly { .. } => true,
@@ -93,7 +93,7 @@ fn has_value(step: &Step<'_>) -> bool {
     }
 }
 
-/// The parameters of a space, by their numbers.
+/// Returns the parameters of a space by number.
 pub(crate) fn numbered<'d>(device: &'d Device, space: &str) -> BTreeMap<u32, &'d Item> {
     let numbered = device.items().flat_map(|item| {
         item.bindings.iter().filter_map(move |binding| match binding {
@@ -108,7 +108,7 @@ pub(crate) fn numbered<'d>(device: &'d Device, space: &str) -> BTreeMap<u32, &'d
     all
 }
 
-/// Returns why the messages of a space don't carry its parameters: `reads` or `writes`, the name of the message, and the problem.
+/// Returns why the messages of a space cannot transfer its parameters: `reads` or `writes`, the name of the message, and the problem.
 pub(crate) fn carrier_problems<'d>(
     space: &'d ParameterSpace,
     shapes: &[Shaped<'_>],

@@ -1,4 +1,4 @@
-//! The messages for which code is generated, and why others have none.
+//! Messages for which code is generated, and reasons why other messages have none.
 
 use std::collections::HashMap;
 
@@ -6,10 +6,10 @@ use super::frame::Frame;
 use super::shaper::{self, Side};
 use crate::ir::{Device, Message, MessageId};
 
-/// Why there is no code.
+/// The reason why a message has no code.
 pub(crate) type Problem = &'static str;
 
-/// A message with the shapes of its data.
+/// A message with the steps of its request and reply.
 #[derive(Clone, Debug)]
 pub(crate) struct Shaped<'a> {
     pub id: MessageId,
@@ -28,7 +28,7 @@ impl<'a> Shaped<'a> {
         self.message.name == name
     }
 
-    /// Whether later messages can depend on it.
+    /// Returns whether later messages can depend on this one.
     fn can_select(&self) -> bool {
         !self.message.request.is_empty() && !self.request.borrows()
     }
@@ -40,7 +40,7 @@ fn sides<'a>(device: &'a Device, message: &'a Message) -> Result<(Side<'a>, Side
     Ok((request, reply))
 }
 
-/// The messages for which code is generated.
+/// Returns the messages for which code is generated.
 pub(crate) fn shapes(device: &Device) -> Vec<Shaped<'_>> {
     let messages = (0..).map(MessageId).zip(&device.messages);
     let all: Vec<Shaped<'_>> = messages.filter_map(|(id, message)| Shaped::new(device, id, message)).collect();
@@ -48,7 +48,7 @@ pub(crate) fn shapes(device: &Device) -> Vec<Shaped<'_>> {
     all.into_iter().zip(lost).filter(|(_, is_lost)| !is_lost).map(|(shaped, _)| shaped).collect()
 }
 
-/// Which messages depend on one that can't select anything, or on one that is lost for that.
+/// Returns which messages depend on a message that cannot select a reply, directly or indirectly.
 fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
     let mut selectors: HashMap<&str, usize> = HashMap::new();
     let mut dependents: HashMap<&str, Vec<usize>> = HashMap::new();
@@ -80,7 +80,7 @@ fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
     lost
 }
 
-/// What comes where a device refuses a message; `None` where it doesn't, or no code can be generated for that.
+/// Returns the position of the message that the device sends if it rejects `message`. Returns `None` if there is none, or it has no code.
 pub(crate) fn refusal(shapes: &[Shaped<'_>], message: &Message) -> Option<usize> {
     let name = message.error.as_deref()?;
     shapes
@@ -88,13 +88,13 @@ pub(crate) fn refusal(shapes: &[Shaped<'_>], message: &Message) -> Option<usize>
         .position(|shaped| shaped.is_called(name) && !shaped.message.reply.is_empty() && !shaped.reply.borrows())
 }
 
-/// Returns why a message has no shape.
+/// Returns an error if no code can be generated for a message.
 pub(crate) fn problem(device: &Device, message: &Message) -> Result<(), Problem> {
     sides(device, message).map(drop)
 }
 
-/// Whether a problem is reported elsewhere: a name that leads nowhere, or bytes that aren't whole.
-pub(crate) fn is_told(device: &Device, message: &Message, problem: Problem) -> bool {
+/// Returns whether another lint reports a problem: an unresolved name, or a field that does not start at a byte.
+pub(crate) fn is_reported_elsewhere(device: &Device, message: &Message, problem: Problem) -> bool {
     let is_broken = || {
         let request = Frame::new(device, &message.request, &[]);
         request.broken.is_some() || Frame::new(device, &message.reply, &message.request).broken.is_some()

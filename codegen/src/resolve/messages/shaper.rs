@@ -1,69 +1,69 @@
-//! Finds the steps of a request or of a reply.
+//! Determines the steps of a request or reply.
 
 use super::shape::Problem;
 use super::step::{are_aligned, push, tail, Step};
 use crate::ir::owner::{fixed, Owner};
 use crate::ir::{Device, Message, MessageField, MessageValue, Type};
 
-pub(super) const UNRESOLVED: Problem = "a field names another that there isn't";
-pub(super) const UNALIGNED: Problem = "bytes begin, or the data end, within a byte";
-const UNKNOWN_LENGTH: Problem = "a value has no length of 1 to 64 bits, and is no text of fixed length";
-const SEVERAL_LENGTHS: Problem = "it has two parts whose length isn't known, or one in front of those that are counted";
-const SEVERAL_LISTS: Problem = "two parts of it are repeated";
-const LONE_VALUE: Problem = "the value of a parameter doesn't stand behind the parameter's number";
-const LONG_CODE: Problem = "the number of a parameter has more than 32 bits";
-const ECHO: Problem = "a field comes back whose place in the request isn't known, or isn't whole bytes";
-const COPY: Problem = "a request has no request of which it could copy bytes";
-const REPEATED: Problem = "what is repeated is more than values and fixed bytes, has no value, or isn't whole bytes";
-const STATION: Problem = "the number of the device is no unsigned number of up to 32 bits";
+pub(super) const UNRESOLVED: Problem = "a field refers to a field that does not exist";
+pub(super) const UNALIGNED: Problem = "a field of whole bytes starts within a byte, or the data end within a byte";
+const UNKNOWN_LENGTH: Problem = "a value has neither 1 to 64 bits nor is a string of fixed length";
+const SEVERAL_LENGTHS: Problem = "two parts have a variable length, or one comes before a counted list";
+const SEVERAL_LISTS: Problem = "it has two lists of repeated fields";
+const LONE_VALUE: Problem = "a parameter value does not come directly after its parameter number";
+const LONG_CODE: Problem = "a parameter number has more than 32 bits";
+const ECHO: Problem = "the offset of a copied field in the request is variable, or the field does not have whole bytes";
+const COPY: Problem = "a request cannot copy bytes of a request";
+const REPEATED: Problem = "repeated fields have other parts than values and fixed bytes, no value, or no whole bytes";
+const STATION: Problem = "the device address is not an unsigned integer of up to 32 bits";
 const LENGTH: Problem =
-    "a length is no unsigned number of whole bytes, or counts from a field behind what has no known length";
-const COUNT: Problem = "the number of repetitions is no unsigned number of its own that stands in front of them";
+    "a length is not an unsigned integer of whole bytes, or counts from a field after a part with a variable length";
+const COUNT: Problem = "the number of repetitions is not a separate unsigned integer before the repeated fields";
 
-/// The data of a request or of a reply.
+/// The data of a request or reply.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Side<'a> {
     pub steps: Vec<Step<'a>>,
-    /// Name, first bit and length in bits of values in front of anything whose length isn't known.
-    places: Vec<(&'a str, u32, u32)>,
+    /// Name, bit offset and length in bits of values before the first part with a variable length.
+    offsets: Vec<(&'a str, u32, u32)>,
     /// Names of all values.
     names: Vec<&'a str>,
-    /// First bit and length in bits of the first number of a parameter.
+    /// Bit offset and length in bits of the first parameter number.
     code: Option<(u32, u32)>,
 }
 
 impl Side<'_> {
-    /// The byte at which a value begins.
-    pub(crate) fn place(&self, name: &str) -> Option<u32> {
-        let (_, at, _) = self.places.iter().find(|(other, ..)| *other == name)?;
+    /// Returns the byte offset of a value.
+    pub(crate) fn byte_offset(&self, name: &str) -> Option<u32> {
+        let (_, at, _) = self.offsets.iter().find(|(other, ..)| *other == name)?;
         Some(at / 8)
     }
 
-    /// Whether what is read of it is a part of the data, which lives as long as they do.
+    /// Returns whether decoded values borrow from the data.
     pub(crate) fn borrows(&self) -> bool {
         self.steps.iter().any(Step::borrows)
     }
 }
 
-/// The shape of a request.
+/// Returns the steps of a request.
 pub(super) fn request<'a>(device: &'a Device, message: &'a Message) -> Result<Side<'a>, Problem> {
     let station = device.framing.as_ref().and_then(|framing| framing.address.as_deref());
     let shaper = Shaper { owner: Owner::of_types(&device.types), station, request: None };
     shaper.side(&message.request)
 }
 
-/// The shape of its reply.
+/// Returns the steps of a reply.
 pub(super) fn reply<'a>(device: &'a Device, message: &'a Message, request: &Side<'_>) -> Result<Side<'a>, Problem> {
     let owner = Owner::of_types(&device.types);
     Shaper { owner, station: None, request: Some(request) }.side(&message.reply)
 }
 
-/// What is known while fields are gone through.
+/// Context for determining the steps of a request or reply.
 struct Shaper<'a, 'q> {
     owner: Owner<'a>,
-    /// The field of requests with the number of the device.
+    /// Name of the request field with the device address.
     station: Option<&'a str>,
-    /// The request, where this is its reply.
+    /// The request, if this is its reply.
     request: Option<&'q Side<'q>>,
 }
 
@@ -81,19 +81,19 @@ impl<'a> Shaper<'a, '_> {
         if !are_aligned(&side.steps) {
             return Err(UNALIGNED);
         }
-        let Side { steps, places, .. } = &mut side;
+        let Side { steps, offsets, .. } = &mut side;
         for step in steps {
             if let Step::Length { from, counts, .. } = step {
                 let missing = if named(fields, counts) { LENGTH } else { UNRESOLVED };
-                let (_, at, _) = places.iter().find(|(name, ..)| name == counts).ok_or(missing)?;
+                let (_, at, _) = offsets.iter().find(|(name, ..)| name == counts).ok_or(missing)?;
                 *from = at / 8;
             }
         }
         Ok(side)
     }
 
-    /// Adds a step that begins at the bit `offset`; where the next one begins. Both are `None` behind a step whose length isn't
-    /// known.
+    /// Adds a step at the bit offset `offset`, and returns the bit offset of the next step. Both are `None` after a step with a
+    /// variable length.
     fn append(
         &self,
         side: &mut Side<'a>,
@@ -102,27 +102,27 @@ impl<'a> Shaper<'a, '_> {
         offset: Option<u32>,
     ) -> Result<Option<u32>, Problem> {
         if let (Some(name), Some(at), Some(bits)) = (name(field), offset, step.bits()) {
-            side.places.push((name, at, bits));
+            side.offsets.push((name, at, bits));
         }
         if let (Some(at), None, Some(bits)) = (offset, side.code, step.code_bits()) {
             side.code = Some((at, bits));
         }
         let is_aligned = offset.is_none_or(|at: u32| at.is_multiple_of(8)) || !step.is_bytes();
-        // What is as long as the data are takes whole bytes.
+        // A step with a variable length has whole bytes.
         let next = match (offset, step.bits()) {
             _ if !is_aligned => return Err(UNALIGNED),
             (Some(at), Some(bits)) => Some(at.checked_add(bits).ok_or(UNKNOWN_LENGTH)?),
             _ => None,
         };
         if let Step::Setting { bits, .. } = step {
-            let asked = self.asked(bits);
-            side.steps.extend(asked.map(|first| Step::Same { first, count: bits / 8 }));
+            let requested = self.requested_code(bits);
+            side.steps.extend(requested.map(|first| Step::Same { first, count: bits / 8 }));
         }
         push(&mut side.steps, step);
         Ok(next)
     }
 
-    /// The next step, and how many fields behind `field` it takes too.
+    /// Returns the next step, and how many fields after `field` it includes.
     fn step(
         &self,
         field: &'a MessageField,
@@ -176,7 +176,7 @@ impl<'a> Shaper<'a, '_> {
             return if fits { Ok(Step::Length { bits, order, from: 0, counts }) } else { Err(LENGTH) };
         }
         match fixed(&value.item).filter(|_| bits <= 64) {
-            // Two's complement, of which the low bits count.
+            // The low bits of the two's complement.
             Some(only) => Ok(Step::Fixed { bits, order, value: only as u64 & (u64::MAX >> (64 - bits)) }),
             None => Ok(Step::Value { bits, value }),
         }
@@ -185,7 +185,7 @@ impl<'a> Shaper<'a, '_> {
     fn echo(&self, field: &str, bytes: Option<(u8, u8)>) -> Result<Step<'a>, Problem> {
         let request = self.request.ok_or(ECHO)?;
         let missing = if request.names.contains(&field) { ECHO } else { UNRESOLVED };
-        let (_, at, bits) = request.places.iter().find(|(name, ..)| *name == field).ok_or(missing)?;
+        let (_, at, bits) = request.offsets.iter().find(|(name, ..)| *name == field).ok_or(missing)?;
         let is_whole = at.is_multiple_of(8) && bits.is_multiple_of(8);
         let (first, last) = match bytes {
             Some((first, last)) => (first.into(), last.into()),
@@ -195,15 +195,16 @@ impl<'a> Shaper<'a, '_> {
         (is_whole && is_within).then_some(Step::Echo { first: at / 8 + first, count: last - first + 1 }).ok_or(ECHO)
     }
 
-    /// The byte of the request at which it has a parameter's number of so many bits.
-    fn asked(&self, bits: u32) -> Option<u32> {
+    /// Returns the byte offset of the parameter number in the request, if that has this length in bits.
+    fn requested_code(&self, bits: u32) -> Option<u32> {
         let (at, length) = self.request?.code?;
         (length == bits && at.is_multiple_of(8) && bits.is_multiple_of(8)).then_some(at / 8)
     }
 
-    /// A parameter's number, with what stands behind it. In a reply without its value it is that of the request.
+    /// Returns the step of a parameter number and its value, and the number of further fields in it. In a reply without the value, the
+    /// parameter number is a copy of that in the request.
     fn code(&self, space: &'a str, bits: u32, rest: &[MessageField]) -> (Step<'a>, usize) {
-        match (rest.first(), self.asked(bits)) {
+        match (rest.first(), self.requested_code(bits)) {
             (Some(MessageField::ItemValue { space: other }), _) if other == space => (Step::Setting { bits, space }, 1),
             (Some(MessageField::ItemPadding { space: other }), _) if other == space => (Step::Blank { bits, space }, 1),
             (_, Some(first)) => (Step::Echo { first, count: bits / 8 }, 0),
@@ -233,7 +234,7 @@ impl<'a> Shaper<'a, '_> {
     }
 }
 
-/// Whether one part at most is as long as the data are, and the fields that are counted stand behind their number and in front of it.
+/// Checks that at most one part has a variable length, and a counted list comes after its count and before that part.
 fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
     let list = steps.iter().position(Step::is_counted_list);
     let open = steps.iter().position(Step::is_open);
@@ -243,7 +244,7 @@ fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
     {
         return Err(SEVERAL_LENGTHS);
     }
-    // The type of what is repeated goes by the name of the message.
+    // The generated type of the repeated fields has the name of the message.
     if steps.iter().filter(|step| matches!(step, Step::List { .. })).count() > 1 {
         return Err(SEVERAL_LISTS);
     }
@@ -254,7 +255,7 @@ fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
     }
 }
 
-/// The greatest number of repetitions of a field that has its number from this one; `None` for another field.
+/// Returns the maximum number of repetitions of a list whose count is in the field `name`, or `None` for another field.
 fn counts(field: &MessageField, name: &str) -> Option<Option<u16>> {
     match field {
         MessageField::Repeat { count: Some(count), max, .. } if count == name => Some(*max),
@@ -262,7 +263,7 @@ fn counts(field: &MessageField, name: &str) -> Option<Option<u16>> {
     }
 }
 
-/// The name of a value, or of one that comes back.
+/// Returns the name of a value, or of a copied field.
 fn name(field: &MessageField) -> Option<&str> {
     match field {
         MessageField::Value(value) => Some(value.item.name.as_str()),
@@ -271,7 +272,7 @@ fn name(field: &MessageField) -> Option<&str> {
     }
 }
 
-/// The names of values outside of what is repeated.
+/// Returns the names of values that are not repeated.
 fn names(fields: &[MessageField]) -> impl Iterator<Item = &str> {
     fields.iter().filter_map(name)
 }

@@ -1,50 +1,50 @@
-//! The parts of a frame's data, one after the other.
+//! Steps: the parts of the data of a frame.
 
 use crate::ir::MessageValue;
 
-/// A part of a frame's data.
+/// A part of the data of a frame.
 #[derive(Clone, Debug)]
 pub(crate) enum Step<'a> {
     /// Fixed bytes.
     Bytes(Vec<u8>),
     /// Fixed bits.
     Bits { bits: u32, value: u64 },
-    /// So many bytes without meaning.
+    /// Number of unused bytes.
     Padding(u32),
-    /// The number of the device.
+    /// The device address.
     Station { bits: u32, value: &'a MessageValue },
-    /// A value that is always the same.
+    /// A fixed value.
     Fixed { bits: u32, order: &'a [u8], value: u64 },
-    /// How many bytes the frame has from this one on.
+    /// The number of bytes from byte `from` to the end.
     Length { bits: u32, order: &'a [u8], from: u32, counts: &'a str },
     /// A value.
     Value { bits: u32, value: &'a MessageValue },
-    /// How often the fields of the list occur.
+    /// The number of repetitions of the list.
     Count { bits: u32, max: Option<u16> },
     /// Bytes of the request.
     Echo { first: u32, count: u32 },
-    /// Bytes of the request, as far as it has them.
+    /// Bytes of the request, as many as it has.
     Copy { first: u32, count: u32 },
-    /// In front of a parameter's number: these bytes of the request, which it has to be.
+    /// Condition on the following parameter number: it has to be the same as these bytes of the request.
     Same { first: u32, count: u32 },
-    /// The number of a parameter.
+    /// A parameter number.
     Code { bits: u32, space: &'a str },
-    /// The number of a parameter and its value.
+    /// A parameter number with its value.
     Setting { bits: u32, space: &'a str },
-    /// The number of a parameter, and zeros in place of its value.
+    /// A parameter number with zeros instead of its value.
     Blank { bits: u32, space: &'a str },
-    /// Numbers of parameters and their values.
+    /// Parameter numbers with their values.
     Settings { bits: u32, space: &'a str, max: Option<u16> },
-    /// The value of a parameter whose number the request has, in so many bits.
+    /// A parameter value. Its number is in the request and has `bits` bits.
     ValueOnly { bits: u32, space: &'a str },
-    /// Fields that occur several times.
+    /// Repeated fields.
     List { steps: Vec<Step<'a>>, length: u32, is_counted: bool, max: Option<u16> },
-    /// All bytes that are left.
+    /// All remaining bytes.
     Rest,
 }
 
 impl Step<'_> {
-    /// Its length in bits; `None` where only the data tell.
+    /// Returns the length in bits, or `None` for a variable length.
     pub(crate) fn bits(&self) -> Option<u32> {
         match self {
             Step::Bytes(bytes) => u32::try_from(bytes.len()).ok()?.checked_mul(8),
@@ -58,12 +58,12 @@ impl Step<'_> {
         }
     }
 
-    /// Whether what is read of it is a part of the data, which lives as long as they do.
+    /// Returns whether decoded values borrow from the data.
     pub(crate) fn borrows(&self) -> bool {
         matches!(self, Step::Settings { .. } | Step::List { .. } | Step::Rest | Step::ValueOnly { .. })
     }
 
-    /// Whether it goes on up to what stands behind it.
+    /// Returns whether the step extends to the following steps, or to the end.
     pub(super) fn is_open(&self) -> bool {
         self.bits().is_none() && !self.is_counted_list()
     }
@@ -82,7 +82,7 @@ impl Step<'_> {
         }
     }
 
-    /// Whether it takes whole bytes, and has to begin with one.
+    /// Returns whether the step has whole bytes, and has to start at a byte boundary.
     pub(super) fn is_bytes(&self) -> bool {
         match self {
             Step::Value { value, .. } | Step::Station { value, .. } => !value.byte_order.is_empty(),
@@ -93,12 +93,12 @@ impl Step<'_> {
     }
 }
 
-/// How many bytes stand behind the part of a message whose length isn't known.
+/// Returns the number of bytes after the part with a variable length.
 pub(crate) fn tail(steps: &[Step<'_>]) -> u32 {
     steps.iter().filter_map(Step::bits).sum::<u32>() / 8
 }
 
-/// Appends a step. Fixed bytes that follow each other are one.
+/// Appends a step. Consecutive fixed bytes are merged.
 pub(super) fn push<'a>(steps: &mut Vec<Step<'a>>, step: Step<'a>) {
     match (steps.last_mut(), step) {
         (Some(Step::Bytes(before)), Step::Bytes(bytes)) => before.extend(bytes),
@@ -106,7 +106,7 @@ pub(super) fn push<'a>(steps: &mut Vec<Step<'a>>, step: Step<'a>) {
     }
 }
 
-/// Whether bytes begin at bytes, and all bytes are whole.
+/// Returns whether all steps of whole bytes start at a byte boundary, and the data end at one.
 pub(super) fn are_aligned(steps: &[Step<'_>]) -> bool {
     let mut phase = 0;
     for step in steps {

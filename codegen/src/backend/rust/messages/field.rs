@@ -213,7 +213,7 @@ fn documentation(context: &Context<'_>, item: &Item, base: Type) -> Vec<String> 
     docs::words(item.documentation.as_deref(), &mut sentences);
     let notes = item.quantity.iter().flat_map(|quantity| docs::WORDS.notes(quantity));
     sentences.extend(notes.filter(|note| !note.is_empty()));
-    sentences.extend(WORDS.place(&context.manual, "", item.documentation.as_deref(), &item.names));
+    sentences.extend(WORDS.manual_entry(&context.manual, "", item.documentation.as_deref(), &item.names));
     sentences.extend(item.doubts.iter().map(|doubt| WORDS.doubt(&context.manual, doubt)));
     for sentence in sentences {
         lines.extend([String::new(), sentence]);

@@ -53,7 +53,7 @@ fn check(framing: &Framing) -> Option<String> {
 
 /// Returns the byte of the requests at which a field begins.
 fn check_start(field: &str, shaped: &[Shaped<'_>]) -> Option<u32> {
-    shaped.iter().find_map(|shape| shape.request.place(field))
+    shaped.iter().find_map(|shape| shape.request.byte_offset(field))
 }
 
 /// Returns the maximum length of the data of a message.

@@ -302,7 +302,12 @@ impl Maker<'_, '_> {
         let link = |id, name: &str| self.context.link_to(id, name, doc_module);
         sentences
             .extend(message.availability.as_ref().map(|availability| docs::linked(&link).availability(availability)));
-        sentences.extend(WORDS.place(&self.context.manual, "", message.documentation.as_deref(), &message.names));
+        sentences.extend(WORDS.manual_entry(
+            &self.context.manual,
+            "",
+            message.documentation.as_deref(),
+            &message.names,
+        ));
         sentences.extend(message.doubts.iter().map(|doubt| WORDS.doubt(&self.context.manual, doubt)));
         for sentence in sentences.into_iter().filter(|sentence| !sentence.is_empty()) {
             lines.extend([String::new(), sentence]);

@@ -9,7 +9,7 @@ use super::scope::{AccessPoint, Scope};
 use crate::backend::rust::code::{call, seq, slice, Doc};
 use crate::backend::rust::doc_table;
 use crate::backend::rust::identity::IdentityModel;
-use crate::ir::{Direction, IoData, Module, ModuleUse, Numbers, Places, Submodule, SubmoduleUse};
+use crate::ir::{Direction, IoData, Module, ModuleUse, Numbers, SlotNumbers, Submodule, SubmoduleUse};
 
 /// A submodule, ready to be printed.
 pub(in crate::backend::rust) struct SubmoduleModel<'a> {
@@ -228,8 +228,8 @@ fn module_uses(scope: &Scope<'_>, uses: &[ModuleUse], outer: &str) -> Vec<Doc> {
     uses.iter().filter_map(element).collect()
 }
 
-fn places(places: &Places) -> Doc {
-    let Places { allowed, fixed, used } = places;
+fn places(places: &SlotNumbers) -> Doc {
+    let SlotNumbers { allowed, fixed, used } = places;
     match (allowed.is_empty(), fixed.is_empty(), used.is_empty()) {
         (true, false, true) => call!("rt::profinet::Places::fixed", slice(numbers(fixed))),
         (false, true, true) => call!("rt::profinet::Places::allowed", slice(numbers(allowed))),

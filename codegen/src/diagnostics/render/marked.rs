@@ -12,7 +12,7 @@ const CHARS_BEFORE: usize = 60;
 
 /// File, with the marked part of it.
 #[derive(Clone, Copy)]
-pub struct Place<'a> {
+pub struct MarkedSource<'a> {
     /// File.
     pub source: &'a Source,
     /// Marked part; `None` for the whole file.
@@ -32,8 +32,8 @@ pub struct Mark {
     pub to: Position,
 }
 
-impl<'a> Place<'a> {
-    /// Returns whether [`Place::of`] returns `Some`, at less cost.
+impl<'a> MarkedSource<'a> {
+    /// Returns whether [`MarkedSource::of`] returns `Some`, at less cost.
     pub fn exists(span: Span, sources: &[Source]) -> bool {
         (span.file.0 as usize) < sources.len()
     }
@@ -42,7 +42,7 @@ impl<'a> Place<'a> {
     pub fn of(span: Span, sources: &'a [Source]) -> Option<Self> {
         let source = sources.get(span.file.0 as usize)?;
         if span.is_empty() {
-            return Some(Place { source, mark: None });
+            return Some(MarkedSource { source, mark: None });
         }
         let text = source.text();
         let (mut start, mut end) = (text.len().min(span.start as usize), text.len().min(span.end as usize));
@@ -54,7 +54,7 @@ impl<'a> Place<'a> {
         }
         let from = source.position(start as u32);
         let to = end_position(source, start..end, from);
-        Some(Place { source, mark: Some(Mark { start, end, from, to }) })
+        Some(MarkedSource { source, mark: Some(Mark { start, end, from, to }) })
     }
 }
 
@@ -101,11 +101,11 @@ mod tests {
     use crate::source::FileId;
 
     #[test]
-    fn both_ways_to_the_end_of_a_mark_agree() {
+    fn both_computations_of_the_end_of_a_mark_agree() {
         let source = [Source::new("x", "a\r\nbä\rc\n\ne".into())];
         let length = source[0].text().len() as u32;
         for (start, end) in (0..length).flat_map(|start| (start + 1..=length).map(move |end| (start, end))) {
-            let mark = Place::of(Span::new(FileId(0), start, end), &source).unwrap().mark.unwrap();
+            let mark = MarkedSource::of(Span::new(FileId(0), start, end), &source).unwrap().mark.unwrap();
             assert_eq!(mark.to, source[0].position(mark.end as u32), "{start}..{end}");
         }
     }
