@@ -168,8 +168,8 @@ impl Rows<'_> {
         facts.extend(item::mappable(item.mappable).map(|pdos| format!("Mappable into {pdos}.")));
         facts.extend(PLAIN.meaning_from(types::definition(self.types, item.ty)));
         if let Some(quantity) = &item.quantity {
-            let scale = quantity.scale.as_ref().map(|_| PLAIN.quantity(quantity));
-            facts.extend(scale.map(|scale| sentence(&capital(scale.trim_start_matches([',', ' '])))));
+            let scale = quantity.scale.as_ref().and_then(|_| PLAIN.unit(quantity));
+            facts.extend(scale.map(|scale| sentence(&capital(&scale))));
             facts.extend(PLAIN.notes(quantity));
         }
         facts.extend(PLAIN.origins(item));

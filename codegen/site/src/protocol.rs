@@ -200,8 +200,7 @@ impl Parts<'_> {
                 .map(|limits| format!("{limits}.")),
         );
         if let Some(quantity) = &item.quantity {
-            let unit = PLAIN.quantity(quantity);
-            facts.extend((!unit.is_empty()).then(|| format!("{}.", unit.trim_start_matches([',', ' ']))));
+            facts.extend(PLAIN.unit(quantity).map(|unit| format!("{unit}.")));
             facts.extend(PLAIN.notes(quantity));
         }
         if !value.byte_order.is_empty() {

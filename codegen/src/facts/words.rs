@@ -3,9 +3,9 @@
 use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
 use crate::facts::{address, cob_id};
 use crate::ir::{
-    Availability, Behaviour, Binding, Bus, CiteUnit, CompactString, Condition, Device, Direction, Documentation, Doubt,
-    ElementId, Fact, FactOrigin, Item, ItemVariant, Limits, LocalText, Manual, Quantity, Reference, Rule, Scale,
-    Severity, Shape, Step, Storage, TypeDef, Value,
+    Access, Availability, Behaviour, Binding, Bus, CiteUnit, CompactString, Condition, Device, Direction,
+    Documentation, Doubt, ElementId, Fact, FactOrigin, Item, ItemVariant, Limits, LocalText, Manual, Quantity,
+    Reference, Rule, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
 };
 
 /// Writes sentences in the format of an output. It escapes all texts of the source.
@@ -178,6 +178,18 @@ impl Words<'_> {
     pub fn description(&self, documentation: Option<&Documentation>) -> Vec<String> {
         let lines = documentation.into_iter().flat_map(|documentation| documentation.text.lines());
         lines.map(|line| self.escaped(line)).filter(|line| !line.is_empty()).map(|line| sentence(&line)).collect()
+    }
+
+    /// Returns the access rights as words; assumed ones are marked.
+    pub fn access_rights(&self, item: &Item) -> String {
+        let rights = match item.access {
+            Access::ReadOnly => "read-only",
+            Access::WriteOnly => "write-only",
+            Access::Constant => "constant",
+            Access::ReadWrite | Access::ReadWriteInput | Access::ReadWriteOutput => "read-write",
+        };
+        let assumed = if item.is_access_assumed() { " (assumed)" } else { "" };
+        format!("{rights}{assumed}")
     }
 
     /// Returns a sentence if the access rights are an assumption.
@@ -465,12 +477,12 @@ impl Words<'_> {
         })
     }
 
-    /// Returns unit and scale factor as a part of a sentence: `, in rpm`, `, 1 LSB = 0.01 rev/s`.
-    pub fn quantity(&self, quantity: &Quantity) -> String {
+    /// Returns unit and scale: `unit rpm`, `1 LSB = 0.01 rev/s`; `None` for plain numbers.
+    pub fn unit(&self, quantity: &Quantity) -> Option<String> {
         match &quantity.scale {
-            None if shown_unit(quantity).is_empty() => String::new(),
-            None => format!(", in {}", self.escaped(shown_unit(quantity))),
-            Some(scale) => format!(", {}", self.scale(scale, shown_unit(quantity))),
+            None if shown_unit(quantity).is_empty() => None,
+            None => Some(format!("unit {}", self.escaped(shown_unit(quantity)))),
+            Some(scale) => Some(self.scale(scale, shown_unit(quantity))),
         }
     }
 

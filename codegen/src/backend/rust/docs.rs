@@ -1,7 +1,5 @@
 //! Doc comments: texts of the description, escaped so that Markdown shows them literally.
 
-use std::fmt::Write;
-
 use super::context::Context;
 use super::item_addresses::ItemAddresses;
 use super::links::DocModule;
@@ -20,6 +18,15 @@ pub(super) fn linked(link: &dyn Fn(ElementId, &str) -> Option<String>) -> Words<
     Words { escape, link }
 }
 
+/// Returns links from the documentation of an item to other elements. The replacement of an item may have the same name.
+fn links_from<'c>(
+    entry: &'c NamedItem<'_>,
+    context: &'c Context<'_>,
+    doc_module: DocModule<'c>,
+) -> impl Fn(ElementId, &str) -> Option<String> + 'c {
+    move |id, name| (id != entry.id.into()).then(|| context.link_to(id, name, doc_module))?
+}
+
 /// Returns the documentation of an item, for its constant. The name is followed by the address, the type, the access
 /// rights and the values. Related elements and further facts follow. Links start at `doc_module`.
 pub(super) fn item(
@@ -30,8 +37,7 @@ pub(super) fn item(
     doc_module: DocModule<'_>,
 ) -> Vec<String> {
     let item = entry.item;
-    // The replacement of an item may have the same name.
-    let link = |id, name: &str| (id != entry.id.into()).then(|| context.link_to(id, name, doc_module))?;
+    let link = links_from(entry, context, doc_module);
     let words = linked(&link);
     let mut lines = Vec::with_capacity(6);
     if !name.trim().is_empty() {
@@ -76,20 +82,40 @@ pub(super) fn item(
     lines
 }
 
-/// Returns the documentation of an item, for its accessor: `heading`, the description's text and related elements.
-/// Links start at `doc_module`.
+/// Returns the documentation of an item, for its accessor: the description's text or `name`, facts, storage, ambiguities
+/// and related elements. Links start at `doc_module`.
 pub(super) fn method(
     entry: &NamedItem<'_>,
-    heading: &str,
+    name: &str,
     context: &Context<'_>,
     doc_module: DocModule<'_>,
 ) -> Vec<String> {
-    let mut lines = vec![heading.to_owned()];
-    documentation(entry.item, &mut lines);
-    if lines.len() > 1 {
+    let item = entry.item;
+    let link = links_from(entry, context, doc_module);
+    let words = linked(&link);
+    let name = match name.trim() {
+        "" => String::new(),
+        name => sentence(&escape(name)),
+    };
+    let mut description = Vec::new();
+    documentation(item, &mut description);
+    let mut lines: Vec<String> = description.into_iter().skip(1).collect();
+    let mut facts = facts(item, context, &words);
+    if lines.is_empty() {
+        lines.extend(Some(name).filter(|name| !name.is_empty()));
+    } else if !name.is_empty() {
+        facts = format!("{name} {facts}");
+    }
+    if !lines.is_empty() {
         lines.push(String::new());
     }
-    lines.push(context.links.related_to_method(entry, type_name(context, entry.item), doc_module));
+    lines.push(facts);
+    let storage = item.behaviour.as_ref().and_then(|behaviour| words.storage(&behaviour.storage));
+    lines.extend(storage.map(|storage| sentence(&capital(&storage))));
+    lines.push(context.links.related_to_method(entry, type_name(context, item), doc_module));
+    for doubt in doubts(item.doubts.iter(), &context.manual) {
+        lines.extend([String::new(), doubt]);
+    }
     lines
 }
 
@@ -160,31 +186,18 @@ pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
 
 fn facts(item: &Item, context: &Context<'_>, words: &Words<'_>) -> String {
     let base = context.base(item.ty);
-    let mut line = String::with_capacity(64);
-    let addresses = ItemAddresses::of(context, item).facts(context, item);
-    if !addresses.is_empty() {
-        let _ = write!(line, "{}, ", capital(&addresses));
-    }
-    let _ = write!(line, "{base}, {}", item.access_name());
-    if let Some(pdos) = facts::item::mappable(item.mappable) {
-        let _ = write!(line, ", mappable into {pdos}");
-    }
     let raw = |shown: &Value| if item.quantity.is_some() { value(shown) } else { typed(shown, base) };
     let shown = |value: &Value| WORDS.of_item(item, value, &raw);
-    if let Some(default) = &item.default {
-        let _ = write!(line, ", default {}", shown(default));
-    }
-    if let Some(range) = limits(item) {
-        let _ = write!(line, ", {range}");
-    }
-    if let Some(quantity) = &item.quantity {
-        line.push_str(&words.quantity(quantity));
-    }
-    if let Some(configured) = item.configured.as_ref().and_then(|configured| configured.value.as_ref()) {
-        let _ = write!(line, ", configured to {}", shown(configured));
-    }
-    line.push('.');
-    line
+    let configured = item.configured.as_ref().and_then(|configured| configured.value.as_ref());
+    let mut parts: Vec<String> = item.quantity.iter().filter_map(|quantity| words.unit(quantity)).collect();
+    parts.extend(limits(item));
+    parts.extend(item.default.as_ref().map(|default| format!("default {}", shown(default))));
+    parts.extend(configured.map(|configured| format!("configured to {}", shown(configured))));
+    parts.extend(Some(ItemAddresses::of(context, item).facts(context, item)).filter(|text| !text.is_empty()));
+    parts.push(base.to_string());
+    parts.push(WORDS.access_rights(item));
+    parts.extend(facts::item::mappable(item.mappable).map(|pdos| format!("mappable into {pdos}")));
+    format!("{}.", capital(&parts.join(", ")))
 }
 
 /// Returns a value of this type as text.

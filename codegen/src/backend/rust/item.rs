@@ -113,7 +113,7 @@ pub(super) fn model(
         method: names::escaped(name),
         docs: docs::item(entry, original, chapter, context, doc_module),
         method_docs: if context.links.has_methods {
-            docs::method(entry, &heading, context, method_module)
+            docs::method(entry, original, context, method_module)
         } else {
             Vec::new()
         },

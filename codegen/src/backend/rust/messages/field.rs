@@ -204,9 +204,10 @@ fn constant(field: &str) -> String {
 fn documentation(context: &Context<'_>, item: &Item, base: Type) -> Vec<String> {
     let link = |id, name: &str| context.link_to(id, name, DocModule::MESSAGES);
     let words = docs::linked(&link);
-    let mut facts = format!("{base}");
-    facts.extend(docs::limits(item).map(|limits| format!(", {limits}")));
-    facts += &item.quantity.as_ref().map(|quantity| words.quantity(quantity)).unwrap_or_default();
+    let mut facts: Vec<String> = item.quantity.iter().filter_map(|quantity| words.unit(quantity)).collect();
+    facts.extend(docs::limits(item));
+    facts.push(base.to_string());
+    let facts = facts.join(", ");
     let name = docs::escape(&item.name);
     let mut lines = vec![format!("{}: {facts}.", name.trim_end_matches(['.', ':']))];
     let mut sentences = Vec::new();
