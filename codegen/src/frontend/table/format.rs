@@ -297,7 +297,7 @@ tables! {
         /// Page or line of the ambiguity.
         pub cite: Option<OneOrMany<NumberOrText>>,
         /// Result of a wrong assumption: `hazard`, `value` or `print`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["hazard", "value", "print"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("hazard value print")))]
         pub severity: Option<At<String>>,
     }
 
@@ -397,7 +397,7 @@ tables! {
         /// Language (BCP 47).
         pub language: Option<String>,
         /// Unit of `cite`: `page` or `line`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["page", "line"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("page line")))]
         pub cites: Option<At<String>>,
         /// Titles of sections and tables, by first page or line.
         pub sections: Entries<String>,
@@ -498,14 +498,14 @@ tables! {
     /// Modbus addresses of the registers of a space.
     pub struct ModbusRule {
         /// `holding`, `input`, `coil` or `discrete`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["holding", "input", "coil", "discrete"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("holding input coil discrete")))]
         pub table: Option<At<String>>,
         /// First number in the manual.
         pub first: Option<i64>,
         /// Offset added to get the wire address.
         pub add: Option<i64>,
         /// Word order of longer values: `high_first` or `low_first`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["high_first", "low_first"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("high_first low_first")))]
         pub order: Option<At<String>>,
         /// Whether `order` is an assumption because the manual states none.
         pub order_assumed: bool,
@@ -565,7 +565,7 @@ tables! {
         /// Item with the value.
         pub value: Option<At<String>>,
         /// First item to write: `address` or `value`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["address", "value"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("address value")))]
         pub first: Option<At<String>>,
         /// Whether the device resets the number to 0 when done.
         pub clears: Option<bool>,
@@ -603,7 +603,7 @@ tables! {
         /// Address in the memory of an EtherCAT slave controller.
         pub esc: Option<At<u16>>,
         /// Access rights of the slave's processor to that memory: `ro`, `rw` or `wo`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("ro rw wo")))]
         pub pdi: Option<At<String>>,
         /// Length in bytes at `esc`. Without `esc`: printed length, which is compared with the type.
         pub length: Option<At<u16>>,
@@ -614,16 +614,16 @@ tables! {
         /// Name of an object or sub-entry.
         pub name: Option<At<String>>,
         /// Object code: `var`, `array`, `record` or `domain`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["var", "array", "record", "domain"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("var array record domain")))]
         pub code: Option<At<String>>,
         /// Data type: `u16`, `i32`, `f32`, `bool`, `str(25)`, `bytes(6)`, `u16[10]`, …; `?` if the manual does not state it.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
         /// Access rights: `ro`, `rw`, `wo`, `const`, `rwr` or `rww`; `?` if the manual does not state them.
-        #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww", "?"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("ro rw wo const rwr rww ?")))]
         pub access: Option<At<String>>,
         /// PDO direction, as seen from the device: `rx`, `tx`, `both` or `no`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx", "both", "no"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("rx tx both no")))]
         pub pdo: Option<At<String>>,
         /// Default value; a list if the row describes several objects.
         pub default: Option<At<OneOrMany<Literal>>>,
@@ -678,7 +678,7 @@ tables! {
         #[cfg_attr(test, schemars(transform = schema::notation(schema::BITS)))]
         pub part: Option<At<NumberOrText>>,
         /// Word order: `high_first` or `low_first`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["high_first", "low_first"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("high_first low_first")))]
         pub order: Option<At<String>>,
         /// Whether the bytes of a word are swapped.
         pub swap: Option<bool>,
@@ -709,7 +709,7 @@ tables! {
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
         /// Access rights on buses that allow less.
-        #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("ro rw wo")))]
         pub access: Option<At<String>>,
         /// The only valid values, and ranges.
         pub allowed: Option<At<Vec<Literal>>>,
@@ -743,7 +743,7 @@ tables! {
         /// Printed PDO direction.
         pub pdo: Option<At<String>>,
         /// Printed object code.
-        #[cfg_attr(test, schemars(transform = schema::words(&["var", "array", "record", "domain"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("var array record domain")))]
         pub code: Option<At<String>>,
         /// Printed name.
         pub name: Option<At<String>>,
@@ -808,7 +808,7 @@ tables! {
         /// Short English phrase, from which the identifier is derived.
         pub name: Option<String>,
         /// Zone of reserved or vendor-specific values: `reserved` or `vendor`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["reserved", "vendor"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("reserved vendor")))]
         pub zone: Option<At<String>>,
         /// The only buses on which it exists.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
@@ -852,7 +852,7 @@ tables! {
         /// The meaning applies while these items have one of these values.
         pub when: Option<Conditions>,
         /// Access rights, if they differ from the row.
-        #[cfg_attr(test, schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("ro rw wo const rwr rww")))]
         pub access: Option<At<String>>,
         /// Replacement, as text.
         pub replaced_by: Option<String>,
@@ -876,7 +876,7 @@ tables! {
         /// Offset added to the index.
         pub index: Option<u16>,
         /// `axis`: the sub-index is the axis number.
-        #[cfg_attr(test, schemars(transform = schema::words(&["axis"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("axis")))]
         pub sub: Option<String>,
         /// Offset added to the sub-index.
         pub sub_stride: Option<u8>,
@@ -889,7 +889,7 @@ tables! {
         /// Name.
         pub name: Option<String>,
         /// Direction as seen from the device: `rx` or `tx`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("rx tx")))]
         pub direction: Option<At<String>>,
         /// Entries: `"0x6040:0/16"`, `"item"`, `"pad/8"`, or `"? name/16"` (`"? name/i16"`) if the manual gives no object.
         pub entries: Vec<At<String>>,
@@ -917,12 +917,12 @@ tables! {
         /// Name.
         pub name: Option<String>,
         /// Direction as seen from the device: `rx` or `tx`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("rx tx")))]
         pub direction: Option<At<String>>,
         /// Length in bytes.
         pub bytes: Option<u32>,
         /// Byte order: `big` (default) or `little`.
-        #[cfg_attr(test, schemars(transform = schema::words(&["big", "little"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("big little")))]
         pub order: Option<At<String>>,
         /// Fields by item name; a field that is not an item of the table needs a `type`.
         pub fields: Entries<ImageField>,
@@ -1079,7 +1079,7 @@ tables! {
         /// Message to send.
         pub send: Option<At<String>>,
         /// `rx` or `tx`: one exchange of process data.
-        #[cfg_attr(test, schemars(transform = schema::words(&["rx", "tx"])))]
+        #[cfg_attr(test, schemars(transform = schema::words("rx tx")))]
         pub exchange: Option<At<String>>,
         /// Manual action.
         pub manual: Option<String>,
