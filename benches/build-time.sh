@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# What a compiler costs as a build dependency: a cold `cargo build` of a crate whose build script uses it, in the dev profile.
+# Measures the cost of a compiler as a build dependency: a cold `cargo build` of a crate whose build script uses it, in the dev
+# profile.
 #
 #     benches/build-time.sh                 # Lexibus, with EDS and tables, with EDS alone, prost-build, svd2rust
 #     benches/build-time.sh lexibus         # one of them
 #     COMMIT=main~20 benches/build-time.sh lexibus
 #
-# Prints seconds of processor and of the clock. Run it on an idle machine. Dependencies are downloaded before the clock starts.
+# Prints processor seconds and wall-clock seconds. Run it on an idle machine. Dependencies are downloaded before the
+# measurement.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -17,7 +19,7 @@ if [[ -n ${COMMIT:-} ]]; then
     root=$work/source
 fi
 
-# A crate with the build dependency $2 and the build script $3.
+# Creates a crate with the build dependency $2 and the build script $3.
 crate() {
     mkdir -p "$work/$1/src"
     printf '[package]\nname = "driver"\nversion = "0.1.0"\nedition = "2021"\n[build-dependencies]\n%s\n[workspace]\n' "$2" >"$work/$1/Cargo.toml"
@@ -42,7 +44,7 @@ lexibus() {
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
     measure lexibus
 }
-# With these features alone.
+# Only these features.
 lexibus-with() {
     crate "$1" "lexibus-codegen = { path = \"$root/codegen\", default-features = false, features = [$2] }" \
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
@@ -66,6 +68,6 @@ for name in "${@:-}"; do
     case $name in
         "") lexibus && lexibus-eds-table && lexibus-eds && prost-build && svd2rust ;;
         lexibus | lexibus-eds-table | lexibus-eds | prost-build | svd2rust) "$name" ;;
-        *) echo "no measurement is called $name" >&2 && exit 2 ;;
+        *) echo "there is no measurement $name" >&2 && exit 2 ;;
     esac
 done

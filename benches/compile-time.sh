@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# What rustc takes for generated bindings, per entry: benches/compile-time.sh [DESCRIPTION [RUNS]]
+# Measures the time of rustc for generated bindings, per entry: benches/compile-time.sh [DESCRIPTION [RUNS]]
 #
-# Without a description it makes an EDS of 9,999 entries. Prints, for handles alone, with accessors, and with PDO structs as well, the median of RUNS runs of `rustc --emit=metadata`, less
-# what rustc takes for an empty crate.
+# Without a description, it creates an EDS of 9,999 entries. Prints the median of RUNS runs of `rustc --emit=metadata`, minus
+# the time for an empty crate: for handles alone, with accessors, and also with PDO structs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD

@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
-# The peak memory of `lexibus check` and `lexibus generate`, above that of the smallest file, in times the size of the input.
+# Measures the peak memory of `lexibus check` and `lexibus generate`, above that of the smallest file, as a multiple of the
+# input size.
 #
 #     benches/memory.sh [FILE...]
 #
-# Without files: those of the corpus above 1 MB, and the register tables. `LEXIBUS` names a binary other than target/release/lexibus.
+# Without files, it measures the corpus files above 1 MB and the register tables. `LEXIBUS` names a binary other than
+# target/release/lexibus.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 lexibus=${LEXIBUS:-target/release/lexibus}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Kilobytes at most of `lexibus $1 $2`.
+# Prints the peak memory of `lexibus $1 $2` in kilobytes.
 peak() {
     local out=(--out "$work/out.rs")
     [[ $1 == check ]] && out=()
@@ -18,7 +20,7 @@ peak() {
     tail -1 "$work/peak"
 }
 
-# The format's smallest description: the profiles and all that does not depend on the input.
+# Smallest description of the format, which needs the memory that does not depend on the input, such as profiles.
 empty() {
     case $1 in
     *.toml) printf 'lexibus = 1\n[device]\nname = "a"\nvendor = "a"\n[[chapters]]\nname = "a"\nbus = "modbus"\n[chapters.registers]\na = { at = 1, type = "u16" }\n' ;;

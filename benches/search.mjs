@@ -1,5 +1,4 @@
-// Types queries into the search of a site's first page, and prints how long each key stroke takes: until its handler is done, and until
-// the page is drawn.
+// Types queries into the search of a site's first page, and prints the times per keystroke: until its handler ends, and until the page is drawn.
 import { statSync } from "node:fs";
 import path from "node:path";
 import { pagesOf, Window, withBrowser } from "../cli/tests/browser/browser.mjs";
@@ -34,33 +33,33 @@ await withBrowser(async (browser) => {
     await page.waitForFunction((count) => times.length >= count, query.length);
     const times = await page.evaluate(() => times);
     all.push(...times);
-    console.log(`${query.padEnd(20)} worst ${told(worst(times))}   ${await page.locator("#found li").count()} shown`);
+    console.log(`${query.padEnd(20)} worst ${shown(worst(times))}   ${await page.locator("#found li").count()} shown`);
   }
-  console.log(`${all.length} key strokes: median ${told(median(all))}, worst ${told(worst(all))}`);
+  console.log(`${all.length} keystrokes: median ${shown(median(all))}, worst ${shown(worst(all))}`);
   window.clean();
 });
 
-// Two numbers a key stroke, taken in the page.
+// Measures two times per keystroke within the page.
 function measure() {
   window.times = [];
   const input = document.getElementById("search");
   let start = 0;
   document.addEventListener("input", () => { start = performance.now(); }, true);
   document.addEventListener("input", () => {
-    const own = start, handled = performance.now() - own, { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => { times.push([handled, performance.now() - own]); };
+    const begin = start, handled = performance.now() - begin, { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => { times.push([handled, performance.now() - begin]); };
     requestAnimationFrame(() => port2.postMessage(input.value));
   });
 }
 
 function worst(times) {
-  return [0, 1].map((at) => Math.max(...times.map((own) => own[at])));
+  return [0, 1].map((at) => Math.max(...times.map((sample) => sample[at])));
 }
 
 function median(times) {
-  return [0, 1].map((at) => times.map((own) => own[at]).sort((one, other) => one - other)[times.length >> 1]);
+  return [0, 1].map((at) => times.map((sample) => sample[at]).sort((one, other) => one - other)[times.length >> 1]);
 }
 
-function told([handled, drawn]) {
+function shown([handled, drawn]) {
   return `${handled.toFixed(0)} ms, drawn after ${drawn.toFixed(0)} ms`;
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# How long the search of a site takes for a key stroke: benches/search.sh DESCRIPTION...
-# LEXIBUS names the program that writes the site; else it is built. cli/tests/browser/README.md says what is needed.
+# Measures the time of a keystroke in the search of a site: benches/search.sh DESCRIPTION...
+# LEXIBUS names the program that writes the site; by default, it is built. cli/tests/browser/README.md lists the requirements.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 if [[ $# == 0 ]]; then echo "benches/search.sh DESCRIPTION..." >&2; exit 2; fi
@@ -12,6 +12,6 @@ if [[ -z ${LEXIBUS:-} ]]; then
     cargo build --quiet --release -p lexibus-cli
     LEXIBUS=${CARGO_TARGET_DIR:-target}/release/lexibus
 fi
-# Descriptions with errors are left out.
+# Skips descriptions with errors.
 "$LEXIBUS" docs "$@" --out "$site" 2>/dev/null || true
 node benches/search.mjs "$site"

@@ -1,4 +1,4 @@
-//! Bindings of the descriptions that the chapters use.
+//! Generates the bindings of the descriptions that the chapters use.
 
 use lexibus_codegen::{BuildError, Builder, Level, Presence};
 
@@ -7,7 +7,7 @@ fn main() -> Result<(), BuildError> {
     for description in ["examples/pump.eds", "examples/motor.toml", "../examples/inverter.toml"] {
         builder.compile(description)?;
     }
-    // These are there to have something to warn of.
+    // These descriptions have warnings on purpose.
     let lenient = builder.level("warnings", Level::Allow);
     lenient.compile_as("examples/station.gsdml.xml", "station.rs")?;
     lenient.compile("../tests/data/press.toml")?;

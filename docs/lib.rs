@@ -1,9 +1,9 @@
-//! The examples of [the book](https://github.com/lexibus/lexibus/tree/main/docs/src/SUMMARY.md).
+//! Tests the examples of [the book](https://github.com/lexibus/lexibus/tree/main/docs/src/SUMMARY.md).
 //!
-//! The documentation tests of this crate are the chapters' Rust, block by block: each compiles, and runs where no hardware
-//! is needed. Here are the bindings that they use, made by the build script as a reader would make them.
+//! The Rust blocks of the chapters are documentation tests of this crate. Each block compiles, and runs if it needs no
+//! hardware. The build script generates the bindings that they use, as a reader would.
 
-/// Bindings of `docs/examples` and of what the tests of the workspace have.
+/// Bindings of `docs/examples` and of the workspace's test data.
 macro_rules! bindings {
     ($($(#[$documentation:meta])* $name:ident;)*) => {
         $(
@@ -37,7 +37,7 @@ bindings! {
     safe;
 }
 
-/// The chapters: each file of `docs/src`, which a test of the book holds this list to.
+/// The chapters: each file of `docs/src`. A test of the book checks this list.
 #[cfg(doctest)]
 mod chapters {
     #[doc = include_str!("src/introduction.md")]

@@ -88,7 +88,7 @@ def seconds(read, path, repetitions):
         made = read(path)
         total += time.perf_counter() - start
         del made
-        # What this reading left isn't collected while the next one is timed.
+        # Garbage of this reading must not be collected during the next measurement.
         gc.collect()
     return total
 
@@ -104,6 +104,6 @@ for line in sys.stdin:
     reader, repetitions, path = line.rstrip("\n").split("\t")
     try:
         reply = f"{seconds(READERS[reader], path, int(repetitions)):.9f}"
-    except Exception as error:  # Whatever a library raises is its answer to this file.
+    except Exception as error:  # Any exception is the result for this file.
         reply = " ".join(f"{type(error).__name__}: {error}".split())
     print(reply, flush=True)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Puts the Python that is measured into target/python of this folder, with the libraries of requirements.txt.
+# Installs the measured Python and the libraries of requirements.txt into target/python of this folder.
 set -euo pipefail
 cd "$(dirname "$0")"
 mkdir -p target

@@ -1,4 +1,4 @@
-//! The arguments of the command line.
+//! Arguments of the command line.
 
 use std::path::PathBuf;
 
@@ -104,8 +104,8 @@ pub(super) struct Inputs {
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = MessageFormat::Text)]
     pub message_format: MessageFormat,
     /// When to use colours.
-    #[arg(long, value_enum, value_name = "WHEN", default_value_t = Colour::Auto)]
-    pub color: Colour,
+    #[arg(long, value_enum, value_name = "WHEN", default_value_t = ColorChoice::Auto)]
+    pub color: ColorChoice,
     /// Number of files to read at once; by default, one a processor.
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
@@ -122,7 +122,7 @@ pub(super) enum MessageFormat {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Colour {
+pub(super) enum ColorChoice {
     /// On a terminal.
     Auto,
     /// Always.
@@ -317,9 +317,9 @@ pub(super) enum ExportFormat {
     Gsdml,
 }
 
-/// `KEY=VALUE`.
+/// Parses `KEY=VALUE`.
 fn fact(text: &str) -> Result<(String, String), String> {
-    let (key, value) = text.split_once('=').ok_or("a fact is a key and a value with `=` between them")?;
+    let (key, value) = text.split_once('=').ok_or("expected KEY=VALUE")?;
     Ok((key.trim().to_owned(), value.to_owned()))
 }
 
@@ -372,8 +372,8 @@ pub(super) struct Import {
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = MessageFormat::Text)]
     pub message_format: MessageFormat,
     /// When to use colours.
-    #[arg(long, value_enum, value_name = "WHEN", default_value_t = Colour::Auto)]
-    pub color: Colour,
+    #[arg(long, value_enum, value_name = "WHEN", default_value_t = ColorChoice::Auto)]
+    pub color: ColorChoice,
 }
 
 #[derive(Debug, Args)]
@@ -396,7 +396,7 @@ fn rust_path(text: &str) -> Result<String, String> {
     };
     match text.strip_prefix("::").unwrap_or(text).split("::").all(is_name) {
         true => Ok(text.to_owned()),
-        false => Err("expected a path of Rust, such as ::lexibus or crate::rt".to_owned()),
+        false => Err("expected a Rust path, such as ::lexibus or crate::rt".to_owned()),
     }
 }
 
@@ -410,7 +410,7 @@ fn presence(text: &str) -> Result<Presence, String> {
 }
 
 impl Arguments {
-    /// The arguments of this process, with the levels in the order in which they stand.
+    /// Parses the arguments of this process. Levels keep the order of the command line.
     pub(super) fn parse_in_order() -> Self {
         let matches = Arguments::command().get_matches();
         let mut arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
@@ -432,19 +432,20 @@ impl Arguments {
 }
 
 impl Inputs {
+    /// Stores the levels in the order of the command line.
     fn order_levels(&mut self, matches: &ArgMatches) {
         let settings = [
             ("allow", &self.allow, Level::Allow),
             ("warn", &self.warn, Level::Warn),
             ("deny", &self.deny, Level::Deny),
         ];
-        let mut placed = Vec::new();
+        let mut ordered = Vec::new();
         for (name, codes, level) in settings {
-            let places = matches.indices_of(name).into_iter().flatten();
-            placed.extend(places.zip(codes).map(|(place, code)| (place, code.clone(), level)));
+            let positions = matches.indices_of(name).into_iter().flatten();
+            ordered.extend(positions.zip(codes).map(|(position, code)| (position, code.clone(), level)));
         }
-        placed.sort_by_key(|&(place, ..)| place);
-        self.levels = placed.into_iter().map(|(_, code, level)| (code, level)).collect();
+        ordered.sort_by_key(|&(position, ..)| position);
+        self.levels = ordered.into_iter().map(|(_, code, level)| (code, level)).collect();
     }
 
     pub(super) fn options(&self) -> Result<Options, Failure> {
@@ -471,7 +472,7 @@ impl Inputs {
 }
 
 fn choice(text: &str) -> Result<(String, String), String> {
-    compile::choice(text).ok_or_else(|| "write NAME=CHOICE".to_owned())
+    compile::choice(text).ok_or_else(|| "expected NAME=CHOICE".to_owned())
 }
 
 impl Generate {

@@ -1,4 +1,4 @@
-//! `lexibus diff`: what changed between two versions of a description.
+//! `lexibus diff`: reports the changes between two versions of a description.
 
 use std::io::Write;
 use std::path::Path;
@@ -9,7 +9,7 @@ use lexibus_codegen::output::write_if_changed;
 use lexibus_codegen::source::Source;
 use lexibus_site::compare::{compare, Change, Class, Summary};
 
-use super::args::{Colour, Diff, DiffFormat, MessageFormat, Shown};
+use super::args::{ColorChoice, Diff, DiffFormat, MessageFormat, Shown};
 use super::report::Reporter;
 use super::Failure;
 
@@ -22,7 +22,7 @@ struct Report<'c> {
     summary: Summary,
 }
 
-/// Whether neither Rust code nor the communication breaks.
+/// Compares two descriptions. Returns whether no change breaks Rust code or the communication.
 pub(super) fn run(diff: &Diff) -> Result<bool, Failure> {
     let options = Options { choices: diff.option.clone(), no_profiles: diff.no_profiles, ..Options::default() };
     let (Some(old), Some(new)) = (read(&diff.old, &options)?, read(&diff.new, &options)?) else { return Ok(false) };
@@ -42,7 +42,7 @@ pub(super) fn run(diff: &Diff) -> Result<bool, Failure> {
     Ok(summary.api == 0 && summary.wire == 0)
 }
 
-/// The last class of changes that is shown.
+/// Returns the last class of changes to show.
 fn last_class(shown: Shown) -> Class {
     match shown {
         Shown::Breaking => Class::Breaking,
@@ -60,7 +60,7 @@ fn read(path: &Path, options: &Options) -> Result<Option<Compilation>, Failure> 
     if compilation.is_usable() && compilation.catalog.is_some() {
         return Ok(Some(compilation));
     }
-    Reporter::with(MessageFormat::Text, Colour::Auto, false).report(&compilation)?;
+    Reporter::with(MessageFormat::Text, ColorChoice::Auto, false).report(&compilation)?;
     Ok(None)
 }
 

@@ -1,4 +1,4 @@
-//! `lexibus docs`: a site of documentation, or pages of Markdown.
+//! `lexibus docs`: writes a documentation site, or Markdown pages.
 
 use std::path::Path;
 
@@ -41,7 +41,7 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     reporter.finish()
 }
 
-/// Why nothing may be written to a folder: it has files, but not the first page of an earlier call.
+/// Returns an error if a folder has files, but not the first page of an earlier call.
 fn foreign(folder: &Path, format: Format) -> Option<String> {
     let names = std::fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.file_name()));
     let first = names.filter(|name| !name.as_encoded_bytes().starts_with(b".")).min()?;
@@ -54,24 +54,25 @@ fn foreign(folder: &Path, format: Format) -> Option<String> {
             folder.display(),
             Path::new(&first).display()
         )),
-        _ => Some(taken(&path)),
+        _ => Some(not_overwritten(&path)),
     }
 }
 
-fn taken(path: &Path) -> String {
-    let reason = "is there already and was not written by `lexibus docs`: choose an empty folder with --out";
+/// Returns the error for a file that `lexibus docs` must not overwrite.
+fn not_overwritten(path: &Path) -> String {
+    let reason = "exists and was not written by `lexibus docs`: choose an empty folder with --out";
     format!("{} {reason}", path.display())
 }
 
-/// Writes a page. A file that somebody else wrote is left alone.
+/// Writes a page. A file that was not written by `lexibus docs` is not overwritten.
 fn write(path: &Path, page: &Page) -> Result<(), String> {
     let is_foreign = match std::fs::read(path) {
         Ok(bytes) => !page.replaces(&String::from_utf8_lossy(&bytes)),
-        // A folder, for instance; the same holds for a file that nobody may read.
+        // A folder or an unreadable file is not overwritten either.
         Err(error) => error.kind() != std::io::ErrorKind::NotFound,
     };
     if is_foreign {
-        return Err(taken(path));
+        return Err(not_overwritten(path));
     }
     let folder = path.parent().map_or(Ok(()), std::fs::create_dir_all);
     folder

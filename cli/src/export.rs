@@ -1,4 +1,4 @@
-//! `lexibus export`: device descriptions in another format, and a list of what that format has no place for.
+//! `lexibus export`: writes device descriptions in another format, and reports what that format cannot express.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use super::output::Target;
 use super::report::Reporter;
 use super::Failure;
 
-/// What is written, with the facts that go with it.
+/// Format of the export, with its options.
 enum Format {
     Eds(eds::Options),
     Esi(Box<esi::Options>),
@@ -37,7 +37,7 @@ impl Format {
         }
         for (key, value) in &export.facts {
             let set = match &mut format {
-                Format::Eds(_) => Err("an EDS or DCF wants no facts beside those of the source".to_owned()),
+                Format::Eds(_) => Err("an EDS or DCF needs no additional facts".to_owned()),
                 Format::Esi(options) => options.set(key, value),
                 Format::Gsdml(options) => options.set(key, value),
             };
@@ -46,7 +46,7 @@ impl Format {
         Ok(format)
     }
 
-    /// What a source has that can't be written.
+    /// Describes an input that has nothing to export.
     fn nothing(&self) -> &'static str {
         match self {
             Format::Eds(_) => "no device with objects",
@@ -64,22 +64,22 @@ impl Format {
     }
 }
 
-/// One file, and the device that it is of, if it is one's.
+/// Exported file, and its device if it describes only one.
 struct File<'c> {
     device: Option<&'c Device>,
-    /// What it has to be called; else it is called as the input.
+    /// Required file name. Without it, the name of the input is used.
     name: Option<String>,
     exported: Exported,
 }
 
 pub(super) fn run(export: &Export) -> Result<bool, Failure> {
     if export.inputs.message_format == MessageFormat::Sarif {
-        let message = "what an export leaves out is told as text or JSON lines, not as SARIF";
+        let message = "export notes can be printed as text or JSON lines, not as SARIF";
         return Err(Failure::Usage(message.into()));
     }
     let format = Format::new(export)?;
     let mut options = export.inputs.options()?;
-    // What profiles add is known wherever the export is read, and no place for it is no loss.
+    // Profiles are public, so the export does not have to repeat what they add.
     options.no_profiles = true;
     let mut reporter = Reporter::new(&export.inputs, false);
     let mut target = Target::new(&export.inputs, export.out.as_deref(), export.check)?;
@@ -108,7 +108,7 @@ fn write(
     let Some(files) = files(format, input, catalog, target, reporter) else { return Ok(()) };
     if files.len() > 1 && !target.takes_many() {
         let message = "devices: choose one with --device, or name a folder with --out";
-        reporter.error(&format!("{}: it describes {} {message}", input.display(), files.len()));
+        reporter.error(&format!("{}: the input describes {} {message}", input.display(), files.len()));
         return Ok(());
     }
     for file in &files {
@@ -125,8 +125,9 @@ fn write(
     Ok(())
 }
 
-/// What an input becomes: an EDS a device, or all devices in one file. None where there is nothing to write, which is an error
-/// for an input that was named.
+/// Returns the files of an input: one EDS per device, or one file for all devices.
+///
+/// Returns `None` if there is nothing to write, which is an error if there is only one input.
 fn files<'c>(
     format: &Format,
     input: &Path,
@@ -158,7 +159,7 @@ fn files<'c>(
         Err(Refusal::Nothing) if target.many => None,
         Err(Refusal::Nothing) => {
             let what = format.nothing();
-            reporter.error(&format!("{}: it describes {what}, so there is nothing to export", input.display()));
+            reporter.error(&format!("{}: there is nothing to export: the input describes {what}", input.display()));
             None
         }
         Err(refusal @ Refusal::Missing(_)) => {
@@ -169,7 +170,7 @@ fn files<'c>(
     }
 }
 
-/// The name of the input; of several devices, with that of the device.
+/// Returns the name of the input, followed by the name of `device` if it is given.
 fn file_name(input: &Path, device: Option<&Device>) -> String {
     let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let Some(device) = device else { return stem };

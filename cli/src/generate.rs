@@ -1,4 +1,4 @@
-//! `lexibus generate`: bindings to files, to standard output, or compared with what is checked in.
+//! `lexibus generate`: writes Rust bindings to files or standard output, or compares them with existing files.
 
 use std::path::Path;
 
@@ -26,7 +26,7 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
                 }
                 target.put(|| file_name(input, &compilation), "rs", &text, &mut reporter)
             }
-            // Its errors were told; among many files, one without a device was found rather than asked for.
+            // Errors have been reported. Among several inputs, one without a device is skipped.
             None if !compilation.is_usable() || target.many => Ok(()),
             None => {
                 reporter.error(&format!("{}: {}", input.display(), compile::NOTHING_TO_GENERATE));
@@ -38,7 +38,7 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
     reporter.finish()
 }
 
-/// The name of the input in Rust's case.
+/// Returns the name of the output file: the name of the input in snake case, or of the first device.
 fn file_name(input: &Path, compilation: &Compilation) -> String {
     let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let name = rust::file_name(&stem).or_else(|| {

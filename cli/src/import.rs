@@ -1,4 +1,4 @@
-//! `lexibus import`: a list of registers to a register table.
+//! `lexibus import`: converts a list of registers to a register table.
 
 use std::io::Write;
 
@@ -19,10 +19,10 @@ pub(super) fn run(import: &Import) -> Result<bool, Failure> {
     let source = Source::read(&import.path)
         .map_err(|error| Failure::Usage(format!("can't read {}: {error}", import.path.display())))?;
     let options = Options { levels, map: import.map.clone(), delimiter: import.delimiter, name: import.name.clone() };
-    let made = lexibus_import::import(source, &options);
+    let imported = lexibus_import::import(source, &options);
     let mut reporter = Reporter::with(import.message_format, import.color, false);
-    reporter.report(&made.compilation)?;
-    if let Some(text) = &made.table {
+    reporter.report(&imported.compilation)?;
+    if let Some(text) = &imported.table {
         match &import.out {
             Some(path) => create(path, text)?,
             None => std::io::stdout().lock().write_all(text.as_bytes())?,

@@ -1,4 +1,4 @@
-//! Reading many files at once.
+//! Reads and compiles several files in parallel.
 
 use std::collections::HashSet;
 use std::io::{IsTerminal, Read};
@@ -16,7 +16,7 @@ use lexibus_codegen::source::{FileId, Source, Span};
 use super::args::Inputs;
 use super::Failure;
 
-/// Compiles every input, several at a time, and hands the results to `use_it` in the order of the command line.
+/// Compiles all inputs in parallel, and passes the results to `use_it` in the order of the command line.
 pub(super) fn each(
     inputs: &Inputs,
     options: &Options,
@@ -25,7 +25,9 @@ pub(super) fn each(
     compile_all(files(&inputs.paths)?, inputs, options, use_it)
 }
 
-/// The same in the order of the paths, each once: what is written to a folder doesn't depend on how its sources were named.
+/// Like [`each`], but in the order of the paths and without duplicates.
+///
+/// The contents of an output folder then do not depend on the order of the arguments.
 pub(super) fn each_by_path(
     inputs: &Inputs,
     options: &Options,
@@ -46,7 +48,7 @@ fn compile_all(
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads(inputs.jobs, files.len()))
         .build()
-        .map_err(|error| Failure::Usage(format!("can't start that many jobs: {error}")))?;
+        .map_err(|error| Failure::Usage(format!("can't start the threads: {error}")))?;
     let progress = progress(files.len());
     let (sender, receiver) = mpsc::channel();
     std::thread::scope(|scope| {
@@ -55,7 +57,7 @@ fn compile_all(
             pool.scope(|scope| {
                 for (position, path) in files.iter().enumerate() {
                     let sender = sender.clone();
-                    // A receiver that has gone has seen an error already.
+                    // The receiver is dropped after an error, so a failure to send can be ignored.
                     scope.spawn(move |_| drop(sender.send((position, compile_file(path, options)))));
                 }
             });
@@ -66,13 +68,13 @@ fn compile_all(
     Ok(())
 }
 
-/// As many threads as were asked for, or as there are processors; never more than there is work for.
+/// Returns the number of threads: `asked`, or the number of processors, but at most one per file.
 fn threads(asked: Option<u16>, files: usize) -> usize {
     let available = || std::thread::available_parallelism().map_or(1, usize::from);
     asked.map_or_else(available, usize::from).clamp(1, files.max(1))
 }
 
-/// Passes results on in the order of `files`, however they come in.
+/// Passes results to `use_it` in the order of `files`.
 fn in_order(
     files: &[PathBuf],
     receiver: mpsc::Receiver<(usize, Compilation)>,
@@ -92,7 +94,7 @@ fn in_order(
     Ok(())
 }
 
-/// Reads and checks one file; one that can't be read is an error among the others.
+/// Reads and checks a file. An unreadable file becomes a diagnostic.
 fn compile_file(path: &Path, options: &Options) -> Compilation {
     match Source::read(path) {
         Ok(source) => compile::check(source, options),
@@ -106,7 +108,7 @@ fn compile_file(path: &Path, options: &Options) -> Compilation {
     }
 }
 
-/// A bar on a terminal, nothing in a pipe and nothing for a single file.
+/// Returns a progress bar, which is hidden in a pipe and for a single file.
 fn progress(files: usize) -> ProgressBar {
     if files < 2 || !std::io::stderr().is_terminal() || !std::io::stdout().is_terminal() {
         return ProgressBar::hidden();
@@ -118,7 +120,7 @@ fn progress(files: usize) -> ProgressBar {
     bar
 }
 
-/// The files that `paths` name: a folder stands for the device descriptions below it, sorted by name.
+/// Returns the input files. A folder is replaced by the device descriptions in it, sorted by name.
 fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for path in paths {
@@ -135,8 +137,9 @@ fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-/// Adds the device descriptions in `folder` and below. A folder that several links lead to is searched once: a link to its own
-/// parent would lead there again and again.
+/// Adds the device descriptions in `folder` and its subfolders.
+///
+/// Each folder is searched once, because a symbolic link to a parent would never end.
 fn search(
     folder: &Path,
     depth: usize,
@@ -147,7 +150,10 @@ fn search(
         return Ok(());
     }
     if depth > MAX_FOLDER_DEPTH {
-        let message = format!("{}: folders are searched {MAX_FOLDER_DEPTH} deep; name this one", folder.display());
+        let message = format!(
+            "{}: folders are searched to a depth of {MAX_FOLDER_DEPTH}: name this folder as an input",
+            folder.display()
+        );
         return Err(Failure::Usage(message));
     }
     let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
@@ -157,14 +163,14 @@ fn search(
         if path.is_dir() {
             search(&path, depth + 1, searched, files)?;
         } else if path.is_file() && is_description(&path) {
-            // Neither a pipe nor a device, which may never end.
+            // Pipes and devices are skipped, because they may never end.
             files.push(path);
         }
     }
     Ok(())
 }
 
-/// By its ending; an XML or TOML file also by its content, for most of them are something else.
+/// Whether a file is a device description, by its extension. XML and TOML files are also recognized by their content.
 fn is_description(path: &Path) -> bool {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if extension.eq_ignore_ascii_case("xml") {
@@ -178,11 +184,11 @@ fn is_description(path: &Path) -> bool {
 }
 
 fn is_xml_description(path: &Path) -> bool {
-    // One that can't be read is worth an error.
+    // An unreadable file is kept, so that an error is reported.
     head(path).is_none_or(|head| frontend::format(&head, FileId(0)).is_ok())
 }
 
-/// Whether a TOML file is a register table; overlays and profiles describe no device by themselves.
+/// Whether a TOML file is a register table with a device. Overlays and profiles are not.
 fn is_table_of_device(path: &Path) -> bool {
     head(path).is_none_or(|head| {
         let mut lines = head.text().lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
@@ -192,7 +198,7 @@ fn is_table_of_device(path: &Path) -> bool {
     })
 }
 
-/// The start of a file.
+/// Reads the start of a file; `None` if it is unreadable.
 fn head(path: &Path) -> Option<Source> {
     let mut head = Vec::new();
     let file = std::fs::File::open(path).ok()?;

@@ -7,9 +7,9 @@
 //! $ lexibus explain EDS020
 //! ```
 //!
-//! Exit codes: 0 on success, 1 for errors in the input, stale output or breaking changes, 2 for a wrong call.
+//! Exit codes: 0 on success; 1 for errors in the input, stale output or breaking changes; 2 for invalid arguments.
 //!
-//! `args` has the arguments of all subcommands. Each subcommand with a module of its name is implemented there, the others below.
+//! `args` declares the arguments of all subcommands. A subcommand is implemented in the module with its name, or below.
 //! `inputs` reads files in parallel, `output` writes files or compares them, and `report` prints diagnostics.
 
 #![forbid(unsafe_code)]
@@ -39,9 +39,9 @@ use lexibus_export::json;
 use args::{Arguments, Command, ExplainFormat, InfoFormat, Inputs};
 use report::Reporter;
 
-/// The input, or the output that was to be checked, has errors.
+/// Exit code for errors in the input, stale output or breaking changes.
 const FAILED: u8 = 1;
-/// The call makes no sense.
+/// Exit code for invalid arguments.
 const USAGE: u8 = 2;
 
 fn main() -> ExitCode {
@@ -49,7 +49,7 @@ fn main() -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(FAILED),
         Err(Failure::Output(error)) => {
-            // Where whoever reads our output has gone, there is nobody to tell; but the work isn't done.
+            // If the reader has closed the pipe, a message is pointless. The exit code still reports the failure.
             if error.kind() != std::io::ErrorKind::BrokenPipe {
                 say(&format!("error: can't write the output: {error}"));
             }
@@ -64,17 +64,16 @@ fn main() -> ExitCode {
     }
 }
 
-/// A line for people, whatever is in the paths and names that it has. That standard error can't be written is nothing
-/// that could be reported.
+/// Prints a line to standard error, with control characters escaped. Errors are ignored: they cannot be reported.
 fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{}", printable(line));
 }
 
-/// Why a command ended early.
+/// Reason why a command ended early.
 enum Failure {
-    /// The call makes no sense.
+    /// The arguments are invalid.
     Usage(String),
-    /// The output can't be written.
+    /// The output cannot be written.
     Output(std::io::Error),
 }
 
@@ -84,7 +83,7 @@ impl From<std::io::Error> for Failure {
     }
 }
 
-/// Whether everything went well.
+/// Runs a command. Returns whether it succeeded.
 fn run(arguments: Arguments) -> Result<bool, Failure> {
     match arguments.command {
         Command::Generate(generate) => generate::run(&generate),

@@ -1,4 +1,4 @@
-//! `lexibus new`: a register table to start from.
+//! `lexibus new`: creates a register table with example rows.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,7 @@ use super::args::{Bus, New};
 use super::output::create;
 use super::Failure;
 
-/// The tables, with `{name}` where the name of the device goes.
+// Templates, with the placeholders `{name}` and `{file}`.
 const MODBUS: &str = include_str!("../templates/table/modbus.toml");
 const CANOPEN: &str = include_str!("../templates/table/canopen.toml");
 const ETHERCAT: &str = include_str!("../templates/table/ethercat.toml");
@@ -14,7 +14,7 @@ const ETHERCAT: &str = include_str!("../templates/table/ethercat.toml");
 pub(super) fn run(new: &New) -> Result<bool, Failure> {
     let name = new.name.trim();
     if name.is_empty() || name.chars().any(char::is_control) {
-        return Err(Failure::Usage("the name of a device is a word or a few".into()));
+        return Err(Failure::Usage("the name of the device must not be empty or contain control characters".into()));
     }
     let template = match new.bus {
         Bus::Modbus => MODBUS,
@@ -22,14 +22,14 @@ pub(super) fn run(new: &New) -> Result<bool, Failure> {
         Bus::Ethercat => ETHERCAT,
     };
     let path = new.out.clone().unwrap_or_else(|| PathBuf::from(file_name(name)));
-    let shown = path.display();
+    let file = path.display();
     let quoted = name.replace('\\', "\\\\").replace('"', "\\\"");
-    create(&path, &template.replace("{name}", &quoted).replace("{file}", &shown.to_string()))?;
-    super::say(&format!("{shown}: a table with rows to replace. Then: lexibus check {shown}"));
+    create(&path, &template.replace("{name}", &quoted).replace("{file}", &file.to_string()))?;
+    super::say(&format!("{file}: created with example rows. Replace them, then run: lexibus check {file}"));
     Ok(true)
 }
 
-/// The name as files are called.
+/// Returns a file name for a device name.
 fn file_name(name: &str) -> String {
     let letters = name.chars().map(|letter| if letter.is_alphanumeric() { letter } else { '-' });
     let lower = letters.collect::<String>().to_lowercase();

@@ -1,4 +1,4 @@
-//! Where the output of a command goes: files, standard output, or a comparison with what is checked in.
+//! Writes the output of a command to files or standard output, or compares it with existing files.
 
 use std::collections::BTreeSet;
 use std::io::Write;
@@ -10,7 +10,7 @@ use super::args::Inputs;
 use super::report::Reporter;
 use super::Failure;
 
-/// Where the output goes.
+/// Destination of the output.
 pub(super) struct Target<'g> {
     out: Option<&'g Path>,
     /// Whether to compare instead of writing.
@@ -18,7 +18,7 @@ pub(super) struct Target<'g> {
     is_folder: bool,
     /// Whether there are several inputs, or folders of them.
     pub(super) many: bool,
-    /// Names given so far.
+    /// Paths used so far.
     names: BTreeSet<PathBuf>,
     /// Number of files that were written or had the same text already.
     files: usize,
@@ -30,25 +30,25 @@ impl<'g> Target<'g> {
         let names_folder = |out: &Path| out.is_dir() || out.as_os_str().to_string_lossy().ends_with(['/', '\\']);
         let is_folder = out.is_some_and(|out| many || names_folder(out));
         if many && out.is_some_and(Path::is_file) {
-            return Err(Failure::Usage("several inputs need a folder to write to, and --out is a file".into()));
+            return Err(Failure::Usage("several inputs need an output folder, but --out is a file".into()));
         }
         if many && out.is_none() {
-            return Err(Failure::Usage("several inputs need a folder to write to: name one with --out".into()));
+            return Err(Failure::Usage("several inputs need an output folder: name it with --out".into()));
         }
         let folder = out.and_then(|out| if is_folder { Some(out) } else { out.parent() });
         if let Some(out) = folder.filter(|out| !check && !out.as_os_str().is_empty()) {
             std::fs::create_dir_all(out)
-                .map_err(|error| Failure::Usage(format!("can't make the folder {}: {error}", out.display())))?;
+                .map_err(|error| Failure::Usage(format!("can't create the folder {}: {error}", out.display())))?;
         }
         Ok(Target { out, check, is_folder, many, names: BTreeSet::new(), files: 0 })
     }
 
-    /// Whether it takes more than one output.
+    /// Whether several outputs can be written.
     pub(super) fn takes_many(&self) -> bool {
         self.is_folder
     }
 
-    /// Takes one output. In a folder it is called `name` with `ending`; two of one name are told apart by a number.
+    /// Writes or compares an output. In a folder, its file is `name` with `ending`. Repeated names get a number.
     pub(super) fn put(
         &mut self,
         name: impl FnOnce() -> String,
@@ -86,6 +86,7 @@ impl<'g> Target<'g> {
         }
     }
 
+    /// Returns an unused path in a folder.
     fn file_in(&mut self, folder: &Path, name: &str, ending: &str) -> PathBuf {
         let mut path = folder.join(format!("{name}.{ending}"));
         let mut number = 2;
@@ -97,13 +98,13 @@ impl<'g> Target<'g> {
     }
 }
 
-/// Writes a file that a person goes on with: one that exists already is left alone.
+/// Creates a file for the user to edit. An existing file is not overwritten.
 pub(super) fn create(path: &Path, text: &str) -> Result<(), Failure> {
     let file = std::fs::File::options().write(true).create_new(true).open(path);
     let written = file.and_then(|mut file| file.write_all(text.as_bytes()));
     written.map_err(|error| match error.kind() {
         std::io::ErrorKind::AlreadyExists => {
-            Failure::Usage(format!("{} exists already; it is not overwritten", path.display()))
+            Failure::Usage(format!("{} exists already and is not overwritten", path.display()))
         }
         _ => Failure::Usage(format!("can't write {}: {error}", path.display())),
     })
@@ -115,10 +116,10 @@ fn check(path: &Path, text: &str, reporter: &mut Reporter) {
     }
 }
 
-/// What to say where a file isn't what would be written.
+/// Returns an error if the contents of a file differ from `text`.
 pub(super) fn difference(path: &Path, text: &str) -> Option<String> {
     if is_no_regular_file(path) {
-        return Some(format!("{} cannot be compared: it is no regular file", path.display()));
+        return Some(format!("{} cannot be compared: it is not a regular file", path.display()));
     }
     match std::fs::read(path) {
         Ok(bytes) if bytes == text.as_bytes() => None,

@@ -1,4 +1,4 @@
-//! Printing findings and summaries.
+//! Prints diagnostics and summaries.
 
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Write};
@@ -13,10 +13,10 @@ use lexibus_export::json::{DeviceInfo, Info, ModuleContent, ModuleInfo, PdoInfo,
 use lexibus_export::Note;
 use serde::Serialize;
 
-use super::args::{Colour, Inputs, MessageFormat};
+use super::args::{ColorChoice, Inputs, MessageFormat};
 use super::Failure;
 
-/// What an export left out, for programs.
+/// Note of an export in JSON.
 #[derive(Serialize)]
 struct ExportNote<'a> {
     severity: &'static str,
@@ -28,16 +28,16 @@ struct ExportNote<'a> {
     first: &'a str,
 }
 
-/// Collects the findings of all inputs and prints them as the user chose.
+/// Prints the diagnostics of all inputs in the format that the user chose.
 pub(super) struct Reporter {
     format: MessageFormat,
-    colour: bool,
-    /// Whether the findings are the result of the command, and so go to standard output.
+    color: bool,
+    /// Whether diagnostics are the result of the command. If so, machine-readable formats go to standard output.
     is_result: bool,
     errors: usize,
     warnings: usize,
     files: usize,
-    /// For SARIF, which is one document.
+    /// Diagnostics of all inputs, for SARIF, which is one document.
     kept: Vec<Diagnostic>,
     sources: Vec<Source>,
 }
@@ -47,21 +47,21 @@ impl Reporter {
         Reporter::with(inputs.message_format, inputs.color, is_result)
     }
 
-    pub(super) fn with(format: MessageFormat, colour: Colour, is_result: bool) -> Self {
+    pub(super) fn with(format: MessageFormat, color: ColorChoice, is_result: bool) -> Self {
         let to_terminal = if is_result && format != MessageFormat::Text {
             std::io::stdout().is_terminal()
         } else {
             std::io::stderr().is_terminal()
         };
-        let colour = match colour {
-            Colour::Auto => to_terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
-            Colour::Always => true,
-            Colour::Never => false,
+        let color = match color {
+            ColorChoice::Auto => to_terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+            ColorChoice::Always => true,
+            ColorChoice::Never => false,
         };
-        Reporter { format, colour, is_result, errors: 0, warnings: 0, files: 0, kept: Vec::new(), sources: Vec::new() }
+        Reporter { format, color, is_result, errors: 0, warnings: 0, files: 0, kept: Vec::new(), sources: Vec::new() }
     }
 
-    /// Takes the findings of one input.
+    /// Reports the diagnostics of an input.
     pub(super) fn report(&mut self, compilation: &Compilation) -> Result<(), Failure> {
         self.files += 1;
         self.errors += compilation.diagnostics.count(Severity::Error);
@@ -71,7 +71,7 @@ impl Reporter {
             MessageFormat::Text => {
                 let mut out = std::io::stderr().lock();
                 for diagnostic in diagnostics {
-                    let text = render::terminal::render(diagnostic, &compilation.sources, self.colour);
+                    let text = render::terminal::render(diagnostic, &compilation.sources, self.color);
                     writeln!(out, "{text}\n")?;
                 }
             }
@@ -85,7 +85,7 @@ impl Reporter {
         Ok(())
     }
 
-    /// Tells what an export left out or changed, a line a kind.
+    /// Prints the notes of an export, one per line.
     pub(super) fn export_notes(&mut self, source: &str, device: &str, notes: &[Note]) -> Result<(), Failure> {
         for note in notes {
             match self.format {
@@ -110,7 +110,7 @@ impl Reporter {
         Ok(())
     }
 
-    /// An error that isn't about the text of an input.
+    /// Reports an error that has no position in an input.
     pub(super) fn error(&mut self, message: &str) {
         self.errors += 1;
         super::say(&format!("error: {message}"));
@@ -123,7 +123,7 @@ impl Reporter {
         }
     }
 
-    /// Whether there was no error; prints what is printed once.
+    /// Prints the summary or the SARIF document. Returns whether there were no errors.
     pub(super) fn finish(self) -> Result<bool, Failure> {
         match self.format {
             MessageFormat::Text if self.is_result || self.errors + self.warnings > 0 => {
@@ -139,7 +139,7 @@ impl Reporter {
         Ok(self.errors == 0)
     }
 
-    /// Machine-readable findings are the result of `check`; beside other results they go to standard error.
+    /// Prints machine-readable diagnostics: to standard output for `check`, otherwise to standard error.
     fn print(&self, text: &str) -> Result<(), Failure> {
         if self.is_result {
             std::io::stdout().lock().write_all(text.as_bytes())?;
@@ -149,7 +149,7 @@ impl Reporter {
         Ok(())
     }
 
-    /// Keeps findings with their sources, renumbered.
+    /// Stores diagnostics and their sources for SARIF. File identifiers are renumbered.
     fn keep(&mut self, compilation: &Compilation) {
         let shift = self.sources.len() as u32;
         let moved = |span: Span| Span::new(FileId(span.file.0 + shift), span.start, span.end);
@@ -200,7 +200,7 @@ fn counted(count: usize, noun: &str) -> Option<String> {
     }
 }
 
-/// A summary for people.
+/// Returns a readable summary of a file.
 pub(super) fn info_text(info: &Info) -> String {
     let mut text = String::new();
     let _ =
@@ -244,7 +244,7 @@ pub(super) fn info_text(info: &Info) -> String {
     text
 }
 
-/// Its order code, by which it can be selected, and its name.
+/// Returns the order code, which selects the device, and the name.
 fn device_title(device: &DeviceInfo) -> String {
     match (device.order_code.is_empty(), device.name.is_empty()) {
         (true, true) => "(no name)".to_owned(),

@@ -1,4 +1,4 @@
-//! `lexibus schema`: the JSON Schema by which editors complete and check register tables.
+//! `lexibus schema`: prints the JSON Schema of register tables, which editors use to complete and check them.
 
 use std::io::Write;
 

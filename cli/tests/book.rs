@@ -1,4 +1,4 @@
-//! What the chapters of the book say besides Rust: their commands run and print what stands there, their tables are tables.
+//! Tests the code blocks of the book that are not Rust: commands print the documented output, and tables are valid.
 
 mod book_support;
 #[path = "../../codegen/tests/table_support/mod.rs"]
@@ -13,10 +13,10 @@ use lexibus_codegen::diagnostics::Severity;
 use lexibus_codegen::source::Source;
 use table_support::whole;
 
-/// Programs of commands that aren't run: what they need isn't here, or it takes too long.
+/// Programs that are not run, because they take too long or need what is not installed.
 const OTHERS: [&str; 5] = ["cargo", "cd", "cp", "mdbook", "xdg-open"];
 
-/// The names of the chapters.
+/// Returns the names of the chapters.
 fn chapters() -> Vec<String> {
     let entries = std::fs::read_dir(docs().join("src")).expect("the chapters");
     let names = entries.map(|entry| entry.expect("a chapter").file_name().to_string_lossy().into_owned());
@@ -25,7 +25,7 @@ fn chapters() -> Vec<String> {
     names
 }
 
-/// What a chapter's commands find: the book's examples, some of the tests' data, and the dictionaries.
+/// Creates the working folder of a chapter, with the book's examples, some test data, and the dictionaries.
 fn folder(name: &str) -> PathBuf {
     let root = docs().join("..");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("book").join(name);
@@ -42,7 +42,7 @@ fn folder(name: &str) -> PathBuf {
         }
     }
     copy(&root.join("tests/data/coupler.esi.xml"), &folder);
-    // Two versions of a description, to be compared.
+    // Two versions of a description, for `lexibus diff`.
     let old = std::fs::read_to_string(docs().join("examples/pump.eds")).expect("an example");
     let new =
         old.replace("ParameterName=Speed\nObjectType=0x7\nDataType=0x0006", "ParameterName=Speed\nDataType=0x0003");
@@ -57,7 +57,7 @@ fn copy(path: &Path, folder: &Path) {
     std::fs::copy(path, folder.join(name)).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
 }
 
-/// The words of a command; those between double quotes are one.
+/// Splits a command into words. Text between double quotes is one word.
 fn words(line: &str) -> Vec<String> {
     let mut words = Vec::new();
     for (at, part) in line.split('"').enumerate() {
@@ -69,26 +69,26 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// Runs a command of the book in `folder`, but those of other programs.
+/// Runs a command of the book in `folder`; `None` for another program.
 fn run(line: &str, folder: &Path) -> Option<Output> {
     let words = words(line);
     let (program, arguments) = words.split_first()?;
     if program != "lexibus" {
-        assert!(OTHERS.contains(&program.as_str()), "no program of the book: {line}");
+        assert!(OTHERS.contains(&program.as_str()), "the book uses an unknown program: {line}");
         return None;
     }
     let mut command = Command::new(env!("CARGO_BIN_EXE_lexibus"));
     Some(command.args(arguments).current_dir(folder).output().expect("lexibus runs"))
 }
 
-/// What a command prints, without what is at the end of lines.
+/// Returns the lines that a command prints, without trailing blanks.
 fn printed(output: &Output) -> Vec<String> {
     let text = [output.stdout.as_slice(), output.stderr.as_slice()].concat();
     let text = String::from_utf8(text).expect("UTF-8");
     text.trim_end().lines().map(|line| line.trim_end().to_owned()).collect()
 }
 
-/// Whether lines are those that are expected; `…` stands for any number of them.
+/// Whether lines match the expected ones, in which `…` matches any number of lines.
 fn agrees(lines: &[String], expected: &[&str]) -> bool {
     match expected.split_first() {
         None => lines.is_empty(),
@@ -97,27 +97,27 @@ fn agrees(lines: &[String], expected: &[&str]) -> bool {
     }
 }
 
-/// A block of commands: each has to go well, or as its comment says.
-fn commands(block: &Block, folder: &Path, place: &str) -> usize {
+/// Runs a block of commands. Each must succeed, or fail if its comment says so.
+fn commands(block: &Block, folder: &Path, position: &str) -> usize {
     let mut count = 0;
     for line in block.text.replace("\\\n", " ").lines().filter(|line| !line.trim().is_empty()) {
         let (command, comment) = line.split_once(" #").unwrap_or((line, ""));
         let Some(output) = run(command, folder) else { continue };
         let expected = if comment.contains("exit code 1") { 1 } else { 0 };
-        assert_eq!(output.status.code(), Some(expected), "{place}: {line}\n{}", printed(&output).join("\n"));
+        assert_eq!(output.status.code(), Some(expected), "{position}: {line}\n{}", printed(&output).join("\n"));
         count += 1;
     }
     count
 }
 
-/// A block of commands behind `$`, each with what it prints.
-fn sessions(block: &Block, folder: &Path, place: &str) -> usize {
+/// Runs a block of commands after `$`, and compares their output.
+fn sessions(block: &Block, folder: &Path, position: &str) -> usize {
     let mut count = 0;
     for session in block.text.split("$ ").skip(1) {
         let (command, expected) = session.split_once('\n').expect("a command is a line");
         let Some(output) = run(command, folder) else { continue };
         let (lines, expected) = (printed(&output), expected.trim_end().lines().map(str::trim_end).collect::<Vec<_>>());
-        assert!(agrees(&lines, &expected), "{place}: {command}\n{}", lines.join("\n"));
+        assert!(agrees(&lines, &expected), "{position}: {command}\n{}", lines.join("\n"));
         count += 1;
     }
     count
@@ -129,18 +129,18 @@ fn commands_run_and_print_what_stands_there() {
     for name in chapters() {
         let folder = folder(&name);
         for block in chapter(&name) {
-            let place = format!("{name}:{}", block.line);
+            let position = format!("{name}:{}", block.line);
             if let Some(file) = &block.file {
                 std::fs::create_dir_all(folder.join(file).parent().expect("a folder")).expect("a folder");
                 std::fs::write(folder.join(file), &block.text).expect("a file of the book");
             }
             if let Some(example) = &block.same_as {
                 let path = docs().join("examples").join(example);
-                assert_eq!(block.text, std::fs::read_to_string(path).expect("an example"), "{place}: {example}");
+                assert_eq!(block.text, std::fs::read_to_string(path).expect("an example"), "{position}: {example}");
             }
             count += match block.kind.as_str() {
-                "sh" => commands(&block, &folder, &place),
-                "console" => sessions(&block, &folder, &place),
+                "sh" => commands(&block, &folder, &position),
+                "console" => sessions(&block, &folder, &position),
                 _ => 0,
             };
         }
@@ -148,15 +148,16 @@ fn commands_run_and_print_what_stands_there() {
     assert!(count > 30, "{count} commands");
 }
 
-/// Tables that are files are checked by the commands about them, with what these print.
+/// Checks the tables of the book. Those that are written to files are checked by the book's commands.
 #[test]
 fn tables_are_tables() {
     let mut count = 0;
     for name in chapters() {
         for block in chapter(&name).iter().filter(|block| block.kind == "toml" && block.file.is_none()) {
             let compilation = check(Source::new(name.clone(), whole(&block.text).into()), &Options::default());
-            let errors = compilation.diagnostics.list().iter().filter(|own| own.severity == Severity::Error);
-            let errors: Vec<String> = errors.map(|own| compilation.one_line(own)).collect();
+            let errors =
+                compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
+            let errors: Vec<String> = errors.map(|diagnostic| compilation.one_line(diagnostic)).collect();
             assert_eq!(errors, Vec::<String>::new(), "{name}:{}", block.line);
             count += 1;
         }

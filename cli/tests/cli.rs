@@ -1,4 +1,4 @@
-//! The command line, as its user calls it.
+//! Tests the command line as a user calls it.
 
 #[path = "../../codegen/tests/corpus_support/xsd.rs"]
 mod xsd;
@@ -23,7 +23,7 @@ const COUPLER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/couple
 const QUIRKY: &str = "[DeviceInfo]\nProductName=Quirky\n[ManufacturerObjects]\nSupportedObjects=1\n1=0x2000\n\
                       [2000]\nParameterName=Gain\nDataType=0x0006\nAccessType=rw\nDefaultValue=012\n";
 
-/// A folder of this test's own.
+/// Creates an empty folder for a test.
 fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&path);
@@ -95,10 +95,10 @@ fn many_files_and_folders_go_to_a_folder() {
     for name in ["in/a.eds", "in/deeper/B C.EDS", "in/deeper/a.dcf"] {
         file(&folder, name, QUIRKY);
     }
-    file(&folder, "in/readme.txt", "no description");
+    file(&folder, "in/readme.txt", "not a description");
     let (input, output) = (folder.join("in"), folder.join("out"));
-    let made = lexibus(&["generate", input.to_str().expect("UTF-8"), "--out", output.to_str().expect("UTF-8")]);
-    assert_eq!(code(&made), 0, "{}", err(&made));
+    let generated = lexibus(&["generate", input.to_str().expect("UTF-8"), "--out", output.to_str().expect("UTF-8")]);
+    assert_eq!(code(&generated), 0, "{}", err(&generated));
     let mut names: Vec<_> = std::fs::read_dir(&output)
         .expect("the output")
         .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
@@ -145,7 +145,7 @@ fn info_prints_a_json_object_a_line() {
     let folder = folder("info");
     let path = file(&folder, "cip.eds", "[File]\nDescText = \"x\";\n[Device]\nVendCode = 1;\n");
     let info = lexibus(&["info", "--format", "json", DEMO, &path, "no such file.eds"]);
-    assert_eq!(code(&info), 1, "two of the files are errors");
+    assert_eq!(code(&info), 1, "two of the files have errors");
     let lines: Vec<serde_json::Value> =
         out(&info).lines().map(|line| serde_json::from_str(line).expect("a JSON line")).collect();
     assert_eq!(lines.len(), 3);
@@ -166,7 +166,7 @@ fn dump_is_the_ir_as_json() {
     let text = out(&dump);
     let catalog: lexibus_codegen::ir::Catalog = serde_json::from_str(&text).expect("the IR");
     assert_eq!(catalog.devices[0].entry(0x607A, 0).expect("an entry").name, "Target position");
-    assert_eq!(lexibus_export::json::dump(&catalog) + "\n", text, "the IR survives the way there and back");
+    assert_eq!(lexibus_export::json::dump(&catalog) + "\n", text, "the IR is the same after a round trip");
 }
 
 #[test]
@@ -212,7 +212,7 @@ fn results_do_not_depend_on_the_number_of_jobs() {
     assert!(out(&one).lines().count() >= 20);
 }
 
-/// Nothing of a description, or of its path, steers the terminal or passes for a line of its own.
+/// Control characters in a description or its path neither control the terminal nor start a line.
 #[test]
 #[cfg(unix)]
 fn control_characters_stay_out_of_what_is_printed() {
@@ -225,7 +225,7 @@ fn control_characters_stay_out_of_what_is_printed() {
     let esi = esi.replace("CP-32 coupler", "Cou&#10;breaks api: pler\u{9b}");
     let modular = file(&folder, "c\u{1b}c.xml", &esi);
     let missing = folder.join("no\u{1b}[2J\nerror: file.eds").to_string_lossy().into_owned();
-    // With a part of the text that is in question.
+    // Commands, each with a part of the hostile text that its output contains.
     let calls: [(&[&str], &str); 8] = [
         (&["diff", &old, &new], "ain"),
         (&["diff", &modular, &old], "pler"),
@@ -250,7 +250,7 @@ fn control_characters_stay_out_of_what_is_printed() {
     }
 }
 
-/// Files of every format that the repository has.
+/// Files of every format in the repository.
 const EXAMPLES: [&str; 10] = [
     "dictionaries/demo-drive.eds",
     "dictionaries/aec-vector-step.toml",
@@ -268,7 +268,7 @@ fn examples() -> Vec<String> {
     EXAMPLES.iter().map(|path| format!("{}/../{path}", env!("CARGO_MANIFEST_DIR"))).collect()
 }
 
-/// The macro is the third door: `macros/src/lib.rs` has its own test of this.
+/// The command and `build.rs` generate the same code. `macros/src/lib.rs` has this test for the macro.
 #[test]
 fn the_command_line_and_the_build_script_give_the_same_bytes() {
     for path in examples() {
@@ -285,7 +285,7 @@ fn the_command_line_and_the_build_script_give_the_same_bytes() {
     assert_eq!(out(&by_command), by_builder, "{}", err(&by_command));
 }
 
-/// All files of a folder with their bytes.
+/// Returns all files of a folder with their bytes.
 fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder).expect("a folder") {
@@ -302,12 +302,12 @@ fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 #[test]
 fn output_depends_neither_on_the_order_of_files_nor_on_the_number_of_jobs() {
     let folder = folder("order");
-    // Two files of one name, which are told apart by a number.
+    // Two files of one name, whose outputs are distinguished by a number.
     let twin = folder.join("in");
     std::fs::create_dir_all(&twin).expect("a folder");
     let mut files = examples();
     files.push(file(&twin, "demo-drive.eds", QUIRKY));
-    // What ESI wants, and the files of other formats don't say.
+    // Facts that ESI needs, and files of other formats do not contain.
     const FACTS: [&str; 7] =
         ["vendor-id=1", "vendor-name=V", "physics=YY", "product-code=2", "revision=3", "group=G", "order-code=O"];
     for (command, format) in [("generate", ""), ("docs", ""), ("export", "eds"), ("export", "esi"), ("export", "gsdml")]
@@ -328,7 +328,7 @@ fn output_depends_neither_on_the_order_of_files_nor_on_the_number_of_jobs() {
             (contents(&out), self::out(&output), err(&output))
         };
         let expected = made(&files, "1");
-        // Few of the examples are on PROFINET.
+        // Few of the examples describe PROFINET devices.
         let least = if format == "gsdml" { 1 } else { 5 };
         assert!(expected.0.len() >= least, "{command} {format}: {}", expected.2);
         let mut order = files.clone();
@@ -351,7 +351,7 @@ fn links_and_pipes_in_a_folder() {
     let deep = folder.join("a/b");
     std::fs::create_dir_all(&deep).expect("a folder");
     file(&deep, "drive.eds", QUIRKY);
-    // Twice to their own parent: 2^32 ways down, if each was gone.
+    // Two links to the parent in each folder: 2^32 paths if all were followed.
     for name in ["one", "other"] {
         std::os::unix::fs::symlink(&folder, deep.join(name)).expect("a link");
     }
@@ -382,7 +382,7 @@ fn of_many_devices_those_that_are_selected() {
     for absent in ["cp_32", "mod modules", "0x2000:", "MOTOR"] {
         assert!(!drive.contains(absent), "{absent}");
     }
-    // The layout of PDOs doesn't depend on what is selected.
+    // The layout of PDOs does not depend on the selection.
     assert!(drive.contains("pub struct PositionMode"));
     let coupler = generate(&["--device", "cp-*", "--module", "DI-16", "--module", "0x2001"]);
     assert!(coupler.contains("pub mod di_16 {") && coupler.contains("pub mod do_8 {") && !coupler.contains("ai_2"));
@@ -416,7 +416,7 @@ fn what_describes_no_device_gives_no_bindings() {
     let generated = lexibus(&["generate", &empty, "--out", &target.to_string_lossy()]);
     assert_eq!((code(&generated), target.exists()), (1, false));
     assert!(err(&generated).contains("describes no device"), "{}", err(&generated));
-    // Among others it is passed over.
+    // Among several inputs, it is skipped.
     std::fs::copy(COUPLER, folder.join("coupler.xml")).expect("a copy");
     let all = lexibus(&["generate", &folder.to_string_lossy(), "--out", &format!("{}/", folder.display())]);
     assert_eq!((code(&all), folder.join("coupler.rs").exists()), (0, true), "{}", err(&all));
@@ -429,9 +429,9 @@ fn folders_are_searched_for_xml_that_describes_devices() {
     file(&folder, "pom.xml", "<project/>");
     file(&folder, "broken.xml", "<EtherCATInfo><Vendor>");
     let checked = lexibus(&["check", &folder.to_string_lossy(), "-A", "warnings"]);
-    let said = out(&checked) + &err(&checked);
-    assert_eq!(code(&checked), 1, "{said}");
-    assert!(said.contains("broken.xml:1:") && !said.contains("pom.xml") && said.contains("2 files"), "{said}");
+    let text = out(&checked) + &err(&checked);
+    assert_eq!(code(&checked), 1, "{text}");
+    assert!(text.contains("broken.xml:1:") && !text.contains("pom.xml") && text.contains("2 files"), "{text}");
 }
 
 #[test]
@@ -443,7 +443,7 @@ fn folders_that_are_too_deep_are_told() {
         std::fs::copy(DEMO, nested(depth).join("demo.eds")).expect("a copy");
         let checked = lexibus(&["check", &root.join(depth.to_string()).to_string_lossy()]);
         assert_eq!(code(&checked), status, "{depth}: {}", err(&checked));
-        assert_eq!(err(&checked).contains("folders are searched 32 deep"), status == 2, "{}", err(&checked));
+        assert_eq!(err(&checked).contains("folders are searched to a depth of 32"), status == 2, "{}", err(&checked));
     }
 }
 
@@ -455,7 +455,7 @@ fn export_writes_an_eds_and_says_what_it_leaves_out() {
     let text = out(&made);
     assert!(text.starts_with("[FileInfo]\r\nFileName=demo-drive.eds\r\n"), "{text}");
     let path = file(&folder, "again.eds", &text);
-    assert_eq!(out(&lexibus(&["export", "--format", "eds", &path])), text, "an export exports as itself");
+    assert_eq!(out(&lexibus(&["export", "--format", "eds", &path])), text, "exporting an export changes nothing");
     assert_eq!(code(&lexibus(&["export", "--format", "eds", DEMO, "--out", &path, "--check"])), 0);
     std::fs::write(&path, "[FileInfo]\n").expect("a stale file");
     let stale = lexibus(&["export", "--format", "eds", DEMO, "--out", &path, "--check"]);
@@ -475,7 +475,7 @@ fn export_writes_an_eds_and_says_what_it_leaves_out() {
         text.lines().filter(|line| line.len() == 6 && line.starts_with('[')).map(str::to_owned).collect::<Vec<_>>()
     };
     assert!(objects(&[]).contains(&"[1A00]".to_owned()), "{:?}", objects(&[]));
-    assert_eq!(objects(&["--objects", "0x2000"]), ["[2000]"], "nor are mapping objects made");
+    assert_eq!(objects(&["--objects", "0x2000"]), ["[2000]"], "mapping objects are not added either");
     let target = folder.join("devices/").to_string_lossy().into_owned();
     assert_eq!(code(&lexibus(&["export", "--format", "eds", COUPLER, "--out", &target])), 0);
     for name in ["devices/coupler.esi_CP-32.eds", "devices/coupler.esi_SV-1.eds"] {
@@ -493,7 +493,7 @@ fn export_notes_are_json_lines_on_request() {
     assert_eq!((&enumeration["severity"], &enumeration["count"]), (&"note".into(), &1.into()));
     assert_eq!(enumeration["first"], "0x2000:01");
     assert_eq!(code(&lexibus(&[&call[..], &["sarif"]].concat())), 2);
-    assert_eq!(code(&lexibus(&["export", DEMO])), 2, "the format has to be named");
+    assert_eq!(code(&lexibus(&["export", DEMO])), 2, "the format is required");
 }
 
 #[test]
@@ -557,13 +557,13 @@ fn export_writes_a_gsdml_under_its_name() {
     }
 }
 
-/// The three files of the Eco, by the commands of the documentation.
+/// The documented commands export the three device descriptions of the Eco.
 #[test]
 fn the_eco_as_eds_esi_and_gsdml() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let guide = std::fs::read_to_string(root.join("dictionaries/README.md")).expect("the documentation");
-    let (_, behind) = guide.split_once("## A table as EDS, ESI and GSDML").expect("the chapter");
-    let block = behind.split("```").nth(1).expect("the commands").trim_start_matches("sh").replace("\\\n", " ");
+    let (_, after) = guide.split_once("## A table as EDS, ESI and GSDML").expect("the chapter");
+    let block = after.split("```").nth(1).expect("the commands").trim_start_matches("sh").replace("\\\n", " ");
     let folder = folder("eco");
     let mut count = 0;
     for line in block.lines().filter(|line| !line.is_empty()) {
@@ -604,8 +604,8 @@ fn a_site_of_documentation() {
     for shared in ["site.css", "site.js", "search.js"] {
         assert!(!read(shared).is_empty());
     }
-    // What can't be written is told, and so is a call without a folder.
-    let file = file(&folder, "taken", "");
+    // An output that cannot be written is an error, and so is a call without an output folder.
+    let file = file(&folder, "occupied", "");
     assert_eq!(code(&lexibus(&["docs", DEMO, "--out", &file])), 1);
     assert_eq!(code(&lexibus(&["docs", DEMO])), 2);
 }
@@ -618,7 +618,7 @@ fn pages_of_markdown() {
         let out = out.to_string_lossy();
         lexibus(&[&["docs", DEMO, "--format", "markdown", "--out", &out], further].concat())
     };
-    // Nothing is there yet.
+    // The pages do not exist yet.
     assert_eq!(code(&call(&["--check"])), 1);
     assert_eq!(code(&call(&[])), 0);
     assert_eq!(code(&call(&["--check"])), 0);
@@ -631,15 +631,11 @@ fn pages_of_markdown() {
     assert!(err(&output).contains("profile-objects.md is stale"), "{}", err(&output));
     assert_eq!(code(&call(&[])), 0);
     assert!(std::fs::read_to_string(&page).expect("a page").contains("<a id=\"0x6040\"></a>"));
-    // What somebody else wrote is left alone.
+    // Files of other origin are not overwritten.
     std::fs::write(out.join("README.md"), "# A project\n\nPages are made by `lexibus docs`.\n").expect("a file");
     let output = call(&[]);
     assert_eq!(code(&output), 1);
-    assert!(
-        err(&output).contains("README.md is there already and was not written by `lexibus docs`"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("README.md exists and was not written by `lexibus docs`"), "{}", err(&output));
     assert_eq!(
         std::fs::read_to_string(out.join("README.md")).expect("a file"),
         "# A project\n\nPages are made by `lexibus docs`.\n"
@@ -647,7 +643,7 @@ fn pages_of_markdown() {
     let latin = b"# Gr\xFC\xDFe\n";
     std::fs::write(out.join("README.md"), latin).expect("a file");
     assert_eq!(code(&call(&[])), 1);
-    assert_eq!(std::fs::read(out.join("README.md")).expect("a file"), latin, "whatever its encoding");
+    assert_eq!(std::fs::read(out.join("README.md")).expect("a file"), latin, "in any encoding");
 }
 
 #[test]
@@ -701,9 +697,9 @@ fn the_command_line_imports() {
     std::fs::write(folder.join("pump.csv"), "Nom;Address;Type;Access\nSpeed;1;u16;rw\nTorque;2;what;ro\n")
         .expect("a list");
     let made = call(&["import", "pump.csv", "--map", "name=Nom", "--out", "pump.toml"]);
-    let said = String::from_utf8_lossy(&made.stderr).into_owned();
-    assert_eq!(made.status.code(), Some(0), "{said}");
-    assert!(said.contains("pump.csv:3:10") && said.contains("warning[CSV003]") && said.contains("1 warning"), "{said}");
+    let text = String::from_utf8_lossy(&made.stderr).into_owned();
+    assert_eq!(made.status.code(), Some(0), "{text}");
+    assert!(text.contains("pump.csv:3:10") && text.contains("warning[CSV003]") && text.contains("1 warning"), "{text}");
     assert_eq!(call(&["check", "pump.toml"]).status.code(), Some(0));
     let printed = call(&["import", "pump.csv", "-A", "warnings"]);
     assert_eq!(printed.stdout, std::fs::read(folder.join("pump.toml")).expect("the table"));
@@ -730,7 +726,10 @@ fn the_command_line_switches_profiles_off() {
     };
     assert!(run(&["generate", DEMO]).contains("types::ModesOfOperation"));
     assert!(!run(&["generate", DEMO, "--no-profiles"]).contains("ModesOfOperation"));
-    assert!(!run(&["export", DEMO, "--format", "eds"]).contains("Mode wanted"), "an EDS is what it was");
+    assert!(
+        !run(&["export", DEMO, "--format", "eds"]).contains("Mode wanted"),
+        "profiles do not change an exported EDS"
+    );
 }
 
 #[test]

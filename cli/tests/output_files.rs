@@ -1,4 +1,5 @@
-//! Where output goes: regular files are complete or untouched, pipes and devices are written to, foreign folders are left alone.
+//! Tests the output files: regular files are complete or untouched, pipes and devices are written to, and folders with other
+//! files are not changed.
 #![cfg(unix)]
 
 use std::path::{Path, PathBuf};
@@ -14,7 +15,7 @@ fn folder(name: &str) -> PathBuf {
     path
 }
 
-/// Runs a command of the shell in which `$LEXIBUS` is the program. A program that waits for a pipe is ended after a minute.
+/// Runs a shell command in which `$LEXIBUS` is the program. It is stopped after a minute, in case it waits for a pipe.
 fn shell(folder: &Path, script: &str) -> Output {
     let mut child = Command::new("sh")
         .args(["-c", script])
@@ -61,7 +62,11 @@ fn a_pipe_and_a_device_are_written_to() {
             assert!(!full.status.success() && error(&full).contains("can't write /dev/full"), "{}", error(&full));
         }
         let checked = shell(&folder, "$LEXIBUS generate $DEMO --out /dev/full --check");
-        assert!(error(&checked).contains("/dev/full cannot be compared: it is no regular file"), "{}", error(&checked));
+        assert!(
+            error(&checked).contains("/dev/full cannot be compared: it is not a regular file"),
+            "{}",
+            error(&checked)
+        );
     }
 }
 
@@ -71,7 +76,7 @@ fn a_pipe_is_no_input() {
     let checked = shell(&folder, "mkfifo p.eds; $LEXIBUS check p.eds");
     assert_eq!(checked.status.code(), Some(1));
     assert!(error(&checked).contains("can't read the file: it is not a regular file"), "{}", error(&checked));
-    // A folder is searched for files, and a pipe in it is none.
+    // Only regular files in a folder are read, so a pipe is skipped.
     let searched = shell(&folder, "cp $DEMO .; $LEXIBUS check .");
     assert!(error(&searched).contains("1 file"), "{}", error(&searched));
 }
@@ -80,7 +85,7 @@ fn a_pipe_is_no_input() {
 fn a_full_disk_leaves_the_old_file() {
     let folder = folder("full");
     std::fs::write(folder.join("drive.rs"), "old").expect("a file");
-    // No file may have more than one block, and the signal that says so is ignored.
+    // Files are limited to one block, and the signal for a larger file is ignored.
     let output = shell(&folder, "trap '' XFSZ; ulimit -f 1; exec $LEXIBUS generate $DEMO --out drive.rs");
     assert_eq!(output.status.code(), Some(1), "{}", error(&output));
     assert!(error(&output).contains("can't write drive.rs"), "{}", error(&output));
@@ -100,7 +105,7 @@ fn pages_are_not_written_to_a_foreign_folder() {
         assert!(error(&output).contains(message), "{}", error(&output));
         assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 1);
     }
-    // Hidden files are no reason, and a second call replaces the pages of the first.
+    // Hidden files are accepted, and a second call replaces the pages of the first.
     let script = "mkdir site; touch site/.gitkeep; $LEXIBUS docs $DEMO --out site && $LEXIBUS docs $DEMO --out site";
     let output = shell(&folder, script);
     assert!(output.status.success(), "{}", error(&output));

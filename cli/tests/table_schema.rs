@@ -1,5 +1,5 @@
-//! The JSON Schema of register tables: what is checked in is today's, real tables pass it, and wrong ones don't. What
-//! `lexibus new` and `lexibus schema` do is here, too.
+//! Tests the JSON Schema of register tables: the file is up to date, real tables are valid, and wrong ones are not. Also tests
+//! `lexibus new` and `lexibus schema`.
 
 #[path = "../../tests/support/python.rs"]
 mod python;
@@ -15,7 +15,7 @@ use lexibus_codegen::frontend::table::SCHEMA;
 use lexibus_codegen::source::Source;
 use table_support::{dictionaries, examples, whole};
 
-/// Prints the faults of each document after the schema.
+/// Python script that prints the errors of each document after the schema.
 const SCRIPT: &str = "\
 import json, sys
 from jsonschema import validators
@@ -24,13 +24,13 @@ validator = validators.validator_for(schema)(schema)
 print(json.dumps([[f'{error.json_path}: {error.message}' for error in validator.iter_errors(d)] for d in documents]))
 ";
 
-/// What an independent validator has against each of the tables; `None`, with a message, if there is none.
+/// Returns the errors that an independent validator reports for each table; `None`, with a message, if it is not installed.
 fn faults(texts: &[String]) -> Option<Vec<Vec<String>>> {
     let python = python::with(&["jsonschema"])?;
     let mut documents: Vec<serde_json::Value> = vec![serde_json::from_str(SCHEMA).expect("a JSON document")];
     for text in texts {
         let table: toml::Table = toml::from_str(text).expect("TOML");
-        documents.push(serde_json::to_value(table).expect("a value of JSON"));
+        documents.push(serde_json::to_value(table).expect("a JSON value"));
     }
     let mut child = Command::new(python)
         .args(["-c", SCRIPT])
@@ -47,7 +47,7 @@ fn faults(texts: &[String]) -> Option<Vec<Vec<String>>> {
     Some(found)
 }
 
-/// Asserts that the validator has nothing against the tables, which are named by what they are.
+/// Asserts that the validator reports no error for these named tables.
 fn pass(tables: Vec<(String, String)>) {
     let (names, texts): (Vec<_>, Vec<_>) = tables.into_iter().unzip();
     for (name, faults) in names.iter().zip(faults(&texts).into_iter().flatten()) {
@@ -122,8 +122,8 @@ fn options_may_stand_in_any_place() {
 #[test]
 fn every_key_is_told_what_it_is() {
     let schema: serde_json::Value = serde_json::from_str(SCHEMA).expect("a JSON document");
-    let own = schema["definitions"].as_object().expect("definitions");
-    for (name, definition) in own {
+    let definitions = schema["definitions"].as_object().expect("definitions");
+    for (name, definition) in definitions {
         for (key, property) in definition["properties"].as_object().into_iter().flatten() {
             assert!(property["description"].is_string(), "{name}.{key}");
         }
@@ -143,8 +143,8 @@ fn folders_are_searched_for_tables_of_devices() {
         std::fs::write(folder.join(name), text).expect("a temporary file");
     }
     let checked = lexibus(&["check", &folder.to_string_lossy()]);
-    let said = String::from_utf8_lossy(&checked.stderr).into_owned();
-    assert!(checked.status.success() && said.contains("1 file: no errors or warnings"), "{said}");
+    let text = String::from_utf8_lossy(&checked.stderr).into_owned();
+    assert!(checked.status.success() && text.contains("1 file: no errors or warnings"), "{text}");
 }
 
 #[test]
@@ -161,8 +161,9 @@ fn a_new_table_is_without_fault() {
         let text = std::fs::read_to_string(&path).expect("the table");
         let options = Options::default();
         let compilation = check(Source::new(&*shown, text.clone().into_bytes()), &options);
-        let said: Vec<String> = compilation.diagnostics.list().iter().map(|own| compilation.one_line(own)).collect();
-        assert_eq!(said, Vec::<String>::new());
+        let list = compilation.diagnostics.list().iter();
+        let messages: Vec<String> = list.map(|diagnostic| compilation.one_line(diagnostic)).collect();
+        assert_eq!(messages, Vec::<String>::new());
         assert!(compilation.rust(&options.rust).is_some_and(|rust| rust.contains("Pump7")));
         let again = lexibus(&["new", "Pump", "--out", &shown]);
         assert_eq!(again.status.code(), Some(2));

@@ -1,7 +1,7 @@
-//! From the bytes of an EDS to Rust, stage by stage.
+//! Measures the stages from the bytes of an EDS to Rust.
 //!
-//! The inputs are made by `inputs`: records of nine entries, 10 of them at first. How to run it, and what it gave, is in
-//! `benches/README.md`.
+//! `inputs` creates the files: records of nine entries, starting with 10 records. `benches/README.md` describes how to run the
+//! bench, and its results.
 
 #[path = "inputs/eds.rs"]
 mod inputs;

@@ -1,6 +1,6 @@
-//! From the bytes of a register table to Rust, stage by stage.
+//! Measures the stages from the bytes of a register table to Rust.
 //!
-//! The inputs are made by `inputs`: registers of 32 bits with six bit fields each.
+//! `inputs` creates the files: 32-bit registers with six bit fields each.
 
 #[path = "inputs/table.rs"]
 mod inputs;

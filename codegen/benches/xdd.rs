@@ -1,6 +1,7 @@
-//! From the bytes of an XDD to Rust, stage by stage.
+//! Measures the stages from the bytes of an XDD to Rust.
 //!
-//! The inputs are made by `inputs`: records of nine entries, 10 of them at first, half of which are parameters of the application process.
+//! `inputs` creates the files: records of nine entries, starting with 10 records. Half of the entries are parameters of the
+//! application process.
 
 #[path = "inputs/xdd.rs"]
 mod inputs;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Fuzzes: codegen/fuzz/run.sh SECONDS [TARGET...]. Needs `cargo fuzz` (cargo install cargo-fuzz) and a nightly toolchain
-# (rustup toolchain install nightly). What it finds lies in
-# codegen/fuzz/artifacts, one file a finding; what it learned stays in codegen/fuzz/corpus.
+# Fuzzes: codegen/fuzz/run.sh SECONDS [TARGET...]. Needs `cargo fuzz` (cargo install cargo-fuzz) and a nightly toolchain (rustup
+# toolchain install nightly). Inputs that fail are in codegen/fuzz/artifacts, one file each. Inputs with new coverage are kept
+# in codegen/fuzz/corpus.
 set -euo pipefail
 cd "$(dirname "$0")"
 seconds=${1:?usage: run.sh SECONDS [TARGET...]}
@@ -10,8 +10,8 @@ targets=("$@")
 if [[ ${#targets[@]} == 0 ]]; then targets=(eds xdd esi gsdml table overlay import macro_input messages pdo ir); fi
 corpus=../../../shared/corpus
 
-# Files of a target to begin with: those of the repository, and real ones where they lie beside it. Long ones are left out: a
-# fuzzer that changes a byte a time gets nowhere in them.
+# Seeds of a target: files of the repository, and real files if the corpus exists. Long files are left out, because a fuzzer
+# that changes single bytes makes no progress in them.
 seeds() {
     case $1 in
     eds) named "$corpus/eds" '*.eds' '*.dcf' ;;
@@ -40,7 +40,7 @@ named() { # CORPUS PATTERN...
     done
 }
 
-# A table and its length tell which description it corrects: each is given for all three.
+# The contents and length of a table select the description that it corrects, so each table is added for all three descriptions.
 overlays() {
     local file lines name
     mkdir -p corpus/overlays
@@ -53,8 +53,8 @@ overlays() {
     done
 }
 
-# A request of every code to node 1, and a reply of zeros. A list of bytes is written as `arbitrary` reads it: 01 before each
-# byte, 00 behind the last.
+# A request of every code to node 1, and a reply of zeros. `arbitrary` reads a list of bytes with 01 before each byte and 00
+# after the last one.
 requests() {
     local code number
     mkdir -p corpus/requests
@@ -70,7 +70,7 @@ requests() {
     find corpus/requests -type f
 }
 
-# Process data of every length that the drives have.
+# Process data of every length that the drives use.
 process_data() {
     local length
     mkdir -p corpus/process_data
@@ -81,7 +81,7 @@ process_data() {
     find corpus/process_data -type f
 }
 
-# A description is drawn from a few kilobytes of anything.
+# A description is generated from a few kilobytes of random bytes.
 random() {
     mkdir -p corpus/random
     for number in {1..64}; do
@@ -105,16 +105,16 @@ for target in "${targets[@]}"; do
     mkdir -p "corpus/$target"
     seeds "$target" | while read -r file; do cp "$file" "corpus/$target/$(sha1sum "$file" | cut -c1-16)"; done
     options=(-max_total_time="$seconds" -max_len=65536 -timeout=60 -rss_limit_mb=4096 -print_final_stats=1)
-    # Where a run goes through most of the compiler, to count how rare each of its branches is costs more than the run.
+    # Counting rare branches costs more than it gains for targets that run most of the compiler.
     case $target in overlay | ir) options+=(-entropic=0) ;; esac
     if [[ $target == ir ]]; then options+=(-len_control=0 -max_len=8192 -timeout=60); fi
     words=$(dictionary "$target")
     if [[ -n $words ]]; then options+=(-dict="$words"); fi
     echo "== $target"
-    # No code of the crates that are published is unsafe, so no sanitizer looks after memory: without one, three times as much is tried.
+    # Published crates contain no unsafe code, so no sanitizer is needed. Without it, three times as many inputs are tried.
     cargo +nightly fuzz run --sanitizer none "$target" -- "${options[@]}" || failed+=("$target")
 done
 if [[ ${#failed[@]} != 0 ]]; then
-    echo "something was found by ${failed[*]}" >&2
+    echo "these targets found failing inputs: ${failed[*]}" >&2
     exit 1
 fi

@@ -1,5 +1,5 @@
-//! The table of the Kollmorgen AKD, held against the text of its manual: every printed row is there, at its line, with what its
-//! cells state. What a row deliberately reads otherwise has a doubt.
+//! Compares the table of the Kollmorgen AKD with the text of its manual: every printed row is in the table, cites its line, and
+//! has the facts of its cells. Deliberate differences have a doubt.
 
 #[path = "table_support/manual.rs"]
 mod manual_text;
@@ -28,14 +28,14 @@ fn device(compilation: &Compilation) -> &Device {
     &compilation.catalog.as_ref().expect("a catalogue").devices[0]
 }
 
-/// The cells of the lines from `first` to `last`, each with its number.
+/// Returns the cells of the lines from `first` to `last`, each with its line number.
 fn rows(manual: &[String], first: usize, last: usize) -> Vec<(usize, Vec<&str>)> {
     (first..=last).map(|line| (line, manual[line - 1].split('\t').map(str::trim).collect())).collect()
 }
 
-/// The lines that are cited.
+/// Returns the cited lines.
 fn cited(documentation: Option<&Documentation>) -> BTreeSet<usize> {
-    let cite = documentation.and_then(|own| own.cite.as_deref()).unwrap_or_default();
+    let cite = documentation.and_then(|documentation| documentation.cite.as_deref()).unwrap_or_default();
     let mut lines = BTreeSet::new();
     for part in cite.split(',').map(str::trim) {
         let mut ends = part.split('-').filter_map(|end| end.parse::<usize>().ok());
@@ -52,24 +52,26 @@ fn item<'d>(device: &'d Device, name: &str) -> &'d Item {
 }
 
 fn fields<'d>(device: &'d Device, name: &str) -> &'d [BitFieldEntry] {
-    let found = device.types.iter().find(|own| own.name == name).unwrap_or_else(|| panic!("no type {name}"));
-    let Shape::BitField { fields, .. } = &found.shape else { panic!("{name} is no bit field") };
+    let found =
+        device.types.iter().find(|definition| definition.name == name).unwrap_or_else(|| panic!("no type {name}"));
+    let Shape::BitField { fields, .. } = &found.shape else { panic!("{name} is not a bit field") };
     fields
 }
 
 fn values<'d>(device: &'d Device, name: &str) -> &'d [EnumValue] {
-    let found = device.types.iter().find(|own| own.name == name).unwrap_or_else(|| panic!("no type {name}"));
-    let Shape::Enumeration { values, .. } = &found.shape else { panic!("{name} is no enumeration") };
+    let found =
+        device.types.iter().find(|definition| definition.name == name).unwrap_or_else(|| panic!("no type {name}"));
+    let Shape::Enumeration { values, .. } = &found.shape else { panic!("{name} is not an enumeration") };
     values
 }
 
-/// `0x204`, `2050`, `60FD`: in hexadecimal, all of them.
+/// Parses a hexadecimal number with or without a prefix: `0x204`, `2050`, `60FD`.
 fn hex(text: &str) -> u32 {
     let digits = text.trim().trim_start_matches("0x").trim_start_matches("0X").trim_end_matches('h');
-    u32::from_str_radix(digits, 16).unwrap_or_else(|_| panic!("{text} is no number"))
+    u32::from_str_radix(digits, 16).unwrap_or_else(|_| panic!("{text} is not a number"))
 }
 
-/// First bit and number of bits: `Da 3 a 0`, `0..7`, `5-7`, `4`.
+/// Parses a bit range: `Da 3 a 0`, `0..7`, `5-7`, `4`. Returns the first bit and the number of bits.
 fn bits(text: &str) -> (u8, u8) {
     let numbers: Vec<u8> =
         text.split(|c: char| !c.is_ascii_digit()).filter(|part| !part.is_empty()).map(|n| n.parse().unwrap()).collect();
@@ -85,7 +87,7 @@ fn the_table_has_no_findings() {
     assert_eq!(found, Vec::<String>::new());
 }
 
-/// The table of revisions of the hardware: each is a model, with the versions of its software.
+/// The table of hardware revisions: each is a model with the versions of its software.
 #[test]
 fn revisions_of_the_hardware() {
     let Some(manual) = manual() else { return };
@@ -94,18 +96,19 @@ fn revisions_of_the_hardware() {
     let models = &device(&compilation).variants;
     assert_eq!((printed.len(), models.len()), (3, 3));
     for ((line, cells), model) in printed.iter().zip(models) {
-        assert_eq!(model.name, format!("revision {}", cells[0]), "L{line}");
-        assert!(cited(model.documentation.as_deref()).contains(line), "L{line}");
-        let text = model.documentation.as_ref().map_or("", |own| own.text.as_str());
-        // `01.06.xx.yyy`, `1.6.0.zzzzz`: the letters stand for what isn't said.
-        let version =
-            |cell: &str| cell.split(".x").next().and_then(|own| own.split(".z").next()).unwrap_or_default().to_owned();
+        assert_eq!(model.name, format!("revision {}", cells[0]), "line {line}");
+        assert!(cited(model.documentation.as_deref()).contains(line), "line {line}");
+        let text = model.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
+        // In `01.06.xx.yyy` and `1.6.0.zzzzz`, letters are placeholders.
+        let version = |cell: &str| {
+            cell.split(".x").next().and_then(|entry| entry.split(".z").next()).unwrap_or_default().to_owned()
+        };
         for (name, cell) in [("firmware", cells[2]), ("WorkBench", cells[3]), ("KAS IDE", cells[4])] {
             let shown = format!("{name} {}", version(cell)).to_lowercase();
-            assert_eq!(text.to_lowercase().contains(&shown), cell != "-", "L{line} {shown}");
+            assert_eq!(text.to_lowercase().contains(&shown), cell != "-", "line {line} {shown}");
         }
         let is_pdmm = text.contains(&format!("AKD PDMM from its revision {} on", cells[1]));
-        assert_eq!(is_pdmm, cells[1] != "-", "L{line}");
+        assert_eq!(is_pdmm, cells[1] != "-", "line {line}");
     }
 }
 
@@ -122,36 +125,36 @@ fn registers_of_the_slave_controller() {
     };
     let printed = rows(&manual, 533, 550);
     for (line, cells) in &printed {
-        let own = items.iter().find(|item| cited(item.documentation.as_deref()).contains(line));
-        let own = own.unwrap_or_else(|| panic!("L{line} has no row"));
+        let item = items.iter().find(|item| cited(item.documentation.as_deref()).contains(line));
+        let actual = item.unwrap_or_else(|| panic!("line {line} has no row"));
         let length = cells[1].trim_start_matches("Massimo ").parse().expect("a length");
         let address = hex(cells[0]) as u16;
-        assert_eq!(own.bindings.as_slice(), [Binding::EscMemory { address, length }], "L{line}");
-        let pdi = own.behaviour.as_ref().and_then(|own| own.pdi_access);
-        assert_eq!((own.access, pdi), (access(cells[3]), Some(access(cells[4]))), "L{line}");
-        let named = own.names.iter().find(|name| name.language == "it").expect("a name in Italian");
-        assert!(cells[2].starts_with(named.text.as_str()), "L{line}: {}", named.text);
+        assert_eq!(actual.bindings.as_slice(), [Binding::EscMemory { address, length }], "line {line}");
+        let pdi = actual.behaviour.as_ref().and_then(|behaviour| behaviour.pdi_access);
+        assert_eq!((actual.access, pdi), (access(cells[3]), Some(access(cells[4]))), "line {line}");
+        let named = actual.names.iter().find(|name| name.language == "it").expect("a name in Italian");
+        assert!(cells[2].starts_with(named.text.as_str()), "line {line}: {}", named.text);
     }
-    let in_memory = |item: &&&Item| item.bindings.iter().any(|own| matches!(own, Binding::EscMemory { .. }));
+    let in_memory = |item: &&&Item| item.bindings.iter().any(|binding| matches!(binding, Binding::EscMemory { .. }));
     assert_eq!((printed.len(), items.iter().filter(in_memory).count()), (18, 18));
 }
 
-/// Lines of the tables of bits that are read otherwise: what is printed, and first bit and number of bits.
+/// Lines of bit tables that the table reads differently: the printed cell, the first bit, and the number of bits.
 const CORRECTED: [(usize, &str, (u8, u8)); 4] =
     [(573, "Da 3 a 7", (6, 2)), (593, "0x201", (10, 1)), (594, "0x201", (11, 1)), (596, "SyncManager 7", (12, 4))];
 
-/// Holds rows of parameter, address and bits against a bit field.
+/// Compares rows of parameter, address and bits with a bit field.
 fn table_of_bits(manual: &[String], device: &Device, name: &str, (first, last): (usize, usize), base: u32) -> usize {
-    let own = fields(device, name);
+    let fields = fields(device, name);
     let mut held = 0;
     for (line, cells) in rows(manual, first, last) {
-        // Further values of the field above, the first halves of names, and the bits behind the register.
+        // Skips further values of the field above, the first halves of names, and the bits beyond the register.
         if cells[0].starts_with("0x") || [595, 597, 598].contains(&line) {
             continue;
         }
         let place = match CORRECTED.iter().find(|(corrected, ..)| *corrected == line) {
             Some((_, printed, place)) => {
-                assert!(cells.iter().any(|cell| cell.contains(printed)), "L{line}");
+                assert!(cells.iter().any(|cell| cell.contains(printed)), "line {line}");
                 *place
             }
             None => {
@@ -159,12 +162,12 @@ fn table_of_bits(manual: &[String], device: &Device, name: &str, (first, last): 
                 ((hex(cells[1]) - base) as u8 * 8 + low, count)
             }
         };
-        let entry = own.iter().find(|entry| cited(entry.documentation.as_deref()).contains(&line));
-        let entry = entry.unwrap_or_else(|| panic!("L{line}: {name} has no field"));
-        assert_eq!((entry.offset, entry.bits), place, "L{line}");
+        let entry = fields.iter().find(|entry| cited(entry.documentation.as_deref()).contains(&line));
+        let entry = entry.unwrap_or_else(|| panic!("line {line}: {name} has no field"));
+        assert_eq!((entry.offset, entry.bits), place, "line {line}");
         let is_reserved = matches!(entry.meaning, BitMeaning::Reserved { .. });
         let says_so = cells[0] == "Riserva" || cells.last().is_some_and(|cell| *cell == "Riserva");
-        assert_eq!(is_reserved, says_so, "L{line}");
+        assert_eq!(is_reserved, says_so, "line {line}");
         held += 1;
     }
     held
@@ -176,7 +179,7 @@ fn bits_of_the_registers() {
     let compilation = table();
     let device = device(&compilation);
     assert_eq!(table_of_bits(&manual, device, "InterruptEnable", (567, 578), 0x204), 12);
-    // Twelve rows, of which the last is behind the register; bit 1 has none.
+    // Twelve rows. The last is beyond the register, and bit 1 has none.
     assert_eq!(table_of_bits(&manual, device, "AlEventRequest", (585, 598), 0x220), 11);
     assert_eq!(fields(device, "AlEventRequest").len(), 12);
     assert_eq!(table_of_bits(&manual, device, "AlControl", (609, 616), 0x120), 4);
@@ -189,14 +192,14 @@ fn bits_of_the_registers() {
             i128::from(hex(cell.split(':').next().unwrap()))
         };
         let found: Vec<_> = printed.iter().map(|(line, cells)| (*line, number(cells))).collect();
-        let own: Vec<_> = states
+        let states: Vec<_> = states
             .iter()
             .map(|value| (*cited(value.documentation.as_deref()).range(first..=last).next().unwrap(), value.value))
             .collect();
-        assert_eq!(own, found);
+        assert_eq!(states, found);
     }
     for name in ["InterruptEnable", "AlEventRequest", "AlControl", "AlStatus", "ControlWord", "StatusWord"] {
-        let all = fields(device, name).iter().fold(0u32, |all, own| all | ((1 << own.bits) - 1) << own.offset);
+        let all = fields(device, name).iter().fold(0u32, |all, entry| all | ((1 << entry.bits) - 1) << entry.offset);
         assert_eq!(all, 0xFFFF, "{name}");
     }
 }
@@ -206,19 +209,19 @@ fn status_codes_and_transitions_of_the_communication() {
     let Some(manual) = manual() else { return };
     let compilation = table();
     let device = device(&compilation);
-    let codes = device.code_tables.iter().find(|own| own.name == "al_status").expect("the codes");
+    let codes = device.code_tables.iter().find(|table| table.name == "al_status").expect("the codes");
     let named = values(device, "AlStatusCode");
     let printed = rows(&manual, 637, 639);
     assert_eq!((codes.rows.len(), named.len(), printed.len()), (3, 3, 3));
     for ((row, value), (line, cells)) in codes.rows.iter().zip(named).zip(&printed) {
-        assert_eq!((row.code, value.value), (hex(cells[0]).into(), hex(cells[0]).into()), "L{line}");
+        assert_eq!((row.code, value.value), (hex(cells[0]).into(), hex(cells[0]).into()), "line {line}");
         let changes = |text: &str| text.replace("->", "to").replace("Tutti", "all");
-        assert_eq!(row.cells[0], Value::Text(changes(cells[2]).into()), "L{line}");
+        assert_eq!(row.cells[0], Value::Text(changes(cells[2]).into()), "line {line}");
         let result = cells[3].replace("Stato corrente", "current").replace("+ E", "and error");
-        assert_eq!(row.cells[1], Value::Text(result.into()), "L{line}");
+        assert_eq!(row.cells[1], Value::Text(result.into()), "line {line}");
     }
-    assert!(device.types.iter().any(|own| matches!(own.shape, Shape::Enumeration { closed: true, .. })));
-    let machine = device.machines.iter().find(|own| own.name == "al").expect("the machine");
+    assert!(device.types.iter().any(|definition| matches!(definition.shape, Shape::Enumeration { closed: true, .. })));
+    let machine = device.machines.iter().find(|machine| machine.name == "al").expect("the machine");
     let letter = |letter: char| match letter {
         'I' => "init",
         'P' => "pre_operational",
@@ -229,18 +232,22 @@ fn status_codes_and_transitions_of_the_communication() {
     };
     let printed = rows(&manual, 649, 659);
     assert_eq!((machine.transitions.len(), printed.len()), (11, 11));
-    for (own, (line, cells)) in machine.transitions.iter().zip(&printed) {
+    for (item, (line, cells)) in machine.transitions.iter().zip(&printed) {
         let letters: Vec<char> = cells[0].chars().filter(|c| c.is_ascii_alphabetic()).collect();
-        assert_eq!((own.from.as_deref(), own.to.as_str()), (Some(letter(letters[0])), letter(letters[1])), "L{line}");
-        let command = own.command.as_deref().expect("a command");
-        let value = machine.commands.iter().find(|own| own.name == command).expect("its pattern").value;
-        // No value is printed for the way from bootstrap to init.
+        assert_eq!(
+            (item.from.as_deref(), item.to.as_str()),
+            (Some(letter(letters[0])), letter(letters[1])),
+            "line {line}"
+        );
+        let command = item.command.as_deref().expect("a command");
+        let value = machine.commands.iter().find(|entry| entry.name == command).expect("its pattern").value;
+        // The manual prints no value for the transition from bootstrap to init.
         let expected = if *line == 650 { 1 } else { hex(cells[1]) };
-        assert_eq!((value, cited(own.documentation.as_deref()).contains(line)), (expected, true), "L{line}");
+        assert_eq!((value, cited(item.documentation.as_deref()).contains(line)), (expected, true), "line {line}");
     }
 }
 
-/// Mask and value of cells of `0`, `1` and `X` over these bits.
+/// Returns mask and value of cells that contain `0`, `1` or `X` for these bits.
 fn pattern(cells: &[&str], over: &[u32]) -> (u32, u32) {
     cells.iter().zip(over).fold((0, 0), |(mask, value), (cell, bit)| match *cell {
         "0" => (mask | 1 << bit, value),
@@ -251,13 +258,16 @@ fn pattern(cells: &[&str], over: &[u32]) -> (u32, u32) {
 }
 
 fn at_line(patterns: &[Pattern], line: usize) -> &Pattern {
-    let found = patterns.iter().find(|own| cited(own.documentation.as_deref()).contains(&line));
-    found.unwrap_or_else(|| panic!("L{line} has no pattern"))
+    let found = patterns.iter().find(|pattern| cited(pattern.documentation.as_deref()).contains(&line));
+    found.unwrap_or_else(|| panic!("line {line} has no pattern"))
 }
 
 fn numbers(machine: &StateMachine, command: &str) -> BTreeSet<u16> {
-    let own = machine.transitions.iter().filter(|own| own.command.as_ref().is_some_and(|name| *name == *command));
-    own.filter_map(|own| own.number).collect()
+    let transitions = machine
+        .transitions
+        .iter()
+        .filter(|transition| transition.command.as_ref().is_some_and(|name| *name == *command));
+    transitions.filter_map(|entry| entry.number).collect()
 }
 
 #[test]
@@ -265,37 +275,37 @@ fn the_drives_state_machine() {
     let Some(manual) = manual() else { return };
     let compilation = table();
     let device = device(&compilation);
-    let machine = device.machines.iter().find(|own| own.name == "drive").expect("the machine");
+    let machine = device.machines.iter().find(|machine| machine.name == "drive").expect("the machine");
     assert_eq!((machine.states.len(), machine.commands.len()), (8, 7));
     for (line, cells) in rows(&manual, 743, 750) {
-        let own = at_line(&machine.states, line);
-        assert_eq!((own.mask, own.value), pattern(&cells[1..7], &[6, 5, 3, 2, 1, 0]), "L{line}");
+        let states = at_line(&machine.states, line);
+        assert_eq!((states.mask, states.value), pattern(&cells[1..7], &[6, 5, 3, 2, 1, 0]), "line {line}");
     }
     for (line, cells) in rows(&manual, 696, 702) {
-        let own = at_line(&machine.commands, line);
-        assert_eq!((own.mask, own.value), pattern(&cells[1..6], &[7, 3, 2, 1, 0]), "L{line}");
+        let commands = at_line(&machine.commands, line);
+        assert_eq!((commands.mask, commands.value), pattern(&cells[1..6], &[7, 3, 2, 1, 0]), "line {line}");
         let printed: BTreeSet<u16> = cells[6].split(',').map(|number| number.trim().parse().unwrap()).collect();
-        assert_eq!(numbers(machine, &own.name), printed, "L{line}");
+        assert_eq!(numbers(machine, &commands.name), printed, "line {line}");
     }
     for line in 670..=677 {
         at_line(&machine.states, line);
     }
     let (words, last) = ([("ControlWord", 684), ("StatusWord", 731)], 7);
     for (name, first) in words {
-        let own = fields(device, name);
+        let fields = fields(device, name);
         for (line, cells) in rows(&manual, first, first + last) {
             for pair in cells.chunks(2) {
                 let bit: u8 = pair[0].parse().expect("a bit");
                 let is_here = |entry: &&BitFieldEntry| (entry.offset..entry.offset + entry.bits).contains(&bit);
-                let found: Vec<_> = own.iter().filter(is_here).collect();
-                assert!(!found.is_empty(), "L{line} {bit}");
+                let found: Vec<_> = fields.iter().filter(is_here).collect();
+                assert!(!found.is_empty(), "line {line} {bit}");
                 let cites = |entry: &&BitFieldEntry| cited(entry.documentation.as_deref()).contains(&line);
                 let by_mode = pair[1].contains("Modalità di funzionamento specifica") && name == "ControlWord";
-                assert!(by_mode || found.iter().any(cites), "L{line} {bit}");
+                assert!(by_mode || found.iter().any(cites), "line {line} {bit}");
                 let says_so =
                     pair[1].contains("iserva") || pair[1].contains("sempre 1") || pair[1].contains("produttore");
-                let is_reserved = found.iter().all(|own| matches!(own.meaning, BitMeaning::Reserved { .. }));
-                assert!(by_mode || is_reserved == says_so, "L{line} {bit}");
+                let is_reserved = found.iter().all(|entry| matches!(entry.meaning, BitMeaning::Reserved { .. }));
+                assert!(by_mode || is_reserved == says_so, "line {line} {bit}");
             }
         }
     }
@@ -309,16 +319,16 @@ fn modes(manual: &[String], device: &Device) {
     assert_eq!((named.len(), printed.len()), (6, 6));
     for (line, cells) in printed {
         let mode = Value::Int(hex(cells[1]).into());
-        assert!(named.iter().any(|own| Value::Int(own.value) == mode), "L{line}");
+        assert!(named.iter().any(|entry| Value::Int(entry.value) == mode), "line {line}");
         for (cell, bit) in cells[2..5].iter().zip(4u8..) {
-            let own = fields(device, "ControlWord").iter().filter(|own| own.offset == bit);
-            let mut own = own.filter(|own| own.when.as_ref().is_some_and(|when| when.values.contains(&mode)));
-            match (*cell, own.next().map(|own| &own.meaning)) {
+            let fields = fields(device, "ControlWord").iter().filter(|field| field.offset == bit);
+            let mut values = fields.filter(|entry| entry.when.as_ref().is_some_and(|when| when.values.contains(&mode)));
+            match (*cell, values.next().map(|entry| &entry.meaning)) {
                 ("", None) | ("riserva", Some(BitMeaning::Reserved { .. })) => {}
                 (name, Some(meaning)) if !name.is_empty() && name != "riserva" => {
-                    assert!(!matches!(meaning, BitMeaning::Reserved { .. }), "L{line} {bit}");
+                    assert!(!matches!(meaning, BitMeaning::Reserved { .. }), "line {line} {bit}");
                 }
-                other => panic!("L{line} bit {bit}: {other:?}"),
+                other => panic!("line {line} bit {bit}: {other:?}"),
             }
         }
     }
@@ -353,15 +363,15 @@ fn cyclic_values() {
     let printed = cyclic(&manual);
     assert_eq!(printed.len(), 16);
     for (line, _, (index, sub), ty) in printed {
-        let own = device.entry(index, sub).unwrap_or_else(|| panic!("L{line}: no 0x{index:04X}:{sub}"));
-        assert_eq!(basic(device, own.ty), ty, "L{line}");
-        assert!(cited(own.documentation.as_deref()).contains(&line), "L{line}");
+        let actual = device.entry(index, sub).unwrap_or_else(|| panic!("line {line}: no 0x{index:04X}:{sub}"));
+        assert_eq!(basic(device, actual.ty), ty, "line {line}");
+        assert!(cited(actual.documentation.as_deref()).contains(&line), "line {line}");
         let receives = (982..=987).contains(&line);
-        assert_eq!((own.mappable.rpdo, own.mappable.tpdo), (receives, !receives), "L{line}");
+        assert_eq!((actual.mappable.rpdo, actual.mappable.tpdo), (receives, !receives), "line {line}");
     }
 }
 
-/// The entries of a printed mapping: names and bits.
+/// Returns the entries of a printed mapping: names and bits.
 fn printed_entries(text: &str) -> (Vec<(String, u32)>, Option<u32>) {
     let (mut entries, mut total) = (Vec::new(), None);
     for part in text.split("),") {
@@ -377,7 +387,7 @@ fn printed_entries(text: &str) -> (Vec<(String, u32)>, Option<u32>) {
 }
 
 fn pdo(device: &Device, index: u16) -> &Pdo {
-    let found = device.process_data.pdos.iter().find(|own| own.mapping_index == index);
+    let found = device.process_data.pdos.iter().find(|pdo| pdo.mapping_index == index);
     found.unwrap_or_else(|| panic!("no PDO 0x{index:04X}"))
 }
 
@@ -389,32 +399,32 @@ fn fixed_mappings() {
     let objects: BTreeMap<String, (u16, u8)> =
         cyclic(&manual).into_iter().map(|(_, name, object, _)| (name, object)).collect();
     let lines = (780..=791).chain(795..=796).chain([800]);
-    // What each printed name stands for: the same in every mapping.
+    // Objects of the printed names, which are the same in every mapping.
     let mut names: BTreeMap<String, (u16, u8, String)> = BTreeMap::new();
     let (mut mappings, mut entries) = ([0, 0], [0, 0]);
     for (line, cells) in lines.flat_map(|line| rows(&manual, line, line)) {
-        let own = pdo(device, hex(cells[0]) as u16);
+        let actual = pdo(device, hex(cells[0]) as u16);
         let (printed, total) = printed_entries(cells[1]);
         let bits: Vec<u32> = printed.iter().map(|(_, bits)| *bits).collect();
-        assert_eq!(own.entries.iter().map(|entry| entry.bits).collect::<Vec<_>>(), bits, "L{line}");
-        assert!(total.is_none_or(|bytes| bytes * 8 == own.bits()), "L{line}");
-        assert!(own.fixed && cited(own.documentation.as_deref()).contains(&line), "L{line}");
-        for (entry, (name, _)) in own.entries.iter().zip(&printed) {
+        assert_eq!(actual.entries.iter().map(|entry| entry.bits).collect::<Vec<_>>(), bits, "line {line}");
+        assert!(total.is_none_or(|bytes| bytes * 8 == actual.bits()), "line {line}");
+        assert!(actual.fixed && cited(actual.documentation.as_deref()).contains(&line), "line {line}");
+        for (entry, (name, _)) in actual.entries.iter().zip(&printed) {
             if let Some(object) = objects.get(name) {
-                assert_eq!((entry.index, entry.sub_index), *object, "L{line}: {name}");
+                assert_eq!((entry.index, entry.sub_index), *object, "line {line}: {name}");
             }
             let meaning = (entry.index, entry.sub_index, entry.name.to_string());
-            assert_eq!(*names.entry(name.clone()).or_insert(meaning.clone()), meaning, "L{line}: {name}");
-            assert_eq!(entry.kind == PdoEntryKind::Unnumbered, entry.index == 0, "L{line}: {name}");
+            assert_eq!(*names.entry(name.clone()).or_insert(meaning.clone()), meaning, "line {line}: {name}");
+            assert_eq!(entry.kind == PdoEntryKind::Unnumbered, entry.index == 0, "line {line}: {name}");
         }
-        let direction = usize::from(own.direction == Direction::Transmit);
+        let direction = usize::from(actual.direction == Direction::Transmit);
         mappings[direction] += 1;
         entries[direction] += printed.len();
     }
     assert_eq!((mappings, entries), ([8, 7], [29, 38]));
     assert_eq!(names.len(), 25, "{names:#?}");
     assert_eq!(names.keys().filter(|name| objects.contains_key(*name)).count(), 7);
-    assert_eq!(device.process_data.pdos.iter().filter(|own| own.fixed).count(), 15);
+    assert_eq!(device.process_data.pdos.iter().filter(|pdo| pdo.fixed).count(), 15);
     assert_eq!(names.values().filter(|(index, ..)| *index == 0).count(), 7);
 }
 
@@ -427,26 +437,30 @@ fn what_the_tool_shows_of_pdos() {
     for (first, last) in [(832, 842), (870, 880)] {
         for line in first..=last {
             let row = cells(line);
-            let own = pdo(device, hex(row[0]) as u16);
-            assert_eq!(format!("{}.0", own.bytes()), row[1], "L{line}");
+            let actual = pdo(device, hex(row[0]) as u16);
+            assert_eq!(format!("{}.0", actual.bytes()), row[1], "line {line}");
             assert_eq!(
-                (own.direction == Direction::Receive, own.fixed),
+                (actual.direction == Direction::Receive, actual.fixed),
                 (row[2] == "Outputs", row[3] == "F"),
-                "L{line}"
+                "line {line}"
             );
             let assigned = row.get(4).and_then(|cell| cell.parse::<u8>().ok());
-            assert_eq!(own.sync_manager, assigned, "L{line}");
-            assert!(cited(own.documentation.as_deref()).contains(&line), "L{line}");
+            assert_eq!(actual.sync_manager, assigned, "line {line}");
+            assert!(cited(actual.documentation.as_deref()).contains(&line), "line {line}");
         }
     }
     for (first, last) in [(826, 829), (863, 866)] {
         for line in first..=last {
             let row = cells(line);
             let number: u8 = row[0].parse().expect("a number");
-            let own = &device.process_data.sync_managers[usize::from(number)];
-            assert_eq!((own.number, own.default_size), (number, row[1].parse().ok()), "L{line}");
+            let sync_managers = &device.process_data.sync_managers[usize::from(number)];
+            assert_eq!(
+                (sync_managers.number, sync_managers.default_size),
+                (number, row[1].parse().ok()),
+                "line {line}"
+            );
             let purpose = [("MbxOut", 0), ("MbxIn", 1), ("Outputs", 2), ("Inputs", 3)];
-            assert!(purpose.contains(&(row[2], number)), "L{line}");
+            assert!(purpose.contains(&(row[2], number)), "line {line}");
         }
     }
     let excluded = |line: usize| manual[line - 1].contains("(excluded by 0x1701)");
@@ -456,7 +470,7 @@ fn what_the_tool_shows_of_pdos() {
             assert_eq!(
                 pdo(device, 0x1701).conflicts_with(pdo(device, index)),
                 excluded(line) || index == 0x1701,
-                "L{line}"
+                "line {line}"
             );
         }
     }
@@ -467,7 +481,7 @@ fn the_start_up_list() {
     let Some(manual) = manual() else { return };
     let compilation = table();
     let device = device(&compilation);
-    let list = device.procedures.iter().find(|own| own.name == "free_mapping").expect("the list");
+    let list = device.procedures.iter().find(|procedure| procedure.name == "free_mapping").expect("the list");
     let printed = rows(&manual, 924, 946);
     assert_eq!((list.steps.len(), printed.len()), (23, 23));
     let object = |name: &str| match name {
@@ -478,24 +492,24 @@ fn the_start_up_list() {
         }
     };
     for (step, (line, cells)) in list.steps.iter().zip(&printed) {
-        let Step::Write(name, value) = step else { panic!("L{line}: {step:?}") };
+        let Step::Write(name, value) = step else { panic!("line {line}: {step:?}") };
         let (index, sub) = cells[2].split_once(':').expect("an object");
-        assert_eq!(object(name), (hex(index), hex(sub)), "L{line}");
+        assert_eq!(object(name), (hex(index), hex(sub)), "line {line}");
         let (number, decimal) = cells[3].split_once(' ').expect("two numbers");
         let number = hex(number);
-        assert_eq!(decimal.trim_matches(['(', ')']).parse(), Ok(number), "L{line}");
-        // The manual assigns the fixed mapping, after it mapped another PDO.
+        assert_eq!(decimal.trim_matches(['(', ')']).parse(), Ok(number), "line {line}");
+        // The manual assigns the fixed mapping after it has mapped another PDO.
         let expected = if *line == 942 { 0x1A00 } else { number };
-        assert_eq!(*value, Value::Int(expected.into()), "L{line}");
+        assert_eq!(*value, Value::Int(expected.into()), "line {line}");
     }
     assert_eq!(hex(printed[18].1[3].split(' ').next().unwrap()), 0x1B01);
-    let fixed = device.procedures.iter().find(|own| own.name == "assign_1701").expect("the sequence");
+    let fixed = device.procedures.iter().find(|procedure| procedure.name == "assign_1701").expect("the sequence");
     for (step, line) in fixed.steps.iter().zip(772..=774) {
         let Step::Write(name, Value::Int(value)) = step else { panic!("{step:?}") };
         let text = &manual[line - 1];
         let sub = name.split_once(':').expect("a sub-index").1;
-        assert!(text.contains(&format!("0x1C12 sottoindice {sub} ")), "L{line}");
-        assert_eq!(i128::from(hex(text.rsplit("0x").next().unwrap())), *value, "L{line}");
+        assert!(text.contains(&format!("0x1C12 sottoindice {sub} ")), "line {line}");
+        assert_eq!(i128::from(hex(text.rsplit("0x").next().unwrap())), *value, "line {line}");
     }
 }
 
@@ -504,19 +518,19 @@ fn modes_and_cycle_times() {
     let Some(manual) = manual() else { return };
     let compilation = table();
     let device = device(&compilation);
-    let modes = device.code_tables.iter().find(|own| own.name == "operating_modes").expect("the modes");
+    let modes = device.code_tables.iter().find(|table| table.name == "operating_modes").expect("the modes");
     let printed = rows(&manual, 1006, 1008);
     assert_eq!((modes.rows.len(), printed.len()), (3, 3));
-    for (own, (line, cells)) in modes.rows.iter().zip(&printed) {
+    for (mode, (line, cells)) in modes.rows.iter().zip(&printed) {
         let numbers: Vec<i128> = cells[1].split(' ').filter_map(|word| word.parse().ok()).collect();
-        let cells_of: Vec<i128> = own.cells.iter().filter_map(Value::as_int).collect();
-        assert_eq!(cells_of, numbers, "L{line}");
-        assert!(cells[2].starts_with(&format!("0x6060 sottoindice 0 dati: {}", own.code)), "L{line}");
+        let cells_of: Vec<i128> = mode.cells.iter().filter_map(Value::as_int).collect();
+        assert_eq!(cells_of, numbers, "line {line}");
+        assert!(cells[2].starts_with(&format!("0x6060 sottoindice 0 dati: {}", mode.code)), "line {line}");
     }
     let period = item(device, "Sample period");
     assert_eq!(period.limits.low, Some(Value::Int(4)));
     for (line, cells) in rows(&manual, 1033, 1035) {
-        assert!(cells[1].contains("250 μs") && 4.0 * 62.5 == 250.0, "L{line}");
+        assert!(cells[1].contains("250 μs") && 4.0 * 62.5 == 250.0, "line {line}");
     }
     assert!(manual[1026 - 1].contains("2 ms equivale al valore FBUS.SAMPLEPERIOD di 32"));
     assert!(
@@ -531,15 +545,15 @@ fn latch_words() {
     let device = device(&compilation);
     let mut compared = 0;
     for (name, first, last) in [("LatchControl", 1075, 1085), ("LatchStatus", 1090, 1103)] {
-        let own = fields(device, name);
+        let fields = fields(device, name);
         let mut span = (0, 0);
         for (line, cells) in rows(&manual, first, last) {
             if !cells[0].is_empty() {
                 span = bits(cells[0]);
             }
             if cells.get(1).is_none_or(|cell| cell.is_empty()) {
-                let place = own.iter().find(|entry| (entry.offset, entry.bits) == span).expect("bits");
-                assert!(matches!(place.meaning, BitMeaning::Reserved { .. }), "L{line}");
+                let place = fields.iter().find(|entry| (entry.offset, entry.bits) == span).expect("bits");
+                assert!(matches!(place.meaning, BitMeaning::Reserved { .. }), "line {line}");
                 continue;
             }
             let value = u32::from_str_radix(&cells[1].replace(' ', ""), 2).expect("a pattern");
@@ -547,25 +561,26 @@ fn latch_words() {
             let shown: String = format!("{value:04x}")
                 .chars()
                 .zip(digits.chars())
-                .map(|(own, z)| if z == 'z' { 'z' } else { own })
+                .map(|(digits, z)| if z == 'z' { 'z' } else { digits })
                 .collect();
-            assert_eq!(shown, digits, "L{line}");
-            let holds = own.iter().any(|entry| holds(device, entry, line, value));
-            assert!(holds, "L{line}: nothing has {value:#06x}");
+            assert_eq!(shown, digits, "line {line}");
+            let holds = fields.iter().any(|entry| holds(device, entry, line, value));
+            assert!(holds, "line {line}: no field has {value:#06x}");
             compared += 1;
         }
     }
     assert_eq!(compared, 20);
 }
 
-/// Whether a field is the one of a line, and has this value of the word there.
+/// Whether a field cites the line and has the value in this word.
 fn holds(device: &Device, entry: &BitFieldEntry, line: usize, value: u32) -> bool {
-    let own = i128::from(value >> entry.offset);
+    let actual = i128::from(value >> entry.offset);
     match entry.meaning {
-        BitMeaning::Flag { inverted: false } => cited(entry.documentation.as_deref()).contains(&line) && own == 1,
+        BitMeaning::Flag { inverted: false } => cited(entry.documentation.as_deref()).contains(&line) && actual == 1,
         BitMeaning::Enumeration(id) => {
             let Shape::Enumeration { values, .. } = &device.types[id.0 as usize].shape else { return false };
-            let is_it = |label: &EnumValue| cited(label.documentation.as_deref()).contains(&line) && label.value == own;
+            let is_it =
+                |label: &EnumValue| cited(label.documentation.as_deref()).contains(&line) && label.value == actual;
             values.iter().any(is_it)
         }
         _ => false,
@@ -583,14 +598,14 @@ fn mailbox_frames_and_their_example() {
             .into_iter()
             .enumerate()
             .map(|(number, (line, cells))| {
-                assert_eq!(cells[0], format!("Byte {number}"), "L{line}");
+                assert_eq!(cells[0], format!("Byte {number}"), "line {line}");
                 hex(cells[1]) as u8
             })
             .collect()
     };
     let example = &message.examples[0];
     assert_eq!(example.request, bytes(1211));
-    // Length and type of the reply are doubts: 0x0E and 0x20 are printed.
+    // Length and type of the reply are doubts: the manual prints 0x0E and 0x20.
     let mut reply = bytes(1230);
     assert_eq!((reply[0], reply[7]), (0x0E, 0x20));
     (reply[0], reply[7]) = (0x0A, 0x30);
@@ -601,20 +616,20 @@ fn mailbox_frames_and_their_example() {
     for (line, cells) in rows(&manual, 1147, 1155).into_iter().chain(rows(&manual, 1186, 1194)) {
         let cell = cells.iter().rev().find(|cell| cell.contains(':')).expect("a type");
         let number: i128 = cell.split([':', '.']).next().unwrap().trim().parse().expect("a number");
-        let own = services.iter().find(|own| own.value == number).unwrap_or_else(|| panic!("L{line}"));
-        assert!(cited(own.documentation.as_deref()).contains(&line), "L{line}");
-        assert_eq!(own.zone.is_some(), cell.to_lowercase().contains("riserva"), "L{line}");
+        let service = services.iter().find(|service| service.value == number).unwrap_or_else(|| panic!("line {line}"));
+        assert!(cited(service.documentation.as_deref()).contains(&line), "line {line}");
+        assert_eq!(service.zone.is_some(), cell.to_lowercase().contains("riserva"), "line {line}");
     }
     assert_eq!(services.len(), 9);
     for (name, lines, count) in [("SdoCommand", 1156..=1158, 5), ("SdoResult", 1195..=1198, 6)] {
         let text: String = lines.map(|line| manual[line - 1].clone()).collect();
         let printed: BTreeSet<u32> = text.split("0x").skip(1).map(|part| hex(&part[..2])).collect();
-        let own: BTreeSet<u32> = values(device, name).iter().map(|own| own.value as u32).collect();
-        assert_eq!((own.len(), own), (count, printed), "{name}");
+        let values: BTreeSet<u32> = values(device, name).iter().map(|value| value.value as u32).collect();
+        assert_eq!((values.len(), values), (count, printed), "{name}");
     }
 }
 
-/// Holds the rows of a frame, `Byte 0` to `Byte 15`, against the fields that have these bytes.
+/// Compares the rows of a frame, `Byte 0` to `Byte 15`, with the fields that have these bytes.
 fn frame(manual: &[String], device: &Device, fields: &[MessageField], (first, last): (usize, usize)) {
     let mut bytes: Vec<Option<BTreeSet<usize>>> = Vec::new();
     for field in fields {
@@ -635,17 +650,18 @@ fn frame(manual: &[String], device: &Device, fields: &[MessageField], (first, la
         .collect();
     assert_eq!(printed.iter().map(|(byte, _)| *byte).collect::<Vec<_>>(), (0..bytes.len()).collect::<Vec<_>>());
     for (byte, line) in printed {
-        assert!(bytes[byte].as_ref().is_none_or(|cites| cites.contains(&line)), "L{line}: byte {byte}");
+        assert!(bytes[byte].as_ref().is_none_or(|cites| cites.contains(&line)), "line {line}: byte {byte}");
     }
 }
 
-/// The objects that the manual names, as section 3.3 of the analysis counts them: 43 with 0x1704 left out, and 41 pairs.
+/// The objects that the manual names, counted in section 3.3 of the analysis: 43 indices without 0x1704, and 41 pairs of index
+/// and sub-index.
 #[test]
 fn objects_and_parameters() {
     let compilation = table();
     let device = device(&compilation);
     let mut indices: BTreeSet<u16> = device.groups.iter().filter_map(|group| group.index()).collect();
-    indices.extend(device.process_data.pdos.iter().map(|own| own.mapping_index));
+    indices.extend(device.process_data.pdos.iter().map(|pdo| pdo.mapping_index));
     assert_eq!(indices.len(), 43);
     assert!(!indices.contains(&0x1704));
     let mut pairs: Vec<(u16, u8)> = Vec::new();
@@ -657,12 +673,12 @@ fn objects_and_parameters() {
     pairs.extend(plain.iter().chain(&[0x2050, 0x20A0, 0x20A4, 0x20A5, 0x3470]).map(|&index| (index, 0)));
     pairs.extend([(0x60C1, 1), (0x60C2, 1), (0x60C2, 2), (0x60FE, 1)]);
     assert_eq!(pairs.len(), 41);
-    let own: BTreeSet<(u16, u8)> =
+    let items: BTreeSet<(u16, u8)> =
         device.groups.iter().flat_map(|group| &group.items).filter_map(Item::object).collect();
-    let missing: Vec<_> = pairs.iter().filter(|pair| !own.contains(pair)).collect();
+    let missing: Vec<_> = pairs.iter().filter(|pair| !items.contains(pair)).collect();
     assert_eq!(missing, [&(0, 0); 0]);
-    // Further entries of the mapping objects, up to four.
-    let more: Vec<_> = own.iter().filter(|pair| !pairs.contains(pair)).collect();
+    // Skips further entries of the mapping objects, up to four.
+    let more: Vec<_> = items.iter().filter(|pair| !pairs.contains(pair)).collect();
     assert!(more.iter().all(|(index, sub)| matches!(index, 0x1600..=0x1603 | 0x1A00..=0x1A03) && *sub <= 4));
     let mut names: Vec<&str> = Vec::new();
     for binding in device.groups.iter().flat_map(|group| &group.items).flat_map(|item| &item.bindings) {
@@ -691,17 +707,17 @@ fn every_row_says_where_it_is_printed() {
         look(format!("{:?} {}", group.kind, group.name), group.documentation.as_deref());
         group.items.iter().for_each(|item| look(item.name.to_string(), item.documentation.as_deref()));
     }
-    for own in &device.types {
-        match &own.shape {
+    for definition in &device.types {
+        match &definition.shape {
             Shape::BitField { fields, .. } => {
-                fields
-                    .iter()
-                    .for_each(|field| look(format!("{}/{}", own.name, field.name), field.documentation.as_deref()));
+                fields.iter().for_each(|field| {
+                    look(format!("{}/{}", definition.name, field.name), field.documentation.as_deref())
+                });
             }
-            Shape::Enumeration { values, .. } if own.documentation.is_some() => {
-                values
-                    .iter()
-                    .for_each(|value| look(format!("{}/{}", own.name, value.name), value.documentation.as_deref()));
+            Shape::Enumeration { values, .. } if definition.documentation.is_some() => {
+                values.iter().for_each(|value| {
+                    look(format!("{}/{}", definition.name, value.name), value.documentation.as_deref())
+                });
             }
             _ => {}
         }
@@ -709,14 +725,17 @@ fn every_row_says_where_it_is_printed() {
     for machine in &device.machines {
         look(machine.name.to_string(), machine.documentation.as_deref());
         let patterns = machine.states.iter().chain(&machine.commands);
-        patterns.for_each(|own| look(own.name.to_string(), own.documentation.as_deref()));
-        machine.transitions.iter().for_each(|own| look(format!("to {}", own.to), own.documentation.as_deref()));
+        patterns.for_each(|pattern| look(pattern.name.to_string(), pattern.documentation.as_deref()));
+        machine
+            .transitions
+            .iter()
+            .for_each(|transition| look(format!("to {}", transition.to), transition.documentation.as_deref()));
     }
-    device.process_data.pdos.iter().for_each(|own| look(own.name.to_string(), own.documentation.as_deref()));
-    device.procedures.iter().for_each(|own| look(own.name.to_string(), own.documentation.as_deref()));
-    device.messages.iter().for_each(|own| look(own.name.to_string(), own.documentation.as_deref()));
+    device.process_data.pdos.iter().for_each(|pdo| look(pdo.name.to_string(), pdo.documentation.as_deref()));
+    device.procedures.iter().for_each(|procedure| look(procedure.name.to_string(), procedure.documentation.as_deref()));
+    device.messages.iter().for_each(|message| look(message.name.to_string(), message.documentation.as_deref()));
     for table in &device.code_tables {
-        table.rows.iter().for_each(|own| look(format!("{} {}", table.name, own.code), own.documentation.as_deref()));
+        table.rows.iter().for_each(|row| look(format!("{} {}", table.name, row.code), row.documentation.as_deref()));
     }
     assert_eq!(missing, [""; 0]);
 }

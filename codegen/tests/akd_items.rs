@@ -1,7 +1,8 @@
-//! Each of the 48 items of section 4 of the notes on the Kollmorgen AKD's manual, with what accounts for it: the diagnostics
-//! of a transcription as it is printed (the cases of `manual-akd` in `tests/ui`), or the doubt in
-//! dictionaries/kollmorgen-akd.toml that says how it was read. The list is the overview; the tests compare it with the cases
-//! that it names, the doubts and, if the manual is next to the repository, its lines.
+//! Lists the 48 items in section 4 of the notes on the Kollmorgen AKD manual, with what covers each item. That is either the
+//! diagnostics of a verbatim transcription (the cases of `manual-akd` in `tests/ui`), or a doubt in
+//! dictionaries/kollmorgen-akd.toml.
+//!
+//! The tests compare the list with these cases and doubts and, if the manual is available, with its lines.
 
 #[path = "table_support/cases.rs"]
 mod cases;
@@ -16,14 +17,14 @@ use std::collections::BTreeSet;
 
 use How::{Doubt, Finding};
 
-/// The area of the cases.
+/// Area of the cases.
 const AREA: &str = "manual-akd";
 
-/// What accounts for an item.
+/// Coverage of an item.
 enum How {
-    /// A case, and what its diagnostics contain: codes, or words of a message.
+    /// A case, and text that its diagnostics contain: codes, or words of a message.
     Finding(&'static str, &'static [&'static str]),
-    /// Lines of the manual that a doubt names, each with a part of it: no check of facts can see what is odd there.
+    /// Lines of the manual that a doubt cites, each with a part of the line, because no check can detect the contradiction.
     Doubt(&'static [(usize, &'static str)]),
 }
 
@@ -48,7 +49,7 @@ const ITEMS: &[(u8, How)] = &[
     (10, Doubt(&[(650, "(BI)\t-"), (648, "Controllo AL I")])),
     (11, Doubt(&[(546, "Sync Manager 8"), (598, "SyncManager 15")])),
     (12, Doubt(&[(542, "Sync Manager 4"), (538, "SyncManager 0")])),
-    // 4.2: the drive's state machine.
+    // 4.2: state machine of the drive.
     (13, Finding("item-13-command-that-is-two-others-as-well", &["TAB029"])),
     (13, Doubt(&[(697, "Accensione"), (700, "Disabilitazione operazione")])),
     (14, Doubt(&[(671, "Disabilitazione accensione"), (744, "Accensione disabilitata"), (674, "Abilitazione operazione"), (747, "Operazione abilitata"), (732, "Accesa"), (742, "Accensione")])),
@@ -92,7 +93,7 @@ const ITEMS: &[(u8, How)] = &[
     (40, Doubt(&[(1081, "8-12"), (1096, "8-11")])),
     (41, Finding("items-40-41-bit-that-is-left-out", &["TAB036"])),
     (41, Doubt(&[(1079, "4"), (1094, "4")])),
-    // That 3 is a number and no bit stands in the documentation of the field, and the test of its values in `akd`.
+    // The documentation of the field states that 3 is a number and not a bit, and `akd` tests its values.
     (42, Doubt(&[(1096, "z1zz")])),
     (43, Doubt(&[(1100, "12-15"), (1103, "stato 1")])),
     // 4.6: the mailbox.
@@ -118,7 +119,7 @@ fn the_cases_report_what_the_list_says() {
         let Finding(name, marks) = how else { continue };
         let text = cases::diagnostics(AREA, name);
         for mark in *marks {
-            assert!(text.contains(mark), "item {item}: `{name}` doesn't report {mark}");
+            assert!(text.contains(mark), "item {item}: `{name}` does not report {mark}");
         }
     }
 }
@@ -137,7 +138,9 @@ fn the_doubts_name_the_lines() {
     let mut missing = Vec::new();
     for (item, how) in ITEMS {
         let Doubt(lines) = how else { continue };
-        missing.extend(lines.iter().filter(|own| !doubted.contains(&own.0)).map(|own| format!("{item}: L{}", own.0)));
+        missing.extend(
+            lines.iter().filter(|line| !doubted.contains(&line.0)).map(|line| format!("{item}: line {}", line.0)),
+        );
     }
     assert_eq!(missing, [""; 0]);
 }
@@ -151,7 +154,7 @@ fn the_lines_say_so() {
         let Doubt(lines) = how else { continue };
         for (line, part) in *lines {
             if !manual.get(line - 1).is_some_and(|text| text.contains(part)) {
-                wrong.push(format!("{item}: L{line} has no `{part}`"));
+                wrong.push(format!("{item}: line {line} has no `{part}`"));
             }
         }
     }

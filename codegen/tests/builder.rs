@@ -1,4 +1,4 @@
-//! The door for build scripts.
+//! Tests the builder for build scripts.
 
 use std::path::{Path, PathBuf};
 
@@ -25,14 +25,19 @@ fn output_is_named_after_the_input_and_written_once() {
     let old = std::time::SystemTime::UNIX_EPOCH;
     std::fs::File::options().write(true).open(&output).and_then(|file| file.set_modified(old)).expect("an old file");
     builder.compile(&input).expect("bindings");
-    assert_eq!(std::fs::metadata(&output).and_then(|data| data.modified()).expect("a time"), old, "not written again");
+    assert_eq!(
+        std::fs::metadata(&output).and_then(|data| data.modified()).expect("a time"),
+        old,
+        "an unchanged file is not written again"
+    );
     builder.clone().table(Presence::Always).compile(&input).expect("bindings");
     assert_ne!(std::fs::metadata(&output).and_then(|data| data.modified()).expect("a time"), old, "other bytes");
     builder.compile_as(&input, "other.rs").expect("bindings");
     assert!(folder.join("other.rs").is_file());
 }
 
-/// What a build script that calls `generate` alone tells Cargo. Its output is that of a process, which is this program once more.
+/// Checks what a build script that calls only `generate` prints for Cargo. The output is that of a child process, which runs
+/// this test program.
 #[test]
 fn cargo_watches_the_input_and_what_it_was_compiled_with() {
     const INPUT: &str = "LEXIBUS_TEST_INPUT";
@@ -41,7 +46,7 @@ fn cargo_watches_the_input_and_what_it_was_compiled_with() {
         Builder::new().overlay(input.with_extension("toml")).generate(&input).expect("bindings");
         return;
     }
-    // What a description refers to is watched where it isn't there yet, too.
+    // A referenced file is watched even if it does not exist yet.
     let input = folder("watched").join("valve.xml");
     let esi = "<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices><Device><Type ProductCode=\"1\">V</Type>\
         <Name>Valve</Name><Profile><DictionaryFile>Dict.xml</DictionaryFile></Profile></Device></Devices></Descriptions></EtherCATInfo>";
@@ -71,7 +76,7 @@ fn errors_are_for_people() {
     let error = builder.clone().strict().compile(&input).expect_err("a repair");
     let text = format!("{error:?}");
     assert!(text.contains("error[EDS020]") && text.contains("valve.eds:7:14"), "{text}");
-    builder.clone().strict().level("octal-number", Level::Allow).compile(&input).expect("no repair that counts");
+    builder.clone().strict().level("octal-number", Level::Allow).compile(&input).expect("no repair that is an error");
     let error = builder.clone().level("octal-numbr", Level::Deny).compile(&input).expect_err("no such code");
     assert!(error.to_string().contains("did you mean `octal-number`?"), "{error}");
     let error = builder.compile(folder.join("missing.eds")).expect_err("no such file");

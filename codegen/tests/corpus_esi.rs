@@ -1,6 +1,6 @@
-//! What the compiler says of every ESI file of the corpus against what a simple script counted in them (`oracle.json`).
+//! Compares the results for every ESI file of the corpus with the counts of a simple script (`oracle.json`).
 //!
-//! The corpus is next to the repository and not part of it: without it, these tests say so and pass.
+//! The corpus is outside of the repository. Without it, these tests print a message and pass.
 
 mod corpus_support;
 
@@ -13,7 +13,7 @@ use lexibus_codegen::ir::{
 use lexibus_codegen::source::Source;
 use serde_json::Value;
 
-/// A file, what the script says of it, and what the compiler does.
+/// A file with the results of the script and of the compiler.
 struct Case {
     name: String,
     oracle: Value,
@@ -38,7 +38,7 @@ impl Case {
     }
 }
 
-/// Every file, read from memory: what it refers to isn't there.
+/// Reads every file from memory, so that files that it refers to do not exist.
 fn cases() -> Option<Vec<Case>> {
     let folder = folder_of("esi")?;
     let text = std::fs::read_to_string(folder.join("oracle.json")).expect("the oracle");
@@ -63,25 +63,25 @@ fn files_are_read_without_errors() {
     }
 }
 
-/// The script's parser gives up on three files, each of which can be repaired: something follows the root element, a `&`
-/// starts no reference, a byte is in another encoding than the declared one. The place is the same.
+/// The script's parser rejects three files that the compiler repairs: content after the root element, a `&` that starts no
+/// reference, and a byte outside of the declared encoding. Both report the same line.
 #[test]
 fn what_is_not_well_formed_is_reported_at_its_line() {
     let Some(cases) = cases() else { return };
     let mut found = Vec::new();
     for case in cases.iter().filter(|case| case.oracle["wellformed"] == Value::Bool(false)) {
-        let error = case.oracle["error"].as_str().expect("what the parser said");
+        let error = case.oracle["error"].as_str().expect("a message of the parser");
         let line = error.split("line ").nth(1).and_then(|rest| rest.split(',').next()).expect("a line");
         let repairs = case.read.diagnostics.list().iter().filter(|found| found.code.id.starts_with("XML"));
         let repairs: Vec<_> = repairs.map(|found| (found.code.id, case.line(found).to_string())).collect();
-        let [(code, own)] = &repairs[..] else { panic!("{}: {repairs:?}", case.name) };
-        assert_eq!(own, line, "{}", case.name);
+        let [(code, repaired)] = &repairs[..] else { panic!("{}: {repairs:?}", case.name) };
+        assert_eq!(repaired, line, "{}", case.name);
         found.push(*code);
     }
     assert_eq!(found, ["XML004", "XML003", "XML002"]);
 }
 
-/// Cut off anywhere, a file is an error with a place, and no catalogue.
+/// A truncated file gives an error with a position, and no catalog.
 #[test]
 fn files_that_are_cut_off_are_errors() {
     let Some(cases) = cases() else { return };
@@ -96,30 +96,30 @@ fn files_that_are_cut_off_are_errors() {
     }
 }
 
-/// The script keeps blanks around a text, and knows no characters of an encoding that isn't declared.
-fn same_text(oracle: &Value, own: &Value) -> bool {
-    let (Some(oracle), Some(own)) = (oracle.as_str(), own.as_str()) else { return false };
+/// Compares two texts. The script keeps surrounding blanks, and does not decode characters outside of the declared encoding.
+fn same_text(oracle: &Value, value: &Value) -> bool {
+    let (Some(oracle), Some(value)) = (oracle.as_str(), value.as_str()) else { return false };
     let same = |(one, other): (char, char)| one == other || one == char::REPLACEMENT_CHARACTER;
-    oracle.trim().chars().count() == own.chars().count() && oracle.trim().chars().zip(own.chars()).all(same)
+    oracle.trim().chars().count() == value.chars().count() && oracle.trim().chars().zip(value.chars()).all(same)
 }
 
-/// What one element of the file has, as the script counts it.
+/// One element of the file with the counts of the script.
 struct Counts<'c> {
     oracle: &'c Value,
-    /// Number of mismatches is what matters: all of them are shown.
+    /// Mismatches, which are all printed.
     wrong: Vec<String>,
 }
 
 impl Counts<'_> {
-    fn same(&mut self, key: &str, own: impl Into<Value>) {
-        let own = own.into();
-        if !same_text(&self.oracle[key], &own) && self.oracle[key] != own {
-            self.wrong.push(format!("{key}: {} in the oracle, {own} here", self.oracle[key]));
+    fn same(&mut self, key: &str, actual: impl Into<Value>) {
+        let actual = actual.into();
+        if !same_text(&self.oracle[key], &actual) && self.oracle[key] != actual {
+            self.wrong.push(format!("{key}: {} in the oracle, {actual} in the compiler", self.oracle[key]));
         }
     }
 
     fn dictionary(&mut self, groups: &[Group], types: &[TypeDef], twice: Twice) {
-        // What only a name stands for, and what `check` adds, is on no line.
+        // Types that follow from a name, and types that `check` adds, have no line.
         let types = types.iter().filter(|def| def.origin.line > 0);
         self.same("n_objects", groups.len() + twice.objects);
         self.same("n_datatypes", types.clone().count());
@@ -133,9 +133,9 @@ impl Counts<'_> {
 
     fn pdos(&mut self, data: &ProcessData) {
         for (key, direction) in [("rx_pdos", Direction::Receive), ("tx_pdos", Direction::Transmit)] {
-            let own = data.pdos.iter().filter(|pdo| pdo.direction == direction);
+            let pdos = data.pdos.iter().filter(|pdo| pdo.direction == direction);
             let triple = |pdo: &Pdo| serde_json::json!([pdo.mapping_index, pdo.entries.len(), pdo.bits()]);
-            self.same(key, own.map(triple).collect::<Vec<_>>());
+            self.same(key, pdos.map(triple).collect::<Vec<_>>());
         }
     }
 
@@ -155,7 +155,7 @@ impl Counts<'_> {
         self.same("dc_opmodes", modes.collect::<Vec<_>>());
         let mailbox = settings.mailbox.as_deref();
         let coe = mailbox.and_then(|mailbox| mailbox.coe.as_ref());
-        let others = mailbox.map(|own| [&own.aoe, &own.eoe, &own.foe, &own.soe, &own.voe]);
+        let others = mailbox.map(|mailbox| [&mailbox.aoe, &mailbox.eoe, &mailbox.foe, &mailbox.soe, &mailbox.voe]);
         let others = others.into_iter().flatten().flatten().map(|protocol| protocol.init_commands.len());
         self.same("n_initcmd", coe.map_or(0, |coe| coe.init_commands.len()) + others.sum::<usize>());
     }
@@ -170,7 +170,7 @@ impl Counts<'_> {
     }
 }
 
-/// Objects that a file has twice, of which the compiler keeps one and says so: the script counts elements, not indices.
+/// Objects that a file declares twice. The compiler keeps one and reports the other; the script counts elements, not indices.
 #[derive(Clone, Copy, Default)]
 struct Twice {
     objects: usize,
@@ -193,15 +193,15 @@ fn the_ir_has_what_the_oracle_counts() {
     let (mut devices, mut modules, mut wrong) = (0, 0, Vec::new());
     for case in &cases {
         let catalog = case.catalog();
-        let own = catalog.devices.iter().filter(|device| !device.dictionary_only);
+        let actual = catalog.devices.iter().filter(|device| !device.dictionary_only);
         let expected = case.oracle["devices"].as_array().expect("devices");
-        assert_eq!(own.clone().count(), expected.len(), "{}: devices", case.name);
+        assert_eq!(actual.clone().count(), expected.len(), "{}: devices", case.name);
         let mut check = |what: String, oracle: &Value, compare: &dyn Fn(&mut Counts<'_>)| {
             let mut counts = Counts { oracle, wrong: Vec::new() };
             compare(&mut counts);
             wrong.extend(counts.wrong.into_iter().map(|wrong| format!("{} {what}: {wrong}", case.name)));
         };
-        for (device, oracle) in own.zip(expected) {
+        for (device, oracle) in actual.zip(expected) {
             check(format!("device {}", device.id), oracle, &|counts| counts.device(device, twice(case)));
             devices += 1;
         }
@@ -229,7 +229,7 @@ fn the_ir_has_what_the_oracle_counts() {
     assert!(devices >= least_devices && modules >= least_modules, "only {devices} devices and {modules} modules");
 }
 
-/// What the compiler adds to complete a device, and every place that it names.
+/// Items that the compiler adds to complete a device, and every position that it refers to.
 #[test]
 fn checked_files_are_consistent() {
     let Some(folder) = folder_of("esi") else { return };

@@ -1,4 +1,4 @@
-//! Suggested fixes for the files of the corpus: each one, applied alone, removes its diagnostic and adds none.
+//! Tests the suggested fixes for the files of the corpus: each fix removes its diagnostic and adds none.
 
 mod corpus_support;
 

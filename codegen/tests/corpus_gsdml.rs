@@ -1,5 +1,5 @@
-//! Every GSDML file of the corpus against independent counts (`oracle.json`), and its names against the text lists as a
-//! simple scanner here sees them.
+//! Compares every GSDML file of the corpus with independent counts (`oracle.json`), and its names with the text lists that a
+//! simple scanner reads.
 
 mod corpus_support;
 
@@ -16,7 +16,7 @@ use lexibus_codegen::ir::{
 use lexibus_codegen::source::Source;
 use serde_json::Value;
 
-/// A file, what the oracle says of it, and what the compiler does.
+/// A file with the results of the oracle and of the compiler.
 struct Case {
     name: String,
     text: String,
@@ -33,8 +33,7 @@ impl Case {
         number(&self.oracle["counts"][key]).unwrap_or_else(|| panic!("{}: no count of {key}", self.name)) as usize
     }
 
-    /// Not GSDML in all but its root: attributes have other names and elements other places. The oracle sees next to
-    /// nothing of it.
+    /// Files that have only the root element in common with GSDML. The oracle reads almost nothing of them.
     fn is_mock(&self) -> bool {
         self.name == "richenapedro__pnio-validator__sample_gsdml.xml"
     }
@@ -49,14 +48,14 @@ fn folder() -> Option<PathBuf> {
     None
 }
 
-/// Every file of the corpus that the oracle knows; `None`, with a message, where it isn't there.
+/// Returns every file of the corpus that the oracle covers; `None`, with a message, if there is no corpus.
 fn cases(well_formed: bool) -> Option<Vec<Case>> {
     let folder = folder()?;
     let text = std::fs::read_to_string(folder.join("oracle.json")).expect("the oracle");
     let oracle: BTreeMap<String, Value> = serde_json::from_str(&text).expect("JSON");
     assert!(oracle.len() >= 78, "only {} files are in the corpus", oracle.len());
-    let of_kind = oracle.into_iter().filter(|(_, own)| own["wellformed"] == well_formed);
-    Some(of_kind.map(|(name, own)| case(&folder, name, own)).collect())
+    let of_kind = oracle.into_iter().filter(|(_, entry)| entry["wellformed"] == well_formed);
+    Some(of_kind.map(|(name, entry)| case(&folder, name, entry)).collect())
 }
 
 fn case(folder: &Path, name: String, oracle: Value) -> Case {
@@ -88,7 +87,7 @@ fn well_formed_files_are_read_without_errors() {
 #[test]
 fn malformed_files_have_one_error_with_its_place() {
     let Some(cases) = cases(false) else { return };
-    // One has an end tag too many; the other ends within an element, behind its last character.
+    // One file has an extra end tag. The other one ends within an element, after its last character.
     let places: BTreeMap<&str, u32> = [
         ("vformi__PLC.Commissioning.Lib.Siemens__MalformedGSDML.xml", 5085),
         ("vformi__PLC.Commissioning.Lib.Siemens__invalid.xml", 5585),
@@ -96,7 +95,7 @@ fn malformed_files_have_one_error_with_its_place() {
     .into();
     for case in &cases {
         assert!(case.compilation.catalog.is_none(), "{}", case.name);
-        let [error] = case.compilation.diagnostics.list() else { panic!("{}: not one finding", case.name) };
+        let [error] = case.compilation.diagnostics.list() else { panic!("{}: not one diagnostic", case.name) };
         assert_eq!((error.code.id, error.severity), ("XML001", Severity::Error), "{}", case.name);
         let place = case.compilation.sources[0].position(error.span.start);
         assert_eq!(Some(&place.line), places.get(case.name.as_str()), "{}", case.name);
@@ -120,7 +119,7 @@ fn identity_and_header() {
     }
 }
 
-/// The vendor's name. The oracle decoded files as they declare; some declare ISO 8859-1, but are UTF-8.
+/// Returns the vendor name. The oracle decodes files as declared, but some that declare ISO 8859-1 are UTF-8.
 fn vendor_name(case: &Case) -> String {
     let name = case.oracle["vendor_name"].as_str().unwrap_or("");
     let misdeclared = case.compilation.diagnostics.list().iter().any(|found| found.code.id == "XML003");
@@ -129,7 +128,7 @@ fn vendor_name(case: &Case) -> String {
     again.unwrap_or_else(|| name.to_owned())
 }
 
-/// The oracle doesn't see `VendorId` and `DeviceId`, which differ from the names of the schema in one letter's case.
+/// Names of attributes that differ from `VendorId` and `DeviceId` in case, which the oracle does not read.
 #[test]
 fn attributes_in_another_case() {
     let Some(cases) = cases(true) else { return };
@@ -139,7 +138,7 @@ fn attributes_in_another_case() {
     assert!(case.compilation.diagnostics.list().iter().any(|found| found.code.id == "GSD007"));
 }
 
-/// Lengths of the data of some submodules, F message trailers included.
+/// Returns the data lengths of some submodules, including F message trailers.
 fn lengths<'s>(submodules: impl Iterator<Item = &'s Submodule>) -> (u64, u64) {
     let bytes = |data: &Option<Box<IoData>>| data.as_ref().map_or(0, |data| data.image.length + data.image.overhead);
     let add = |(input, output), submodule: &Submodule| {
@@ -148,11 +147,11 @@ fn lengths<'s>(submodules: impl Iterator<Item = &'s Submodule>) -> (u64, u64) {
     submodules.fold((0, 0), add)
 }
 
-/// Index, length and number of parameters of each record.
+/// Returns index, length and number of parameters of each record.
 fn records<'s>(submodules: impl Iterator<Item = &'s Submodule>) -> Vec<(u64, u64, u64)> {
     let of = |group: &Group| match &group.kind {
         GroupKind::Record(record) => (record.index.into(), record.length.into(), group.items.len() as u64),
-        other => panic!("{other:?} is no record"),
+        other => panic!("{other:?} is not a record"),
     };
     let mut records: Vec<_> = submodules.flat_map(|submodule| &submodule.records).map(of).collect();
     records.sort_unstable();
@@ -161,7 +160,7 @@ fn records<'s>(submodules: impl Iterator<Item = &'s Submodule>) -> Vec<(u64, u64
 
 fn expected_records(value: &Value) -> Vec<(u64, u64, u64)> {
     let of = |record: &Value| {
-        let [index, length, refs] = list(record) else { panic!("{record} isn't a record") };
+        let [index, length, refs] = list(record) else { panic!("{record} is not a record") };
         (number(index).unwrap(), number(length).unwrap(), number(refs).unwrap())
     };
     let mut records: Vec<_> = list(value).iter().map(of).collect();
@@ -173,15 +172,15 @@ fn submodule(catalog: &Catalog, SubmoduleId(id): SubmoduleId) -> &Submodule {
     &catalog.submodules[id as usize]
 }
 
-/// Built-in submodules: virtual ones, or interfaces and ports.
+/// Returns the built-in submodules: either virtual ones, or interfaces and ports.
 fn built_in<'c>(
     catalog: &'c Catalog,
     uses: &'c [SubmoduleUse],
     is_virtual: bool,
 ) -> Vec<(&'c Submodule, &'c SubmoduleUse)> {
-    let own = uses.iter().map(|own| (submodule(catalog, own.submodule), own));
-    own.filter(|(found, own)| {
-        let built_in = !own.places.fixed.is_empty() && found.kind != SubmoduleKind::Pluggable;
+    let uses = uses.iter().map(|usage| (submodule(catalog, usage.submodule), usage));
+    uses.filter(|(found, entry)| {
+        let built_in = !entry.places.fixed.is_empty() && found.kind != SubmoduleKind::Pluggable;
         built_in && (found.kind == SubmoduleKind::Virtual) == is_virtual
     })
     .collect()
@@ -203,14 +202,14 @@ fn check_submodule(name: &str, found: &Submodule, expected: &Value) {
 
 fn check_built_in(case: &Case, uses: &[SubmoduleUse], expected: &Value) {
     let catalog = case.catalog();
-    let (found, own) = (built_in(catalog, uses, true), list(&expected["virtual_submodules"]));
-    assert_eq!(found.len(), own.len(), "{}", case.name);
-    for ((found, _), expected) in found.iter().zip(own) {
+    let (found, actual) = (built_in(catalog, uses, true), list(&expected["virtual_submodules"]));
+    assert_eq!(found.len(), actual.len(), "{}", case.name);
+    for ((found, _), expected) in found.iter().zip(actual) {
         check_submodule(&case.name, found, expected);
     }
-    let (found, own) = (built_in(catalog, uses, false), list(&expected["system_submodules"]));
-    assert_eq!(found.len(), own.len(), "{}", case.name);
-    for ((found, place), expected) in found.iter().zip(own) {
+    let (found, uses) = (built_in(catalog, uses, false), list(&expected["system_submodules"]));
+    assert_eq!(found.len(), uses.len(), "{}", case.name);
+    for ((found, place), expected) in found.iter().zip(uses) {
         assert_eq!(found.id, expected["id"].as_str().unwrap_or(""), "{}", case.name);
         assert_eq!(Some(u64::from(found.ident)), number(&expected["ident"]), "{}", case.name);
         let subslots: Vec<u64> = place.places.fixed.iter().map(u64::from).collect();
@@ -248,7 +247,7 @@ fn check_device(case: &Case, device: &Device, expected: &Value) {
     assert_eq!(pluggable as u64, number(&expected["useable_submodules"]).unwrap(), "{at}");
 }
 
-/// `0..3 7`, taken apart without the compiler's help.
+/// Parses a list such as `0..3 7` without the code under test.
 fn slots_of(text: &str) -> Vec<u16> {
     let mut slots = Vec::new();
     for part in text.split(' ').filter(|part| !part.is_empty()) {
@@ -279,14 +278,14 @@ fn check_module(case: &Case, module: &Module, expected: &Value) {
         assert_eq!(module.name, name, "{at}");
     }
     check_built_in(case, &module.submodules, expected);
-    let own = built_in(case.catalog(), &module.submodules, true);
-    let (input, output) = lengths(own.iter().map(|(found, _)| *found));
+    let submodules = built_in(case.catalog(), &module.submodules, true);
+    let (input, output) = lengths(submodules.iter().map(|(found, _)| *found));
     assert_eq!(
         (Some(input), Some(output)),
         (number(&expected["input_bytes"]), number(&expected["output_bytes"])),
         "{at}"
     );
-    assert_eq!(records(own.iter().map(|(found, _)| *found)), expected_records(&expected["records"]), "{at}");
+    assert_eq!(records(submodules.iter().map(|(found, _)| *found)), expected_records(&expected["records"]), "{at}");
 }
 
 #[test]
@@ -294,16 +293,16 @@ fn modules_and_submodules() {
     let Some(cases) = cases(true) else { return };
     let (mut modules, mut submodules) = (0, 0);
     for case in &cases {
-        let own = list(&case.oracle["modules"]);
-        assert_eq!(case.catalog().modules.len(), own.len(), "{}", case.name);
-        for (module, expected) in case.catalog().modules.iter().zip(own) {
+        let result = list(&case.oracle["modules"]);
+        assert_eq!(case.catalog().modules.len(), result.len(), "{}", case.name);
+        for (module, expected) in case.catalog().modules.iter().zip(result) {
             check_module(case, module, expected);
             modules += 1;
         }
         let pluggable = case.catalog().submodules.iter().filter(|found| found.kind == SubmoduleKind::Pluggable);
-        let own = list(&case.oracle["submodules"]);
-        assert_eq!(pluggable.clone().count(), own.len(), "{}", case.name);
-        for (found, expected) in pluggable.zip(own) {
+        let actual = list(&case.oracle["submodules"]);
+        assert_eq!(pluggable.clone().count(), actual.len(), "{}", case.name);
+        for (found, expected) in pluggable.zip(actual) {
             check_submodule(&case.name, found, expected);
             submodules += 1;
         }
@@ -315,7 +314,7 @@ fn data(catalog: &Catalog) -> impl Iterator<Item = &IoData> {
     catalog.submodules.iter().flat_map(|found| found.input.iter().chain(&found.output)).map(|data| &**data)
 }
 
-/// The data types of data items: those of fields that are items themselves, and those of items of several fields.
+/// Returns the data types of data items: of fields that are items, and of items with several fields.
 fn data_items(data: &IoData) -> usize {
     let within: u32 = data.items.iter().map(|item| item.fields).sum();
     data.image.fields.len() - within as usize + data.items.len()
@@ -327,12 +326,12 @@ fn parameter_records(catalog: &Catalog) -> impl Iterator<Item = &Group> {
     of_submodules.chain(settings.flat_map(|settings| &settings.vendor_blocks).map(|block| &block.record))
 }
 
-/// How many elements of each kind the IR holds, under the names that the oracle has for them.
+/// Returns the number of elements of each kind in the IR, under the names of the oracle.
 fn counts(catalog: &Catalog) -> Vec<(&'static str, usize)> {
     let kinds = |kind| catalog.submodules.iter().filter(|found| found.kind == kind).count();
     let of_devices = catalog.devices.iter().flat_map(|device| &device.submodules);
     let uses = of_devices.chain(catalog.modules.iter().flat_map(|module| &module.submodules));
-    let pluggable = uses.filter(|own| submodule(catalog, own.submodule).kind == SubmoduleKind::Pluggable);
+    let pluggable = uses.filter(|usage| submodule(catalog, usage.submodule).kind == SubmoduleKind::Pluggable);
     vec![
         ("daps", catalog.devices.len()),
         ("modules", catalog.modules.len()),
@@ -349,7 +348,7 @@ fn counts(catalog: &Catalog) -> Vec<(&'static str, usize)> {
     ]
 }
 
-/// The same for data and records.
+/// Like the function above, for data and records.
 fn counts_of_data(catalog: &Catalog) -> Vec<(&'static str, usize)> {
     let constants = parameter_records(catalog).map(|group| match &group.kind {
         GroupKind::Record(record) => record.constants.len(),
@@ -369,13 +368,13 @@ fn counts_of_data(catalog: &Catalog) -> Vec<(&'static str, usize)> {
     ]
 }
 
-/// The oracle doesn't count ProfileChannelDiagItem, the only ones with an API.
+/// Counts ProfileChannelDiagItem elements, which the oracle does not count. Only these have an API.
 fn channel_errors(catalog: &Catalog) -> usize {
     let tables = catalog.code_tables.iter().filter(|table| table.name == "channel_diagnosis");
     tables.flat_map(|table| &table.rows).filter(|row| row.cells[1] == ir::Value::Int(0)).count()
 }
 
-/// Named bits of data items: fields of one bit within an item of several.
+/// Returns the named bits of data items: one-bit fields of items with several fields.
 fn bits(data: &IoData) -> usize {
     let fields = data.items.iter().flat_map(|item| {
         let first = item.first_field as usize;
@@ -384,7 +383,7 @@ fn bits(data: &IoData) -> usize {
     fields.filter(|field| field.bits == 1 && field.kind == PdoEntryKind::Item).count()
 }
 
-/// The number of values of each value list. One list may have become several types.
+/// Returns the number of values of each value list. One list may become several types.
 fn enumerations(catalog: &Catalog) -> BTreeMap<&str, usize> {
     let types = catalog.types.iter().filter_map(|def| match &def.shape {
         Shape::Enumeration { values, .. } => Some((def.name.as_str(), values.len())),
@@ -403,7 +402,7 @@ fn counts_agree() {
     }
 }
 
-/// The values of attribute `name` of every element `element`, in the order of the file: as simple as can be.
+/// Returns the values of an attribute of every element with this name, in file order, with a minimal scanner.
 fn attributes<'t>(text: &'t str, element: &str, name: &str) -> Vec<&'t str> {
     let (open, key) = (format!("<{element}"), format!("{name}="));
     let tags = text.match_indices(&open).filter_map(|(at, _)| {
@@ -418,7 +417,7 @@ fn attributes<'t>(text: &'t str, element: &str, name: &str) -> Vec<&'t str> {
     .collect()
 }
 
-/// Without comments, which may contain anything.
+/// Removes comments, which may contain anything.
 fn without_comments(text: &str) -> String {
     let mut parts = text.split("<!--");
     let mut rest = parts.next().unwrap_or("").to_owned();
@@ -432,7 +431,7 @@ fn unescaped(text: &str) -> String {
     text.replace("&amp;", "&")
 }
 
-/// Text of every identifier by language, `""` being the primary one.
+/// Returns the text of every identifier by language. `""` is the primary language.
 fn text_lists(text: &str) -> BTreeMap<&str, BTreeMap<&str, String>> {
     let mut lists: BTreeMap<&str, BTreeMap<&str, String>> = BTreeMap::new();
     for (open, close) in [("<PrimaryLanguage", "</PrimaryLanguage"), ("<Language", "</Language")] {
@@ -449,7 +448,7 @@ fn text_lists(text: &str) -> BTreeMap<&str, BTreeMap<&str, String>> {
     lists
 }
 
-/// Each parameter has the name that the text list gives it, in every language that has it.
+/// Each parameter has the name of the text list in every language of the list.
 #[test]
 fn parameters_have_the_names_of_the_text_list() {
     let Some(cases) = cases(true) else { return };
@@ -471,9 +470,9 @@ fn parameters_have_the_names_of_the_text_list() {
             assert_eq!(name, expected, "{}: {tag}", case.name);
             let others: BTreeMap<&str, &str> =
                 names.iter().map(|local| (local.language.as_str(), local.text.as_str())).collect();
-            let own = lists.iter().filter(|(language, _)| !language.is_empty());
+            let lists = lists.iter().filter(|(language, _)| !language.is_empty());
             let expected: BTreeMap<&str, &str> =
-                own.filter_map(|(language, list)| Some((*language, list.get(id)?.as_str()))).collect();
+                lists.filter_map(|(language, list)| Some((*language, list.get(id)?.as_str()))).collect();
             assert_eq!(others, expected, "{}: {tag}", case.name);
             compared += 1;
         }
@@ -497,7 +496,7 @@ fn languages_agree() {
     }
 }
 
-/// What is said about real files: each code with the number of files that have it.
+/// Diagnostics of real files: each code with the number of files that have it.
 #[test]
 fn findings_are_as_expected() {
     let Some(cases) = cases(true) else { return };
@@ -509,18 +508,18 @@ fn findings_are_as_expected() {
     }
     let counts: Vec<(&str, usize)> = codes.iter().map(|(code, files)| (*code, files.len())).collect();
     let expected = [
-        // Test files of a library, cut off before the list of device access points.
+        // Test files of a library, which are truncated before the list of device access points.
         ("GSD002", 2),
-        // The mock: ApplicationProcess within DeviceFunction, no ModuleInfo, and VendorId.
+        // The mock file has ApplicationProcess within DeviceFunction, no ModuleInfo, and VendorId.
         ("GSD005", 1),
         ("GSD006", 1),
         ("GSD007", 1),
-        // One of the test files has no text list; in another file one identifier differs between the languages.
+        // One test file has no text list. In another file, one identifier differs between languages.
         ("GSD008", 2),
         ("GSD009", 1),
-        // Interfaces and ports of several device access points with one ID.
+        // Interfaces and ports of several device access points share an ID.
         ("GSD010", 8),
-        // UTF-8 that declares ISO 8859-1.
+        // UTF-8 files that declare ISO 8859-1.
         ("XML003", 3),
     ];
     assert_eq!(counts, expected);

@@ -1,7 +1,7 @@
-//! The lexer of EDS files against an independent one, the crate `configparser`, over every INI file of the corpus.
+//! Compares the lexer of EDS files with an independent one, the crate `configparser`, on every INI file of the corpus.
 //!
-//! `configparser` knows nothing of CiA 306. Where the two differ by rule, a function named after the row of the list of
-//! quirks takes just that away, and says what it took away, so that the test can hold it against the lexer's own report.
+//! `configparser` does not implement CiA 306. Where a rule makes the results differ, a function named after the row of the list
+//! of quirks removes the difference. It returns what it removed, and the test compares that with the lexer's report.
 
 mod corpus_support;
 
@@ -12,13 +12,13 @@ use corpus_support::{files, header, lane, lines, trimmed};
 use lexibus_codegen::source::{FileId, Source};
 use lexibus_codegen::syntax::ini::{Document, Entry, Oddity};
 
-/// Sections, keys and values; names in lower case.
+/// Sections, keys and values. Names are in lower case.
 type Sections = BTreeMap<String, BTreeMap<String, String>>;
 
-/// Where `configparser` puts what stands above the first section.
+/// Name that `configparser` gives to entries above the first section.
 const NO_SECTION: &str = "\u{1}no section";
 
-/// What `configparser` makes of a text.
+/// Returns the entries that `configparser` reads from a text.
 struct Theirs {
     sections: Sections,
     /// Lines without `=`, in lower case, by section.
@@ -48,17 +48,17 @@ fn theirs(text: &str) -> Result<Theirs, String> {
     Ok(theirs)
 }
 
-/// E31: a CR on its own ends a line, too.
+/// E31: a single CR also ends a line.
 fn e31_line_ends(text: &str) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
 }
 
-/// E32: a Ctrl-Z ends the text, if nothing but blanks, line ends and more of its kind follows.
+/// E32: a Ctrl-Z ends the text if only blanks, line ends and other Ctrl-Z characters follow.
 fn e32_ctrl_z(text: &str) -> &str {
     text.trim_end_matches([' ', '\t', '\r', '\n', '\u{1a}', '\0'])
 }
 
-/// E64: what `configparser` takes for a key without a value is junk. It goes to `junk`, with its section.
+/// E64: a key without a value, as `configparser` reads it, is junk. It is moved to `junk` with its section.
 fn e64_junk(
     section: &str,
     entries: impl IntoIterator<Item = (String, Option<String>)>,
@@ -74,14 +74,15 @@ fn e64_junk(
     kept
 }
 
-/// E20, E61: a comment is no entry. It has to start with its mark, which no key may.
+/// E20, E61: a comment is not an entry. It starts with its mark, which keys must not.
 fn e20_e61_is_comment(document: &Document<'_>, entry: &Entry) -> bool {
     let comment = document.is_comment(entry);
     assert_eq!(comment, [";", "#"].contains(&document.key(entry)), "line {}", entry.line);
     comment
 }
 
-/// What the lexer makes of a text. E27 and E28: sections of one name are one, and of a repeated key the last counts.
+/// Returns the entries that the lexer reads. E27 and E28: sections of one name are merged, and the last value of a repeated key
+/// counts.
 fn ours(document: &Document<'_>) -> Sections {
     let mut sections = Sections::new();
     for section in document.sections() {
@@ -95,20 +96,20 @@ fn ours(document: &Document<'_>) -> Sections {
     sections
 }
 
-/// The lines that the lexer reports as `oddity`.
+/// Returns the lines that the lexer reports as `oddity`.
 fn odd<'a>(document: &Document<'_>, source: &'a Source, oddity: Oddity) -> Vec<(u32, &'a str)> {
     let oddities = document.oddities();
     let of_kind = oddities.iter().filter(|(kind, _)| *kind == oddity);
     of_kind.map(|(_, span)| (source.position(span.start).line, source.slice(*span))).collect()
 }
 
-/// The section of a line, in lower case.
+/// Returns the section of a line in lower case.
 fn section_at(document: &Document<'_>, line: u32) -> String {
     let above = document.sections().iter().take_while(|section| section.line < line).last();
     above.map_or(NO_SECTION.to_owned(), |section| document.name(section).to_lowercase())
 }
 
-/// Holds the lexer against `configparser`; the number of entries that agree.
+/// Compares the lexer with `configparser`. Returns the number of equal entries.
 fn compare(source: &Source, other: &str) -> Result<usize, String> {
     let document = Document::parse(source.text(), FileId(0));
     let theirs = theirs(other)?;
@@ -144,14 +145,14 @@ fn first_difference(name: &str, ours: &BTreeMap<String, String>, theirs: &BTreeM
     format!("[{name}] {key}: {:?} is ours, {:?} is theirs", ours.get(key), theirs.get(key))
 }
 
-/// E27, E28: `configparser` keeps one of several sections of a name and one of several keys. Given one line at a time
-/// it can't, and then every single entry has to agree, in the order of the file.
+/// E27, E28: `configparser` keeps one of several equal sections or keys. Given single lines, it keeps all, so every entry must
+/// be equal, in file order.
 fn e27_e28_each_line(source: &Source) -> Result<usize, String> {
     let document = Document::parse(source.text(), FileId(0));
     let mut ours = document.sections().iter().flat_map(|section| {
-        let own = document.entries(section).filter(|entry| !document.is_comment(entry));
+        let entries = document.entries(section).filter(|entry| !document.is_comment(entry));
         let line = |entry: Entry| (entry.line, document.key(&entry).to_lowercase(), document.value(&entry).to_owned());
-        std::iter::once((section.line, document.name(section).to_lowercase(), String::new())).chain(own.map(line))
+        std::iter::once((section.line, document.name(section).to_lowercase(), String::new())).chain(entries.map(line))
     });
     let mut compared = 0;
     let mut inside = false;
@@ -172,7 +173,7 @@ fn e27_e28_each_line(source: &Source) -> Result<usize, String> {
     }
 }
 
-/// What `configparser` makes of one line: the name of a section with an empty value, or key and value.
+/// Returns what `configparser` reads from one line: a section with an empty value, or key and value.
 fn line_alone(line: &str) -> Option<(String, String)> {
     let theirs = theirs(&format!("[\u{1}]\n{line}")).expect("a line that it can read");
     let mut sections = theirs.sections.into_iter();
@@ -189,7 +190,7 @@ fn every_file_has_the_sections_keys_and_values_that_another_parser_sees() {
     let (mut compared, mut each) = (0, 0);
     for file in files.iter().filter(|file| !file.is_xml()) {
         let source = Source::new(file.name.as_str(), file.bytes.clone());
-        assert_eq!(source.text(), file.text(), "{}: decoded another way", file.name);
+        assert_eq!(source.text(), file.text(), "{}: decoded differently", file.name);
         compared += compare(&source, &file.text()).unwrap_or_else(|error| panic!("{}: {error}", file.name));
         each += e27_e28_each_line(&source).unwrap_or_else(|error| panic!("{}: {error}", file.name));
     }
@@ -198,7 +199,7 @@ fn every_file_has_the_sections_keys_and_values_that_another_parser_sees() {
     assert!(each > compared, "repeated sections and keys were lost: {each}, {compared}");
 }
 
-/// The forms that no file of the corpus has are made from those that are there.
+/// Creates forms that no file of the corpus has from existing files.
 #[test]
 fn other_line_ends_marks_and_indents_change_nothing() {
     let Some(files) = files() else { return };
@@ -240,13 +241,15 @@ fn comment_lines_and_hash_lines_are_all_accounted_for() {
         let text = file.text();
         let all = lines(&text);
         let marked = |mark| all.iter().zip(1u32..).filter(move |((_, line), _)| trimmed(line).starts_with(mark));
-        let own = document
+        let entries = document
             .sections()
             .iter()
             .flat_map(|section| document.entries(section))
             .chain(document.preamble().iter().copied());
-        let ours: BTreeSet<(u32, &str)> =
-            own.filter(|entry| document.is_comment(entry)).map(|entry| (entry.line, document.value(&entry))).collect();
+        let ours: BTreeSet<(u32, &str)> = entries
+            .filter(|entry| document.is_comment(entry))
+            .map(|entry| (entry.line, document.value(&entry)))
+            .collect();
         let behind_header = |line: &str| {
             header(line).map(|(_, rest)| trimmed(rest.trim_start_matches([';', '#']))).unwrap_or("").to_owned()
         };

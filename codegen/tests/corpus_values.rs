@@ -1,9 +1,8 @@
-//! No value of any file of the corpus is lost or changed without a diagnostic.
+//! Tests that no value of any file of the corpus is lost or changed without a diagnostic.
 //!
-//! Every file is read a second time, line by line, with nothing of the compiler (`corpus_support`). Each entry of each
-//! section about an object is then looked up in the IR: the number, text or flag has to be the same, or the text has to
-//! be kept as an extension, or a diagnostic about reading has to stand on that very line. And the other way round:
-//! whatever an item has, the file says.
+//! Every file is read a second time, line by line, without the code under test (`corpus_support`). For each entry of a section
+//! about an object, one of these must hold: the IR has the same value, an extension keeps the text, or a diagnostic is on that
+//! line. Conversely, every value of an item must be in the file.
 
 mod corpus_support;
 
@@ -17,37 +16,37 @@ use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Access, Configured, Device, Extension, Group, Item, Mappable, ObjectCode, Type, Value};
 use lexibus_codegen::source::Source;
 
-/// Codes on the line of a value that say that it was read as something else, or couldn't be read.
+/// Codes that report that a value was read differently, or is unreadable.
 const ABOUT_THE_VALUE: [&str; 16] = [
     "EDS014", "EDS015", "EDS016", "EDS022", "EDS023", "EDS024", "EDS027", "EDS028", "EDS029", "EDS030", "EDS032",
     "EDS033", "EDS037", "EDS047", "EDS064", "EDS067",
 ];
 
-/// Codes on the line of a header, or of an empty entry, that say that an item has no data type, and so is read-only.
+/// Codes that report an item without a data type, which is then read-only.
 const NO_DATA_TYPE: [&str; 2] = ["EDS035", "EDS065"];
 
-/// Codes on a number of sub-indices that isn't theirs.
+/// Codes that report a wrong number of sub-indices.
 const ABOUT_THE_COUNT: [&str; 3] = ["EDS046", "EDS048", "EDS066"];
 
-/// Without what profiles add: a file says nothing of it.
+/// Options without profiles, whose additions are not in the file.
 fn as_it_stands() -> Options {
     Options { no_profiles: true, ..Options::default() }
 }
 
-/// What became of the values of a file.
+/// Results of the comparison of a file.
 #[derive(Default)]
 struct Tally {
-    /// Equal, by key.
+    /// Equal values, by key.
     same: BTreeMap<String, usize>,
-    /// Equal in an item that follows from CompactSubObj.
+    /// Equal values of items that follow from CompactSubObj.
     compact: usize,
-    /// Kept as they stand in an extension, by key.
+    /// Values that an extension keeps, by key.
     kept: BTreeMap<String, usize>,
-    /// Reported, by code.
+    /// Reported values, by code.
     reported: BTreeMap<String, usize>,
-    /// Empty, or 0 where that says nothing.
+    /// Values that are empty, or 0 if that means nothing.
     empty: usize,
-    /// None of these: `line: what`.
+    /// Lost or changed values: line and description.
     lost: Vec<String>,
 }
 
@@ -64,34 +63,34 @@ impl Tally {
     }
 }
 
-/// An item, or an object without a value of its own, and the section that describes it.
+/// An item, or an object without a value, and the section that describes it.
 #[derive(Clone, Copy)]
 struct Target<'a> {
     section: &'a Section,
     group: &'a Group,
     item: Option<&'a Item>,
-    /// Where what the IR has no field for is kept.
+    /// Extensions that keep values without a field in the IR.
     extensions: &'a [Extension],
-    /// The type that the section says; `None` where it says none.
+    /// Type that the section declares, if any.
     ty: Option<Type>,
-    /// Whether CompactSubObj made the item.
+    /// Whether the item follows from CompactSubObj.
     compact: bool,
-    /// Whether the section is the object's.
+    /// Whether the section describes the object itself.
     is_object: bool,
-    /// Whether the section was held against another item before, and with it what it says of the object.
+    /// Whether the section was compared with another item before, including the facts about the object.
     again: bool,
 }
 
-/// A file, read by the compiler and by this test.
+/// A file as the compiler and this test read it.
 struct Comparison<'a> {
     device: &'a Device,
     reading: &'a Reading,
-    /// The codes of the diagnostics on each line.
+    /// Codes of the diagnostics by line.
     codes: BTreeMap<u32, Vec<&'static str>>,
     tally: Tally,
 }
 
-/// Compares what `compilation` has with what `text` says.
+/// Compares `compilation` with `text`.
 fn compare(text: &str, compilation: &Compilation) -> Tally {
     let device = &compilation.catalog.as_ref().expect("a device").devices[0];
     let starts: Vec<usize> = lines(text).into_iter().map(|(start, _)| start).collect();
@@ -115,20 +114,20 @@ fn compare(text: &str, compilation: &Compilation) -> Tally {
     comparison.tally
 }
 
-/// The sections of an object and its sub-indices, and which items they describe.
+/// Compares the sections of an object and its sub-indices with the items that they describe.
 impl Comparison<'_> {
-    /// E27, E28: what a later section or entry overrides is reported there.
+    /// E27, E28: overridden sections and entries are reported.
     fn repetitions(&mut self, section: &Section) {
         for &line in section.headers.iter().skip(1) {
-            self.reported_or_lost(line, &["EDS007"], "nothing is said of the repeated section");
+            self.reported_or_lost(line, &["EDS007"], "the repeated section is not reported");
         }
         for fact in section.facts.values().flat_map(|facts| facts.iter().skip(1)) {
             // EDS056: neither of them is a sub-index, and both are kept.
-            self.reported_or_lost(fact.line, &["EDS008", "EDS056"], "nothing is said of the repeated key");
+            self.reported_or_lost(fact.line, &["EDS008", "EDS056"], "the repeated key is not reported");
         }
     }
 
-    /// The IR has just the items that the file describes, and those that follow from CompactSubObj.
+    /// The IR contains exactly the items that the file describes, or that follow from CompactSubObj.
     fn items_are_those_of_the_file(&mut self) {
         let mut expected = BTreeSet::new();
         for ((index, part), section) in &self.reading.sections {
@@ -162,16 +161,16 @@ impl Comparison<'_> {
             is_object: true,
             again: false,
         };
-        let own = own_items(self.reading, index, section);
-        for &sub in &own {
+        let actual = own_items(self.reading, index, section);
+        for &sub in &actual {
             let Some(item) = group.sub(sub) else { continue };
             let name = if compact { format!("{}{sub}", group.name) } else { group.name.to_string() };
             if item.name != name && !self.refines(index, sub, Part::Name) {
                 self.lose(section.headers[0], format!("{:?} is the name of sub-index {sub}", item.name));
             }
-            self.target(Target { item: Some(item), again: sub != own[0], ..base });
+            self.target(Target { item: Some(item), again: sub != actual[0], ..base });
         }
-        if own.is_empty() {
+        if actual.is_empty() {
             self.target(base);
         }
         if compact && !self.reading.subs(index).contains(&0) {
@@ -179,7 +178,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// Sub-index 0 that follows from CompactSubObj (E43).
+    /// Compares sub-index 0 that follows from CompactSubObj (E43).
     fn compact_sub_0(&mut self, group: &Group, section: &Section) {
         let count = Value::Int(compact_count(section));
         let as_expected = |item: &Item| {
@@ -210,14 +209,14 @@ impl Comparison<'_> {
         });
     }
 
-    /// E33: a sub-index without an object is reported, once an object.
+    /// E33: a sub-index without an object is reported once per object.
     fn orphan(&mut self, index: u16, sub: u8, section: &Section) {
         if self.reading.subs(index).first() == Some(&sub) {
-            self.reported_or_lost(section.headers[0], &["EDS040"], "nothing is said of the missing object");
+            self.reported_or_lost(section.headers[0], &["EDS040"], "the missing object is not reported");
         }
     }
 
-    /// `[xxxxName]`, `[xxxxValue]`, `[xxxxDenotation]` (E44).
+    /// Compares `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` (E44).
     fn refinement(&mut self, index: u16, part: Part, section: &Section) {
         let device = self.device;
         let Some(group) = device.object(index) else {
@@ -240,23 +239,23 @@ impl Comparison<'_> {
         }
     }
 
-    /// Whether a `[xxxxName]` or the like is about this sub-index.
+    /// Whether an entry of `[xxxxName]` or a similar section concerns this sub-index.
     fn refines(&self, index: u16, sub: u8, part: Part) -> bool {
         self.reading.get(index, part).is_some_and(|section| section.facts.contains_key(&sub.to_string()))
     }
 }
 
-/// Where it is said that a key is missing: its empty entry, or the header.
+/// Returns the line on which a missing key is reported: the empty entry, or the header.
 fn line_of(section: &Section, key: &str) -> u32 {
     section.get(key).map_or(section.headers[0], |fact| fact.line)
 }
 
-/// How many sub-indices CompactSubObj stands for.
+/// Returns the number of sub-indices that follow from CompactSubObj.
 fn compact_count(section: &Section) -> i128 {
     section.number("compactsubobj").unwrap_or(0).clamp(0, 254)
 }
 
-/// The sub-indices whose item the section of the object itself describes.
+/// Returns the sub-indices whose item is described by the section of the object.
 fn own_items(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
     let (subs, count) = (reading.subs(index), compact_count(section));
     if count > 0 {
@@ -265,7 +264,7 @@ fn own_items(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
     let code = section.number("objecttype").unwrap_or(7);
     let is_value = match subs.is_empty() {
         true => !matches!(code, 6 | 8 | 9),
-        // E42: a VAR with sub-indices is a RECORD. Only where it has a data type it is a value, too: sub-index 0.
+        // E42: a VAR with sub-indices is a RECORD. It also has a value, sub-index 0, only if it has a data type.
         false => code == 7 && section.text("datatype").is_some() && !subs.contains(&0),
     };
     if is_value {
@@ -275,7 +274,7 @@ fn own_items(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
     }
 }
 
-/// The type that a section says (CiA 301, table of data types).
+/// Returns the type that a section declares (CiA 301, table of data types).
 fn own_type(section: &Section) -> Option<Type> {
     if section.text("datatype").is_none() {
         return (section.number("objecttype") == Some(2)).then_some(Type::Domain);
@@ -303,7 +302,7 @@ fn own_type(section: &Section) -> Option<Type> {
 
 /// Single entries.
 impl Comparison<'_> {
-    /// Every entry of a section; and what the item has although the section has no entry for it.
+    /// Compares every entry of a section, and every value of the item without an entry.
     fn target(&mut self, target: Target<'_>) {
         for (key, facts) in &target.section.facts {
             let Some(fact) = facts.last() else { continue };
@@ -365,7 +364,7 @@ impl Comparison<'_> {
         self.hold_in(target, fact, ours, expected(&fact.value, ty, limit).as_ref());
     }
 
-    /// The object type of an object; a sub-index is a VAR or a DOMAIN, and anything else is reported.
+    /// Compares the object type. A sub-index is a VAR or a DOMAIN, and anything else is reported.
     fn object_type(&mut self, fact: &Fact, text: &str, target: Target<'_>) {
         let code = number::plain(text).and_then(ObjectCode::from_number);
         if target.is_object {
@@ -375,7 +374,7 @@ impl Comparison<'_> {
         self.hold(fact, &code, Some(&allowed).filter(|allowed| allowed.is_some()));
     }
 
-    /// SubNumber is the number of described sub-indices but for 0xFF; one value has none.
+    /// SubNumber is the number of described sub-indices except 0xFF. A single value has none.
     fn sub_number(&mut self, fact: &Fact, text: &str, target: Target<'_>) {
         if target.item.is_some() && !target.compact && target.group.items.len() == 1 {
             return self.extension(fact, target);
@@ -389,7 +388,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// Without data or access type an item is read-only, whatever else its section says.
+    /// Compares the access rights. An item without data type or access type is read-only.
     fn access(&mut self, fact: &Fact, item: &Item, target: Target<'_>) {
         let text = cut(&fact.value).0.to_ascii_lowercase();
         let repaired = item.access == Access::ReadOnly && text != "ro";
@@ -403,7 +402,7 @@ impl Comparison<'_> {
         self.hold_in(target, fact, &name, Some(&fact.value.as_str()));
     }
 
-    /// Keeps an entry that the IR has no field for; a 0 where it says nothing may go.
+    /// Checks that an entry without a field in the IR is kept. A 0 without a meaning may be dropped.
     fn extension(&mut self, fact: &Fact, target: Target<'_>) {
         let key = fact.key.to_ascii_lowercase();
         let says_nothing = matches!(key.as_str(), "subnumber" | "compactsubobj" | "pdomapping");
@@ -417,7 +416,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// E20, E21: what stands behind a value of fixed form is kept; a name, or the text of a free one, has no comment.
+    /// E20, E21: text after a value of fixed form is kept. Names and free texts have no comments.
     fn comment(&mut self, key: &str, fact: &Fact, target: Target<'_>) {
         let fixed = match key {
             "defaultvalue" | "lowlimit" | "highlimit" | "parametervalue" => target.ty.is_some_and(|ty| !is_free(ty)),
@@ -429,15 +428,15 @@ impl Comparison<'_> {
             return;
         }
         let kept = |kept: &Extension| kept.value.contains(comment);
-        let own = target.item.map_or(&[][..], |item| &item.extensions);
-        if target.extensions.iter().chain(own).chain(&target.group.extensions).any(kept) {
+        let extensions = target.item.map_or(&[][..], |item| &item.extensions);
+        if target.extensions.iter().chain(extensions).chain(&target.group.extensions).any(kept) {
             *self.tally.kept.entry("comment".into()).or_default() += 1;
         } else {
             self.lose(fact.line, format!("the comment {comment:?} isn't kept"));
         }
     }
 
-    /// What an item has, its section says.
+    /// Checks that every value of an item is in its section.
     fn nothing_is_invented(&mut self, item: &Item, target: Target<'_>) {
         let (index, sub) = item.object().expect("an object");
         let header = target.section.headers[0];
@@ -459,16 +458,16 @@ impl Comparison<'_> {
         let code = target.section.number("objecttype");
         if !has("accesstype") && !matches!(code, Some(0 | 2 | 5 | 6)) {
             let line = line_of(target.section, "accesstype");
-            self.reported_or_lost(line, &["EDS034"], "nothing is said of the missing AccessType");
+            self.reported_or_lost(line, &["EDS034"], "the missing AccessType is not reported");
         }
         if !has("datatype") && !matches!(code, Some(0 | 2 | 5 | 6)) {
             let line = line_of(target.section, "datatype");
-            self.reported_or_lost(line, &NO_DATA_TYPE, "nothing is said of the missing DataType");
+            self.reported_or_lost(line, &NO_DATA_TYPE, "the missing DataType is not reported");
         }
     }
 }
 
-/// Bookkeeping.
+/// Counting of results.
 impl Comparison<'_> {
     fn lose(&mut self, line: u32, what: impl Into<String>) {
         self.tally.lost.push(format!("{line}: {}", what.into()));
@@ -485,12 +484,12 @@ impl Comparison<'_> {
         }
     }
 
-    /// The code among `codes` that stands on `line`.
+    /// Returns the code among `codes` that is reported on `line`.
     fn code_on(&self, line: u32, codes: &[&'static str]) -> Option<&'static str> {
         self.codes.get(&line)?.iter().copied().find(|code| codes.contains(code))
     }
 
-    /// Files a comparison of `ours`, from the IR, with `theirs`, which the line says; `None` where it makes no sense.
+    /// Counts a comparison of the value in the IR with the value on the line; `None` if it has no meaning.
     fn hold<T: PartialEq + Debug>(&mut self, fact: &Fact, ours: &T, theirs: Option<&T>) {
         if theirs == Some(ours) {
             *self.tally.same.entry(fact.key.to_ascii_lowercase()).or_default() += 1;
@@ -501,7 +500,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// The same; what CompactSubObj made is counted apart, as one line stands for many values.
+    /// Like the method above. Values from CompactSubObj are counted separately, because one line describes many values.
     fn hold_in<T: PartialEq + Debug>(&mut self, target: Target<'_>, fact: &Fact, ours: &T, theirs: Option<&T>) {
         match target.compact && target.item.is_some() && theirs == Some(ours) {
             true => self.tally.compact += 1,
@@ -510,13 +509,13 @@ impl Comparison<'_> {
     }
 }
 
-/// The keys that CiA 306 gives a meaning in the section of an object or a sub-index.
+/// Keys that CiA 306 defines for the section of an object or a sub-index.
 fn is_keyword(key: &str) -> bool {
     let others = ["objflags", "datatype", "accesstype", "pdomapping", "defaultvalue", "lowlimit", "highlimit"];
     OF_THE_OBJECT.contains(&key) || others.contains(&key) || CONFIGURATION.contains(&key)
 }
 
-/// Those that are about an object and not about its value.
+/// Keys that describe an object and not its value.
 const OF_THE_OBJECT: [&str; 4] = ["parametername", "objecttype", "subnumber", "compactsubobj"];
 
 const CONFIGURATION: [&str; 4] = ["parametervalue", "denotation", "uploadfile", "downloadfile"];
@@ -525,45 +524,45 @@ fn has_configuration(section: &Section) -> bool {
     CONFIGURATION.iter().any(|key| section.get(key).is_some_and(|fact| !fact.value.is_empty()))
 }
 
-/// Whether values of this type are texts, or kept as texts, with all that stands on the line.
+/// Whether values of this type are texts, or kept as texts, including everything on the line.
 fn is_free(ty: Type) -> bool {
     let is_text = matches!(ty, Type::VisibleString(_) | Type::UnicodeString(_));
     is_text || matches!(ty, Type::Domain | Type::Opaque(_) | Type::Named(_))
 }
 
-/// What a text means for an item of this type, where it means anything: nothing at all, or a value.
+/// Returns the meaning of a text for an item of this type: nothing, or a value.
 fn expected(text: &str, ty: Type, limit: bool) -> Option<Option<Value>> {
-    let own = if is_free(ty) { text } else { cut(text).0 };
-    if own.is_empty() {
+    let actual = if is_free(ty) { text } else { cut(text).0 };
+    if actual.is_empty() {
         return Some(None);
     }
     let value = match ty {
-        Type::VisibleString(_) | Type::UnicodeString(_) => Value::Text(own.into()),
-        _ if is_free(ty) => Value::Raw(own.into()),
-        Type::Boolean if own.eq_ignore_ascii_case("true") => Value::Bool(true),
-        Type::Boolean if own.eq_ignore_ascii_case("false") => Value::Bool(false),
-        Type::Boolean => match number::plain(own)? {
+        Type::VisibleString(_) | Type::UnicodeString(_) => Value::Text(actual.into()),
+        _ if is_free(ty) => Value::Raw(actual.into()),
+        Type::Boolean if actual.eq_ignore_ascii_case("true") => Value::Bool(true),
+        Type::Boolean if actual.eq_ignore_ascii_case("false") => Value::Bool(false),
+        Type::Boolean => match number::plain(actual)? {
             value @ (0 | 1) => Value::Bool(value == 1),
             value => Value::Int(value),
         },
-        Type::Real32 | Type::Real64 if own.contains('$') => match number::number(own)? {
+        Type::Real32 | Type::Real64 if actual.contains('$') => match number::number(actual)? {
             Number::NodeId(offset) => Value::NodeId(offset),
             Number::Plain(_) => return None,
         },
-        Type::Real32 => Value::Real(number::real(own, 32)?),
-        Type::Real64 => Value::Real(number::real(own, 64)?),
-        Type::OctetString(_) => Value::Bytes(number::octets(own)?),
-        Type::TimeOfDay | Type::TimeDifference => time(number::plain(own)?).unwrap_or(Value::Raw(own.into())),
-        _ => match number::number(own)? {
+        Type::Real32 => Value::Real(number::real(actual, 32)?),
+        Type::Real64 => Value::Real(number::real(actual, 64)?),
+        Type::OctetString(_) => Value::Bytes(number::octets(actual)?),
+        Type::TimeOfDay | Type::TimeDifference => time(number::plain(actual)?).unwrap_or(Value::Raw(actual.into())),
+        _ => match number::number(actual)? {
             Number::NodeId(offset) => Value::NodeId(offset),
-            Number::Plain(value) if limit => Value::Int(e07_limit(value, own, ty)),
+            Number::Plain(value) if limit => Value::Int(e07_limit(value, actual, ty)),
             Number::Plain(value) => Value::Int(value),
         },
     };
     Some(Some(value))
 }
 
-/// E07: a limit of a signed type may be written as its bits.
+/// E07: a limit of a signed type may be written as its bit pattern.
 fn e07_limit(value: i128, text: &str, ty: Type) -> i128 {
     let Type::Integer(bits) = ty else { return value };
     let is_pattern = number::hex_digits(text).is_some() && value >> (bits - 1) == 1;
@@ -574,14 +573,14 @@ fn e07_limit(value: i128, text: &str, ty: Type) -> i128 {
     }
 }
 
-/// Milliseconds in the lower 28 of 48 bits, days in the upper 16, and between them 4 that are none of it.
+/// Parses a time: milliseconds in the lower 28 of 48 bits, 4 unused bits, and days in the upper 16 bits.
 fn time(bits: i128) -> Option<Value> {
     let (milliseconds, days) = (bits & 0xFFFF_FFFF, bits >> 32);
     let fits = (0..=0xFFFF).contains(&days) && milliseconds < 1 << 28;
     fits.then_some(Value::Time { milliseconds: milliseconds as u32, days: days as u16 })
 }
 
-/// What PDOMapping says of an item of this access.
+/// Returns the meaning of PDOMapping for an item with these access rights.
 fn mappable(text: &str, access: Access) -> Option<Mappable> {
     let flag = match text.to_ascii_lowercase().as_str() {
         "true" => true,
@@ -593,7 +592,7 @@ fn mappable(text: &str, access: Access) -> Option<Mappable> {
     Some(Mappable { rpdo: flag && written, tpdo: flag && read })
 }
 
-/// Reads a text both ways.
+/// Compares both readings of a text.
 fn compared(name: &str, text: &str) -> Tally {
     compare(text, &check(Source::new(name, text.as_bytes().to_vec()), &as_it_stands()))
 }
@@ -609,9 +608,9 @@ fn no_value_is_lost_or_changed_without_a_diagnostic() {
         }
     }
     let (same, reported): (usize, usize) = (all.same.values().sum(), all.reported.values().sum());
-    eprintln!("{same} values are the same: {:?}", all.same);
-    eprintln!("{} values of sub-indices that follow from CompactSubObj are the same", all.compact);
-    eprintln!("kept as they stand: {:?}", all.kept);
+    eprintln!("{same} values are equal: {:?}", all.same);
+    eprintln!("{} values of sub-indices that follow from CompactSubObj are equal", all.compact);
+    eprintln!("kept unchanged: {:?}", all.kept);
     eprintln!("{reported} are reported: {:?}; {} are empty", all.reported, all.empty);
     none_lost(&all);
     assert!(
@@ -624,15 +623,15 @@ fn no_value_is_lost_or_changed_without_a_diagnostic() {
     {
         assert!(all.same[key] > lane::at_least(least), "only {} times {key}", all.same[key]);
     }
-    assert!(reported < 500, "{reported} values aren't what the file says; that many real files don't have wrong");
+    assert!(reported < 500, "{reported} reported values are more than real files have");
 }
 
 fn none_lost(tally: &Tally) {
     let shown = tally.lost.iter().take(40).map(|lost| format!("\n{lost}")).collect::<String>();
-    assert!(tally.lost.is_empty(), "{} values are lost or changed in silence:{shown}", tally.lost.len());
+    assert!(tally.lost.is_empty(), "{} values are lost or changed without a diagnostic:{shown}", tally.lost.len());
 }
 
-/// Spellings that the corpus has for one type or another, and some that nobody should write.
+/// Spellings of values in the corpus, and unusual ones.
 #[rustfmt::skip]
 const SPELLINGS: [&str; 60] = [
     "0", "1", "2", "7", "00", "001", "012", "018", "00000005", "-1", "-0", "-012", "0x0", "0X1a", "0xff",
@@ -644,7 +643,7 @@ const SPELLINGS: [&str; 60] = [
     "\"abc\"", "5 ; five", "0x3ED ; a # b", "7 # seven", "rw",
 ];
 
-/// Without the corpus: every spelling, for every type, as each of the values of an object.
+/// Tests every spelling for every type, as each of the values of an object, without the corpus.
 #[test]
 fn every_spelling_of_every_type_is_read_or_reported() {
     let mut text = String::from("[DeviceInfo]\nProductName=x\n");
@@ -663,14 +662,14 @@ fn every_spelling_of_every_type_is_read_or_reported() {
     let tally = compared("x.eds", &text);
     none_lost(&tally);
     let (same, reported): (usize, usize) = (tally.same.values().sum(), tally.reported.values().sum());
-    eprintln!("{same} are the same, {reported} are reported: {:?}", tally.reported);
+    eprintln!("{same} are equal, {reported} are reported: {:?}", tally.reported);
     assert!(
         same > lane::at_least(10_000) && reported > lane::at_least(3_000),
-        "only {same} are the same and {reported} reported"
+        "only {same} are equal and {reported} reported"
     );
 }
 
-/// The comparison itself: what the compiler read from one text is held against another.
+/// Tests the comparison: it detects a difference between the compiler's text and another one.
 #[test]
 fn whatever_is_lost_or_changed_is_seen() {
     let text = "[DeviceInfo]\nProductName=x\n[2000]\nParameterName=Speed\nObjectType=7\nDataType=0x0004\n\

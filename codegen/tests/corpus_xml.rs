@@ -1,5 +1,5 @@
-//! The XML cursor against an independent reader, the crate `quick-xml`: over every XML file of the corpus, and over copies of
-//! these with single bytes exchanged. If the cursor finds no fault in a text, both find the same events in it.
+//! Compares the XML cursor with an independent reader, the crate `quick-xml`, on every XML file of the corpus and on copies
+//! with changed bytes. If the cursor finds no error, both read the same events.
 
 mod corpus_support;
 
@@ -9,7 +9,7 @@ use lexibus_codegen::syntax::xml::{Cursor, Error, Event};
 use quick_xml::events::{BytesStart, Event as Theirs};
 use quick_xml::Reader;
 
-/// Tags with their attributes as written, ends, and the text between them without the blanks around it.
+/// Tags with their attributes as written, ends, and text without surrounding blanks.
 #[derive(Default, PartialEq, Eq, Debug)]
 struct Events {
     list: Vec<String>,
@@ -80,7 +80,7 @@ fn xml_files() -> Vec<File> {
     all_files().into_iter().flatten().filter(File::is_xml).collect()
 }
 
-/// Compares both readers, and returns whether the cursor found no fault.
+/// Compares both readers. Returns whether the cursor found no error.
 fn agree(name: &str, text: &str) -> bool {
     let Ok(found) = ours(text) else { return false };
     let expected = theirs(text).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -102,7 +102,7 @@ fn the_same_events_wherever_a_damaged_file_has_no_fault() {
     const LENGTH: usize = 4096;
     for (number, file) in xml_files().into_iter().enumerate() {
         let mut text: String = file.text().chars().take(LENGTH).filter(char::is_ascii).collect();
-        // The elements that the cut leaves open are closed, so that there is a file without a fault to begin with.
+        // Open elements are closed, so that the unchanged file has no errors.
         text.truncate(text.rfind('<').unwrap_or(0));
         let closing: String = open_elements(&text).iter().rev().map(|name| format!("</{name}>")).collect();
         let text = (text + &closing).into_bytes();
@@ -117,7 +117,7 @@ fn the_same_events_wherever_a_damaged_file_has_no_fault() {
     }
 }
 
-/// The names of the elements that are open at the end of a text.
+/// Returns the names of the elements that are open at the end of a text.
 fn open_elements(text: &str) -> Vec<String> {
     let mut cursor = Cursor::new(text, FileId(0));
     let mut open = Vec::new();

@@ -1,4 +1,4 @@
-//! What holds for each of the four drives that are transcribed from their manuals.
+//! Tests that apply to each of the four drives whose tables were transcribed from manuals.
 
 #[path = "table_support/doubts.rs"]
 mod doubts;
@@ -9,7 +9,7 @@ use std::collections::{BTreeSet, HashSet};
 
 use lexibus_codegen::ir::{Binding, Catalog, Device, Item};
 
-/// Each dictionary with its manual.
+/// Dictionaries with their manuals.
 const DRIVES: [(&str, &str); 4] = [
     ("aec-vector-step.toml", "aec-vector-step-canopen.it.txt"),
     ("eco.toml", "eco-fieldbuses.it.txt"),
@@ -25,13 +25,13 @@ fn items(catalog: &Catalog) -> impl Iterator<Item = &Item> {
     device(catalog).groups.iter().flat_map(|group| &group.items)
 }
 
-/// The heading in a line of a table of contents: `VARIE<tab>183`.
+/// Returns the heading in a line of a table of contents: `VARIE<tab>183`.
 fn heading_of_contents(line: &str) -> Option<&str> {
     let (heading, page) = line.trim_end().rsplit_once('\t')?;
     page.trim().parse::<u32>().ok().map(|_| heading)
 }
 
-/// Lower case, with single blanks.
+/// Returns the text in lower case with single blanks.
 fn normal(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase()
 }
@@ -65,7 +65,7 @@ fn every_doubt_has_a_severity_and_a_citation() {
                 let mut rest = text.match_indices("(L").map(|(at, _)| &text[at + 2..]);
                 rest.any(|rest| rest.starts_with(|letter: char| letter.is_ascii_digit()))
             };
-            assert!(!words.iter().any(names_line), "{file} names a line in the words of: {}", doubt.says);
+            assert!(!words.iter().any(names_line), "{file} mentions a line number in: {}", doubt.says);
         }
     }
 }
@@ -78,7 +78,7 @@ fn sections_are_titles_of_the_manual() {
         let catalog = doubts::catalog(file);
         let manual = device(&catalog).manual.as_deref().expect("the manual");
         assert!(manual.sections.len() > 50, "{file}: {} sections", manual.sections.len());
-        // Where the text has lost a heading, the table of contents has it, with blanks between large and small capitals.
+        // If the extracted text lacks a heading, the table of contents has it, with blanks between large and small capitals.
         let bare = |text: &str| normal(text).replace(' ', "");
         let contents: HashSet<String> = text.lines().filter_map(heading_of_contents).map(bare).collect();
         let is_there = |line: u32, title: &str| {
@@ -106,7 +106,7 @@ fn citations_are_in_the_manual_and_in_a_section() {
         let outside = items(&catalog)
             .filter_map(|item| item.documentation.as_ref()?.cite.as_deref())
             .filter(|cite| doubts::lines(cite).iter().all(|line| *line < first));
-        assert_eq!(outside.count(), 0, "{file}: items cited before the first section");
+        assert_eq!(outside.count(), 0, "{file}: items cite lines before the first section");
     }
 }
 
@@ -120,12 +120,12 @@ fn rows_are_on_the_lines_that_they_cite() {
         let (mut count, mut missing) = (0, Vec::new());
         for (item, cite) in cited {
             count += 1;
-            // A cell may be broken over the lines before and behind.
-            let around: BTreeSet<usize> =
+            // A cell may continue on the line before or after.
+            let context: BTreeSet<usize> =
                 doubts::lines(cite).iter().flat_map(|line| line.saturating_sub(3)..=line + 2).collect();
-            let near: Vec<&str> = around.iter().filter_map(|line| lines.get(*line)).map(String::as_str).collect();
+            let near: Vec<&str> = context.iter().filter_map(|line| lines.get(*line)).map(String::as_str).collect();
             let near = format!(" {} ", near.join(" "));
-            // One row stands for all entries of a mapping, and the manual writes the first two.
+            // One row describes all entries of a mapping, of which the manual prints the first two.
             let is_assumed = file.starts_with("kollmorgen") && matches!(item.name.as_str(), "Entry 3" | "Entry 4");
             if !is_assumed && !printed(item).iter().any(|form| near.contains(form)) {
                 missing.push(item.name.as_str());
@@ -136,9 +136,9 @@ fn rows_are_on_the_lines_that_they_cite() {
     }
 }
 
-/// What a manual prints of an item: its names, its index, the number of its sub-index, its register.
+/// Returns the forms in which a manual prints an item: names, index, sub-index, and register address.
 fn printed(item: &Item) -> Vec<String> {
-    let mut forms: Vec<String> = item.names.iter().map(|own| normal(&own.text)).collect();
+    let mut forms: Vec<String> = item.names.iter().map(|name| normal(&name.text)).collect();
     forms.extend([normal(&item.name), normal(&item.name).replace('_', " ")]);
     for binding in &item.bindings {
         match binding {
@@ -149,9 +149,9 @@ fn printed(item: &Item) -> Vec<String> {
                 forms.extend([format!("{index:04x}"), format!(" {sub_index} "), format!("{sub_index:02x}")]);
             }
             Binding::Ascii(name) => forms.push(normal(name)),
-            Binding::Register(own) => {
-                let (first, _) = own.printed.split_once('–').unwrap_or((&own.printed, ""));
-                forms.extend([format!(" {}", first.to_lowercase()), format!("0x{:x}", own.address)]);
+            Binding::Register(register) => {
+                let (first, _) = register.printed.split_once('–').unwrap_or((&register.printed, ""));
+                forms.extend([format!(" {}", first.to_lowercase()), format!("0x{:x}", register.address)]);
             }
             _ => {}
         }

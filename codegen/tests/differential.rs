@@ -1,5 +1,6 @@
-//! What Lexibus reads from the files of the corpus against what independent readers do: Python's `canopen` for EDS and DCF,
-//! and XPath by lxml for ESI and GSDML. Fact by fact, in both directions; every difference has a reason that is a row of the
+//! Compares the facts that Lexibus reads from the files of the corpus with independent readers: Python's `canopen` for EDS and
+//! DCF, and lxml's XPath for ESI and GSDML. Every difference has a reason: a row of the table of quirks, or a known limitation
+//! of the other reader. See `differential/README.md`.
 //! table of quirks, or something that the other reader is known not to do. See `differential/README.md`.
 
 mod corpus_support;

@@ -1,5 +1,5 @@
-//! The table of the Eco, held against the text of its manual: every printed row is there, once, at its line, with the facts
-//! that its cells state. What a row deliberately reads otherwise has a doubt.
+//! Compares the table of the Eco with the text of its manual: every printed row is in the table once, cites its line, and has
+//! the facts of its cells. Deliberate differences have a doubt.
 
 mod eco_support;
 
@@ -15,19 +15,19 @@ fn the_table_has_no_findings() {
     assert_eq!(found, Vec::<String>::new());
 }
 
-/// A printed register, or a range of them.
+/// A printed register, or a range of registers.
 struct Printed {
     line: usize,
-    /// First and last number.
+    /// First and last register number.
     numbers: (u16, u16),
     is_saved: bool,
-    /// The limits, without a sign.
+    /// Limits without a sign.
     limits: Vec<u64>,
     /// First and last address.
     addresses: (u16, u16),
 }
 
-/// The rows of the table of registers: a label, and all cells up to the address that ends the row.
+/// Returns the rows of the register table: a label, and all cells up to the address that ends the row.
 fn registers(manual: &[String]) -> Vec<Printed> {
     let mut rows: Vec<(usize, String)> = Vec::new();
     let mut open = false;
@@ -46,11 +46,11 @@ fn registers(manual: &[String]) -> Vec<Printed> {
     rows.into_iter().map(|(line, text)| register(line, &text)).collect()
 }
 
-/// Whether the addresses are there: two where the label is a range.
+/// Whether the addresses are complete: two if the label is a range.
 fn is_whole(text: &str) -> bool {
     let range = text.get(3..8).is_some_and(|label| label.contains('-'));
-    let addresses = || hex_numbers(text, 4).into_iter().filter(|&own| own > 0x8000 || text.starts_with("R00"));
-    let enough = addresses().filter(|own| own & 0x8000 != 0).count() >= if range { 2 } else { 1 };
+    let addresses = || hex_numbers(text, 4).into_iter().filter(|&entry| entry > 0x8000 || text.starts_with("R00"));
+    let enough = addresses().filter(|address| address & 0x8000 != 0).count() >= if range { 2 } else { 1 };
     enough && (text.contains(" si ") || text.contains(" sì ") || text.contains(" no "))
 }
 
@@ -81,11 +81,11 @@ fn register(line: usize, text: &str) -> Printed {
     }
 }
 
-/// The numbers of printed limits, of a value of so many bits: with a sign where the lower one would be above the upper one.
+/// Returns the printed limits of a value with this size. They are signed if the lower limit would exceed the upper one.
 fn signed(limits: &[u64], bits: u32) -> (i128, i128) {
     // Nine digits are one too many.
-    let own = |value: u64| i128::from(if value > 0xFFFF_FFFF { value >> 4 } else { value });
-    let (low, high) = (own(limits[0]), own(limits[1]));
+    let limit = |value: u64| i128::from(if value > 0xFFFF_FFFF { value >> 4 } else { value });
+    let (low, high) = (limit(limits[0]), limit(limits[1]));
     (if low > high { low - (1 << bits) } else { low }, high)
 }
 
@@ -94,7 +94,7 @@ fn limits(item: &Item) -> Option<(i128, i128)> {
 }
 
 fn is_saved(item: &Item) -> bool {
-    item.behaviour.as_ref().is_some_and(|own| matches!(own.storage, Storage::OnCommand(_)))
+    item.behaviour.as_ref().is_some_and(|behaviour| matches!(behaviour.storage, Storage::OnCommand(_)))
 }
 
 #[test]
@@ -107,13 +107,13 @@ fn every_register_is_there_at_its_line() {
     let mut wrong = Vec::new();
     let mut count = 0;
     for row in &printed {
-        assert_eq!(row.numbers.1 - row.numbers.0, row.addresses.1 - row.addresses.0, "L{}", row.line);
+        assert_eq!(row.numbers.1 - row.numbers.0, row.addresses.1 - row.addresses.0, "line {}", row.line);
         for number in row.numbers.0..=row.numbers.1 {
             count += 1;
             let wanted = row.addresses.0 + (number - row.numbers.0);
-            assert_eq!(wanted, 0x8000 + number, "L{}", row.line);
+            assert_eq!(wanted, 0x8000 + number, "line {}", row.line);
             let Some(item) = items(device).find(|item| address(item) == Some(wanted)) else {
-                wrong.push(format!("L{}: no R{number}", row.line));
+                wrong.push(format!("line {}: no R{number}", row.line));
                 continue;
             };
             let bits = base(device, item.ty).bits().expect("a length");
@@ -124,13 +124,13 @@ fn every_register_is_there_at_its_line() {
             ];
             let missing: Vec<_> = facts.into_iter().filter(|(_, holds)| !holds).map(|(fact, _)| fact).collect();
             if !missing.is_empty() {
-                wrong.push(format!("L{} {}: {missing:?} {:?}", row.line, item.name, limits(item)));
+                wrong.push(format!("line {} {}: {missing:?} {:?}", row.line, item.name, limits(item)));
             }
         }
     }
     assert_eq!(wrong, Vec::<String>::new());
     assert_eq!(count, 134);
-    assert_eq!(items(device).filter(|item| address(item).is_some_and(|own| own >= 0x8000)).count(), 134);
+    assert_eq!(items(device).filter(|item| address(item).is_some_and(|address| address >= 0x8000)).count(), 134);
 }
 
 #[test]
@@ -146,11 +146,11 @@ fn registers_without_the_printed_limits_say_why() {
             differing.insert(row.numbers.0);
         }
     }
-    // Of the status word, and of two registers whose objects are shorter.
+    // Differences: the status word, and two registers whose objects are shorter.
     assert_eq!(differing, BTreeSet::from([5, 34, 42]));
 }
 
-/// Where one value is on each bus, by the joined rows of the notes.
+/// Compares the addresses of a value on each bus with the joined rows of the notes.
 #[test]
 fn one_register_is_one_item_on_five_buses() {
     let Some(rows) = rows("one_register_five_buses") else { return };
@@ -162,30 +162,30 @@ fn one_register_is_one_item_on_five_buses() {
     let mut wrong = Vec::new();
     for row in &rows {
         let number: u16 = row[0][1..].parse().expect("a number");
-        let own = tables.map(|device| {
+        let row_items = tables.map(|device| {
             let is_window = |binding: &Binding| match binding {
                 Binding::Indirect(window) => window.number == 0x8000 + u32::from(number),
                 _ => false,
             };
             items(device).find(|item| item.bindings.iter().any(is_window)).expect("a register")
         });
-        let addresses = own.map(address);
+        let addresses = row_items.map(address);
         let printed = [
             u16::from_str_radix(row[5].trim_start_matches("0x"), 16).ok(),
             row[6].parse().ok(),
-            row[7].split('=').next().and_then(|own| own.parse().ok()),
+            row[7].split('=').next().and_then(|entry| entry.parse().ok()),
         ];
         let is_same_object = !row[8].contains("DIFFERENT") && !row[8].contains("while") && row[8].starts_with("0x60")
             || row[8].starts_with("0x2")
             || row[8].starts_with("0x3");
         let object = is_same_object.then(|| place(&row[8]));
-        if addresses != printed || own[0].object() != object {
-            wrong.push(format!("{}: {addresses:?} {printed:?} {:?} {object:?}", row[0], own[0].object()));
+        if addresses != printed || row_items[0].object() != object {
+            wrong.push(format!("{}: {addresses:?} {printed:?} {:?} {object:?}", row[0], row_items[0].object()));
         }
-        if object.is_some() && bytes(tables[0], own[0]).to_string() != row[9] {
-            wrong.push(format!("{}: {} bytes", row[0], bytes(tables[0], own[0])));
+        if object.is_some() && bytes(tables[0], row_items[0]).to_string() != row[9] {
+            wrong.push(format!("{}: {} bytes", row[0], bytes(tables[0], row_items[0])));
         }
-        let image = in_images(own[0]).first().map(|(image, at, _)| (*image, *at));
+        let image = in_images(row_items[0]).first().map(|(image, at, _)| (*image, *at));
         if image != image_place(&row[13]) {
             wrong.push(format!("{}: {image:?} {}", row[0], row[13]));
         }
@@ -193,14 +193,14 @@ fn one_register_is_one_item_on_five_buses() {
     assert_eq!(wrong, Vec::<String>::new());
 }
 
-/// `0x6099:1`, with remarks behind it.
+/// Parses `0x6099:1`, which may be followed by remarks.
 fn place(text: &str) -> (u16, u8) {
     let index = u16::from_str_radix(&text[2..6], 16).expect("an index");
     let sub = text[6..].trim_start_matches(':').chars().next().and_then(|digit| digit.to_digit(10)).unwrap_or(0);
     (index, sub as u8)
 }
 
-/// `IN 0..1`, `IN 2 / display OUT 2`, `indirect`.
+/// Parses `IN 0..1`, `IN 2 / display OUT 2` or `indirect`.
 fn image_place(text: &str) -> Option<(&'static str, u32)> {
     let (image, rest) = match text.split_once(' ') {
         Some(("IN", rest)) => ("from the master", rest),
@@ -215,7 +215,7 @@ fn image_place(text: &str) -> Option<(&'static str, u32)> {
 fn values_fill_their_registers() {
     let compilation = table();
     let device = device(&compilation);
-    for item in items(device).filter(|item| address(item).is_some_and(|own| own >= 0x8000)) {
+    for item in items(device).filter(|item| address(item).is_some_and(|address| address >= 0x8000)) {
         let register = item.bindings.iter().find_map(|binding| match binding {
             Binding::Register(register) => Some(register),
             _ => None,
@@ -258,32 +258,34 @@ fn every_parameter_is_there_at_its_line() {
         let kind = ["Numero", "%  1-99", "Gradi", "--"].iter().position(|kind| text.contains(kind)).expect("a content");
         kinds[kind] += 1;
         let Some(code) = hex_numbers(text, 4).first().copied() else {
-            assert!(["F4", "O4"].contains(&name.as_str()), "L{line}");
-            assert!(!items(device).any(|item| item.name == *name), "L{line}");
+            assert!(["F4", "O4"].contains(&name.as_str()), "line {line}");
+            assert!(!items(device).any(|item| item.name == *name), "line {line}");
             continue;
         };
-        let decimal: u32 = text.split(" (0x").next().and_then(|own| own.rsplit(' ').next()).unwrap().parse().unwrap();
-        assert_eq!(decimal, code, "L{line}");
+        let decimal: u32 =
+            text.split(" (0x").next().and_then(|entry| entry.rsplit(' ').next()).unwrap().parse().unwrap();
+        assert_eq!(decimal, code, "line {line}");
         let item = item(device, name);
         found += 1;
-        assert!(item_cites(item, *line), "L{line} {name}");
-        assert_eq!(address(item).map(u32::from), Some(code), "L{line} {name}");
+        assert!(item_cites(item, *line), "line {line} {name}");
+        assert_eq!(address(item).map(u32::from), Some(code), "line {line} {name}");
         assert_eq!(base(device, item.ty), Type::Unsigned(16), "{name}");
-        let unit = item.quantity.as_ref().map_or("", |own| own.unit.as_str());
+        let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
         match kind {
             1 => assert_eq!((unit, limits(item)), ("%", Some((1, 99))), "{name}"),
             2 => assert_eq!(unit, "°", "{name}"),
             _ => {}
         }
-        let is_window = |binding: &&Binding| matches!(binding, Binding::Indirect(own) if own.number == code);
+        let is_window = |binding: &&Binding| matches!(binding, Binding::Indirect(window) if window.number == code);
         assert_eq!(item.bindings.iter().filter(is_window).count(), 3, "{name}");
-        // All that can be set is saved (L3355).
+        // All writable parameters are saved (section "Salvataggio su flash").
         assert_eq!(is_saved(item), item.access == Access::ReadWrite, "{name}");
     }
     assert_eq!((kinds, found), ([38, 18, 2, 1], 57));
 }
 
-/// Numbers in several parameters: pairs of a more and a less significant part, and the offset with its sign and three parts.
+/// Values that are spread over several parameters: pairs of a more and a less significant part, and the offset with its sign
+/// and three parts.
 #[test]
 fn every_number_in_several_parameters_is_a_composite() {
     let Some(manual) = manual() else { return };
@@ -294,30 +296,32 @@ fn every_number_in_several_parameters_is_a_composite() {
     let halves = with("significativa");
     let mut expected: Vec<(Vec<&str>, Option<&str>)> = Vec::new();
     for pair in halves.chunks(2) {
-        assert!(pair[0].2.contains("più") && pair[1].2.contains("meno"), "L{}", pair[0].1);
+        assert!(pair[0].2.contains("più") && pair[1].2.contains("meno"), "line {}", pair[0].1);
         expected.push((pair.iter().map(|row| row.0.as_str()).collect(), None));
     }
     let offset = with("Offset di spazio in impulsi");
-    // What H6, H7 and H8 count.
+    // Units of H6, H7 and H8.
     let weights = ["decine di migliaia", "centinaia", "unità"];
     assert!(offset.iter().zip(weights).all(|(row, weight)| row.2.contains(weight)));
     let sign = with("Segno offset di spazio");
     expected.push((offset.iter().map(|row| row.0.as_str()).collect(), Some(sign[0].0.as_str())));
-    let of_table =
-        |own: &lexibus_codegen::ir::Composite| (own.parts.clone(), own.sign.as_ref().map(|own| own.0.clone()));
-    let own: Vec<_> = device.composites.iter().map(of_table).collect();
-    let own: Vec<(Vec<&str>, Option<&str>)> = own
+    let of_table = |composite: &lexibus_codegen::ir::Composite| {
+        (composite.parts.clone(), composite.sign.as_ref().map(|sign| sign.0.clone()))
+    };
+    let composites: Vec<_> = device.composites.iter().map(of_table).collect();
+    let parts: Vec<(Vec<&str>, Option<&str>)> = composites
         .iter()
-        .map(|(parts, sign)| (parts.iter().map(|own| own.as_str()).collect(), sign.as_ref().map(|own| own.as_str())))
+        .map(|(parts, sign)| {
+            (parts.iter().map(|part| part.as_str()).collect(), sign.as_ref().map(|sign| sign.as_str()))
+        })
         .collect();
-    assert_eq!((own.len(), own), (5, expected));
-    assert!(device.composites.iter().all(|own| own.base == 100));
+    assert_eq!((parts.len(), parts), (5, expected));
+    assert!(device.composites.iter().all(|entry| entry.base == 100));
     for row in halves.iter().chain(&offset).chain(&sign) {
-        let own = device
-            .composites
-            .iter()
-            .find(|own| own.parts.iter().chain(own.sign.as_ref().map(|own| &own.0)).any(|part| **part == row.0));
-        assert!(cites(own.expect("a composite").documentation.as_deref(), row.1), "L{} {}", row.1, row.0);
+        let actual = device.composites.iter().find(|composite| {
+            composite.parts.iter().chain(composite.sign.as_ref().map(|sign| &sign.0)).any(|part| **part == row.0)
+        });
+        assert!(cites(actual.expect("a composite").documentation.as_deref(), row.1), "line {} {}", row.1, row.0);
     }
 }
 
@@ -331,7 +335,8 @@ fn the_command_that_saves_has_an_address_of_its_own() {
     assert_eq!(item(device, "save_to_flash").access, Access::WriteOnly);
 }
 
-/// The list of what 0x1010 saves (L3361-3407): 36 cells, the inputs 9, 10 and 11 all with 0x3701.
+/// The list of objects that 0x1010 saves (section "Salvataggio su flash"): 36 cells, with 0x3701 for each of the inputs 9, 10
+/// and 11.
 #[test]
 fn what_canopen_saves_is_saved() {
     let Some(manual) = manual() else { return };
@@ -341,15 +346,15 @@ fn what_canopen_saves_is_saved() {
     let cells = hex_numbers(&text.replace("sub1", " 1").replace("sub2", " 2"), 4);
     assert_eq!(cells.len(), 36);
     let saved: BTreeSet<u16> =
-        items(device).filter(|item| is_saved(item)).filter_map(Item::object).map(|own| own.0).collect();
+        items(device).filter(|item| is_saved(item)).filter_map(Item::object).map(|object| object.0).collect();
     for index in &cells {
         let index = *index as u16;
         assert!(saved.contains(&index), "0x{index:04X}");
     }
-    let listed: BTreeSet<u16> = cells.iter().map(|own| *own as u16).collect();
+    let listed: BTreeSet<u16> = cells.iter().map(|cell| *cell as u16).collect();
     let beyond: Vec<u16> = saved.difference(&listed).copied().collect();
-    // Printed as 0x3701; and outputs, which the table of registers saves.
+    // Printed as 0x3701, and outputs, which the register table saves.
     assert_eq!(beyond, [0x3301, 0x3302, 0x3501, 0x3502, 0x3702, 0x3703]);
-    let registers = items(device).filter(|item| address(item).is_some_and(|own| own >= 0x8000));
+    let registers = items(device).filter(|item| address(item).is_some_and(|address| address >= 0x8000));
     assert_eq!(registers.filter(|item| is_saved(item)).count(), 125);
 }

@@ -1,4 +1,4 @@
-//! The Eco's alarms and other codes, named values, inputs and outputs, held against the text of its manual.
+//! Compares the Eco's alarms and other codes, named values, inputs and outputs with the text of its manual.
 
 mod eco_support;
 
@@ -10,17 +10,17 @@ use lexibus_codegen::ir::{
 };
 
 fn codes<'d>(device: &'d Device, name: &str) -> &'d CodeTable {
-    device.code_tables.iter().find(|own| own.name == name).expect("a table of codes")
+    device.code_tables.iter().find(|table| table.name == name).expect("a table of codes")
 }
 
 fn fields<'d>(device: &'d Device, name: &str) -> &'d [BitFieldEntry] {
-    let definition = device.types.iter().find(|own| own.name == name).expect("a type");
+    let definition = device.types.iter().find(|definition| definition.name == name).expect("a type");
     let Shape::BitField { fields, .. } = &definition.shape else { panic!("{name}") };
     fields
 }
 
 fn values<'d>(device: &'d Device, name: &str) -> &'d [EnumValue] {
-    let definition = device.types.iter().find(|own| own.name == name).expect("a type");
+    let definition = device.types.iter().find(|definition| definition.name == name).expect("a type");
     let Shape::Enumeration { values, .. } = &definition.shape else { panic!("{name}") };
     values
 }
@@ -43,30 +43,30 @@ fn alarms_are_the_printed_ones() {
         [("general", "general_alarms", 19), ("ethercat", "ethercat_alarms", 28), ("profinet", "profinet_alarms", 5)];
     assert_eq!(rows.len(), 52);
     for (kind, name, count) in tables {
-        let own: Vec<&Vec<String>> = rows.iter().filter(|row| row[1] == kind).collect();
+        let rows: Vec<&Vec<String>> = rows.iter().filter(|row| row[1] == kind).collect();
         let table = codes(device, name);
-        assert_eq!((own.len(), table.rows.len()), (count, count), "{name}");
-        for (printed, row) in own.iter().zip(&table.rows) {
+        assert_eq!((rows.len(), table.rows.len()), (count, count), "{name}");
+        for (printed, row) in rows.iter().zip(&table.rows) {
             let line: usize = printed[0].parse().expect("a line");
-            assert_eq!(printed[2], row.code.to_string(), "L{line}");
-            assert!(cites(row.documentation.as_deref(), line), "L{line}");
+            assert_eq!(printed[2], row.code.to_string(), "line {line}");
+            assert!(cites(row.documentation.as_deref(), line), "line {line}");
             let cell = text(row.cells.first());
             match kind {
-                "general" => assert_eq!(cell, reaction(&manual, line), "L{line}"),
-                "ethercat" => assert_eq!(cell, printed[3].trim_matches([' ', '-']), "L{line}"),
-                _ => assert_eq!(cell == "true", printed[4].trim().ends_with("SI"), "L{line}"),
+                "general" => assert_eq!(cell, reaction(&manual, line), "line {line}"),
+                "ethercat" => assert_eq!(cell, printed[3].trim_matches([' ', '-']), "line {line}"),
+                _ => assert_eq!(cell == "true", printed[4].trim().ends_with("SI"), "line {line}"),
             }
         }
     }
-    // Many alarms have one code, so that there is no way back.
+    // Several alarms share a code, so the mapping has no inverse.
     let of_alarms: Vec<String> =
         codes(device, "ethercat_alarms").rows.iter().map(|row| text(row.cells.first())).collect();
-    assert_eq!(of_alarms.iter().filter(|own| !own.is_empty()).collect::<BTreeSet<_>>().len(), 18);
+    assert_eq!(of_alarms.iter().filter(|entry| !entry.is_empty()).collect::<BTreeSet<_>>().len(), 18);
     let buses = |name| codes(device, name).buses.iter().map(Bus::name).collect::<Vec<_>>();
     assert_eq!((buses("ethercat_alarms"), buses("profinet_alarms")), (vec!["ethercat"], vec!["profinet"]));
 }
 
-/// The reaction of a general alarm: the first line behind its title that names an action.
+/// Returns the reaction of a general alarm: the first line after its title that names an action.
 fn reaction(manual: &[String], line: usize) -> &'static str {
     let found = lines(manual, line, line + 8)
         .map(|(_, text)| text)
@@ -111,7 +111,7 @@ fn modes_profiles_and_bit_rates_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
     let compilation = table();
     let device = device(&compilation);
-    let values = |name: &str| values(device, name).iter().map(|own| own.value).collect::<BTreeSet<i128>>();
+    let values = |name: &str| values(device, name).iter().map(|value| value.value).collect::<BTreeSet<i128>>();
     let of_lines = |first, last| -> BTreeSet<i128> {
         let numbers =
             lines(&manual, first, last).map(|(_, text)| text.split([' ', ':']).next().unwrap_or_default().to_owned());
@@ -119,18 +119,21 @@ fn modes_profiles_and_bit_rates_are_the_printed_ones() {
     };
     let in_registers: BTreeSet<i128> = lines(&manual, 75, 79)
         .flat_map(|(_, text)| {
-            text.split_whitespace().filter_map(|word| word.split_once(':')).map(|own| own.0.parse()).collect::<Vec<_>>()
+            text.split_whitespace()
+                .filter_map(|word| word.split_once(':'))
+                .map(|entry| entry.0.parse())
+                .collect::<Vec<_>>()
         })
         .filter_map(Result::ok)
         .collect();
     assert_eq!(in_registers, BTreeSet::from([-127, -50, -2, -1, 1, 3, 6, 7]));
-    // EtherCAT has one more.
+    // EtherCAT has an additional one.
     let with_csp = |mut list: BTreeSet<i128>| {
         list.insert(8);
         list
     };
     assert_eq!(values("Mode"), with_csp(in_registers));
-    // What 0x6060 takes on each bus.
+    // Values of 0x6060 on each bus.
     let there = |bus: Bus| -> BTreeSet<i128> {
         let limits = item(device, "modes_of_operation").limits_on(bus).expect("limits");
         limits.allowed.iter().filter_map(|(value, _)| value.as_int()).collect()
@@ -159,43 +162,43 @@ fn inputs_and_outputs_are_the_printed_ones() {
                 Some((line, pin, words.next()?.parse::<u32>().ok()?))
             });
             let rows: Vec<(usize, u32, u32)> = rows.collect();
-            assert_eq!(rows.len(), count, "L{first}");
+            assert_eq!(rows.len(), count, "line {first}");
             for (line, pin, bit) in rows {
-                let field = bits_of(name).iter().find(|own| u32::from(own.offset) == bit).expect("a bit");
-                let text = field.documentation.as_ref().map_or("", |own| own.text.as_str());
+                let field = bits_of(name).iter().find(|entry| u32::from(entry.offset) == bit).expect("a bit");
+                let text = field.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
                 let begin = format!("Pin {pin}");
-                let rest = text.strip_prefix(&begin).unwrap_or_else(|| panic!("L{line} pin {pin}: {text}"));
-                assert!(!rest.starts_with(|c: char| c.is_ascii_digit()), "L{line} pin {pin}: {text}");
-                assert!(cites(field.documentation.as_deref(), line), "L{line} bit {bit}");
+                let rest = text.strip_prefix(&begin).unwrap_or_else(|| panic!("line {line} pin {pin}: {text}"));
+                assert!(!rest.starts_with(|c: char| c.is_ascii_digit()), "line {line} pin {pin}: {text}");
+                assert!(cites(field.documentation.as_deref(), line), "line {line} bit {bit}");
             }
         }
     }
 }
 
-/// Functions of the inputs of the miniECO by c8, and the bits that they have (L1841-1900, again L4646-4705).
+/// Functions of the miniECO's inputs by c8, and their bits (section "digital_inputs su MiniECO standard o miniECO PLUS").
 #[test]
 fn inputs_of_the_mini_eco_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
     let compilation = table();
     let device = device(&compilation);
     let words = ["negative limit", "positive limit", "homeswitch", "position latch", "start move", "input enable"];
-    let own =
+    let actual =
         ["negative limit switch", "positive limit switch", "home switch", "position latch", "start", "input enable"];
     let bits = ["8", "9", "10", "0", "1", "-"];
     for (first, last) in [(1852, 1900), (4657, 4705)] {
         let cells = lines(&manual, first, last).filter(|(_, text)| text.contains("--")).map(|(line, text)| {
             let lower = text.to_lowercase();
-            let at = words.iter().position(|word| lower.contains(word)).unwrap_or_else(|| panic!("L{line}"));
+            let at = words.iter().position(|word| lower.contains(word)).unwrap_or_else(|| panic!("line {line}"));
             let bit = text.split_whitespace().skip_while(|word| !["DIR", "PULSE", "IEN"].contains(word)).nth(1);
-            assert_eq!(bit, Some(bits[at]), "L{line}");
-            own[at].to_owned()
+            assert_eq!(bit, Some(bits[at]), "line {line}");
+            actual[at].to_owned()
         });
         let cells: Vec<String> = cells.collect();
         assert_eq!(cells.len(), 21);
         let table = codes(device, "mini_inputs");
         let there: Vec<String> =
             table.rows.iter().flat_map(|row| row.cells.iter().map(|cell| text(Some(cell)))).collect();
-        assert_eq!(there, cells, "L{first}");
+        assert_eq!(there, cells, "line {first}");
     }
 }
 
@@ -207,13 +210,13 @@ fn pins_of_cn2_are_the_printed_ones() {
     let table = codes(device(&compilation), "cn2_pins");
     assert_eq!(table.rows.len(), 16);
     for ((line, words), row) in rows.zip(&table.rows) {
-        assert_eq!(words[0], row.code.to_string(), "L{line}");
-        assert_eq!(words[1].to_lowercase(), text(row.cells.first()), "L{line}");
-        assert_eq!(words.len() > 2, row.cells.len() > 1, "L{line}");
+        assert_eq!(words[0], row.code.to_string(), "line {line}");
+        assert_eq!(words[1].to_lowercase(), text(row.cells.first()), "line {line}");
+        assert_eq!(words.len() > 2, row.cells.len() > 1, "line {line}");
     }
 }
 
-/// The values of c9 that choose a bus, and those of E3, wherever they are printed.
+/// The values of c9 that select a bus, and those of E3, from all tables that print them.
 #[test]
 fn values_of_c9_and_e3_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -226,16 +229,16 @@ fn values_of_c9_and_e3_are_the_printed_ones() {
             Some((digits.parse::<i128>().expect("a value"), line))
         });
         let printed: Vec<(i128, usize)> = printed.collect();
-        let own = values(device(&compilation), name);
-        assert_eq!((printed.len(), own.len()), (count, count), "{parameter}");
+        let values = values(device(&compilation), name);
+        assert_eq!((printed.len(), values.len()), (count, count), "{parameter}");
         for (value, line) in printed {
-            let own = own.iter().find(|own| own.value == value).unwrap_or_else(|| panic!("L{line}"));
-            assert!(cites(own.documentation.as_deref(), line), "L{line}");
+            let entry = values.iter().find(|entry| entry.value == value).unwrap_or_else(|| panic!("line {line}"));
+            assert!(cites(entry.documentation.as_deref(), line), "line {line}");
         }
     }
 }
 
-/// The mode that a meaning of a bit is of, by the words of its line.
+/// Returns the mode of a bit's meaning, from the words of its line.
 const MODES: [(&str, i128); 6] = [
     ("Posizionatore", 1),
     ("Controllo Velocità", 3),
@@ -245,7 +248,7 @@ const MODES: [(&str, i128); 6] = [
     ("Save/load", -50),
 ];
 
-/// Bits of the vendor's control word and status word: the bits, and their meanings by mode.
+/// Compares bits of the vendor's control word and status word, and their meanings by mode.
 #[test]
 fn bits_of_control_and_status_word_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -253,35 +256,36 @@ fn bits_of_control_and_status_word_are_the_printed_ones() {
     for (name, first, last, counts, edges) in
         [("DriveCommand", 47, 67, (8, 13), 4), ("DriveStatus", 142, 162, (8, 15), 0)]
     {
-        let own = fields(device(&compilation), name);
+        let fields = fields(device(&compilation), name);
         let (mut bit, mut bits, mut meanings, mut rising) = (0, BTreeSet::new(), 0, 0);
         for (line, text) in lines(&manual, first, last) {
-            let mode = MODES.iter().find(|(word, _)| text.contains(word)).map(|own| own.1);
+            let mode = MODES.iter().find(|(word, _)| text.contains(word)).map(|entry| entry.1);
             let begins = text.strip_prefix("bit ").and_then(|rest| rest.split(' ').next());
             bit = begins.map_or(bit, |digits| digits.parse().expect("a bit"));
             // The rest of the line above.
             if begins.is_none() && mode.is_none() {
                 continue;
             }
-            let found = own.iter().find(|own| own.offset == bit && cites(own.documentation.as_deref(), line));
-            let found = found.unwrap_or_else(|| panic!("L{line}: {name} has no bit {bit}"));
-            let when: Vec<i128> = found.when.iter().flat_map(|own| &own.values).filter_map(Value::as_int).collect();
-            assert_eq!(when, Vec::from_iter(mode), "L{line}");
-            let label = found.names.first().map_or("", |own| own.text.as_str()).replace(' ', "").to_lowercase();
-            assert!(text.replace(' ', "").to_lowercase().contains(&label), "L{line} {label}");
+            let found = fields.iter().find(|entry| entry.offset == bit && cites(entry.documentation.as_deref(), line));
+            let found = found.unwrap_or_else(|| panic!("line {line}: {name} has no bit {bit}"));
+            let when: Vec<i128> =
+                found.when.iter().flat_map(|condition| &condition.values).filter_map(Value::as_int).collect();
+            assert_eq!(when, Vec::from_iter(mode), "line {line}");
+            let label = found.names.first().map_or("", |name| name.text.as_str()).replace(' ', "").to_lowercase();
+            assert!(text.replace(' ', "").to_lowercase().contains(&label), "line {line} {label}");
             let is_edge = text.contains("0 \u{FFFD} 1") || text.contains("0\u{FFFD} 1");
-            assert_eq!(found.trigger == Some(Trigger::Rising), is_edge, "L{line}");
+            assert_eq!(found.trigger == Some(Trigger::Rising), is_edge, "line {line}");
             rising += usize::from(is_edge);
             bits.insert(bit);
             meanings += 1;
         }
         assert_eq!(((bits.len(), meanings), rising), (counts, edges), "{name}");
-        let named = own.iter().filter(|own| !matches!(own.meaning, BitMeaning::Reserved { .. }));
+        let named = fields.iter().filter(|entry| !matches!(entry.meaning, BitMeaning::Reserved { .. }));
         assert_eq!(named.count(), meanings, "{name}");
     }
 }
 
-/// Bits of 0x6040 and 0x6041 that are the vendor's.
+/// Bits of 0x6040 and 0x6041 that the vendor defines.
 #[test]
 fn bits_of_the_vendor_in_words_of_402_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -294,14 +298,14 @@ fn bits_of_the_vendor_in_words_of_402_are_the_printed_ones() {
             Some((line, rest.split(':').next()?.parse::<u8>().expect("a bit")))
         });
         let printed: Vec<(usize, u8)> = printed.collect();
-        assert_eq!(printed.iter().map(|own| own.1).collect::<Vec<_>>(), expected, "{name}");
+        assert_eq!(printed.iter().map(|row| row.1).collect::<Vec<_>>(), expected, "{name}");
         for (line, bit) in printed {
-            let own = fields(device(&compilation), name).iter().find(|own| own.offset == bit).expect("a bit");
-            assert!(cites(own.documentation.as_deref(), line), "L{line}");
-            assert!(!matches!(own.meaning, BitMeaning::Reserved { .. }), "L{line}");
-            // A transition is printed of bit 14 only.
+            let field = fields(device(&compilation), name).iter().find(|field| field.offset == bit).expect("a bit");
+            assert!(cites(field.documentation.as_deref(), line), "line {line}");
+            assert!(!matches!(field.meaning, BitMeaning::Reserved { .. }), "line {line}");
+            // A transition is printed only for bit 14.
             let is_edge = manual[line - 1].contains("transizione da 0 a 1") && name == "Controlword";
-            assert_eq!(own.trigger == Some(Trigger::Rising), is_edge, "L{line}");
+            assert_eq!(field.trigger == Some(Trigger::Rising), is_edge, "line {line}");
         }
     }
 }
@@ -312,20 +316,20 @@ fn bits_of_the_error_register_are_the_printed_ones() {
     let compilation = table();
     let mut printed: Vec<(u8, String, usize)> = Vec::new();
     for (line, text) in lines(&manual, 2978, 2999).filter(|(_, text)| !text.is_empty()) {
-        let digits = text.split(' ').next().and_then(|own| own.parse().ok());
+        let digits = text.split(' ').next().and_then(|entry| entry.parse().ok());
         match (digits, printed.last_mut()) {
             (Some(bit), _) => printed.push((bit, text[1..].trim().to_lowercase(), line)),
             (None, Some(row)) => row.1 += &format!(" {}", text.to_lowercase()),
-            _ => panic!("L{line}"),
+            _ => panic!("line {line}"),
         }
     }
-    let own = fields(device(&compilation), "ErrorRegister");
-    assert_eq!((printed.len(), own.len()), (8, 8));
-    for ((bit, cause, line), own) in printed.iter().zip(own) {
-        assert!(own.offset == *bit && cites(own.documentation.as_deref(), *line), "L{line}");
-        match own.meaning {
+    let fields = fields(device(&compilation), "ErrorRegister");
+    assert_eq!((printed.len(), fields.len()), (8, 8));
+    for ((bit, cause, line), row) in printed.iter().zip(fields) {
+        assert!(row.offset == *bit && cites(row.documentation.as_deref(), *line), "line {line}");
+        match row.meaning {
             BitMeaning::Reserved { write } => assert_eq!((cause.as_str(), write), ("reserved (always 0)", Some(false))),
-            _ => assert_eq!(own.name, cause.trim(), "L{line}"),
+            _ => assert_eq!(row.name, cause.trim(), "line {line}"),
         }
     }
 }
@@ -341,49 +345,49 @@ fn transmission_types_are_the_printed_ones() {
             _ => printed.push((line, text.to_owned())),
         }
     }
-    let own = values(device(&compilation), "TransmissionType");
-    assert_eq!((printed.len(), own.len()), (6, 6));
-    for ((line, text), own) in printed.iter().zip(own) {
+    let values = values(device(&compilation), "TransmissionType");
+    assert_eq!((printed.len(), values.len()), (6, 6));
+    for ((line, text), row) in printed.iter().zip(values) {
         let (numbers, kind) = text.split_once(' ').expect("numbers and a kind");
         let ends: Vec<i128> = numbers.split("...").map(|number| number.parse().expect("a type")).collect();
-        assert_eq!((own.value, own.last), (ends[0], ends.get(1).copied()), "L{line}");
-        assert!(cites(own.documentation.as_deref(), *line), "L{line}");
-        match own.zone {
-            Some(zone) => assert_eq!((zone, kind), (Zone::Reserved, "reserved"), "L{line}"),
-            None => assert_eq!(own.name, kind.replace("RTR only", "on request"), "L{line}"),
+        assert_eq!((row.value, row.last), (ends[0], ends.get(1).copied()), "line {line}");
+        assert!(cites(row.documentation.as_deref(), *line), "line {line}");
+        match row.zone {
+            Some(zone) => assert_eq!((zone, kind), (Zone::Reserved, "reserved"), "line {line}"),
+            None => assert_eq!(row.name, kind.replace("RTR only", "on request"), "line {line}"),
         }
     }
 }
 
-/// Outputs of the miniECO (L1941-1944, again L4738-4741): two of the four have no function.
+/// Outputs of the miniECO (section "digital_output in : miniECO e miniECO PLUS"). Two of the four have no function.
 #[test]
 fn outputs_of_the_mini_eco_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
     let compilation = table();
-    let own = fields(device(&compilation), "DigitalOutputs");
+    let fields = fields(device(&compilation), "DigitalOutputs");
     for (first, last) in [(1941, 1944), (4738, 4741)] {
         let mut without = 0;
         for (line, text) in lines(&manual, first, last) {
             let mut words = text.splitn(3, ' ');
-            let mut number = || words.next().and_then(|own| own.parse::<u8>().ok()).expect("a number");
+            let mut number = || words.next().and_then(|word| word.parse::<u8>().ok()).expect("a number");
             let (pin, bit) = (number(), number());
             let function = words.next().unwrap_or_default();
             let of_model = |field: &&BitFieldEntry| {
-                let models = field.availability.as_ref().map_or(&[][..], |own| &own.models);
-                field.offset == bit && (models.is_empty() || models.iter().any(|own| own == "miniECO"))
+                let models = field.availability.as_ref().map_or(&[][..], |availability| &availability.models);
+                field.offset == bit && (models.is_empty() || models.iter().any(|model| model == "miniECO"))
             };
-            let found: Vec<_> = own.iter().filter(of_model).collect();
-            assert_eq!(found.len(), 1, "L{line}");
+            let found: Vec<_> = fields.iter().filter(of_model).collect();
+            assert_eq!(found.len(), 1, "line {line}");
             let doc = found[0].documentation.as_ref().expect("a text");
-            assert!(cites(Some(doc), line) && doc.text.starts_with(&format!("Pin {pin}")), "L{line}");
-            assert_eq!(doc.text.contains("no function on the miniECO"), function.is_empty(), "L{line}");
-            let orig = found[0].names.first().map(|own| own.text.as_str());
+            assert!(cites(Some(doc), line) && doc.text.starts_with(&format!("Pin {pin}")), "line {line}");
+            assert_eq!(doc.text.contains("no function on the miniECO"), function.is_empty(), "line {line}");
+            let orig = found[0].names.first().map(|name| name.text.as_str());
             match function {
                 "" => without += 1,
                 "Brake / Digital Out" => assert_eq!(found[0].name, "brake"),
                 function => assert_eq!(orig, Some(function)),
             }
         }
-        assert_eq!(without, 2, "L{first}");
+        assert_eq!(without, 2, "line {first}");
     }
 }

@@ -1,5 +1,5 @@
-//! Each of the 85 items of section 4 of the notes on the Eco's manual has doubts in dictionaries/eco.toml that name its lines.
-//! The cases of `manual-eco` in `tests/ui` show what the checks report of passages as they are printed.
+//! Tests that the doubts in dictionaries/eco.toml cover the 85 items in section 4 of the notes on the Eco manual, and cite
+//! their lines. The cases of `manual-eco` in `tests/ui` show the diagnostics of verbatim passages.
 
 #[path = "table_support/doubts.rs"]
 mod doubts;
@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 
 use eco_support::notes;
 
-/// The items of section 4: how the doubts about each begin, and the numbers in its text that are no lines.
+/// Items of section 4: the first words of their doubts, and numbers in the item's text that are not lines.
 #[rustfmt::skip]
 const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("A1", &["A page marker is glued"], &[104]),
@@ -20,7 +20,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("A5", &["Limits are printed"], &[]),
     ("A6", &["The limits of a row"], &[]),
     ("A7", &["The limits of a row"], &[]),
-    // Digits of frames and of ranges.
+    // Digits of frames and ranges.
     ("A8", &["Text is cut off or", "Printed are 1312 for", "The name has divelocità,", "The name has a closing", "The name has an"], &[38, 255, 1312]),
     ("A9", &["Rotated labels next to"], &[]),
     ("A10", &["References lead to"], &[]),
@@ -54,7 +54,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("C7", &["The table marks R00", "The row of the", "A status value is", "A measured value is"], &[]),
     ("C8", &["The name is Following_error_windows", "The name is digital_outputs", "The name is Aux", "Hardware Latched User"], &[]),
     ("C9", &["The register is called"], &[]),
-    // The line of input 9 is right.
+    // The line of input 9 is correct.
     ("C10", &["The list of saved objects has 0x3701 for input 10,", "The list of saved objects has 0x3701 for input 11,"], &[3394, 3701, 3702, 3703]),
     ("C11", &["The limits are 0"], &[]),
     ("C12", &["The limits of R01"], &[]),
@@ -104,36 +104,36 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("F8", &["The Modbus and PROFINET"], &[33, 34]),
 ];
 
-/// Every item of section 4 has its doubts, and each line, or range of lines, that it names is in one of these.
+/// Every item of section 4 has doubts, and these cite each line and range of lines in the item.
 #[test]
 fn every_contradiction_has_its_doubts() {
     let Some(notes) = notes() else { return };
     let all = doubts::doubts(&doubts::catalog("eco.toml"));
     let section = notes.split("\n## 4. ").nth(1).and_then(|rest| rest.split("\n## 5. ").next()).expect("section 4");
     let printed: Vec<&str> = section.split("\n* ").skip(1).collect();
-    let listed: Vec<&str> = ITEMS.iter().map(|own| own.0).collect();
+    let listed: Vec<&str> = ITEMS.iter().map(|entry| entry.0).collect();
     assert_eq!(printed.iter().map(|text| text.split(' ').next().unwrap_or_default()).collect::<Vec<_>>(), listed);
     let mut left = Vec::new();
     for (text, (item, beginnings, no_lines)) in printed.iter().zip(ITEMS) {
         let mut lines = BTreeSet::new();
         for beginning in *beginnings {
-            let own: Vec<_> = all.iter().filter(|doubt| doubt.says.starts_with(beginning)).collect();
-            assert!(!own.is_empty(), "{item}: no doubt begins with `{beginning}`");
-            for doubt in own {
+            let actual: Vec<_> = all.iter().filter(|doubt| doubt.says.starts_with(beginning)).collect();
+            assert!(!actual.is_empty(), "{item}: no doubt begins with `{beginning}`");
+            for doubt in actual {
                 lines.extend(doubt.cite.as_deref().into_iter().flat_map(doubts::lines).map(|line| line as u32));
             }
         }
         let mut missing = ranges(text);
         missing.retain(|range| !range.clone().any(|line| lines.contains(&line)));
-        let superfluous = no_lines.iter().filter(|own| !missing.iter().any(|range| range.start() == *own));
-        left.extend(superfluous.map(|own| format!("{item}: {own} is no exception")));
+        let superfluous = no_lines.iter().filter(|entry| !missing.iter().any(|range| range.start() == *entry));
+        left.extend(superfluous.map(|entry| format!("{item}: {entry} is not an exception")));
         missing.retain(|range| !no_lines.contains(range.start()));
         left.extend(missing.iter().map(|range| format!("{item}: {range:?}")));
     }
     assert_eq!((left, ITEMS.len()), (Vec::<String>::new(), 85));
 }
 
-/// The lines, and ranges of lines, in a text: numbers of up to four digits.
+/// Returns the lines and ranges of lines in a text: numbers of up to four digits.
 fn ranges(text: &str) -> Vec<RangeInclusive<u32>> {
     let mut found = Vec::new();
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_' || c == '.';

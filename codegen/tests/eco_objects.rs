@@ -1,4 +1,4 @@
-//! The Eco's objects, PDOs, images and sequences, held against the text of its manual.
+//! Compares the Eco's objects, PDOs, images and sequences with the text of its manual.
 
 mod eco_support;
 
@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use eco_support::*;
 use lexibus_codegen::ir::{Access, Binding, Bus, Direction, ObjectBuses, PdoEntryKind, Step};
 
-/// An object, or one of its sub-entries, as its row says.
+/// A printed row of an object or a sub-index.
 struct Printed {
     line: usize,
     place: (u16, Option<u8>),
@@ -16,12 +16,13 @@ struct Printed {
     bytes: Option<u32>,
 }
 
-/// The rows of the tables of objects.
+/// Returns the rows of the object tables.
 fn objects(manual: &[String]) -> Vec<Printed> {
     let mut rows: Vec<(usize, u16, Option<u8>, String)> = Vec::new();
     for (line, text) in lines(manual, 3454, 3898) {
-        let index = hex_numbers(text.get(..6).unwrap_or_default(), 4).first().map(|own| *own as u16);
-        let sub = text.strip_prefix("sub ").and_then(|rest| rest.split(' ').next()).and_then(|own| own.parse().ok());
+        let index = hex_numbers(text.get(..6).unwrap_or_default(), 4).first().map(|entry| *entry as u16);
+        let sub =
+            text.strip_prefix("sub ").and_then(|rest| rest.split(' ').next()).and_then(|entry| entry.parse().ok());
         match (index, sub, rows.last()) {
             (Some(index), _, _) => rows.push((line, index, None, text.to_owned())),
             (None, Some(sub), Some(&(_, index, ..))) => rows.push((line, index, Some(sub), text.to_owned())),
@@ -34,14 +35,14 @@ fn objects(manual: &[String]) -> Vec<Printed> {
         }
     }
     let found = rows.into_iter().map(|(line, index, sub, text)| {
-        // What follows the length is the chapter of a standard.
+        // After the length, the row names a chapter of a standard.
         let is_length = |at: usize| {
             let goes_on = text[at + 2..].starts_with(|c: char| c.is_alphabetic());
             text[..at].ends_with(|c: char| c.is_ascii_digit()) && !goes_on
         };
         let bytes_at = text.match_indices(" B").find(|(at, _)| is_length(*at));
-        let own = &text[..bytes_at.map_or(text.len(), |(at, _)| at)];
-        let words: Vec<&str> = own.split_whitespace().collect();
+        let actual = &text[..bytes_at.map_or(text.len(), |(at, _)| at)];
+        let words: Vec<&str> = actual.split_whitespace().collect();
         let access = words.iter().find_map(|word| match *word {
             "ro" => Some(Access::ReadOnly),
             "rw" => Some(Access::ReadWrite),
@@ -71,7 +72,8 @@ fn every_object_is_there_at_its_line() {
     let printed = objects(&manual);
     let indices: BTreeSet<u16> = printed.iter().map(|row| row.place.0).collect();
     let leaves: Vec<&Printed> = printed.iter().filter(|row| row.access.is_some()).collect();
-    let bare = |row: &&Printed| row.access.is_none() && !printed.iter().any(|own| own.place == (row.place.0, Some(0)));
+    let bare =
+        |row: &&Printed| row.access.is_none() && !printed.iter().any(|entry| entry.place == (row.place.0, Some(0)));
     let bare: Vec<usize> = printed.iter().filter(bare).map(|row| row.line).collect();
     assert_eq!(bare, Vec::<usize>::new(), "rows without access");
     let having = |access: Access| leaves.iter().filter(|row| row.access == Some(access)).count();
@@ -81,7 +83,7 @@ fn every_object_is_there_at_its_line() {
     assert_eq!(leaves.iter().filter(|row| row.mappable).count(), 58);
     let mut sizes: BTreeMap<u32, usize> = BTreeMap::new();
     for row in &leaves {
-        *sizes.entry(row.bytes.unwrap_or_else(|| panic!("L{}: no length", row.line))).or_default() += 1;
+        *sizes.entry(row.bytes.unwrap_or_else(|| panic!("line {}: no length", row.line))).or_default() += 1;
     }
     assert_eq!(sizes, BTreeMap::from([(1, 50), (2, 33), (4, 116), (6, 3), (14, 1), (18, 1)]));
 
@@ -89,7 +91,7 @@ fn every_object_is_there_at_its_line() {
     for row in &leaves {
         let (index, sub) = row.place;
         let Some(item) = object(device, index, sub.unwrap_or(0)) else {
-            wrong.push(format!("L{}: no object 0x{index:04X}:{sub:?}", row.line));
+            wrong.push(format!("line {}: no object 0x{index:04X}:{sub:?}", row.line));
             continue;
         };
         let is_long = sub == Some(0) && LONG.contains(&index);
@@ -101,18 +103,18 @@ fn every_object_is_there_at_its_line() {
         ];
         let missing: Vec<_> = facts.into_iter().filter(|(_, holds)| !holds).map(|(fact, _)| fact).collect();
         if !missing.is_empty() {
-            wrong.push(format!("L{} {}: {missing:?}", row.line, item.name));
+            wrong.push(format!("line {} {}: {missing:?}", row.line, item.name));
         }
     }
     for row in printed.iter().filter(|row| row.access.is_none()) {
         let group = device.object(row.place.0);
         if !group.is_some_and(|group| cites(group.documentation.as_deref(), row.line)) {
-            wrong.push(format!("L{}: 0x{:04X}", row.line, row.place.0));
+            wrong.push(format!("line {}: 0x{:04X}", row.line, row.place.0));
         }
     }
     assert_eq!(wrong, Vec::<String>::new());
-    // Beside those of CANopen, the four that only EtherCAT names.
-    let all: BTreeSet<u16> = items(device).filter_map(|item| item.object()).map(|own| own.0).collect();
+    // In addition to the objects of CANopen, four that only EtherCAT has.
+    let all: BTreeSet<u16> = items(device).filter_map(|item| item.object()).map(|object| object.0).collect();
     assert_eq!(all.difference(&indices).copied().collect::<Vec<_>>(), [0x1C12, 0x1C13, 0x2007, 0x603F]);
     assert!(indices.is_subset(&all));
 }
@@ -131,7 +133,8 @@ fn what_only_ethercat_has_is_not_on_canopen() {
     }
 }
 
-/// The image as the manual prints it (L6077-6139): names with their length, and unused bytes of groups of eight.
+/// Returns the image as printed: names with their length, and unused bytes of groups of eight (section "Mappatura memoria
+/// condivisa").
 #[test]
 fn images_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -145,18 +148,23 @@ fn images_are_the_printed_ones() {
     let fields: Vec<(usize, String, u32)> = fields.collect();
     assert_eq!(fields.len(), 18);
     let images = &device.process_data.images;
-    assert_eq!(images.iter().map(|own| (own.length, own.fields.len())).collect::<Vec<_>>(), [(32, 10), (32, 8)]);
-    assert!(images.iter().all(|own| own.big_endian));
-    assert_eq!(images.iter().map(|own| own.direction).collect::<Vec<_>>(), [Direction::Receive, Direction::Transmit]);
-    // Each printed length is there, as often as it is printed.
+    assert_eq!(images.iter().map(|image| (image.length, image.fields.len())).collect::<Vec<_>>(), [(32, 10), (32, 8)]);
+    assert!(images.iter().all(|entry| entry.big_endian));
+    assert_eq!(
+        images.iter().map(|image| image.direction).collect::<Vec<_>>(),
+        [Direction::Receive, Direction::Transmit]
+    );
+    // Each printed length occurs as often as it is printed.
     let sorted = |mut list: Vec<u32>| {
         list.sort_unstable();
         list
     };
-    let own = images.iter().flat_map(|own| &own.fields).map(|field| field.bits / 8).collect();
-    assert_eq!(sorted(own), sorted(fields.iter().map(|own| own.2).collect()));
-    let unused: Vec<u32> =
-        images.iter().map(|own| own.length - own.fields.iter().map(|field| field.bits / 8).sum::<u32>()).collect();
+    let actual = images.iter().flat_map(|image| &image.fields).map(|field| field.bits / 8).collect();
+    assert_eq!(sorted(actual), sorted(fields.iter().map(|field| field.2).collect()));
+    let unused: Vec<u32> = images
+        .iter()
+        .map(|image| image.length - image.fields.iter().map(|field| field.bits / 8).sum::<u32>())
+        .collect();
     assert_eq!(unused, [1, 2 + 8]);
     for image in images {
         for field in &image.fields {
@@ -185,42 +193,44 @@ fn pdos_of_ethercat_are_the_printed_ones() {
             printed.push((indices[0] as u16, Vec::new()));
         } else if let (Some(index), Some((_, rest))) = (indices.first(), text.split_once('(')) {
             let bytes: u32 = rest[..1].parse().expect("bytes");
-            let sub = text.rsplit("sub").next().and_then(|own| own[..1].parse().ok()).expect("a sub-index");
+            let sub = text.rsplit("sub").next().and_then(|entry| entry[..1].parse().ok()).expect("a sub-index");
             printed.last_mut().expect("a PDO").1.push((*index as u16, sub, bytes * 8));
         }
     }
-    assert_eq!((printed.len(), printed.iter().map(|own| own.1.len()).sum::<usize>()), (8, 15));
+    assert_eq!((printed.len(), printed.iter().map(|row| row.1.len()).sum::<usize>()), (8, 15));
     let of_ethercat = |pdo: &&lexibus_codegen::ir::Pdo| pdo.buses == Some(ObjectBuses::COE);
-    let own: Vec<_> = device.process_data.pdos.iter().filter(of_ethercat).collect();
-    assert_eq!(own.len(), 8);
+    let pdos: Vec<_> = device.process_data.pdos.iter().filter(of_ethercat).collect();
+    assert_eq!(pdos.len(), 8);
     for (index, entries) in &printed {
-        let pdo = own.iter().find(|pdo| pdo.mapping_index == *index).expect("a PDO");
+        let pdo = pdos.iter().find(|pdo| pdo.mapping_index == *index).expect("a PDO");
         let mut there: Vec<Mapped> = Vec::new();
         for entry in &pdo.entries {
             match entry.kind {
-                // A mode has one byte, and is printed with two (E3 of the notes).
+                // A mode has one byte, but the manual prints two (E3 of the notes).
                 PdoEntryKind::Padding => there.last_mut().expect("an entry").2 += entry.bits,
                 _ => there.push((entry.index, entry.sub_index, entry.bits)),
             }
         }
         assert_eq!(there, *entries, "0x{index:04X}");
     }
-    let assigned: Vec<u16> = own.iter().filter(|pdo| pdo.sync_manager.is_some()).map(|pdo| pdo.mapping_index).collect();
+    let assigned: Vec<u16> =
+        pdos.iter().filter(|pdo| pdo.sync_manager.is_some()).map(|pdo| pdo.mapping_index).collect();
     assert_eq!(assigned, [0x1600, 0x1A02]);
-    // CANopen has the same indices, and mappings that aren't printed.
+    // CANopen uses the same indices, and mappings that are not printed.
     let canopen = device.process_data.pdos.iter().filter(|pdo| pdo.buses == Some(ObjectBuses::CANOPEN));
     assert!(canopen.clone().all(|pdo| pdo.entries.is_empty() && pdo.communication.is_some()));
     assert_eq!(canopen.count(), 8);
 }
 
-/// A slot of the ESI as it is printed: its PDOs, with what they map.
+/// A printed slot of the ESI: its PDOs with their entries.
 struct Slot {
     name: String,
     line: usize,
     pdos: Vec<(u16, Vec<Mapped>)>,
 }
 
-/// The slots of the ESI (L5598-5649): a mode of operation, a PDO each way, and what these map.
+/// Returns the slots of the ESI: a mode of operation, one PDO in each direction, and their entries (section "PDO" of
+/// "Parametrizzazione EtherCAT per drive").
 #[test]
 fn slots_of_ethercat_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -238,40 +248,41 @@ fn slots_of_ethercat_are_the_printed_ones() {
             printed.last_mut().expect("a slot").pdos.push((indices[0] as u16, Vec::new()));
         } else if let Some((_, rest)) = text.split_once('(') {
             let bytes: u32 = rest[..1].parse().expect("bytes");
-            let sub = text.rsplit("sub").next().and_then(|own| own[..1].parse().ok()).expect("a sub-index");
-            let pdo = printed.last_mut().and_then(|own| own.pdos.last_mut()).expect("a PDO");
+            let sub = text.rsplit("sub").next().and_then(|entry| entry[..1].parse().ok()).expect("a sub-index");
+            let pdo = printed.last_mut().and_then(|row| row.pdos.last_mut()).expect("a PDO");
             pdo.1.push((indices[0] as u16, sub, bytes * 8));
         }
     }
     assert_eq!((printed.len(), modes.len()), (3, 4));
-    let slots = device.procedures.iter().filter(|own| own.name.starts_with("slot_"));
+    let slots = device.procedures.iter().filter(|procedure| procedure.name.starts_with("slot_"));
     assert_eq!(slots.clone().count(), 3);
     for (slot, Slot { name, line, pdos }) in slots.zip(&printed) {
-        assert_eq!(slot.names.first().map(|own| own.text.as_str()), Some(name.as_str()), "L{line}");
-        assert!(cites(slot.documentation.as_deref(), *line), "L{line}");
+        assert_eq!(slot.names.first().map(|name| name.text.as_str()), Some(name.as_str()), "line {line}");
+        assert!(cites(slot.documentation.as_deref(), *line), "line {line}");
         let written = |item: &str| {
             let write = |step: &Step| match step {
-                Step::Write(own, value) if own == item => value.as_int(),
+                Step::Write(entry, value) if entry == item => value.as_int(),
                 _ => None,
             };
             slot.steps.iter().filter_map(write).collect::<Vec<_>>()
         };
-        assert_eq!(written("modes_of_operation"), [modes[name]], "L{line}");
-        // The TxPDO is printed first.
-        assert_eq!(pdos.len(), 2, "L{line}");
+        assert_eq!(written("modes_of_operation"), [modes[name]], "line {line}");
+        // The manual prints the TxPDO first.
+        assert_eq!(pdos.len(), 2, "line {line}");
         for ((index, entries), assign) in pdos.iter().zip(["0x1C13", "0x1C12"]) {
-            assert_eq!(written(&format!("{assign}:0")), [0, 1], "L{line}");
-            assert_eq!(written(&format!("{assign}:1")), [i128::from(*index)], "L{line}");
+            assert_eq!(written(&format!("{assign}:0")), [0, 1], "line {line}");
+            assert_eq!(written(&format!("{assign}:1")), [i128::from(*index)], "line {line}");
             let is_it =
                 |pdo: &&lexibus_codegen::ir::Pdo| pdo.mapping_index == *index && pdo.buses == Some(ObjectBuses::COE);
             let pdo = device.process_data.pdos.iter().find(is_it).expect("a PDO");
-            let own: Vec<Mapped> = pdo.entries.iter().map(|own| (own.index, own.sub_index, own.bits)).collect();
-            assert_eq!(own, *entries, "L{line} 0x{index:04X}");
+            let actual: Vec<Mapped> =
+                pdo.entries.iter().map(|entry| (entry.index, entry.sub_index, entry.bits)).collect();
+            assert_eq!(actual, *entries, "line {line} 0x{index:04X}");
         }
     }
 }
 
-/// What the examples write by SDO is what procedures, or values of the items, can hold.
+/// Compares the SDO writes of the examples with procedures and values of items.
 #[test]
 fn what_the_examples_write_can_be_written() {
     let Some(rows) = rows("pseudo_sdo") else { return };
@@ -282,18 +293,23 @@ fn what_the_examples_write_can_be_written() {
     for row in &rows {
         let numbers = row[1].replace(',', " ");
         let words: Vec<&str> = numbers.split_whitespace().collect();
-        let after = |word: &str| words.iter().position(|own| *own == word).and_then(|at| words.get(at + 1)).copied();
+        let after =
+            |word: &str| words.iter().position(|entry| *entry == word).and_then(|at| words.get(at + 1)).copied();
         let index = u16::from_str_radix(after("object").expect("an object"), 16).expect("an index");
-        let sub: u8 = after("sub").and_then(|own| own.parse().ok()).expect("a sub-index");
+        let sub: u8 = after("sub").and_then(|message| message.parse().ok()).expect("a sub-index");
         let ty = after("value:").or(after("value")).expect("a type");
-        let item = object(device, index, sub).unwrap_or_else(|| panic!("L{} 0x{index:04X}:{sub}", row[0]));
-        assert_eq!(bytes(device, item) * 8, ty[1..].parse::<u32>().expect("bits"), "L{}", row[0]);
+        let item = object(device, index, sub).unwrap_or_else(|| panic!("line {} 0x{index:04X}:{sub}", row[0]));
+        assert_eq!(bytes(device, item) * 8, ty[1..].parse::<u32>().expect("bits"), "line {}", row[0]);
         let is_write = row[1].contains("write object");
         match is_write {
             true => *types.entry(ty.to_owned()).or_default() += 1,
             false => reads += 1,
         }
-        assert!(if is_write { item.access_on(Bus::CanOpen).writable() } else { item.access.readable() }, "L{}", row[0]);
+        assert!(
+            if is_write { item.access_on(Bus::CanOpen).writable() } else { item.access.readable() },
+            "line {}",
+            row[0]
+        );
     }
     assert_eq!((rows.len(), reads), (109, 3));
     let counts: Vec<(String, usize)> = types.into_iter().collect();
@@ -307,7 +323,7 @@ fn sequences_write_what_the_examples_write() {
     let compilation = table();
     let device = device(&compilation);
     let written = |name: &str| {
-        let procedure = device.procedures.iter().find(|own| own.name == name).expect("a procedure");
+        let procedure = device.procedures.iter().find(|procedure| procedure.name == name).expect("a procedure");
         let writes = procedure.steps.iter().filter_map(|step| match step {
             Step::Write(item, value) => Some((item.to_string(), value.as_int().expect("a number"))),
             _ => None,
@@ -321,10 +337,10 @@ fn sequences_write_what_the_examples_write() {
         writes.map(|(name, value)| (place(name), value)).collect::<Vec<_>>()
     };
     let printed = |first: usize, last: usize| {
-        let own = rows.iter().filter(|row| {
+        let rows = rows.iter().filter(|row| {
             (first..=last).contains(&row[0].parse().expect("a line")) && row.len() > 2 && !row[2].is_empty()
         });
-        own.map(|row| {
+        rows.map(|row| {
             let bytes: Vec<u8> = row[2].split(' ').map(|byte| u8::from_str_radix(byte, 16).expect("a byte")).collect();
             let raw = i32::from_le_bytes([bytes[4], bytes[5], bytes[6], bytes[7]]);
             let is_signed = row[1].contains("i32") || row[1].contains("i8");
@@ -342,7 +358,7 @@ fn sequences_write_what_the_examples_write() {
     assert_eq!(written("position_by_402"), [printed(4305, 4318), printed(4336, 4340)].concat());
     assert_eq!(written("velocity_by_402"), [printed(4354, 4364), printed(4377, 4377)].concat());
     assert_eq!(written("save_on_canopen"), printed(4383, 4397));
-    // The second entry of the TPDO is printed with the sub-index of the first (D7 of the notes).
+    // The manual prints the second entry of the TPDO with the sub-index of the first (D7 of the notes).
     let mut mapping = [printed(4423, 4427), printed(4439, 4443)].concat();
     assert_eq!(mapping[8].0, (0x1A00, 1));
     mapping[8].0 = (0x1A00, 2);

@@ -1,8 +1,8 @@
-//! What is generated, read and reported of each file of the corpus and of each dictionary does not change unnoticed: `tests/frozen.tsv` has the
-//! digests of the generated Rust, of the diagnostics and of the resolved values.
+//! Tests that the outputs for each file of the corpus and each dictionary do not change unnoticed. `tests/frozen.tsv` has the
+//! digests of the generated Rust, the diagnostics and the resolved values.
 //!
-//! `LEXIBUS_BLESS=1 LEXIBUS_LANE=full cargo test -p lexibus-codegen --test frozen` writes the list again. With `LEXIBUS_FROZEN=FOLDER`
-//! the texts are written to a folder, so that those of two versions can be compared.
+//! `LEXIBUS_BLESS=1 LEXIBUS_LANE=full cargo test -p lexibus-codegen --test frozen` updates the list. With
+//! `LEXIBUS_FROZEN=FOLDER`, the texts are written to a folder, to compare two versions.
 
 mod corpus_support;
 #[path = "frozen/values.rs"]
@@ -24,7 +24,7 @@ const KINDS: [&str; 3] = ["rust", "diagnostics", "values"];
 const HEADER: &str = "# Digests of what is generated, reported and read of each file. Written by codegen/tests/frozen.rs: do not edit.\n\
     # file\trust\tdiagnostics\tvalues\n";
 
-/// A file and its name in the list.
+/// File and its name in the list.
 struct Frozen {
     name: String,
     source: Source,
@@ -48,7 +48,7 @@ fn frozen_files() -> Vec<Frozen> {
     all
 }
 
-/// The texts of a file, in the order of [`KINDS`].
+/// Returns the texts of a file, in the order of [`KINDS`].
 fn texts(source: Source) -> [String; 3] {
     let options = Options::default();
     let compilation = check(source, &options);
@@ -59,8 +59,8 @@ fn texts(source: Source) -> [String; 3] {
 
 fn diagnostics(compilation: &Compilation) -> String {
     let mut text = String::new();
-    for own in compilation.diagnostics.list() {
-        let Diagnostic { code, severity, span, message, label, notes, help, fix } = own;
+    for entry in compilation.diagnostics.list() {
+        let Diagnostic { code, severity, span, message, label, notes, help, fix } = entry;
         let _ = writeln!(text, "{} {severity:?} {}..{} {message} | {label:?}", code.id, span.start, span.end);
         for note in notes {
             let _ = writeln!(text, "    {}", note.message);
@@ -76,7 +76,7 @@ fn digest(text: &str) -> String {
     Source::new("text", text.as_bytes().to_vec()).sha256()[..16].to_owned()
 }
 
-/// The list as it is: digests by file.
+/// Returns the expected digests by file.
 fn listed() -> BTreeMap<String, Vec<String>> {
     let text = std::fs::read_to_string(LIST).unwrap_or_default();
     let lines = text.lines().filter(|line| !line.starts_with('#'));

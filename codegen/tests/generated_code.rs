@@ -1,4 +1,4 @@
-//! What the compiler emits passes `rustc` with every warning denied, and clippy.
+//! Tests that generated code passes `rustc` and clippy with every warning denied.
 
 mod compile_support;
 mod corpus_support;
@@ -20,7 +20,7 @@ fn everything() -> RustOptions {
 fn every_file_of_the_corpus_compiles_or_is_rejected_with_a_reason() {
     let Some(files) = corpus_support::all_files() else { return };
     let options = Options { rust: everything(), ..Options::default() };
-    // Clippy takes half as long again as rustc. In the fast lane, it sees one of eight bindings.
+    // Clippy takes 1.5 times as long as rustc. The fast lane runs it on one of eight bindings.
     let number = AtomicUsize::new(0);
     let compiled = corpus_support::bindings::each(files, &options, |name, text| {
         let with_clippy = lane::is_full() || number.fetch_add(1, Ordering::Relaxed).is_multiple_of(8);
@@ -30,7 +30,7 @@ fn every_file_of_the_corpus_compiles_or_is_rejected_with_a_reason() {
     assert!(compiled > lane::at_least(500), "only {compiled} different devices");
 }
 
-/// Devices and modules of a file re-export the definitions that an earlier one has.
+/// Devices and modules of a file re-export definitions of earlier ones.
 #[test]
 fn all_devices_of_a_file_compile_and_are_documented_together() {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui/quirks-esi");
@@ -40,7 +40,7 @@ fn all_devices_of_a_file_compile_and_are_documented_together() {
     let options = Options { rust: everything(), ..Options::default() };
     corpus_support::bindings::on_all_processors(files, |File { name, bytes }| {
         let compilation = check(Source::new(name.as_str(), bytes), &options);
-        let count = compilation.catalog.as_ref().map_or(0, |own| own.devices.len());
+        let count = compilation.catalog.as_ref().map_or(0, |catalog| catalog.devices.len());
         if let Some(text) = compilation.rust(&options.rust).filter(|text| count > 1 && text.contains("pub use super")) {
             compile(&name, &text).unwrap_or_else(|message| panic!("{message}"));
             document(&name, &[&text]).unwrap_or_else(|message| panic!("{message}"));
@@ -81,7 +81,7 @@ fn no_name_or_text_breaks_out_of_the_code() {
     }
 }
 
-/// The Rust of an ESI with these PDOs, on one line.
+/// Returns the Rust of an ESI with these PDOs, on one line.
 fn of_pdos(name: &str, pdos: &str) -> String {
     let text = format!(
         "<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices><Device><Type ProductCode=\"#x2\">D</Type><Name>D</Name>\
@@ -136,7 +136,7 @@ fn every_edition_of_rust_takes_it() {
     }
 }
 
-/// Types, values, bits and items that are called as generated code's own names are, and as those that every module of Rust has.
+/// Types, values, bits and items with names that generated code or the Rust prelude uses.
 #[test]
 fn names_of_the_prelude_and_of_methods_compile() {
     let words = [
@@ -265,13 +265,13 @@ fn optional_implementations_are_gated() {
     assert!(text.contains("#[derive(Clone, Copy)]\n    #[cfg_attr(feature = \"eq\", derive(PartialEq))]"));
     assert!(text.contains("#[cfg_attr(feature = \"serde\", derive(serde::Serialize, serde::Deserialize))]"));
     assert!(!text.contains("Debug"));
-    // A crate without these features would be warned of them; that is its own business.
+    // The crate does not declare these features, and rustc would warn about that.
     compile("gated", &format!("#[allow(unexpected_cfgs)]\nmod inner {{\n{text}\n}}\npub use inner::*;\n"))
         .expect("it compiles");
 }
 
-/// PDOs of a slave whose names are those that generated code uses itself, and entries longer than a word, longer than any
-/// field and longer than any memory.
+/// PDOs of a slave with names that generated code uses, and with entries longer than a word, than any field, and than any
+/// memory.
 #[test]
 fn process_data_of_any_name_and_length_compile() {
     let entry = |index: u16, bits: u32| {
@@ -307,7 +307,7 @@ fn process_data_of_any_name_and_length_compile() {
         let options = Options { rust: everything(), ..Options::default() };
         let compilation = check(Source::new("lengths.xml", esi(&long).into_bytes()), &options);
         let text = compilation.rust(&options.rust).expect("bindings");
-        // An image that no number of bits measures isn't there.
+        // An image that is too long to count its bits is left out.
         assert_eq!(text.contains("pub mod image {"), has_image);
         compile("lengths", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
         document("lengths", &[&text]).unwrap_or_else(|message| panic!("{message}\n{text}"));

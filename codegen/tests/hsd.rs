@@ -1,6 +1,6 @@
-//! The table of the HSD SM137 and SM140, held against the text of their manual: every frame byte by byte, every parameter with its
-//! size, unit, scale, default and range per model, alarms, states, bits, and the table of commands and states cell by cell. What
-//! the table deliberately reads otherwise is in a list here, and has a doubt.
+//! Compares the table of the HSD SM137 and SM140 with the text of their manual. The tests cover every frame byte by byte, every
+//! parameter with size, unit, scale, default and range per model, alarms, states, bits, and the table of commands and states.
+//! Deliberate differences are listed here, and have a doubt.
 
 #[path = "hsd/codes.rs"]
 mod codes;
@@ -31,9 +31,13 @@ fn what_is_doubted_stands_in_the_manual() {
         let mut rest = doubt.as_str();
         while let Some(at) = rest.find("(L") {
             let lines = rest[at + 1..].split(')').next().unwrap_or_default();
-            for own in lines.split([',', '-', ' ']).filter_map(|own| own.trim_start_matches('L').parse::<usize>().ok())
+            for line in
+                lines.split([',', '-', ' ']).filter_map(|line| line.trim_start_matches('L').parse::<usize>().ok())
             {
-                assert!(own >= 1 && own <= manual.len() && !manual.line(own).trim().is_empty(), "L{own}: {doubt}");
+                assert!(
+                    line >= 1 && line <= manual.len() && !manual.line(line).trim().is_empty(),
+                    "line {line}: {doubt}"
+                );
             }
             rest = &rest[at + 2..];
         }

@@ -1,7 +1,7 @@
-//! Each of the 55 items of section 4 of the notes on the manual of the HSD motors, with what accounts for it: the diagnostics
-//! of a transcription as it is printed (the cases of `manual-hsd` in `tests/ui`), or the doubt in
-//! dictionaries/hsd-sm137-sm140.toml that says how it was read. The list is the overview; the tests compare it with the cases
-//! that it names, the doubts and, if the manual is next to the repository, its lines.
+//! Lists the 55 items in section 4 of the notes on the HSD manual, with what covers each item. That is either the diagnostics
+//! of a verbatim transcription (the cases of `manual-hsd` in `tests/ui`), or a doubt in dictionaries/hsd-sm137-sm140.toml.
+//!
+//! The tests compare the list with these cases and doubts and, if the manual is available, with its lines.
 
 #[path = "table_support/cases.rs"]
 mod cases;
@@ -16,14 +16,14 @@ use std::collections::BTreeSet;
 use hsd_support::Manual;
 use How::{Doubt, Finding};
 
-/// The area of the cases.
+/// Area of the cases.
 const AREA: &str = "manual-hsd";
 
-/// What accounts for an item.
+/// Coverage of an item.
 enum How {
     /// A case, and the code that it reports.
     Finding(&'static str, &'static str),
-    /// Lines of the manual that a doubt names, each with a part of it.
+    /// Lines of the manual that a doubt cites, each with a part of the line.
     Doubt(&'static [(usize, &'static str)]),
 }
 
@@ -119,7 +119,7 @@ fn every_item_is_accounted_for() {
 fn the_cases_report_what_the_list_says() {
     for (item, how) in ITEMS {
         let Finding(name, code) = how else { continue };
-        assert!(cases::diagnostics(AREA, name).contains(code), "item {item}: `{name}` doesn't report {code}");
+        assert!(cases::diagnostics(AREA, name).contains(code), "item {item}: `{name}` does not report {code}");
     }
 }
 
@@ -137,8 +137,8 @@ fn the_doubts_name_the_lines() {
     let mut missing = Vec::new();
     for (item, how) in ITEMS {
         let Doubt(lines) = how else { continue };
-        let own = lines.iter().filter(|(line, _)| !doubted.contains(line));
-        missing.extend(own.map(|(line, _)| format!("{item}: L{line}")));
+        let lines = lines.iter().filter(|(line, _)| !doubted.contains(line));
+        missing.extend(lines.map(|(line, _)| format!("{item}: line {line}")));
     }
     assert_eq!(missing, [""; 0]);
 }
@@ -151,7 +151,7 @@ fn the_lines_say_so() {
         let Doubt(lines) = how else { continue };
         for (line, part) in *lines {
             if !manual.line(*line).contains(part) {
-                wrong.push(format!("{item}: L{line} has no `{part}`"));
+                wrong.push(format!("{item}: line {line} has no `{part}`"));
             }
         }
     }

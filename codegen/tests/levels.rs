@@ -1,4 +1,4 @@
-//! Levels decide what is reported, not what is read.
+//! Tests that levels change what is reported, not what is read.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! A short line that stands for many elements stands for so many and no more, and the book says how many.
+//! Tests that a short line cannot create more elements than the documented limits.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::limits;
@@ -12,9 +12,9 @@ fn checked(name: &str, text: String) -> Compilation {
     check(Source::new(name, text.into_bytes()), &Options::default())
 }
 
-/// How many findings have this code.
+/// Returns the number of diagnostics with this code.
 fn count(compilation: &Compilation, code: &str) -> usize {
-    codes(compilation).iter().filter(|own| **own == code).count()
+    codes(compilation).iter().filter(|entry| **entry == code).count()
 }
 
 fn items(compilation: &Compilation) -> usize {
@@ -22,7 +22,7 @@ fn items(compilation: &Compilation) -> usize {
     devices.flat_map(|device| &device.groups).map(|group| group.items.len()).sum()
 }
 
-/// A table of so many rows, each of as many parameters as a row may stand for, in spaces of their own.
+/// Returns a table with this number of rows, each with the maximum number of parameters and in a separate space.
 fn rows(count: u32) -> Compilation {
     let mut table = "lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"serial\"]\n".to_owned();
     for row in 0..count {
@@ -63,7 +63,7 @@ fn rows_that_stand_for_too_many() {
     assert_eq!(count(&table(limits::MAX_REPEAT + 1), "TAB004"), 1);
 }
 
-/// An EDS of so many objects, of 254 elements each.
+/// Returns an EDS with this number of objects of 254 elements each.
 fn compact_objects(count: usize) -> Compilation {
     let mut text = "[DeviceInfo]\nProductName=X\n".to_owned();
     for number in 0..count {
@@ -93,7 +93,7 @@ fn pdos_that_follow_from_a_number() {
     assert_eq!(count(&compilation, "PDO010"), 1, "{:?}", codes(&compilation));
 }
 
-/// Slots of an ESI that all take the same modules.
+/// Returns ESI slots that accept the same modules.
 fn slots(slots: usize, modules: usize) -> Compilation {
     let slot =
         "<Slot MinInstances='0' MaxInstances='1'><Name>S</Name><ModuleClass>C</ModuleClass></Slot>".repeat(slots);
@@ -116,7 +116,7 @@ fn slots_that_take_many_modules() {
     assert_eq!(count(&slots(500, limits::MAX_MODULE_USES / 500 + 1), "IO003"), 1);
 }
 
-/// A folder of its own for a test.
+/// Creates an empty folder for a test.
 fn folder(name: &str) -> std::path::PathBuf {
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&folder);
@@ -145,14 +145,14 @@ fn files_that_an_esi_refers_to() {
 #[test]
 fn files_that_are_too_large() {
     let path = folder("large").join("large.eds");
-    // A hole: nothing is written, and nothing is read.
+    // A sparse file: the missing part is neither written nor read.
     std::fs::File::create(&path).and_then(|file| file.set_len(limits::MAX_INPUT_BYTES as u64 + 1)).expect("a file");
     let error = Source::read(&path).expect_err("it is too large");
     assert_eq!(error.kind(), std::io::ErrorKind::FileTooLarge);
     let _ = std::fs::remove_file(path);
 }
 
-/// The EDS that has these lines, and as many bytes more as any has.
+/// Writes an EDS with these lines, filled up to the maximum file size.
 fn eds(lines: &str) -> Compilation {
     checked("a.eds", format!("[FileInfo]\nFileName=a\n{lines}"))
 }
@@ -184,7 +184,7 @@ fn texts_of_compact_sub_objects() {
     let beyond = eds(&(comments + &object(0x2000, 5_000) + &object(0x2001, 5_000)));
     assert_eq!(count(&beyond, "IO003"), 1);
     assert!(items(&beyond) <= 255 + 1, "{}", items(&beyond));
-    // What has sections of its own stays, in order.
+    // Objects with their own sections are kept in order.
     let described = "[2000sub1]\nParameterName=B\nDataType=5\nAccessType=ro\n";
     let beyond = eds(&(object(0x2000, 5_000) + described));
     let items = &beyond.catalog.as_ref().expect("the file is usable").devices[0].groups[0].items;
@@ -229,9 +229,12 @@ fn rows_of_state_machines() {
             "d".repeat(doc)
         ));
         let device = &compilation.catalog.as_ref().expect("a catalogue").devices[0];
-        (count(&compilation, "IO003"), device.machines.iter().map(|own| own.name.to_string()).collect::<Vec<_>>())
+        (
+            count(&compilation, "IO003"),
+            device.machines.iter().map(|machine| machine.name.to_string()).collect::<Vec<_>>(),
+        )
     };
-    // Beside the transitions, each machine counts, and so do its two states.
+    // In addition to the transitions, each machine and both of its states count.
     let most = limits::MAX_MACHINE_ROWS - 2 * 3;
     let names = |list: &[&str]| list.iter().map(|name| name.to_string()).collect::<Vec<_>>();
     assert_eq!(machines(most, 9), (0, names(&["a", "b"])));
@@ -259,7 +262,7 @@ fn notes_of_many_cells() {
     assert_eq!(machine(2 * limits::ROW_BYTES_PER_ITEM), (1, 0));
 }
 
-/// Depth, references by text and copies have their tests at the quirks of their formats; here all are held against the book.
+/// Compares all limits with the book. Depth, text references and copies are tested with the quirks of their formats.
 #[test]
 fn the_book_has_each_limit() {
     let chapter = include_str!("../../docs/src/limits.md");
@@ -297,7 +300,7 @@ fn the_book_has_each_limit() {
             digits.as_bytes().rchunks(3).rev().map(|group| std::str::from_utf8(group).expect("digits")).collect();
         let written = groups.join(",");
         let line = chapter.lines().find(|line| line.starts_with('|') && line.contains(row));
-        let line = line.unwrap_or_else(|| panic!("docs/src/limits.md has no row of {row}"));
+        let line = line.unwrap_or_else(|| panic!("docs/src/limits.md has no row {row}"));
         let mut numbers = line.split(|letter: char| !letter.is_ascii_digit() && letter != ',');
         assert!(numbers.any(|number| number == written), "{written} isn't in: {line}");
     }

@@ -1,4 +1,4 @@
-//! What is said once and counts for many is copied so often and no more.
+//! Tests that a text that applies to many items is copied only within limits.
 
 use std::path::PathBuf;
 
@@ -10,25 +10,25 @@ fn read(name: &str, text: &str) -> Compilation {
     check(Source::new(name, text.as_bytes().to_vec()), &Options::default())
 }
 
-/// That a text was cut short, with one finding, and that what was made of it is no longer than the bounds say.
+/// Asserts that a text was cut with one diagnostic, and that the output is within the limits.
 fn is_bounded(compilation: &Compilation) {
     let devices = compilation.catalog.iter().flat_map(|catalog| &catalog.devices);
     let items = devices.map(|device| 1 + device.groups.iter().map(|group| 1 + group.items.len()).sum::<usize>()).sum();
     is_bounded_by(compilation, items);
 }
 
-/// The same, where as many items may be copied.
+/// Like the function above, with a given number of items that may be copied.
 fn is_bounded_by(compilation: &Compilation, items: usize) {
     let found = compilation.diagnostics.list().iter().filter(|found| found.code.id == "IO003").count();
     assert_eq!(found, 1, "{}", compilation.diagnostics.list().len());
     let made = serde_json::to_vec(&compilation.catalog).expect("a catalogue").len();
     let given: usize = compilation.sources.iter().map(|source| source.text().len()).sum();
-    // Beside texts, an item is some hundred bytes, and so is an empty text.
+    // Without texts, an item has a few hundred bytes, like an empty text.
     let most = given * (limits::MAX_COPIES_PER_BYTE + 20) + items * 2_000;
-    assert!(made < most, "{made} bytes of {given}");
+    assert!(made < most, "{made} bytes from {given}");
 }
 
-/// An ESI of one device with these data types and objects.
+/// Returns an ESI of one device with these data types and objects.
 fn esi(vendor: &str, types: &str, objects: &str) -> String {
     format!(
         "<EtherCATInfo><Vendor><Id>1</Id><Name>{vendor}</Name></Vendor><Descriptions><Devices><Device Physics='YY'>\
@@ -37,7 +37,7 @@ fn esi(vendor: &str, types: &str, objects: &str) -> String {
     )
 }
 
-/// A record of so many bytes, each of which has these elements.
+/// Returns a record of this number of bytes with these elements each.
 fn record(count: usize, elements: &str) -> String {
     let subs: String = (1..=count)
         .map(|at| {
@@ -193,7 +193,7 @@ fn table(rest: &str) -> String {
 #[test]
 fn long_rows_that_stand_for_many_items() {
     let values: String = (0..1_000).map(|at| format!("{at} = \"v{at}\", ")).collect();
-    for (name, said) in [
+    for (name, keys) in [
         ("a".to_owned(), format!("enum = {{ {values} }}")),
         ("a".to_owned(), format!("doc = \"{}\"", long("d"))),
         ("a".to_owned(), "writable = [\"0..1000\"]".to_owned()),
@@ -201,11 +201,11 @@ fn long_rows_that_stand_for_many_items() {
     ] {
         let row = format!(
             "[[chapters]]\nspace = \"s\"\n[chapters.registers]\n\
-             \"{name} {{n}}\" = {{ reg = 0, count = 65535, type = \"u16\", access = \"rw\", {said} }}\n"
+             \"{name} {{n}}\" = {{ reg = 0, count = 65535, type = \"u16\", access = \"rw\", {keys} }}\n"
         );
         is_bounded_by(&read("rows.toml", &table(&row)), limits::MAX_DERIVED_ITEMS);
         let objects = format!(
-            "[[chapters]]\n[chapters.objects]\n\"0x1000..0xFFFF\" = {{ name = \"{name}\", type = \"u16\", access = \"ro\", {said} }}\n"
+            "[[chapters]]\n[chapters.objects]\n\"0x1000..0xFFFF\" = {{ name = \"{name}\", type = \"u16\", access = \"ro\", {keys} }}\n"
         );
         let compilation = read("objects.toml", &table(&objects).replace("serial", "canopen"));
         is_bounded_by(&compilation, limits::MAX_DERIVED_ITEMS);
@@ -214,8 +214,8 @@ fn long_rows_that_stand_for_many_items() {
 
 #[test]
 fn long_defaults_and_units_for_many_rows() {
-    let rows = |said: &str| -> String {
-        (0..10_000).map(|at| format!("a{at} = {{ reg = {at}, type = \"u16\", access = \"ro\"{said} }}\n")).collect()
+    let rows = |keys: &str| -> String {
+        (0..10_000).map(|at| format!("a{at} = {{ reg = {at}, type = \"u16\", access = \"ro\"{keys} }}\n")).collect()
     };
     let na = format!("na = {{ 7 = \"{}\" }}\n", long("n"));
     let is_bounded = |text: &str| {
@@ -224,7 +224,8 @@ fn long_defaults_and_units_for_many_rows() {
         let devices = compilation.catalog.iter().flat_map(|catalog| &catalog.devices);
         let items: Vec<_> = devices.flat_map(|device| &device.groups).flat_map(|group| &group.items).collect();
         let quantities = items.iter().filter_map(|item| item.quantity.as_deref());
-        let copies = quantities.filter(|own| own.unit.len() > 1_000 || !own.sentinels.is_empty()).count();
+        let copies =
+            quantities.filter(|quantity| quantity.unit.len() > 1_000 || !quantity.sentinels.is_empty()).count();
         assert_eq!(items.len(), 10_000);
         assert!((2_000..9_000).contains(&copies), "{copies}");
     };

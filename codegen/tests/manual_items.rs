@@ -1,7 +1,8 @@
-//! Each of the 60 items of section 4 of the notes on the AEC Vector Step's manual, and each remark of its sections 4.4 and 4.5,
-//! with what accounts for it: the diagnostics of a transcription as it is printed (the cases of `manual-vector-step` in
-//! `tests/ui`), or the doubt in dictionaries/aec-vector-step.toml that says how it was read. The list is the overview; the
-//! tests compare it with the cases that it names, the doubts and, if the manual is next to the repository, its lines.
+//! Lists the 60 items in section 4 of the notes on the AEC Vector Step manual, and the remarks in sections 4.4 and 4.5, with
+//! what covers each. That is either the diagnostics of a verbatim transcription (the cases of `manual-vector-step` in
+//! `tests/ui`), or a doubt in dictionaries/aec-vector-step.toml.
+//!
+//! The tests compare the list with these cases and doubts and, if the manual is available, with its lines.
 
 #[path = "table_support/cases.rs"]
 mod cases;
@@ -16,16 +17,16 @@ use std::collections::BTreeSet;
 
 use How::{Doubt, Finding, Import};
 
-/// The area of the cases.
+/// Area of the cases.
 const AREA: &str = "manual-vector-step";
 
-/// What accounts for an item.
+/// Coverage of an item.
 enum How {
     /// A case, and the codes that it reports.
     Finding(&'static str, &'static [&'static str]),
     /// A test of `import`, and the codes that it expects.
     Import(&'static str, &'static [&'static str]),
-    /// Lines of the manual that a doubt names, each with a part of it: no check of facts can see what is odd there.
+    /// Lines of the manual that a doubt cites, each with a part of the line, because no check can detect the contradiction.
     Doubt(&'static [(usize, &'static str)]),
 }
 
@@ -49,10 +50,10 @@ const ITEMS: &[(&str, How)] = &[
     ("13", Finding("item-13-default-of-four-digits-for-four-bytes", &["TAB012"])),
     ("14", Finding("items-14-16-symbols-twice-in-one-object", &["TAB040"])),
     ("14", Finding("item-14-prefixes-with-a-capital-letter", &["TAB002", "TAB012"])),
-    // Two sentences on the same bits.
+    // Two sentences about the same bits.
     ("15", Doubt(&[(727, "bit 29 e 30"), (815, "bit 29 e 30"), (808, "Non significativo")])),
     ("16", Finding("items-14-16-symbols-twice-in-one-object", &["EDS049"])),
-    // Reading and writing by PDO are both possible for a value that is rw.
+    // A value that is rw can be both read and written by PDO.
     ("16", Doubt(&[(3273, "scrivere il valore nel sub-index 06"), (3284, "Read/Write"), (3285, "Read")])),
     ("17", Finding("item-17-index-of-five-digits", &["TAB004"])),
     // 4.2: register number, index, duplicates.
@@ -66,7 +67,7 @@ const ITEMS: &[(&str, How)] = &[
     ("21", Import("item_53_a_quote_that_would_swallow_seven_rows", &["CSV003"])),
     ("22", Finding("item-22-number-of-two-registers", &["TAB005"])),
     ("23", Finding("item-23-number-of-program-locations", &["TAB007"])),
-    // Limits of two registers that nothing ties together.
+    // Limits of two registers without a relation in the table.
     ("23", Doubt(&[(3199, "4998"), (3201, "4988"), (3217, "Locazione 4988")])),
     ("24", Finding("item-24-rows-without-a-name", &["EDS038", "TAB041"])),
     ("24", Doubt(&[(3197, "Rprgrunmode Run mode"), (3198, "Rprgstopevent\t0: Nessuna")])),
@@ -77,7 +78,7 @@ const ITEMS: &[(&str, How)] = &[
     ("28", Finding("item-28-name-of-an-old-and-a-new-register", &["TAB007"])),
     ("29", Finding("item-29-names-misspelled-in-texts", &["TAB025"])),
     ("29", Doubt(&[(464, "Axis 1 Posact"), (3082, "Rtouchprobepos2pos")])),
-    // A missing sub-index is missing in each row.
+    // Each row lacks the sub-index.
     ("30", Doubt(&[(464, "2000:01"), (2129, "0x2000")])),
     // 4.3: type, access, range conflicts.
     ("31", Finding("items-31-32-34-36-overview-against-the-box", &["TAB021", "TAB024"])),
@@ -90,7 +91,7 @@ const ITEMS: &[(&str, How)] = &[
     ("37", Finding("item-37-limits-of-an-unsigned-type-for-a-signed-one", &["EDS051"])),
     ("38", Finding("item-38-measured-velocity-that-is-never-zero", &["TAB023"])),
     ("39", Finding("item-39-elements-without-sub-index-0", &["TAB021", "EDS058"])),
-    // 0xFD is a value of Unsigned8; that CiA has Integer8 stands in no line.
+    // 0xFD is a valid Unsigned8. No line states that CiA uses Integer8.
     ("39", Doubt(&[(1862, "0xFD"), (1864, "Unsigned8")])),
     ("40", Finding("item-40-limit-that-sets-reserved-bits", &["TAB019"])),
     ("40", Doubt(&[(1994, "[0.. 8]"), (2449, "Bit8: Out8")])),
@@ -98,13 +99,13 @@ const ITEMS: &[(&str, How)] = &[
     ("42", Finding("items-42-43-control-word-of-the-touch-probe", &["TAB041"])),
     ("43", Finding("items-42-43-control-word-of-the-touch-probe", &["TAB022", "TAB025"])),
     ("43", Finding("item-43-two-bits-with-one-name", &["TAB040"])),
-    // Words for the edges and the sources.
+    // Words for edges and sources.
     ("43", Doubt(&[(1706, "al touch probe 1"), (1770, "valore positivo"), (1794, "valore positivo"), (2958, "fronte positivo"), (2973, "fronti positivi"), (3028, "Touch Encoder 1")])),
     ("44", Finding("item-44-types-that-contradict-their-limits", &["EDS025", "TAB016", "TAB018", "TAB009", "TAB004"])),
     ("44", Finding("item-44-no-notes-at-all", &["TAB010"])),
     ("45", Finding("item-45-values-and-bits-outside-of-the-limits", &["TAB016", "TAB018", "TAB021"])),
     ("46", Finding("item-46-access-against-storage-and-mapping", &["TAB024", "TAB022"])),
-    // Saved versions, a saved command and limits that are read are possible, each by itself.
+    // Saved versions, a saved command and limits that are read are each plausible.
     ("46", Doubt(&[(2867, "RW SAVE"), (2868, "RW SAVE"), (2869, "RW SAVE"), (3184, "RO"), (3185, "RO"), (3188, "SAVE")])),
     ("47", Finding("item-47-mode-that-is-reserved", &["TAB018", "TAB015", "TAB017"])),
     ("48", Finding("item-48-one-value-with-two-limits-and-two-types", &["TAB022"])),
@@ -117,21 +118,21 @@ const ITEMS: &[(&str, How)] = &[
     ("53", Finding("item-53-pattern-with-a-digit-less", &["TAB006", "TAB015", "TAB017"])),
     ("53", Import("item_53_a_quote_that_would_swallow_seven_rows", &["CSV008"])),
     ("53", Import("item_53_quotes_around_whole_cells_and_at_the_end", &["CSV003"])),
-    // What CiA says otherwise.
+    // Deviations from CiA.
     ("54", Doubt(&[(683, "Errore generico"), (690, "maggiore"), (691, "inferiore"), (696, "FF06"), (698, "FF03")])),
-    // Names that are active low, and headers of columns.
+    // Names that are active low, and column headers.
     ("55", Doubt(&[(1287, "Disable voltage"), (1333, "Voltage disabled"), (1368, "Bit"), (1391, "Bit"), (1407, "Bit"), (1425, "Bit"), (1444, "Bit"), (1461, "Modo operativo\tCodifica"), (1939, "Modo operativo")])),
-    // `writable` says it.
+    // `writable` expresses it.
     ("56", Doubt(&[(665, "Read/Write"), (652, "Scrivendo 0")])),
     ("57", Finding("item-57-versions-in-many-spellings", &["TAB027", "TAB026"])),
     ("57", Doubt(&[(2173, "6,15"), (2705, "Fw710"), (2785, "5.50"), (2678, "3.44")])),
-    // What isn't there.
+    // Missing parts.
     ("58", Doubt(&[(574, "0x601"), (944, "0x00000580")])),
     // A picture of a running drive.
     ("59", Doubt(&[(464, "RW P 3849")])),
     ("60", Finding("item-60-defaults-in-the-cell-of-the-limit", &["TAB004", "TAB042"])),
     ("60", Import("item_60_a_default_in_the_cell_of_a_limit", &["CSV003"])),
-    // 4.4: damage in general. Headings and split letters; HTML and LaTeX; figures; what breaks off; spellings of notes; WORD.
+    // 4.4: damage in general: headings and split letters, HTML and LaTeX, figures, truncated texts, spellings of notes, WORD.
     ("4.4 headings", Doubt(&[(167, "V ARIE")])),
     ("4.4 markup", Doubt(&[(1577, "$"), (1745, "^{*1}"), (2012, "<input"), (2752, "$")])),
     ("4.4 figures", Doubt(&[(447, ""), (1314, ""), (2110, "")])),
@@ -139,7 +140,7 @@ const ITEMS: &[(&str, How)] = &[
     ("4.4 notes", Doubt(&[(2196, "NO_MAP"), (2223, "NOMAP"), (2130, "MAP-READ"), (2875, "H- LWORD"), (2785, "Unsign16"), (2951, "Unsig- ned16")])),
     ("4.4 width", Finding("section-4-4-width-that-the-notes-deny", &["TAB021"])),
     ("4.4 width", Doubt(&[(2221, "WORD"), (2953, "WORD"), (2795, "WORD")])),
-    // 4.5: what the text doesn't determine.
+    // 4.5: facts that the text does not determine.
     ("4.5 sub-index", Doubt(&[(455, ""), (464, "2000:01")])),
     ("4.5 stride", Doubt(&[(3289, "shiftati di 10")])),
     ("4.5 axes", Doubt(&[(455, "H2000"), (1050, "1600")])),
@@ -166,12 +167,12 @@ fn the_cases_and_tests_report_what_the_list_says() {
             Doubt(_) => continue,
         };
         for code in *codes {
-            assert!(text.contains(&format!("{before}{code}{behind}")), "item {item}: `{name}` doesn't report {code}");
+            assert!(text.contains(&format!("{before}{code}{behind}")), "item {item}: `{name}` does not report {code}");
         }
     }
 }
 
-/// The text of a test of `import`, from its name to its end.
+/// Returns the text of a test of `import`, from its name to its end.
 fn import_test(name: &str) -> &'static str {
     let source = include_str!("../import/tests/import.rs");
     let start = source.find(&format!("fn {name}() {{")).unwrap_or_else(|| panic!("there is no test `{name}`"));
@@ -195,7 +196,7 @@ fn the_doubts_name_the_lines() {
     for (item, how) in ITEMS {
         let Doubt(lines) = how else { continue };
         missing.extend(
-            lines.iter().filter(|(line, _)| !doubted.contains(line)).map(|(line, _)| format!("{item}: L{line}")),
+            lines.iter().filter(|(line, _)| !doubted.contains(line)).map(|(line, _)| format!("{item}: line {line}")),
         );
     }
     assert_eq!(missing, [""; 0]);
@@ -210,7 +211,7 @@ fn the_lines_say_so() {
         let Doubt(lines) = how else { continue };
         for (line, part) in *lines {
             if !manual.get(line - 1).is_some_and(|text| text.contains(part)) {
-                wrong.push(format!("{item}: L{line} has no `{part}`"));
+                wrong.push(format!("{item}: line {line} has no `{part}`"));
             }
         }
     }

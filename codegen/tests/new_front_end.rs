@@ -1,5 +1,5 @@
-//! A new front end changes four files outside of its folder: the steps of the chapter "A new front end" are followed in a copy of this crate,
-//! and the copy reads a file of the new format.
+//! Tests that a new front end changes four files outside of its folder. The test follows the steps of the chapter "A new front
+//! end" in a copy of this crate, and reads a file of the new format.
 
 #[path = "../../tests/support/lane.rs"]
 mod lane;
@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A line of this crate, and what is written after it.
+/// A line of this crate, and the text to insert after it.
 struct Step {
     file: &'static str,
     after: &'static str,
@@ -39,7 +39,7 @@ const STEPS: [Step; 8] = [
     },
     // The folder.
     Step { file: "src/frontend/mod.rs", after: "mod read;\n", insert: "#[cfg(feature = \"pins\")]\npub mod pins;\n" },
-    // What recognizes its files, and what reads them.
+    // Recognition and reading of files.
     Step {
         file: "src/frontend/read.rs",
         after: "const FRONT_ENDS: &[FrontEnd] = &[\n",
@@ -64,13 +64,13 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// The part of a text from one mark to another.
+/// Returns the part of a text between two marks.
 fn between<'t>(text: &'t str, from: &str, to: &str) -> &'t str {
     let start = text.find(from).unwrap_or_else(|| panic!("no {from:?}"));
     &text[start..start + text[start..].find(to).unwrap_or_else(|| panic!("no {to:?}"))]
 }
 
-/// Copies this crate, without its tests, into a workspace of its own.
+/// Copies this crate, without its tests, into a separate workspace.
 fn copy_of_crate(folder: &Path) -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let copied = folder.join("codegen");

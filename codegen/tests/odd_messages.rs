@@ -1,4 +1,4 @@
-//! Messages at the edges of what they are made of: code compiles without a warning, and what has no code is reported.
+//! Tests unusual messages: their code compiles without warnings, and messages without code are reported.
 
 mod compile_support;
 
@@ -9,33 +9,33 @@ use lexibus_codegen::{Presence, RustOptions};
 
 const HEAD: &str = "lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"serial\"]\n";
 
-/// A table with these lines, and its diagnostics.
+/// Returns a table with these lines, and its diagnostics.
 fn read(lines: &str) -> (Compilation, Vec<String>) {
     let rust = RustOptions { table: Presence::Always, ..RustOptions::default() };
     let options = Options { rust, no_profiles: true, ..Options::default() };
     let compilation = check(Source::new("t.toml", format!("{HEAD}{lines}").into()), &options);
-    let said = compilation.diagnostics.list().iter().map(|own| compilation.one_line(own)).collect();
-    (compilation, said)
+    let messages = compilation.diagnostics.list().iter().map(|diagnostic| compilation.one_line(diagnostic)).collect();
+    (compilation, messages)
 }
 
-/// The Rust of a table, which compiles.
+/// Returns the Rust of a table, which must compile.
 fn rust(name: &str, lines: &str) -> String {
-    let (compilation, said) = read(lines);
+    let (compilation, messages) = read(lines);
     let mut text = String::new();
     for accessors in [false, true] {
         let options = RustOptions { accessors, table: Presence::Always, ..RustOptions::default() };
-        text = compilation.rust(&options).unwrap_or_else(|| panic!("{said:#?}"));
+        text = compilation.rust(&options).unwrap_or_else(|| panic!("{messages:#?}"));
         compile(name, &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
     }
     document(name, &[&text]).unwrap_or_else(|message| panic!("{message}\n{text}"));
-    assert_eq!(said, Vec::<String>::new(), "{name}");
+    assert_eq!(messages, Vec::<String>::new(), "{name}");
     text
 }
 
-/// What is said of a table, each on a line.
-fn said(lines: &str) -> String {
-    let (_, said) = read(lines);
-    said.iter().map(|line| format!("{line}\n")).collect()
+/// Returns the diagnostics of a table, one per line.
+fn reported(lines: &str) -> String {
+    let (_, messages) = read(lines);
+    messages.iter().map(|line| format!("{line}\n")).collect()
 }
 
 #[test]
@@ -71,7 +71,7 @@ fn names_of_fields_that_mislead() {
          [[messages]]\nname = \"Write\"\nrequest = [{ bytes = [4] }, { code = \"9\", type = \"u8\" }, { value_of = \"9\" }]\n\
          reply = [{ field = \"setting\", type = \"u8\" }, { field = \"parameter\", type = \"u8\" }, { code = \"9\", type = \"u8\" }, { value_of = \"9\" }]\n",
     );
-    // The number of the parameter comes back, and has one byte as in the request.
+    // The reply returns the parameter number, which has one byte as in the request.
     assert!(text.contains("from.clone().echo(request, 1, 1)?;"));
     assert!(text.contains("code_bits: 8,"));
 }
@@ -107,23 +107,23 @@ fn orders_that_are_carried_out_later() {
         let (_, behind) = text.split_once("pub const fn is_complete(&self) -> bool {\n").unwrap_or(("", "none\n"));
         behind.lines().next().unwrap_or_default().trim().to_owned()
     };
-    let own = |ty: &str, rest: &str| {
+    let actual = |ty: &str, rest: &str| {
         complete(polled(&format!("{{ fixed = 0, type = \"u8\" }}, {{ field = \"a\", type = \"{ty}\" }}"), rest))
     };
-    assert_eq!(own("u16", "\"a\", value = 3"), "self.a == 0x3");
-    assert_eq!(own("u16", "\"a\", mask = 0x8000, value = 0x8000"), "self.a & 0x8000 == 0x8000");
-    // There is no such number of the type.
-    assert_eq!(own("i16", "\"a\", mask = 0x8000, value = 0x8000"), "none");
-    assert_eq!(own("i24", "\"a\", value = 3"), "self.a == 0x3");
-    assert_eq!(own("f32", "\"a\", value = 3"), "none");
-    // What counts is the field, whatever stands in front of it.
+    assert_eq!(actual("u16", "\"a\", value = 3"), "self.a == 0x3");
+    assert_eq!(actual("u16", "\"a\", mask = 0x8000, value = 0x8000"), "self.a & 0x8000 == 0x8000");
+    // The type has no such number.
+    assert_eq!(actual("i16", "\"a\", mask = 0x8000, value = 0x8000"), "none");
+    assert_eq!(actual("i24", "\"a\", value = 3"), "self.a == 0x3");
+    assert_eq!(actual("f32", "\"a\", value = 3"), "none");
+    // The field decides, independent of the fields before it.
     let fields = "{ field = \"count\", type = \"u8\" }, { field = \"b\", type = \"u8\" }, { field = \"a\", type = \"u8\" }, { repeat = { count = \"count\", fields = [{ field = \"a\", type = \"u8\" }] } }";
     assert_eq!(complete(polled(fields, "\"a\", value = 3")), "self.a == 0x3");
 }
 
 #[test]
 fn messages_of_little() {
-    // A space that is read only, messages that the device sends by itself, and long texts.
+    // A read-only space, unsolicited messages from the device, and long texts.
     let space = "[spaces.p]\nparameter = { read = \"Read\" }\n[[chapters]]\n[chapters.registers]\ngain = { reg = 1, type = \"u8\", access = \"ro\" }\n\
                  [[messages]]\nname = \"Read\"\nrequest = [{ code = \"p\", type = \"u8\" }]\nreply = [{ value_of = \"p\" }]\n";
     rust("read only", space);
@@ -195,5 +195,5 @@ fn what_has_no_code_is_reported() {
         message("Both", "{ bytes = [15] }, { field = \"n\", type = \"u8\" }, { repeat = { count = \"n\", fields = [{ field = \"v\", type = \"u8\" }] } }, { repeat = { fields = [{ field = \"w\", type = \"u8\" }] } }", ""),
         "[[messages]]\nname = \"Long refusal\"\nreply = [{ bytes = [0x80] }, { rest = true }]\n".to_owned(),
     ];
-    insta::assert_snapshot!(said(&format!("{spaces}{}", messages.concat())));
+    insta::assert_snapshot!(reported(&format!("{spaces}{}", messages.concat())));
 }

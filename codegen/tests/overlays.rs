@@ -1,4 +1,4 @@
-//! Overlays: what they change, what they keep, and what they are told to be wrong about.
+//! Tests overlays: what they change, what they keep, and which errors are reported.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Access, Device, Item, Shape, Type, Value};
@@ -43,10 +43,12 @@ fn item(compilation: &Compilation, index: u16, sub: u8) -> &Item {
     device(compilation).entry(index, sub).unwrap_or_else(|| panic!("0x{index:04X}:{sub} exists"))
 }
 
-/// Codes of the findings in the overlay, with what they mark.
+/// Returns the codes of the diagnostics in the overlay, with the marked text.
 fn findings(compilation: &Compilation) -> Vec<(&'static str, String)> {
-    let own = compilation.diagnostics.list().iter().filter(|finding| finding.span.file.0 == 1);
-    own.map(|finding| (finding.code.id, compilation.sources[1].text()[finding.span.range()].to_owned())).collect()
+    let diagnostics = compilation.diagnostics.list().iter().filter(|finding| finding.span.file.0 == 1);
+    diagnostics
+        .map(|finding| (finding.code.id, compilation.sources[1].text()[finding.span.range()].to_owned()))
+        .collect()
 }
 
 fn words(item: &Item) -> &str {
@@ -68,14 +70,14 @@ fn a_row_changes_what_it_says_and_nothing_else() {
     assert_eq!((&new.name, new.ty, new.access, &new.default), (&old.name, old.ty, old.access, &old.default));
     assert_eq!((new.origin, new.at.name, new.at.ty), (old.origin, old.at.name, old.at.ty));
     assert_eq!(words(new), "Changed by an overlay: page 12.");
-    assert!(new.extensions.iter().any(|own| own.key == "overlay" && own.value == "page 12"));
-    assert_eq!(&compilation.sources[1].text()[new.at.low.range()], "1", "the limit stands in the overlay");
+    assert!(new.extensions.iter().any(|extension| extension.key == "overlay" && extension.value == "page 12"));
+    assert_eq!(&compilation.sources[1].text()[new.at.low.range()], "1", "the limit comes from the overlay");
     let gain = item(&compilation, 0x2010, 2);
     assert_eq!((gain.name.as_str(), gain.ty), ("Gain 2", Type::Integer(16)));
     assert_eq!(words(gain), "A gain.\nChanged by an overlay: as the manual has it.");
     assert_eq!(compilation.catalog.as_ref().map(|catalog| catalog.files.len()), Some(2));
     let rust = compilation.rust(&Options::default().rust).expect("bindings");
-    assert!(rust.contains("Changed by an overlay: page 12."), "the generated documentation tells why");
+    assert!(rust.contains("Changed by an overlay: page 12."), "the generated documentation states the reason");
 }
 
 #[test]
@@ -103,8 +105,12 @@ fn items_go_by_name_too() {
     let text = format!("{HEAD}[chapters.registers]\nEntries = {{ unit = \"rpm\" }}\nSped = {{ unit = \"rpm\" }}\n");
     let compilation = apply(&text);
     assert_eq!(findings(&compilation), [("TAB006", "Entries".to_owned()), ("TAB030", "Sped".to_owned())]);
-    let help =
-        compilation.diagnostics.list().iter().find(|found| found.code.id == "TAB030").and_then(|own| own.help.clone());
+    let help = compilation
+        .diagnostics
+        .list()
+        .iter()
+        .find(|found| found.code.id == "TAB030")
+        .and_then(|diagnostic| diagnostic.help.clone());
     assert_eq!(help.as_deref(), Some("did you mean `Speed`?"));
 }
 
@@ -138,12 +144,12 @@ fn objects_are_added_and_removed() {
     assert!(device
         .extensions
         .iter()
-        .any(|own| own.key == "overlay/removed 0x2003" && own.value == "it was never there"));
+        .any(|extension| extension.key == "overlay/removed 0x2003" && extension.value == "it was never there"));
     let added = item(&compilation, 0x2005, 0);
     assert_eq!((added.name.as_str(), added.ty, added.access), ("Temperature", Type::Integer(16), Access::ReadOnly));
     assert_eq!(words(added), "Added by an overlay: as the manual has it.");
     assert_eq!(item(&compilation, 0x2010, 5).name, "D");
-    assert_eq!(words(item(&compilation, 0x2010, 1)), "", "its neighbour is as it was");
+    assert_eq!(words(item(&compilation, 0x2010, 1)), "", "the next sub-index is unchanged");
     assert!(device.groups.is_sorted_by_key(|group| group.index()));
     compilation.rust(&Options::default().rust).expect("bindings");
 }
@@ -159,8 +165,8 @@ fn tables_of_the_device_are_added_or_replaced() {
     assert_eq!(findings(&compilation), []);
     let device = device(&compilation);
     assert_eq!((device.code_tables.len(), device.procedures.len(), device.doubts.len()), (1, 1, 1));
-    assert_eq!(device.machines[0].status_item, "Flags", "an object stands for the item there");
-    // A second overlay of the same names replaces rows and machines.
+    assert_eq!(device.machines[0].status_item, "Flags", "an object refers to its item");
+    // A second overlay with the same names replaces rows and machines.
     let first = Source::new("a.toml", text.as_bytes().to_vec());
     let more = "lexibus = 1\n[overlay]\n[codes.alarm.rows]\n1 = \"too hot\"\n2 = \"cold\"\n[machines.pump]\nstatus = \"Flags\"\n";
     let second = Source::new("b.toml", more.as_bytes().to_vec());
@@ -171,7 +177,7 @@ fn tables_of_the_device_are_added_or_replaced() {
     let names: Vec<&str> = device.code_tables[0].rows.iter().map(|row| row.name.as_str()).collect();
     assert_eq!((names, device.machines.len()), (vec!["too hot", "cold"], 1));
     assert!(device.machines[0].states.is_empty());
-    // One that can't be read takes no other's place.
+    // A machine that cannot be read replaces nothing.
     let states: String =
         (0..limits::MAX_MACHINE_ROWS).map(|at| format!("s{at} = {{ mask = 0xFFFF, value = {at} }}\n")).collect();
     let huge = format!("lexibus = 1\n[overlay]\n[machines.pump]\nstatus = \"Flags\"\n[machines.pump.states]\n{states}");
@@ -180,7 +186,8 @@ fn tables_of_the_device_are_added_or_replaced() {
     let compilation = check(Source::new("pump.eds", EDS.into()), &options);
     let codes: Vec<_> = compilation.diagnostics.list().iter().map(|found| found.code.id).collect();
     assert!(codes.contains(&"IO003"), "{codes:?}");
-    let kept: Vec<_> = self::device(&compilation).machines.iter().map(|own| own.states[0].name.as_str()).collect();
+    let kept: Vec<_> =
+        self::device(&compilation).machines.iter().map(|machine| machine.states[0].name.as_str()).collect();
     assert_eq!(kept, ["off"]);
 }
 
@@ -258,8 +265,9 @@ fn several_devices_and_modules_are_told_apart() {
     let esi = ESI.replace("DICT", DICTIONARY);
     let text = rows("0x2000 = { unit = \"V\", scale = 0.01, nonsense = 1 }\n");
     let compilation = apply_to("x.xml", &esi, &text);
-    assert_eq!(findings(&compilation).len(), 1, "a mistake is told once for both devices");
-    let unit = |item: Option<&Item>| item.and_then(|item| item.quantity.as_ref()).map(|own| own.unit.to_string());
+    assert_eq!(findings(&compilation).len(), 1, "an error is reported once for both devices");
+    let unit =
+        |item: Option<&Item>| item.and_then(|item| item.quantity.as_ref()).map(|quantity| quantity.unit.to_string());
     let catalog = compilation.catalog.as_ref().expect("a catalogue");
     assert!(catalog.devices.iter().all(|device| unit(device.entry(0x2000, 0)).as_deref() == Some("V")));
     let of_module = |compilation: &Compilation| {
@@ -275,7 +283,7 @@ fn several_devices_and_modules_are_told_apart() {
         assert_eq!((of_module(&compilation).as_deref(), findings(&compilation)), (Some("V"), vec![]), "{module}");
     }
     let text = text.replace("why =", "for = { module = \"M\", product_code = 1 }\nwhy =");
-    assert_eq!(findings(&apply_to("x.xml", &esi, &text)).len(), 1, "the first device takes no module");
+    assert_eq!(findings(&apply_to("x.xml", &esi, &text)).len(), 1, "the first device accepts no module");
 }
 
 #[test]
@@ -288,11 +296,11 @@ fn names_within_a_module_are_those_of_its_items() {
     let typo = applied("0x2000 = { unit = \"V\", same_as = \"Valu\" }\n");
     assert_eq!(findings(&typo), [("TAB005", "\"Valu\"".to_owned())]);
     let doubt = "doubt = { says = \"V and mV\", chose = \"V\", why = \"the scale\" }";
-    let own = applied(&format!("0x2000 = {{ enum = \"E\" }}\n[enums.E]\n{doubt}\nvalues = {{ 0 = \"off\" }}\n"));
-    assert_eq!(findings(&own), []);
-    let devices = &own.catalog.as_ref().expect("a catalogue").devices;
+    let actual = applied(&format!("0x2000 = {{ enum = \"E\" }}\n[enums.E]\n{doubt}\nvalues = {{ 0 = \"off\" }}\n"));
+    assert_eq!(findings(&actual), []);
+    let devices = &actual.catalog.as_ref().expect("a catalogue").devices;
     let doubts: Vec<usize> = devices.iter().map(|device| device.doubts.len()).collect();
-    assert_eq!(doubts, [0, 1], "the device that takes the module has its doubts");
+    assert_eq!(doubts, [0, 1], "the device that accepts the module has its doubts");
 }
 
 #[test]
@@ -307,7 +315,7 @@ fn an_overlay_for_a_module_has_doubts_and_no_behaviour() {
     assert_eq!(findings(&doubtful), []);
     let devices = &doubtful.catalog.as_ref().expect("a catalogue").devices;
     let doubts: Vec<usize> = devices.iter().map(|device| device.doubts.len()).collect();
-    assert_eq!(doubts, [0, 1], "the device that takes the module has its doubts");
+    assert_eq!(doubts, [0, 1], "the device that accepts the module has its doubts");
     let behaviour = [
         ("[axes]\ncount = 2\n", ""),
         ("[codes.Faults]\nrows = { 1 = \"Short\" }\n", "Faults"),
@@ -325,7 +333,7 @@ fn an_overlay_for_a_module_has_doubts_and_no_behaviour() {
     }
 }
 
-/// A device access point that takes the submodules `S` and `T`.
+/// Returns a device access point that accepts the submodules `S` and `T`.
 fn access_point(name: &str, number: u32) -> String {
     format!(
         "<DeviceAccessPointItem ID=\"{name}\" ModuleIdentNumber=\"{number}\" PhysicalSlots=\"0..4\" FixedInSlots=\"0\">\
@@ -336,7 +344,7 @@ fn access_point(name: &str, number: u32) -> String {
     )
 }
 
-/// Two device access points, and two submodules of a parameter each.
+/// Two device access points, and two submodules with one parameter each.
 fn gsdml() -> String {
     let submodule = |id: &str, number: u32, parameter: &str| {
         format!(
@@ -378,11 +386,11 @@ fn a_submodule_of_several_devices_is_changed_once() {
     assert_eq!(findings(&both), []);
     let item = speed(&both);
     assert_eq!((words(&item), item.doubts.len()), ("Told.\nChanged by an overlay: w.", 1));
-    assert_eq!(item.extensions.iter().filter(|own| own.key == "overlay").count(), 1);
+    assert_eq!(item.extensions.iter().filter(|extension| extension.key == "overlay").count(), 1);
     let one = applied("for = { device = \"A\" }\n", "unit = \"rpm\"");
     let found: Vec<_> = findings(&one).into_iter().map(|(code, _)| code).collect();
     assert_eq!((found, speed(&one).quantity.is_some()), (vec!["TAB053"], true), "B has it, too");
-    // A name that leads nowhere is told, and never held against the items of another submodule.
+    // An unknown name is reported, and not looked up in another submodule.
     let typo = applied("", "same_as = \"Sped\"");
     assert_eq!(findings(&typo), [("TAB005", "\"Sped\"".to_owned())]);
     assert_eq!(findings(&applied("", "same_as = \"Speed\"")), []);
@@ -414,8 +422,8 @@ fn parameters_of_profinet_go_by_name() {
         let source = Source::read(&path).expect("a file of the corpus");
         let compilation = check(source.clone(), &options);
         let Some(catalog) = compilation.catalog.as_ref() else { continue };
-        let unique = |own: &&lexibus_codegen::ir::Submodule| {
-            !own.id.is_empty() && own.records.len() == 1 && own.records[0].items.len() == 1
+        let unique = |submodule: &&lexibus_codegen::ir::Submodule| {
+            !submodule.id.is_empty() && submodule.records.len() == 1 && submodule.records[0].items.len() == 1
         };
         let Some(submodule) = catalog.submodules.iter().find(unique) else { continue };
         let (item, id) = (&submodule.records[0].items[0], submodule.id.clone());
@@ -428,9 +436,10 @@ fn parameters_of_profinet_go_by_name() {
         );
         let overlays = vec![Source::new("o.toml", text.clone().into_bytes())];
         let compilation = check(source, &Options { overlays, ..options.clone() });
-        let changed = compilation.catalog.as_ref().expect("a catalogue").submodules.iter().find(|own| own.id == id);
-        let told = changed.is_some_and(|own| words(&own.records[0].items[0]).starts_with("Told.\nChanged"));
-        assert!(told, "{}: {text}\n{:?}", path.display(), findings(&compilation));
+        let changed =
+            compilation.catalog.as_ref().expect("a catalogue").submodules.iter().find(|submodule| submodule.id == id);
+        let is_changed = changed.is_some_and(|entry| words(&entry.records[0].items[0]).starts_with("Told.\nChanged"));
+        assert!(is_changed, "{}: {text}\n{:?}", path.display(), findings(&compilation));
         tried += 1;
     }
     assert!(tried > 5, "only {tried} submodules with one parameter");
@@ -452,13 +461,14 @@ fn the_builder_takes_overlays() {
 
 #[test]
 fn an_overlay_changes_no_lints_of_the_rest() {
-    // A value that can't be written comes in an RPDO; two objects of one name; a text that mentions what isn't there.
+    // A write-only value in an RPDO, two objects of one name, and a text that mentions a missing object.
     let eds = EDS.replace("DataType=6\nAccessType=ro\n", "DataType=6\nAccessType=ro\nPDOMapping=1\n");
     let eds = eds.replace("ParameterName=Mode", "ParameterName=Speed");
     let alone =
         check(Source::new("pump.eds", eds.as_bytes().to_vec()), &Options { no_profiles: true, ..Options::default() });
     let with = apply_to("pump.eds", &eds, &rows("0x2000 = { unit = \"rpm\" }\n"));
-    let codes = |found: &Compilation| found.diagnostics.list().iter().map(|own| own.code.id).collect::<Vec<_>>();
+    let codes =
+        |found: &Compilation| found.diagnostics.list().iter().map(|diagnostic| diagnostic.code.id).collect::<Vec<_>>();
     assert_eq!(codes(&alone), codes(&with));
     let mut options = Options { no_profiles: true, ..Options::default() };
     options.levels.set("TAB040", lexibus_codegen::diagnostics::Level::Warn).unwrap();

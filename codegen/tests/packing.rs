@@ -1,8 +1,8 @@
-//! What generated code packs, it unpacks as the same, and the other way round: process data, process images, records and
-//! messages of every file of the corpus and of every dictionary, on bits of any kind.
+//! Tests that generated code packs and unpacks without changes: process data, process images, records and messages of every
+//! file of the corpus and of every dictionary, with random bits.
 //!
-//! The bindings become programs that are compiled and run; `packing/program.rs` is what such a program does with a type. Where bits
-//! have to be comes from the intermediate representation (`packing/layouts.rs`), and so does whether requests name a device.
+//! The bindings are compiled to programs that run. `packing/program.rs` contains the checks for a type. The expected positions
+//! of bits (`packing/layouts.rs`), and whether requests name a device, come from the intermediate representation.
 
 mod compile_support;
 mod corpus_support;
@@ -30,10 +30,10 @@ use lexibus_codegen::ir::Catalog;
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 
-/// What every program begins with.
+/// Start of every program.
 const CHECKS: &str = include_str!("packing/program.rs");
 
-/// Lines of bindings that one program has: more would need more memory, fewer more time.
+/// Number of lines of bindings per program. More lines need more memory, fewer need more time.
 const MAX_LINES: usize = 60_000;
 
 fn options() -> Options {
@@ -41,7 +41,7 @@ fn options() -> Options {
     Options { rust, ..Options::default() }
 }
 
-/// Bindings, and the statements that check each type of them.
+/// Bindings, and the statements that check each of their types.
 struct Bindings {
     name: String,
     text: String,
@@ -49,18 +49,18 @@ struct Bindings {
 }
 
 impl Bindings {
-    /// The bindings of a catalogue; none where `seen` has them with the same checks, or there is nothing to generate.
+    /// Returns the bindings of a catalog; `None` if `seen` has them with the same checks, or there is nothing to generate.
     fn new(name: &str, catalog: &Catalog, seen: &Mutex<HashSet<String>>) -> Option<(Self, Counts)> {
         let text = emit_catalog(catalog, &options().rust)?;
         let (checks, counts) = found::checks(name, &text, catalog);
-        // What the checks say follows from the IR alone: bindings that should differ, and don't, are checked each by its own.
+        // The checks follow from the IR alone, so bindings that are wrongly equal are still checked separately.
         let key = body(&text).to_owned() + &checks.concat().replace(name, "");
         let is_new = seen.lock().expect("what was seen").insert(key);
         is_new.then(|| (Bindings { name: name.to_owned(), checks, text: found::needed(&text) }, counts))
     }
 }
 
-/// A program of some bindings: the modules, and a function for each type that was found in them.
+/// A program for several bindings: their modules, and a function for each type.
 #[derive(Default)]
 struct Program {
     text: String,
@@ -70,16 +70,16 @@ struct Program {
 }
 
 impl Program {
-    fn add(&mut self, own: &Bindings) {
+    fn add(&mut self, bindings: &Bindings) {
         let module = format!("m{}", self.names.len());
-        self.text += &format!("#[allow(unused)]\nmod {module} {{\n{}\n}}\n", own.text);
-        for (at, statements) in own.checks.iter().enumerate() {
+        self.text += &format!("#[allow(unused)]\nmod {module} {{\n{}\n}}\n", bindings.text);
+        for (at, statements) in bindings.checks.iter().enumerate() {
             let statements = statements.replace("MODULE::", &format!("{module}::"));
             self.text += &format!("fn {module}_{at}() {{\n    {statements}\n}}\n");
             self.calls += &format!("    {module}_{at}();\n");
         }
-        self.lines += own.text.lines().count();
-        self.names.push(own.name.clone());
+        self.lines += bindings.text.lines().count();
+        self.names.push(bindings.name.clone());
     }
 
     fn run(&self) -> Result<(), String> {
@@ -88,29 +88,29 @@ impl Program {
     }
 }
 
-/// Checks everything in `sources`, on all processors. Gives the number of types of each kind.
+/// Checks all bindings in `sources`, on all processors. Returns the number of types of each kind.
 fn run_all(sources: Vec<Source>) -> Counts {
     let (all, seen) = (Mutex::new(Vec::new()), Mutex::default());
     on_all_processors(sources, |source| {
         let name = source.name().to_owned();
         let compilation = check(source, &options());
-        let own = catalogs(&compilation).filter_map(|catalog| Bindings::new(&name, &catalog, &seen));
-        let own: Vec<_> = own.filter(|(own, _)| !own.checks.is_empty()).collect();
-        all.lock().expect("the bindings").extend(own);
+        let actual = catalogs(&compilation).filter_map(|catalog| Bindings::new(&name, &catalog, &seen));
+        let checks: Vec<_> = actual.filter(|(bindings, _)| !bindings.checks.is_empty()).collect();
+        all.lock().expect("the bindings").extend(checks);
     });
     run(all.into_inner().expect("the bindings"))
 }
 
-/// Runs programs of all bindings, and adds up what they have.
+/// Runs programs for all bindings, and adds up their counts.
 fn run(mut all: Vec<(Bindings, Counts)>) -> Counts {
     all.sort_by(|(one, _), (other, _)| (&one.name, &one.text).cmp(&(&other.name, &other.text)));
     let (mut programs, mut counts) = (vec![Program::default()], Counts::default());
-    for (own, of_own) in &all {
+    for (entry, of_bindings) in &all {
         if programs.last().is_some_and(|program| program.lines > MAX_LINES) {
             programs.push(Program::default());
         }
-        programs.last_mut().expect("a program").add(own);
-        counts.add(of_own);
+        programs.last_mut().expect("a program").add(entry);
+        counts.add(of_bindings);
     }
     let failures = Mutex::new(Vec::new());
     on_all_processors(programs, |program| {

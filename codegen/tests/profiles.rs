@@ -1,4 +1,4 @@
-//! What profiles add to devices, and what they leave alone.
+//! Tests what profiles add to devices, and what they do not change.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::{BitMeaning, Catalog, Device, FactOrigin, Item, Scale, Shape, Type, TypeDef};
@@ -40,7 +40,7 @@ fn type_name(device: &Device, index: u16, sub: u8) -> String {
     }
 }
 
-/// A drive with these further objects.
+/// Returns a drive with additional objects.
 fn drive(more: &str) -> String {
     format!(
         "[DeviceInfo]\nProductName=Drive\n\
@@ -71,7 +71,7 @@ fn a_drive_gets_the_names_of_its_bits_and_values() {
     let bit = |name: &str| fields.iter().find(|field| field.name == name).expect(name);
     assert_eq!(bit("quick stop").meaning, BitMeaning::Flag { inverted: true });
     let when = bit("new set-point").when.as_ref().expect("a condition");
-    assert_eq!(when.item, "Modes of operation", "the device's name of it");
+    assert_eq!(when.item, "Modes of operation", "the device's name of the object");
 
     let machine = device.machines.first().expect("the state machine");
     assert_eq!((machine.status_item.as_str(), machine.control_item.as_str()), ("Statusword", "Controlword"));
@@ -108,7 +108,7 @@ fn nothing_else_changes() {
             assert_eq!(*before, after);
         }
     }
-    assert!(full.types.iter().all(|definition| definition.origin.line == 0), "types of a profile stand nowhere");
+    assert!(full.types.iter().all(|definition| definition.origin.line == 0), "types of a profile have no line");
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn further_axes_are_completed_where_they_exist() {
     assert_eq!(type_name(&two, 0x6841, 0), "Statusword");
     assert_eq!(item(&two, 0x6840, 0).ty, item(&two, 0x6040, 0).ty);
     assert_eq!(type_name(&two, 0x6860, 0), "ModesOfOperation");
-    // Without its control word, 0x6860 is no second axis.
+    // Without a control word, 0x6860 does not belong to a second axis.
     let one = device(&drive(&axis("6842", "6843", "6860")));
     assert_eq!(type_name(&one, 0x6860, 0), "INTEGER8");
 }
@@ -166,10 +166,10 @@ fn further_axes_are_completed_where_they_exist() {
 fn devices_of_other_profiles_are_no_drives() {
     let other = drive("").replace("0x00020192", "0x00000198");
     assert_eq!(type_name(&device(&other), 0x6040, 0), "UNSIGNED16");
-    assert_eq!(type_name(&device(&other), 0x1000, 0), "DeviceType", "whatever the profile");
+    assert_eq!(type_name(&device(&other), 0x1000, 0), "DeviceType", "for any profile");
     let untold = drive("").replace("0x00020192", "0");
     assert_eq!(type_name(&device(&untold), 0x6040, 0), "Controlword");
-    // Numbers with a sign are no control word.
+    // Signed numbers are not control words.
     let numbers = untold.replace("Control\nDataType=6", "Control\nDataType=3");
     assert_eq!(type_name(&device(&numbers), 0x6040, 0), "INTEGER16");
     assert_eq!(type_name(&device(&numbers), 0x6060, 0), "INTEGER8");
@@ -206,7 +206,7 @@ fn telegrams_of_profidrive_have_their_words() {
     };
     let catalog = catalog(name, &text, &Options::default());
     let mut typed = 0;
-    for submodule in catalog.submodules.iter().filter(|own| own.name.starts_with("Standard telegram")) {
+    for submodule in catalog.submodules.iter().filter(|submodule| submodule.name.starts_with("Standard telegram")) {
         let first = |data: &Option<Box<lexibus_codegen::ir::IoData>>| {
             let ty = data.as_ref()?.image.fields.first()?.ty;
             Some(definition(&catalog.types, ty).name.clone())

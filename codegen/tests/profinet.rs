@@ -1,4 +1,4 @@
-//! The Rust that GSDML files become: its shape, and that nothing in a file can break it.
+//! Tests the Rust of GSDML files: its structure, and that no content of a file can break it.
 
 mod compile_support;
 mod form_support;
@@ -9,7 +9,7 @@ use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 
-/// A file of one device access point with `modules` in its slots 1 to 9, and further lists.
+/// Returns a file of one device access point with `modules` in its slots 1 to 9, and further lists.
 struct Gsdml {
     modules: Vec<String>,
     lists: String,
@@ -21,14 +21,14 @@ impl Gsdml {
         Gsdml { modules: Vec::new(), lists: String::new(), texts: Vec::new() }
     }
 
-    /// The identifier of a text.
+    /// Returns the identifier of a text.
     fn text(&mut self, text: &str) -> String {
         let id = format!("T{}", self.texts.len());
         self.texts.push((id.clone(), text.to_owned()));
         id
     }
 
-    /// A module with one submodule of its name and with this content.
+    /// Returns a module with one submodule of the same name and with this content.
     fn module(mut self, name: &str, content: &str) -> Self {
         let (text, number) = (self.text(name), self.modules.len() + 1);
         let info = format!("<ModuleInfo><Name TextId=\"{text}\"/><InfoText TextId=\"Info\"/></ModuleInfo>");
@@ -133,7 +133,7 @@ fn rust_of_a_small_device() {
     accept("valve", &text);
 }
 
-/// Names that are keywords, types, names of generated code, each other's, or no names at all.
+/// Names that are keywords, types, names of generated code, repeated, or empty.
 const NASTY: [&str; 25] = [
     "type",
     "self",
@@ -205,7 +205,7 @@ fn no_name_or_text_breaks_out_of_the_code() {
     }
 }
 
-/// All data types of data items that have a length of their own.
+/// All data types of data items with a fixed length.
 const TYPES: [&str; 36] = [
     "Integer8",
     "Integer16",
@@ -256,10 +256,10 @@ fn every_data_type_compiles_in_every_place() {
                 <BitDataItem BitOffset=\"31\" TextId=\"X\"/></DataItem>";
     let mut refs = String::new();
     for (number, ty) in TYPES.iter().enumerate() {
-        let place = number * 16;
+        let offset = number * 16;
         refs += &format!(
-            "<Ref ID=\"A{number}\" DataType=\"{ty}\" ByteOffset=\"{place}\" DefaultValue=\"1\" AllowedValues=\"0..100 120\" \
-             TextId=\"X\"/><Ref ID=\"B{number}\" DataType=\"{ty}\" ByteOffset=\"{place}\" DefaultValue=\"0\" \
+            "<Ref ID=\"A{number}\" DataType=\"{ty}\" ByteOffset=\"{offset}\" DefaultValue=\"1\" AllowedValues=\"0..100 120\" \
+             TextId=\"X\"/><Ref ID=\"B{number}\" DataType=\"{ty}\" ByteOffset=\"{offset}\" DefaultValue=\"0\" \
              Changeable=\"false\" TextId=\"X\"/>"
         );
     }
@@ -356,7 +356,7 @@ fn optional_implementations_are_gated() {
     assert!(text.contains("serde(with = \"::lexibus::octets\")"), "{text}");
     assert!(!text.contains("Debug"));
     assert_eq!(canonical("example", &text), Ok(()));
-    // A crate without these features would be warned of them; that is its own business.
+    // The crate does not declare these features, and rustc would warn about that.
     compile("gated", &format!("#[allow(unexpected_cfgs)]\nmod inner {{\n{text}\n}}\npub use inner::*;\n"))
         .expect("it compiles");
 }

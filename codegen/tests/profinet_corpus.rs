@@ -1,4 +1,4 @@
-//! What the back end takes for granted about PROFIsafe, held against the files of the corpus.
+//! Tests assumptions of the back end about PROFIsafe with the files of the corpus.
 
 mod corpus_support;
 
@@ -7,19 +7,19 @@ use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::{FParameters, Submodule};
 use lexibus_codegen::source::Source;
 
-/// A CRC of 16 bits with the polynomial 0x4EAB and the start value 0.
+/// Returns a 16-bit CRC with the polynomial 0x4EAB and the initial value 0.
 fn crc16(data: &[u8]) -> u16 {
     data.iter().fold(0, |crc, byte| {
         (0..8).fold(crc ^ u16::from(*byte) << 8, |crc, _| if crc & 0x8000 != 0 { crc << 1 ^ 0x4EAB } else { crc << 1 })
     })
 }
 
-/// F_Par_CRC over the defaults: F_iPar_CRC first, then the record as it is sent. The bit of F_CRC_Seed is clear.
+/// Returns F_Par_CRC of the defaults: F_iPar_CRC first, then the record as sent. The bit of F_CRC_Seed is clear.
 fn checksum(record: &FParameters) -> u16 {
     let parameter = |name: &str| record.parameters.iter().find(|parameter| parameter.name == name);
     let number = |name: &str| parameter(name).map_or(0, |parameter| parameter.default);
     let label = |name: &str| parameter(name).map_or("", |parameter| parameter.label.as_str());
-    let position = |names: &[&str], name: &str| names.iter().position(|own| *own == label(name)).unwrap_or(0) as u8;
+    let position = |names: &[&str], name: &str| names.iter().position(|entry| *entry == label(name)).unwrap_or(0) as u8;
     let sil = position(&["SIL1", "SIL2", "SIL3", "NoSIL"], "F_SIL");
     let length = position(&["3-Byte-CRC", "2-Byte-CRC", "4-Byte-CRC"], "F_CRC_Length");
     let block = number("F_Block_ID") as u8;

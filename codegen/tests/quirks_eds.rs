@@ -1,4 +1,5 @@
-//! Quirks of EDS and DCF files that the cases of `tests/ui/quirks-eds` cannot show: a number of repetitions, and an API.
+//! Tests quirks of EDS and DCF files that the cases of `tests/ui/quirks-eds` cannot show: many repeated sections, and formulas in the API.
+//! API.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::Value;

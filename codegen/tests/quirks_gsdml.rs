@@ -1,12 +1,12 @@
-//! GSDML files that cases of `tests/ui` cannot show: properties of all encodings, limits, and damaged files.
+//! Tests properties of GSDML files that the cases of `tests/ui` cannot show: encodings, limits, and damaged files.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::source::{Encoding, Source};
 
-/// The name of a file that is formed as it should be.
+/// A valid file name.
 const NAME: &str = "GSDML-V2.35-Maker-Pump-20200131.xml";
 
-/// A file without a fault around the content of a submodule and further lists.
+/// Returns a valid file with this submodule content and further lists.
 fn file(submodule: &str, lists: &str) -> String {
     let texts: String = ["Device", "Speed", "Mode", "Off", "On"]
         .map(|text| format!("<Text TextId=\"T_{text}\" Value=\"{text}\"/>\n"))
@@ -40,12 +40,12 @@ fn file(submodule: &str, lists: &str) -> String {
     )
 }
 
-/// A submodule with these inputs.
+/// Returns a submodule with these inputs.
 fn inputs(items: &str) -> String {
     format!("<IOData>\n<Input>\n{items}</Input>\n</IOData>\n")
 }
 
-/// A submodule with one record.
+/// Returns a submodule with one record.
 fn record(length: u32, content: &str) -> String {
     format!(
         "<IOData/>\n<RecordDataList>\n<ParameterRecordDataItem Index=\"10\" Length=\"{length}\">\n<Name TextId=\"T_Mode\"/>\n\
@@ -57,12 +57,12 @@ fn read(bytes: impl Into<Vec<u8>>) -> Compilation {
     check(Source::new(NAME, bytes.into()), &Options::default())
 }
 
-/// The codes of all diagnostics, from top to bottom.
+/// Returns the codes of all diagnostics in order.
 fn codes(compilation: &Compilation) -> Vec<&'static str> {
     compilation.diagnostics.list().iter().map(|found| found.code.id).collect()
 }
 
-/// The IR without the files it was read from and places in them.
+/// Returns the IR without files and positions.
 fn without_places(compilation: &Compilation) -> serde_json::Value {
     let mut value = serde_json::to_value(&compilation.catalog).expect("JSON");
     strip(&mut value);
@@ -100,7 +100,7 @@ fn g01_all_encodings_give_one_ir() {
     }
 }
 
-/// There is nothing between the quotation marks to point at.
+/// The value is empty, so there is no text to mark.
 #[test]
 fn g06_an_empty_default_is_reported_at_its_place() {
     let parameter = "<Ref ByteOffset=\"0\" TextId=\"T_Speed\" DataType=\"Unsigned8\" DefaultValue=\"\"/>";
@@ -150,7 +150,7 @@ fn a_long_text_does_not_multiply() {
     assert!(copied < 4_000_000, "{copied} bytes");
 }
 
-/// A file with everything in it, cut off or damaged anywhere, ends in an error at worst.
+/// A complete file that is truncated or damaged anywhere gives at most errors.
 #[test]
 fn damage_anywhere_is_no_reason_to_panic() {
     let submodule = record(

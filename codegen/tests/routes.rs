@@ -1,5 +1,5 @@
-//! How each bus reaches an item: windows, process images, widths and accesses that a bus has for itself, and memory of slave
-//! controllers.
+//! Tests the routes to an item on each bus: windows, process images, widths and access rights of a single bus, and memory of
+//! slave controllers.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Access, Binding, Bus, Item, Type};
@@ -39,25 +39,25 @@ fn table(window: &str, rows: &str, more: &str) -> String {
     format!("{HEAD}{window}\n{OBJECTS}[[chapters]]\ntitle = \"Cells\"\nspace = \"cells\"\n[chapters.registers]\n{rows}\n{more}")
 }
 
-/// What is said of a table, without what it doesn't have of CANopen.
-fn said(text: &str) -> Vec<String> {
+/// Returns the diagnostics of a table, except those about missing CANopen objects.
+fn reported(text: &str) -> Vec<String> {
     let compilation = read(text);
-    let lines = compilation.diagnostics.list().iter().map(|own| compilation.one_line(own));
+    let lines = compilation.diagnostics.list().iter().map(|diagnostic| compilation.one_line(diagnostic));
     lines.filter(|line| !line.contains("EDS063")).collect()
 }
 
 fn item<'c>(compilation: &'c Compilation, name: &str) -> &'c Item {
-    let devices = compilation.catalog.iter().flat_map(|own| &own.devices);
-    let items: Vec<&Item> = devices.flat_map(|own| &own.groups).flat_map(|group| &group.items).collect();
+    let devices = compilation.catalog.iter().flat_map(|catalog| &catalog.devices);
+    let items: Vec<&Item> = devices.flat_map(|device| &device.groups).flat_map(|group| &group.items).collect();
     items.into_iter().find(|item| item.name == name).expect("the item")
 }
 
 fn rust(text: &str) -> String {
-    assert_eq!(said(text), [""; 0]);
+    assert_eq!(reported(text), [""; 0]);
     read(text).rust(&RustOptions { accessors: false, ..RustOptions::default() }).expect("code")
 }
 
-/// The lines from the one that has `from` on, to the first that has `to`.
+/// Returns the lines from the first one that contains `from` to the next one that contains `to`.
 fn part(text: &str, from: &str, to: &str) -> String {
     let lines = text.lines().skip_while(|line| !line.contains(from));
     let mut part: Vec<&str> = Vec::new();
@@ -94,8 +94,8 @@ fn the_procedure_tells_what_the_window_does_not() {
         )
     };
     let handshake = |step: &str| part(&rust(&table(window, rows, &settle(step))), "handshake:", "handshake:");
-    let told = handshake("{ wait = \"Cell\", value = 0, timeout = 50 }");
-    assert_eq!(told.trim(), "handshake: rt::Handshake::cleared(50),");
+    let code = handshake("{ wait = \"Cell\", value = 0, timeout = 50 }");
+    assert_eq!(code.trim(), "handshake: rt::Handshake::cleared(50),");
     assert_eq!(handshake("{ delay = 3 }").trim(), "handshake: rt::Handshake::after(3),");
 }
 
@@ -117,15 +117,14 @@ fn code_of_an_image() {
     assert_eq!((mode.type_on(Bus::CanOpen), mode.access_on(Bus::CanOpen)), (Type::Integer(8), Access::WriteOnly));
     assert_eq!((mode.type_on(Bus::Modbus), mode.access_on(Bus::Modbus)), (Type::Integer(32), Access::ReadWrite));
     assert!(mode.limits_on(Bus::CanOpen).is_some() && mode.limits_on(Bus::Modbus).is_none());
-    let is_narrow =
-        |own: &Binding| matches!(own, Binding::Image(own) if own.bits == 8 && own.ty == Some(Type::Integer(8)));
+    let is_narrow = |binding: &Binding| matches!(binding, Binding::Image(binding) if binding.bits == 8 && binding.ty == Some(Type::Integer(8)));
     assert!(mode.bindings.iter().any(is_narrow));
 }
 
 #[test]
 fn mistakes() {
     let rows = "Gain = { reg = 0x8033, type = \"u32\", access = \"rw\" }";
-    let window = |text: &str| said(&table(text, rows, ""));
+    let window = |text: &str| reported(&table(text, rows, ""));
     #[track_caller]
     fn has(found: &[String], words: &str) {
         assert!(found.iter().any(|line| line.contains(words)), "{words}: {found:#?}");
@@ -141,20 +140,20 @@ fn mistakes() {
         "reading always writes the number first",
     );
     has(&window(&WINDOW.replace("indirect = {", "indirect = { buses = [\"can\"],")), "`can` is not a valid bus");
-    let far = said(&table(
+    let far = reported(&table(
         "indirect = { write_address = \"Number\", read = \"Value\" }",
         "Far = { reg = 0x18000, type = \"u32\", access = \"ro\", buses = [\"canopen\"] }",
         "",
     ));
     has(&far, "the number 98304 of `Far` does not fit `Number`, which has 16 bits");
-    let text = said(&table(
+    let text = reported(&table(
         "indirect = { write_address = \"Number\", read = \"Value\" }",
         "Name = { reg = 0x8000, type = \"str(4)\", access = \"ro\", buses = [\"canopen\"] }",
         "",
     ));
     has(&text, "`Name` is only accessible through a window");
     let variant = |text: &str| {
-        said(&table(
+        reported(&table(
             "",
             &format!("Mode = {{ reg = 0x8001, type = \"i32\", access = \"rw\", variants = [{{ {text} }}] }}"),
             "[[models]]\nname = \"A\"\n",

@@ -1,4 +1,4 @@
-//! The generated Rust has the form that `prettyplease` would give it, for every file of the corpus.
+//! Tests that the Rust of every file of the corpus is formatted as by `prettyplease`.
 
 mod corpus_support;
 mod form_support;
@@ -14,7 +14,7 @@ use lexibus_codegen::Presence;
 #[test]
 fn output_is_as_prettyplease_prints_it() {
     let Some(mut files) = corpus_support::all_files() else { return };
-    // Parsing is slow in a build for tests.
+    // Parsing is slow in a debug build.
     files.retain(|file| lane::is_full() || file.bytes.len() < 60_000);
     let mut options = Options::default();
     options.rust.table = Presence::Feature("table".into());
@@ -22,7 +22,8 @@ fn output_is_as_prettyplease_prints_it() {
     assert!(compared > lane::at_least(500), "only {compared} different devices");
 }
 
-/// Several devices and modules of one file are modules of one another; a register table has what no file of the corpus has.
+/// Tests a file with several devices and modules, which are nested modules, and a register table with features that no file of
+/// the corpus has.
 #[test]
 fn nested_modules_and_tables_are_as_prettyplease_prints_them() {
     let coupler = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/coupler.esi.xml");

@@ -1,5 +1,5 @@
-//! The documentation of generated Rust: rustdoc has nothing to say of it, every link leads somewhere, and no text of a
-//! description breaks out of its cell.
+//! Tests the documentation of generated Rust: rustdoc reports nothing, every link is valid, and no text of a description breaks
+//! its table cell.
 
 mod compile_support;
 mod corpus_support;
@@ -22,12 +22,13 @@ fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The descriptions of two folders that are checked in.
+/// Returns the descriptions in two folders of the repository.
 fn examples() -> Vec<PathBuf> {
     let folders = ["tests/data", "dictionaries"].map(|name| repository().join(name));
     let entries = folders.iter().flat_map(|folder| std::fs::read_dir(folder).expect("a folder of the repository"));
-    let is_description =
-        |path: &PathBuf| ["toml", "eds", "xml"].iter().any(|ending| path.extension().is_some_and(|own| own == *ending));
+    let is_description = |path: &PathBuf| {
+        ["toml", "eds", "xml"].iter().any(|ending| path.extension().is_some_and(|entry| entry == *ending))
+    };
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("a file").path()).filter(is_description).collect();
     paths.sort();
     assert!(paths.len() >= 14, "{paths:?}");
@@ -38,7 +39,7 @@ fn read(path: &Path, options: &Options) -> Compilation {
     check(Source::read(path).expect("the example"), options)
 }
 
-/// Whatever is left out of the output, nothing links to it.
+/// Nothing links to a part that is left out of the output.
 #[test]
 fn rustdoc_has_nothing_to_say_of_the_examples() {
     let everything = || RustOptions { table: Presence::Always, ..RustOptions::default() };
@@ -48,13 +49,14 @@ fn rustdoc_has_nothing_to_say_of_the_examples() {
         RustOptions { pdos: false, ..RustOptions::default() },
     ];
     let mut examples = examples();
-    // In the fast lane, the drives are documented as the crate `lexibus-drives`.
+    // In the fast lane, the drives are documented only as the crate `lexibus-drives`.
     examples.retain(|path| lane::is_full() || path.parent().is_some_and(|folder| folder.ends_with("data")));
     on_all_processors(examples, |path| {
         let compilation = read(&path, &Options::default());
-        // What ships is documented with everything in it, too, as a crate of the workspace.
-        let chosen = if path.parent().is_some_and(|own| own.ends_with("data")) { &choices[..] } else { &choices[1..2] };
-        let texts: Vec<String> = chosen.iter().filter_map(|own| compilation.rust(own)).collect();
+        // The drives are also documented with all options, as a crate of the workspace.
+        let chosen =
+            if path.parent().is_some_and(|entry| entry.ends_with("data")) { &choices[..] } else { &choices[1..2] };
+        let texts: Vec<String> = chosen.iter().filter_map(|entry| compilation.rust(entry)).collect();
         assert_eq!(texts.len(), chosen.len(), "{}", path.display());
         let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
         document(&path.display().to_string(), &texts).unwrap_or_else(|message| panic!("{message}"));
@@ -75,7 +77,7 @@ fn what_is_not_selected_is_not_linked() {
     document("selected", &[&drive, &press]).unwrap_or_else(|message| panic!("{message}"));
 }
 
-/// What a description refers to is linked, by a path from where the comment stands.
+/// Objects that a description mentions are linked, by a path relative to the comment.
 #[test]
 fn references_are_links() {
     let of = |name: &str| {
@@ -122,7 +124,7 @@ fn references_are_links() {
     ] {
         let text = of(name);
         for line in lines {
-            assert!(text.lines().any(|own| own == *line), "{name}: {line}");
+            assert!(text.lines().any(|entry| entry == *line), "{name}: {line}");
         }
     }
 }
@@ -150,7 +152,7 @@ MODE_2 = { reg = 2, type = "u8", access = "rw", doc = "ends with \\", when = { "
 4 = { reserved = 0 }
 "#;
 
-/// The cells of the first table of a page, row by row.
+/// Returns the cells of the first table of a page, row by row.
 fn cells(page: &str) -> Vec<Vec<&str>> {
     let table = page.split_once("<tbody>").and_then(|(_, rest)| rest.split_once("</tbody>")).expect("a table").0;
     let rows = table.split("<tr>").skip(1);
@@ -161,10 +163,11 @@ fn cells(page: &str) -> Vec<Vec<&str>> {
 #[test]
 fn no_text_breaks_out_of_its_cell() {
     let compilation = check(Source::new("hostile.toml", HOSTILE.into()), &Options::default());
-    let said: Vec<String> = compilation.diagnostics.list().iter().map(|own| compilation.one_line(own)).collect();
-    let text = compilation.rust(&RustOptions::default()).unwrap_or_else(|| panic!("{said:#?}"));
+    let messages: Vec<String> =
+        compilation.diagnostics.list().iter().map(|diagnostic| compilation.one_line(diagnostic)).collect();
+    let text = compilation.rust(&RustOptions::default()).unwrap_or_else(|| panic!("{messages:#?}"));
     let of_type =
-        |name: &str| page("hostile", &text, &format!("types/{name}.html")).unwrap_or_else(|own| panic!("{own}"));
+        |name: &str| page("hostile", &text, &format!("types/{name}.html")).unwrap_or_else(|entry| panic!("{entry}"));
     let (values, bits) = (of_type("enum.Mode"), of_type("struct.Status"));
     let values = cells(&values);
     assert_eq!(values.iter().map(Vec::len).collect::<Vec<_>>(), [3, 3, 3], "{values:#?}");
@@ -178,10 +181,10 @@ fn no_text_breaks_out_of_its_cell() {
     assert_eq!(bits[3][1..], ["reserved", "Written as 0."]);
 }
 
-/// For how long descriptions of the corpus are documented.
+/// Time limit for documenting descriptions of the corpus.
 const TIME: Duration = Duration::from_secs(25);
 
-/// Of each file, so many devices.
+/// Number of devices per file.
 const DEVICES: usize = 2;
 
 #[test]
@@ -195,8 +198,9 @@ fn rustdoc_has_nothing_to_say_of_a_sample_of_the_corpus() {
         let files = files.into_iter().step_by(step).collect();
         let (seen, documented) = (Mutex::new(HashMap::<String, usize>::new()), AtomicUsize::new(0));
         corpus_support::bindings::each(files, &Options::default(), |name, text| {
-            let number =
-                { *seen.lock().expect("the files").entry(name.to_owned()).and_modify(|own| *own += 1).or_insert(1) };
+            let number = {
+                *seen.lock().expect("the files").entry(name.to_owned()).and_modify(|entry| *entry += 1).or_insert(1)
+            };
             if number > DEVICES || Instant::now() > end && documented.load(Ordering::Relaxed) >= 5 {
                 return Ok(());
             }

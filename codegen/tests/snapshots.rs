@@ -1,4 +1,4 @@
-//! What a small description becomes, and how findings look: to be read in review.
+//! Snapshots of the output of small descriptions, and of diagnostics, for review.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::diagnostics::render;
@@ -54,7 +54,7 @@ DefaultValue=0x20000010
 
 #[test]
 fn rust_of_a_small_device() {
-    // What profiles add has tests of its own.
+    // Profiles have separate tests.
     let options = Options { no_profiles: true, ..Options::default() };
     let text = check(Source::new("pump.eds", PUMP.into()), &options).rust(&options.rust).expect("bindings");
     insta::assert_snapshot!(text);
@@ -90,7 +90,7 @@ const STATION: &str = "\
 
 #[test]
 fn rust_of_a_small_slave() {
-    // What profiles add has tests of its own.
+    // Profiles have separate tests.
     let options = Options { no_profiles: true, ..Options::default() };
     let text = check(Source::new("dio.xml", STATION.into()), &options).rust(&options.rust).expect("bindings");
     insta::assert_snapshot!(text);

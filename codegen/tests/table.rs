@@ -1,4 +1,4 @@
-//! Register tables: what their mistakes look like, and what the examples of their documentation become.
+//! Tests register tables: diagnostics of mistakes, and the results of the documentation's examples.
 
 mod table_support;
 
@@ -18,23 +18,23 @@ fn read_with(text: &str, choices: &[(&str, &str)]) -> Compilation {
     check(Source::new("t.toml", text.into()), &Options { choices, ..Options::default() })
 }
 
-/// The findings, a line each.
-fn said(compilation: &Compilation) -> Vec<String> {
-    let line = |own: &lexibus_codegen::diagnostics::Diagnostic| {
-        let help = own.help.as_ref().map(|help| format!(" ({help})")).unwrap_or_default();
-        format!("{} {}{help}", own.severity.name(), compilation.one_line(own))
+/// Returns the diagnostics, one per line.
+fn reported(compilation: &Compilation) -> Vec<String> {
+    let line = |diagnostic: &lexibus_codegen::diagnostics::Diagnostic| {
+        let help = diagnostic.help.as_ref().map(|help| format!(" ({help})")).unwrap_or_default();
+        format!("{} {}{help}", diagnostic.severity.name(), compilation.one_line(diagnostic))
     };
     compilation.diagnostics.list().iter().map(line).collect()
 }
 
 const HEAD: &str = "lexibus = 1\n[device]\nname = \"Pump\"\n[spaces.register]\nmodbus = { table = \"holding\" }\n";
 
-/// A table with these lines in its only chapter.
+/// Returns a table with these lines in its only chapter.
 fn rows(rows: &str) -> String {
     format!("{HEAD}[[chapters]]\n[chapters.registers]\n{rows}\n")
 }
 
-/// A table with one row that says this besides.
+/// Returns a table with one row that also has these keys.
 fn a(more: &str) -> String {
     rows(&format!("a = {{ reg = 1, type = \"u16\", access = \"ro\"{more} }}"))
 }
@@ -67,10 +67,10 @@ fn mistakes_and_what_is_said_of_them() {
         ("an access", rows("a = { reg = 1, type = \"u16\", access = \"r/w\" }")),
         ("no access", rows("a = { reg = 1, type = \"u16\" }")),
         ("a limit", a(", min = \"low\"")),
-        ("a place", rows("a = { reg = \"one\", type = \"u16\", access = \"ro\" }")),
-        ("a negative place", rows("a = { reg = -1, type = \"u16\", access = \"ro\" }")),
-        ("a place that the bus lacks", rows("a = { reg = 65536, type = \"u16\", access = \"ro\" }")),
-        ("no place", rows("a = { type = \"u16\", access = \"ro\" }")),
+        ("an address", rows("a = { reg = \"one\", type = \"u16\", access = \"ro\" }")),
+        ("a negative address", rows("a = { reg = -1, type = \"u16\", access = \"ro\" }")),
+        ("an address outside of the bus", rows("a = { reg = 65536, type = \"u16\", access = \"ro\" }")),
+        ("no address", rows("a = { type = \"u16\", access = \"ro\" }")),
         ("a span", rows("a = { reg = \"1-2\", type = \"u16\", access = \"ro\" }")),
         ("an address twice", rows(&format!("{b}\n{}", b.replacen('b', "c", 1)))),
         ("a name twice", format!("{}[[chapters]]\n[chapters.registers]\n{b}\n", rows(&b.replacen('2', "3", 1)))),
@@ -90,7 +90,7 @@ fn mistakes_and_what_is_said_of_them() {
     ];
     let mut text = String::new();
     for (what, table) in cases {
-        text += &format!("# {what}\n{}\n\n", said(&read(&table)).join("\n"));
+        text += &format!("# {what}\n{}\n\n", reported(&read(&table)).join("\n"));
     }
     insta::assert_snapshot!(text);
 }
@@ -100,7 +100,8 @@ fn a_mistake_as_a_terminal_shows_it() {
     let table = rows("temperature = { reg = 2, typ = \"i16\", access = \"ro\" }");
     let compilation = read(&table);
     let list = compilation.diagnostics.list().iter();
-    let shown: Vec<String> = list.map(|own| render::terminal::render(own, &compilation.sources, false)).collect();
+    let shown: Vec<String> =
+        list.map(|diagnostic| render::terminal::render(diagnostic, &compilation.sources, false)).collect();
     insta::assert_snapshot!(shown.join("\n\n"));
 }
 
@@ -110,17 +111,17 @@ fn choices_of_options() {
                  [options.place.choices]\nlow = 1\nhigh = 2\n[spaces.s]\nmodbus = { add = \"$place\" }\n\
                  [[chapters]]\nregisters.a = { reg = 10, type = \"u16\", access = \"ro\" }\n";
     let address = |compilation: &Compilation| match &item(compilation, "a").bindings[0] {
-        Binding::Register(own) => own.address,
+        Binding::Register(register) => register.address,
         other => panic!("{other:?}"),
     };
     assert_eq!(address(&read(table)), 11);
     assert_eq!(address(&read_with(table, &[("place", "high")])), 12);
-    let wrong = said(&read_with(table, &[("place", "hihg")]));
+    let wrong = reported(&read_with(table, &[("place", "hihg")]));
     assert_eq!(
         wrong,
         ["error t.toml:4:10: no choice of the option `place` has the name `hihg` [TAB005] (known names: low, high)"]
     );
-    let unknown = said(&read_with(table, &[("plaec", "low")]));
+    let unknown = reported(&read_with(table, &[("plaec", "low")]));
     assert_eq!(unknown, ["error t.toml: no option of this table has the name `plaec` [TAB005] (known names: place)"]);
 }
 
@@ -130,14 +131,14 @@ fn item<'c>(compilation: &'c Compilation, name: &str) -> &'c Item {
     items.find(|item| item.name == name).unwrap_or_else(|| panic!("no {name}"))
 }
 
-/// The first example of the documentation: a whole device.
+/// The first example of the documentation: a complete device.
 #[test]
 fn the_worked_example() {
     let (_, block) = examples().swap_remove(0);
     let compilation = read(&block);
-    assert_eq!(said(&compilation), Vec::<String>::new());
+    assert_eq!(reported(&compilation), Vec::<String>::new());
     let register = |name| match &item(&compilation, name).bindings[0] {
-        Binding::Register(own) => (own.space, own.address, own.count),
+        Binding::Register(register) => (register.space, register.address, register.count),
         other => panic!("{name} is {other:?}"),
     };
     assert_eq!(register("speed_setpoint"), (RegisterSpace::Holding, 0, 1));
@@ -157,11 +158,11 @@ fn the_worked_example() {
 fn the_examples_of_the_documentation_are_tables() {
     let examples = examples();
     assert!(examples.len() > 5);
-    // An overlay is no device: the schema is what it is held against here.
+    // An overlay has no device, so it is checked only against the schema.
     for (line, block) in examples.iter().filter(|(_, block)| !block.contains("[overlay]")) {
         let compilation = read(&whole(block));
-        let errors = compilation.diagnostics.list().iter().filter(|own| own.severity == Severity::Error);
-        let errors: Vec<String> = errors.map(|own| compilation.one_line(own)).collect();
+        let errors = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
+        let errors: Vec<String> = errors.map(|diagnostic| compilation.one_line(diagnostic)).collect();
         assert_eq!(errors, Vec::<String>::new(), "README.md:{line}");
     }
 }

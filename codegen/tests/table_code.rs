@@ -1,5 +1,4 @@
-//! The Rust of register tables: it compiles without a warning, whatever is chosen, and has the form that `prettyplease`
-//! would give it.
+//! Tests the Rust of register tables: it compiles without warnings for all options, and is formatted as by `prettyplease`.
 
 mod compile_support;
 mod form_support;
@@ -21,7 +20,8 @@ fn file(name: &str) -> Source {
 fn bindings(source: Source, rust: RustOptions) -> String {
     let options = Options { rust, ..Options::default() };
     let compilation = check(source, &options);
-    let lines = || compilation.diagnostics.list().iter().map(|own| compilation.one_line(own)).collect::<Vec<_>>();
+    let lines =
+        || compilation.diagnostics.list().iter().map(|diagnostic| compilation.one_line(diagnostic)).collect::<Vec<_>>();
     compilation.rust(&options.rust).unwrap_or_else(|| panic!("{:#?}", lines()))
 }
 
@@ -42,7 +42,7 @@ const TABLES: [&str; 7] = [
 #[test]
 fn tables_compile() {
     for name in TABLES {
-        // In the fast lane, the drives are compiled as the crate `lexibus-drives`.
+        // In the fast lane, the drives are compiled only as the crate `lexibus-drives`.
         if name.starts_with("dictionaries") && !lane::is_full() {
             continue;
         }
@@ -75,12 +75,12 @@ fn implementations_of_bit_fields_are_gated() {
          pub struct Control(u16);"
     ));
     assert!(text.contains("    #[cfg(feature = \"debug\")]\n    impl core::fmt::Debug for Control {"));
-    // A crate without these features would be warned of them; that is its own business.
+    // The crate does not declare these features, and rustc would warn about that.
     compile("gated", &format!("#[allow(unexpected_cfgs)]\nmod inner {{\n{text}\n}}\npub use inner::*;\n"))
         .unwrap_or_else(|message| panic!("{message}"));
 }
 
-/// Bits, values, states and items whose names are those of the code around them, or of nothing at all.
+/// Bits, values, states and items with names of the surrounding code, or with empty names.
 #[test]
 fn names_that_mislead() {
     let bits: String = [

@@ -1,10 +1,10 @@
-//! Numbers and ranges of register tables that are as large as they can be, or larger.
+//! Tests numbers and ranges of register tables at and beyond their limits.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Binding, Item, Scale, Shape, Value};
 use lexibus_codegen::source::Source;
 
-/// A table with these chapters, read.
+/// Reads a table with these chapters.
 fn read(head: &str, chapters: &str) -> Compilation {
     let text = format!(
         "lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"canopen\", \"modbus\"]\n{head}[[chapters]]\n{chapters}"
@@ -54,7 +54,7 @@ fn rows_repeat_by_the_length_of_their_values() {
     let addresses = |row: &str| -> Vec<u16> {
         let compilation = read(&format!("{SPACE}[enums.Big]\nbase = \"u32\"\nvalues = {{ 0 = \"off\" }}\n"), row);
         let of_item = |item: &&Item| match item.bindings.first() {
-            Some(Binding::Register(own)) => own.address,
+            Some(Binding::Register(register)) => register.address,
             other => panic!("{other:?}"),
         };
         items(&compilation).iter().map(of_item).collect()
@@ -73,7 +73,7 @@ fn an_object_that_is_one_value_takes_the_defaults() {
             "defaults = {{ type = \"u16\", access = \"rw\" }}\n[chapters.objects]\n0x2000 = {{ name = \"X\"{code} }}\n"
         );
         let compilation = read("", &rows);
-        // The mandatory objects of CANopen are missing, and nothing else.
+        // Only the mandatory objects of CANopen are missing.
         assert!(codes(&compilation).iter().all(|code| *code == "EDS063"), "{code}: {:?}", codes(&compilation));
         assert!(items(&compilation)[0].access.writable());
     }
@@ -119,11 +119,11 @@ fn patterns_of_bits_are_signed_wherever_they_stand() {
     assert_eq!((&list[0].default, &writable[..]), (&int(-32768), &[Value::Int(-32768), Value::Int(7)][..]));
     assert_eq!((&list[1].default, &list[3].default, &list[4].default), (&int(-1), &int(1), &int(-2)));
     let device = &compilation.catalog.as_ref().expect("a catalogue").devices[0];
-    let values = device.types.iter().find_map(|own| match &own.shape {
+    let values = device.types.iter().find_map(|definition| match &definition.shape {
         Shape::Enumeration { values, .. } => Some(values),
         _ => None,
     });
-    let values: Vec<_> = values.expect("an enumeration").iter().map(|own| (own.value, own.last)).collect();
+    let values: Vec<_> = values.expect("an enumeration").iter().map(|value| (value.value, value.last)).collect();
     assert_eq!(values, [(-1, None), (-32768, Some(-32765)), (5, None)]);
 }
 

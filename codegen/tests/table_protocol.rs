@@ -1,4 +1,4 @@
-//! What register tables say of messages, process images, state machines and procedures.
+//! Tests messages, process images, state machines and procedures of register tables.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{
@@ -12,8 +12,8 @@ fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", text.into()), &Options { no_profiles: true, ..Options::default() })
 }
 
-fn said(compilation: &Compilation) -> Vec<String> {
-    compilation.diagnostics.list().iter().map(|own| compilation.one_line(own)).collect()
+fn reported(compilation: &Compilation) -> Vec<String> {
+    compilation.diagnostics.list().iter().map(|diagnostic| compilation.one_line(diagnostic)).collect()
 }
 
 fn device(compilation: &Compilation) -> &Device {
@@ -24,9 +24,9 @@ const HEAD: &str =
     "lexibus = 1\n[device]\nname = \"M\"\nbuses = [\"serial\"]\n[spaces.p]\nparameter = true\n[[chapters]]\n\
                     [chapters.registers]\nSpeed = { reg = 1, type = \"i16\", access = \"rw\" }\n";
 
-/// What is said of a table with these lines behind one row, without the file's name.
+/// Returns the diagnostics of a table with these lines after one row, without the file name.
 fn findings(lines: &str) -> Vec<String> {
-    said(&read(&format!("{HEAD}{lines}")))
+    reported(&read(&format!("{HEAD}{lines}")))
 }
 
 /// The example of messages in the documentation.
@@ -39,29 +39,29 @@ fn example() -> Compilation {
 #[test]
 fn messages_have_typed_fields() {
     let compilation = example();
-    assert_eq!(said(&compilation), Vec::<String>::new());
+    assert_eq!(reported(&compilation), Vec::<String>::new());
     let device = device(&compilation);
-    let message = |name: &str| device.messages.iter().find(|own| own.name == name).expect("a message");
-    let own = message("Move");
-    let MessageField::Value(target) = &own.request[2] else { panic!("{:?}", own.request) };
+    let message = |name: &str| device.messages.iter().find(|message| message.name == name).expect("a message");
+    let actual = message("Move");
+    let MessageField::Value(target) = &actual.request[2] else { panic!("{:?}", actual.request) };
     assert_eq!(
         (target.item.name.as_str(), target.item.ty, target.byte_order.as_slice()),
         ("target", Type::Integer(32), &[2, 3, 0, 1][..])
     );
     assert_eq!(target.item.limits.high, Some(Value::Int(1_000_000)));
     assert!(target.item.bindings.is_empty());
-    let MessageField::Value(status) = &own.reply[2] else { panic!("{:?}", own.reply) };
+    let MessageField::Value(status) = &actual.reply[2] else { panic!("{:?}", actual.reply) };
     let Type::Named(id) = status.item.ty else { panic!("{:?}", status.item.ty) };
     let definition = &device.types[id.0 as usize];
     assert!(matches!(&definition.shape, Shape::BitField { base: Type::Unsigned(4), fields } if fields.len() == 2));
-    assert_eq!(own.reply[4], MessageField::Echo { field: "target".into(), bytes: Some((1, 3)) });
+    assert_eq!(actual.reply[4], MessageField::Echo { field: "target".into(), bytes: Some((1, 3)) });
     let polled =
         Completion::Polled { item: "status.done".into(), mask: None, value: Some(Value::Int(1)), in_reply: true };
-    assert_eq!((&own.completion, own.error.as_ref().map(|own| own.as_str())), (&polled, Some("Refused")));
-    assert_eq!((own.accepted_in[0].as_str(), own.accepted_when[0].item.as_str()), ("stopped", "gain"));
-    assert_eq!(own.reply[1], MessageField::FixedBits { bits: 4, value: 0 });
+    assert_eq!((&actual.completion, actual.error.as_ref().map(|error| error.as_str())), (&polled, Some("Refused")));
+    assert_eq!((actual.accepted_in[0].as_str(), actual.accepted_when[0].item.as_str()), ("stopped", "gain"));
+    assert_eq!(actual.reply[1], MessageField::FixedBits { bits: 4, value: 0 });
     assert_eq!(
-        (message("PollSpeed").after.as_ref().map(|own| own.as_str()), message("PollSpeed").by_default),
+        (message("PollSpeed").after.as_ref().map(|message| message.as_str()), message("PollSpeed").by_default),
         (Some("SelectSpeed"), false)
     );
     assert!(message("PollPosition").by_default);
@@ -75,15 +75,16 @@ fn parameters_are_carried_by_messages() {
     let compilation = example();
     let device = device(&compilation);
     let space = &device.parameter_spaces[0];
-    let messages = [&space.read, &space.write, &space.store].map(|own| own.as_ref().map_or("", |own| own.as_str()));
+    let messages =
+        [&space.read, &space.write, &space.store].map(|item| item.as_ref().map_or("", |entry| entry.as_str()));
     assert_eq!(
         (messages, space.byte_order.as_slice()),
         (["ReadParameter", "WriteParameters", "Store"], &[2, 3, 0, 1][..])
     );
     let gain = &device.groups[0].items[0];
     assert_eq!(gain.bindings[0], Binding::Parameter { space: "parameter".into(), code: 0x105 });
-    let request = &device.messages.iter().find(|own| own.name == "WriteParameters").expect("a message").request;
-    let read = &device.messages.iter().find(|own| own.name == "ReadParameter").expect("a message").request;
+    let request = &device.messages.iter().find(|message| message.name == "WriteParameters").expect("a message").request;
+    let read = &device.messages.iter().find(|message| message.name == "ReadParameter").expect("a message").request;
     assert_eq!(read[3], MessageField::ItemPadding { space: "parameter".into() });
     let MessageField::Repeat { count: None, fields, .. } = &request[2] else { panic!("{request:?}") };
     let space = || "parameter".into();
@@ -125,14 +126,14 @@ fn images_have_items_and_fields_of_their_own() {
                  Speed = { at = 1 }\nready = { at = 0, bit = 3, type = \"bool\", doc = \"It can go\" }\n\
                  text = { at = 3, type = \"str(4)\" }\n";
     let compilation = read(&format!("{HEAD}{lines}"));
-    assert_eq!(said(&compilation), Vec::<String>::new());
+    assert_eq!(reported(&compilation), Vec::<String>::new());
     let device = device(&compilation);
     let image = &device.process_data.images[0];
     assert_eq!((image.direction, image.length, image.big_endian), (Direction::Transmit, 8, false));
-    let places: Vec<_> = image.fields.iter().map(|own| (own.name.as_str(), own.bit_offset, own.bits)).collect();
+    let places: Vec<_> = image.fields.iter().map(|field| (field.name.as_str(), field.bit_offset, field.bits)).collect();
     assert_eq!(places, [("ready", 3, 1), ("Speed", 8, 16), ("text", 24, 32)]);
-    let own = device.groups.iter().find(|group| matches!(group.kind, GroupKind::Image { .. })).expect("a group");
-    assert_eq!(own.items.iter().map(|item| item.name.as_str()).collect::<Vec<_>>(), ["ready", "text"]);
+    let actual = device.groups.iter().find(|group| matches!(group.kind, GroupKind::Image { .. })).expect("a group");
+    assert_eq!(actual.items.iter().map(|item| item.name.as_str()).collect::<Vec<_>>(), ["ready", "text"]);
     let speed = device.groups.iter().flat_map(|group| &group.items).find(|item| item.name == "Speed").expect("it");
     let image = ImageBinding { image: "in".into(), bit_offset: 8, bits: 16, ty: None };
     assert_eq!(speed.bindings[1], Binding::Image(Box::new(image)));
@@ -158,13 +159,14 @@ fn machines_and_procedures() {
                  steps = [{ write = \"Speed\", argument = \"speed\" }, { write = \"Speed\", mask = 2, value = 2 }, \
                  { wait = \"Speed\", value = 3, timeout = 10 }, { read = \"Speed\" }]\n";
     let compilation = read(&format!("{HEAD}{lines}"));
-    assert_eq!(said(&compilation), Vec::<String>::new());
+    assert_eq!(reported(&compilation), Vec::<String>::new());
     let device = device(&compilation);
     let machine = &device.machines[0];
-    let text = |own: &Option<Box<lexibus_codegen::ir::Documentation>>| own.as_ref().map(|own| own.text.clone());
+    let text = |item: &Option<Box<lexibus_codegen::ir::Documentation>>| item.as_ref().map(|entry| entry.text.clone());
     assert_eq!(text(&machine.documentation).as_deref(), Some("How it moves"));
     assert_eq!(text(&machine.states[0].documentation).as_deref(), Some("Nothing moves"));
-    let transitions: Vec<_> = machine.transitions.iter().map(|own| (own.number, own.from.as_deref())).collect();
+    let transitions: Vec<_> =
+        machine.transitions.iter().map(|transition| (transition.number, transition.from.as_deref())).collect();
     assert_eq!(transitions, [(None, Some("still")), (None, Some("moving"))]);
     assert_eq!(text(&machine.transitions[0].documentation).as_deref(), Some("At once"));
     assert_eq!(

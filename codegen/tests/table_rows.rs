@@ -1,4 +1,4 @@
-//! Rows of register tables: what differs between models, scales, conditions, addresses, and what of them is an error.
+//! Tests rows of register tables: differences between models, scales, conditions, addresses, and their errors.
 
 mod compile_support;
 mod form_support;
@@ -17,19 +17,19 @@ fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", text.into()), &Options::default())
 }
 
-/// The findings, each with its code and line.
-fn said(text: &str) -> Vec<String> {
+/// Returns the diagnostics with code and line.
+fn reported(text: &str) -> Vec<String> {
     let compilation = read(text);
     let list = compilation.diagnostics.list();
-    list.iter().map(|own| compilation.one_line(own).trim_start_matches("t.toml:").to_owned()).collect()
+    list.iter().map(|diagnostic| compilation.one_line(diagnostic).trim_start_matches("t.toml:").to_owned()).collect()
 }
 
-/// A table with these rows of registers.
+/// Returns a table with these register rows.
 fn rows(rows: &str) -> String {
     format!("{HEAD}[[chapters]]\ntitle = \"One\"\n[chapters.registers]\n{rows}\n")
 }
 
-/// A table with one row that says this besides.
+/// Returns a table with one row that also has these keys.
 fn a(more: &str) -> String {
     rows(&format!(
         "a = {{ reg = 1, type = \"u16\", access = \"rw\"{more} }}\nb = {{ reg = 2, type = \"i16\", access = \"ro\" }}"
@@ -40,24 +40,25 @@ fn item<'c>(compilation: &'c Compilation, name: &str) -> &'c Item {
     let items = compilation
         .catalog
         .iter()
-        .flat_map(|own| &own.devices)
+        .flat_map(|catalog| &catalog.devices)
         .flat_map(|device| &device.groups)
         .flat_map(|group| &group.items);
     items.into_iter().find(|item| item.name == name).unwrap_or_else(|| {
-        let lines: Vec<_> = compilation.diagnostics.list().iter().map(|own| compilation.one_line(own)).collect();
+        let lines: Vec<_> =
+            compilation.diagnostics.list().iter().map(|diagnostic| compilation.one_line(diagnostic)).collect();
         panic!("no `{name}`: {lines:#?}")
     })
 }
 
 fn rust(text: &str) -> String {
     let compilation = read(text);
-    compilation.rust(&RustOptions::default()).unwrap_or_else(|| panic!("{:#?}", said(text)))
+    compilation.rust(&RustOptions::default()).unwrap_or_else(|| panic!("{:#?}", reported(text)))
 }
 
-/// That a row is an error, in these words.
+/// Asserts that a row is an error with this message.
 #[track_caller]
 fn is_wrong(more: &str, words: &str) {
-    let found = said(&a(more));
+    let found = reported(&a(more));
     assert!(found.iter().any(|line| line.contains(words)), "{more}: {found:#?}");
 }
 
@@ -66,7 +67,7 @@ fn models_and_buses_differ() {
     let text = a(", default = 1, max = 10, variants = [{ models = [\"SM140\"], default = 2, max = 20 }, \
                   { buses = [\"modbus\"], scale = 0.1 }]");
     let compilation = read(&text);
-    assert_eq!(said(&text), [""; 0]);
+    assert_eq!(reported(&text), [""; 0]);
     let variants = &item(&compilation, "a").variants;
     assert_eq!(
         (variants.len(), &variants[0].default, variants[0].models[0].as_str()),
@@ -87,8 +88,8 @@ fn models_and_buses_differ() {
 fn scales() {
     let of = |scale: &str| {
         let text = a(&format!(", scale = {scale}"));
-        assert_eq!(said(&text), [""; 0], "{scale}");
-        item(&read(&text), "a").quantity.as_ref().and_then(|own| own.scale.clone())
+        assert_eq!(reported(&text), [""; 0], "{scale}");
+        item(&read(&text), "a").quantity.as_ref().and_then(|quantity| quantity.scale.clone())
     };
     assert_eq!(of("{ by = \"b\", factor = 0.01 }"), Some(Scale::ByItem { item: "b".into(), factor: 0.01 }));
     assert_eq!(of("{ times = \"b\" }"), Some(Scale::TimesItem { item: "b".into(), factor: 1.0 }));
@@ -125,7 +126,7 @@ fn scales() {
 #[test]
 fn a_scale_of_a_unit_is_found_at_its_place() {
     let text = a(", unit = \"speed\"") + "[units]\nspeed = { symbol = \"rpm\", scale = { by = \"nothing\" } }\n";
-    let found = said(&text);
+    let found = reported(&text);
     assert!(found.len() == 1 && found[0].starts_with("17:42: no item has the name"), "{found:?}");
 }
 
@@ -134,29 +135,29 @@ fn names_lead_somewhere() {
     let bits = |models: &str| {
         a(", bits = \"B\"") + &format!("[bits.B.at]\n0 = {{ name = \"on\", models = [\"{models}\"] }}\n")
     };
-    assert_eq!(said(&bits("SM1*")), [""; 0]);
-    assert!(said(&bits("SM9"))[0].contains("no model has the name `SM9`"));
+    assert_eq!(reported(&bits("SM1*")), [""; 0]);
+    assert!(reported(&bits("SM9"))[0].contains("no model has the name `SM9`"));
     let values = a(", enum = \"E\"") + "[enums.E.values]\n0 = { name = \"on\", models = [\"SM9\"] }\n";
-    assert!(said(&values)[0].contains("no model has the name `SM9`"));
+    assert!(reported(&values)[0].contains("no model has the name `SM9`"));
     let axes =
         a("") + "[axes]\ncount = 2\nmodels = [\"SM9\"]\nrules = [{ objects = \"0x6000..0x67FF\", index = 0x800 }]\n";
-    assert!(said(&axes)[0].contains("no model has the name `SM9`"));
+    assert!(reported(&axes)[0].contains("no model has the name `SM9`"));
     let window = |name: &str| {
         a("").replace(
             "[[chapters]]",
             &format!("[spaces.far]\nindirect = {{ write_address = \"a\", read = \"{name}\" }}\n[[chapters]]"),
         )
     };
-    assert_eq!(said(&window("b")), [""; 0]);
-    assert!(said(&window("c"))[0].contains("no item has the name `c`"));
+    assert_eq!(reported(&window("b")), [""; 0]);
+    assert!(reported(&window("c"))[0].contains("no item has the name `c`"));
 }
 
 #[test]
 fn lists_and_ranges_of_values() {
     let compilation = read(&a(", allowed = [1, \"3..7\"], writable = [\"3..5\"], when = { b = [\"1..3\", 9] }"));
-    let own = item(&compilation, "a");
-    assert_eq!(own.limits.allowed[1], (Value::Int(3), Value::Int(7)));
-    let behaviour = own.behaviour.as_ref().expect("a behaviour");
+    let actual = item(&compilation, "a");
+    assert_eq!(actual.limits.allowed[1], (Value::Int(3), Value::Int(7)));
+    let behaviour = actual.behaviour.as_ref().expect("a behaviour");
     assert_eq!((behaviour.writable_values.len(), behaviour.write_when[0].values.len()), (3, 4));
     is_wrong(", allowed = [\"low\"]", "`low` is neither a value of UNSIGNED16 nor a range of them");
     is_wrong(", writable = [0.5]", "`0.5` is neither a value of UNSIGNED16");
@@ -174,36 +175,36 @@ fn words_that_are_no_command() {
 #[test]
 fn conditions_on_bits() {
     let text = a(", when = { b = { mask = 4, value = 0 } }");
-    assert_eq!(said(&text), [""; 0]);
+    assert_eq!(reported(&text), [""; 0]);
     assert!(rust(&text).contains("Can be written only while [b](B) \\& 0x4 is 0."));
     is_wrong(", when = { b = { mask = 4, value = 1 } }", "never true");
     is_wrong(", when = { b = { mask = 4 } }", "never true");
     is_wrong(", when = { b = [1, { mask = 4 }] }", "one table with `mask` and `value`");
     let values = a(", enum = \"E\"")
         + "[enums.E.values]\n0 = { name = \"off\", buses = [\"canopen\"] }\n1 = { name = \"on\", when = { b = 3 } }\n";
-    assert_eq!(said(&values), [""; 0]);
+    assert_eq!(reported(&values), [""; 0]);
     let text = rust(&values);
     assert!(
         text.contains("Only on CANopen.") && text.contains("Valid only while [b](super::objects::B) is 3."),
         "{text}"
     );
     let never = values.replace("b = 3", "b = { mask = 4, value = 8 }");
-    assert!(said(&never)[0].contains("never true"));
+    assert!(reported(&never)[0].contains("never true"));
     let meanings = |other: &str| {
         a(", bits = \"B\"")
             + &format!(
                 "[bits.B.at]\n0 = [{{ name = \"x\", when = {{ b = {{ mask = 4, value = 4 }} }} }}, {{ name = \"y\", when = {{ b = {other} }} }}]\n"
             )
     };
-    assert_eq!(said(&meanings("{ mask = 6, value = 2 }")), [""; 0]);
-    assert!(said(&meanings("{ mask = 2, value = 2 }"))[0].contains("share bits"));
+    assert_eq!(reported(&meanings("{ mask = 6, value = 2 }")), [""; 0]);
+    assert!(reported(&meanings("{ mask = 2, value = 2 }"))[0].contains("share bits"));
     assert!(rust(&meanings("{ mask = 6, value = 2 }")).contains("while [b](super::objects::B) \\& 0x4 is 0x4"));
     let bits = a(", bits = \"B\"")
         + "[bits.B.at]\n0 = { name = \"kept\", reserved = 1 }\n1 = { name = \"x\", access = \"ro\", replaced_by = \"bit 2\" }\n";
-    assert_eq!(said(&bits), [""; 0]);
+    assert_eq!(reported(&bits), [""; 0]);
     let codes = a("") + "[codes.alarm.rows]\n1 = { name = \"hot\", models = [\"SM140\"], since = \"2.0\" }\n";
-    assert_eq!(said(&codes), [""; 0]);
-    assert!(said(&codes.replace("SM140\"], since", "SM9\"], since"))[0].contains("no model has the name `SM9`"));
+    assert_eq!(reported(&codes), [""; 0]);
+    assert!(reported(&codes.replace("SM140\"], since", "SM9\"], since"))[0].contains("no model has the name `SM9`"));
 }
 
 #[test]
@@ -213,10 +214,10 @@ fn objects_have_other_addresses_beside() {
         "0x3588 = { name = \"Velocity gain\", type = \"u32\", access = \"rw\", ascii = \"VL.KP\", param = 480, reg = \"10-11\", \
          order = \"low_first\", esc = 0x120 }",
     );
-    assert_eq!(said(&text), [""; 0]);
+    assert_eq!(reported(&text), [""; 0]);
     let bindings = item(&read(&text), "Velocity gain").bindings.clone();
     assert_eq!(bindings.len(), 5, "{bindings:?}");
-    assert!(matches!(&bindings[1], Binding::Register(own) if own.low_word_first && own.count == 2));
+    assert!(matches!(&bindings[1], Binding::Register(register) if register.low_word_first && register.count == 2));
     let rust = rust(&text);
     assert!(rust.contains("Name in the device's ASCII protocol: VL.KP."), "{rust}");
     for (row, words) in [
@@ -233,7 +234,7 @@ fn objects_have_other_addresses_beside() {
         ("0x2000 = { name = \"a {m}\", type = \"u8\", access = \"ro\" }", "the placeholder in the name"),
         ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", buses = [\"modbus\"] }", "on neither"),
     ] {
-        let found = said(&objects(row));
+        let found = reported(&objects(row));
         assert!(found.iter().any(|line| line.contains(words)), "{row}: {found:#?}");
     }
 }
@@ -245,22 +246,22 @@ fn several_of_the_same() {
                      \"sync{n}\" = { esc = 0x800, type = \"u64\", access = \"rw\", count = 3, stride = 16 }\n\
                      \"code{n+1}\" = { param = 7, type = \"u32\", access = \"ro\", count = 2 }",
     );
-    assert_eq!(said(&text), [""; 0]);
+    assert_eq!(reported(&text), [""; 0]);
     let compilation = read(&text);
     let is_at = |name: &str, wanted: u16| matches!(item(&compilation, name).bindings[0], Binding::EscMemory { address, .. } if address == wanted);
     assert!(is_at("fmmu2", 0x620) && is_at("sync1", 0x810));
     assert!(matches!(item(&compilation, "code2").bindings[0], Binding::Parameter { code: 8, .. }));
     let range = rows("\"w{n}\" = { reg = \"66-72\", type = \"u16\", access = \"ro\", count = 7 }");
-    assert_eq!(said(&range), [""; 0]);
-    let short = said(&range.replace("66-72", "66-70"));
+    assert_eq!(reported(&range), [""; 0]);
+    let short = reported(&range.replace("66-72", "66-70"));
     assert!(short.len() == 1 && short[0].contains("needs 1, or 7 for all items"), "{short:?}");
-    let found = |row: &str| said(&rows(row)).join("\n");
+    let found = |row: &str| reported(&rows(row)).join("\n");
     assert!(found("\"w{n}\" = { reg = 1, type = \"u16\", access = \"ro\" }").contains("needs a `count`"));
     assert!(found("\"w{m}\" = { reg = 1, type = \"u16\", access = \"ro\" }").contains("the placeholder in the name"));
     let bits = a(", bits = \"B\"") + "[bits.B.at]\n\"0..15\" = \"input {n+1}\"\n";
-    assert_eq!(said(&bits), [""; 0]);
+    assert_eq!(reported(&bits), [""; 0]);
     assert!(rust(&bits).contains("input_16"));
-    assert!(said(&bits.replace("0..15", "0"))[0].contains("the placeholder in the name"));
+    assert!(reported(&bits.replace("0..15", "0"))[0].contains("the placeholder in the name"));
 }
 
 #[test]
@@ -278,17 +279,17 @@ fn keys_where_they_say_nothing() {
         (", buses = [\"serial\"]", "no address on serial: the space `register` has no rule for these buses"),
     ] {
         let text = a(more).replace("\"u16\", access = \"rw\", part", "\"bool\", access = \"rw\", part");
-        let found = said(&text);
+        let found = reported(&text);
         assert!(found.iter().any(|line| line.contains(words)), "{more}: {found:#?}");
     }
     let by_object = rows("a = { obj = 0x2000, part = 1, type = \"bool\", access = \"ro\" }");
-    assert!(said(&by_object).iter().any(|line| line.contains("`part` has no effect")));
+    assert!(reported(&by_object).iter().any(|line| line.contains("`part` has no effect")));
     let defaults = a("")
         .replace("[chapters.registers]", "defaults = { access = \"ro\", doc = \"x\", min = 1 }\n[chapters.registers]");
-    let found = said(&defaults);
+    let found = reported(&defaults);
     assert!(found.len() == 2 && found[0].contains("do not inherit `doc`") && found[1].contains("`min`"), "{found:?}");
     let top = a("") + "[defaults]\nwhen = { b = 1 }\n";
-    assert!(said(&top)[0].contains("do not inherit `when`"));
+    assert!(reported(&top)[0].contains("do not inherit `when`"));
 }
 
 #[test]
@@ -296,18 +297,18 @@ fn buses_and_tables_of_modbus() {
     let on = |buses: &str| a("").replace("[device]\n", &format!("[device]\nbuses = [{buses}]\n"));
     let row = on("\"modbus\"").replace("access = \"rw\"", "access = \"rw\", buses = [\"canopen\"]");
     assert!(
-        said(&row).iter().any(|line| line.contains("the device does not have the bus canopen")),
+        reported(&row).iter().any(|line| line.contains("the device does not have the bus canopen")),
         "{:?}",
-        said(&row)
+        reported(&row)
     );
     let serial = on("\"modbus\", \"serial\"").replace("reg = 1,", "param = 1, buses = [\"serial\"],");
-    assert_eq!(said(&serial), [""; 0]);
-    let own = item(&read(&serial), "a").availability.clone().expect("buses");
-    assert_eq!(own.buses.to_string(), "serial");
+    assert_eq!(reported(&serial), [""; 0]);
+    let buses = item(&read(&serial), "a").availability.clone().expect("buses");
+    assert_eq!(buses.buses.to_string(), "serial");
     let facts = a("")
         .replace("table = \"holding\"", "table = \"holding\", functions = [3, 6, 16], max_read = 125, max_write = 2")
         .replace("[device]\n", "[device]\nnode_ids = \"1..90\"\n");
-    assert_eq!(said(&facts), [""; 0]);
+    assert_eq!(reported(&facts), [""; 0]);
     let device = read(&facts).catalog.expect("a catalogue").devices.remove(0);
     assert_eq!(
         (device.node_ids, device.modbus[0].max_write, device.modbus[0].functions.len()),
@@ -325,15 +326,15 @@ fn buses_and_tables_of_modbus() {
     }
     let other =
         facts.replace("[[chapters]]", "[spaces.other]\nmodbus = { table = \"holding\", max_read = 9 }\n[[chapters]]");
-    assert!(said(&other)[0].contains("another space has other requests"));
-    assert!(said(&facts.replace("1..90", "0..300"))[0].contains("node IDs must be"));
-    let wide = said(&facts.replace("max_read = 125", "max_read = 126"));
+    assert!(reported(&other)[0].contains("another space has other requests"));
+    assert!(reported(&facts.replace("1..90", "0..300"))[0].contains("node IDs must be"));
+    let wide = reported(&facts.replace("max_read = 125", "max_read = 126"));
     assert!(wide.len() == 1 && wide[0].contains("reads at most 125 registers"), "{wide:?}");
-    assert!(said(&facts.replace("max_write = 2", "max_write = 0"))[0].contains("at least one register"));
+    assert!(reported(&facts.replace("max_write = 2", "max_write = 0"))[0].contains("at least one register"));
     assert!(rust(&facts.replace("max_write = 2", "split = true")).contains("max_write: 123,\n        split: true,"));
     let coils = rows("a = { reg = \"1-8\", type = \"u8\", access = \"rw\" }").replace("holding", "coil");
-    assert_eq!(said(&coils), [""; 0]);
-    let inputs = said(&a("").replace("holding", "input"));
+    assert_eq!(reported(&coils), [""; 0]);
+    let inputs = reported(&a("").replace("holding", "input"));
     assert!(inputs.len() == 1 && inputs[0].contains("Modbus inputs are read-only"), "{inputs:?}");
 }
 
@@ -344,30 +345,30 @@ fn one_address_of_two_models_and_one_name_in_two_chapters() {
             "a = {{ reg = 1, type = \"u16\", access = \"ro\"{one} }}\nb = {{ reg = 1, type = \"i16\", access = \"ro\"{other} }}"
         ))
     };
-    assert_eq!(said(&two(", models = [\"SM137\"]", ", models = [\"SM140\"]")), [""; 0]);
-    assert!(said(&two(", models = [\"SM137\"]", ", models = [\"SM1*\"]"))[0].contains("occurs twice"));
-    assert!(said(&two("", ""))[0].contains("occurs twice"));
+    assert_eq!(reported(&two(", models = [\"SM137\"]", ", models = [\"SM140\"]")), [""; 0]);
+    assert!(reported(&two(", models = [\"SM137\"]", ", models = [\"SM1*\"]"))[0].contains("occurs twice"));
+    assert!(reported(&two("", ""))[0].contains("occurs twice"));
     let chapter = |when: &str| {
         a("") + &format!("[[chapters]]\ntitle = \"Two\"\n[chapters.registers]\na = {{ reg = 8, type = \"u16\", access = \"ro\" }}\n\
                           c = {{ reg = 9, type = \"u16\", access = \"rw\", when = {{ {when} = 1 }} }}\n")
     };
-    assert_eq!(said(&chapter("\"Two/a\"")), [""; 0]);
+    assert_eq!(reported(&chapter("\"Two/a\"")), [""; 0]);
     assert!(rust(&chapter("\"Two/a\"")).contains("only while [Two/a](A_"));
-    let found = said(&chapter("a"));
+    let found = reported(&chapter("a"));
     assert!(found.len() == 1 && found[0].contains("several chapters have an item `a`"), "{found:?}");
-    assert!(said(&chapter("\"Three/a\""))[0].contains("no item has the name `Three/a`"));
+    assert!(reported(&chapter("\"Three/a\""))[0].contains("no item has the name `Three/a`"));
 }
 
 #[test]
 fn process_data_map_objects() {
     let text = a("") + "[[pdos]]\nindex = 0x1A00\ndirection = \"tx\"\nentries = [\"b\"]\n";
-    assert!(said(&text)[0].contains("`b` is not an object, and PDOs map objects only"));
+    assert!(reported(&text)[0].contains("`b` is not an object, and PDOs map objects only"));
 }
 
 #[test]
 fn findings_say_what_and_where() {
     let one = |text: &str, words: &str| {
-        let found = said(text);
+        let found = reported(text);
         assert!(found.len() == 1 && found[0].contains(words), "{words}: {found:#?}");
     };
     one(&rows("w = { reg = 1, type = \"u16\", access = \"ro\", count = 3 }"), "`w` is the name of 3 items");
@@ -384,16 +385,16 @@ fn findings_say_what_and_where() {
         "whole = { reg = \"1-2\", type = \"i32\", access = \"ro\", min = -5 }\n\
                      half = { reg = 3, type = \"u16\", access = \"ro\", same_as = \"whole\", min = 0, max = 9 }",
     );
-    assert_eq!(said(&half), [""; 0]);
+    assert_eq!(reported(&half), [""; 0]);
     one(&half.replace("half = { reg = 3, type = \"u16\"", "half = { reg = 3, type = \"u64\""), "the same value as");
     let mapped = a("")
         .replace("[device]\n", "[device]\nbuses = [\"ethercat\", \"modbus\"]\n")
         .replace("reg = 2,", "reg = 2, obj = 0x2002,")
         + "[[pdos]]\nindex = 0x1A00\ndirection = \"tx\"\nentries = [\"b\"]\n";
-    assert_eq!(said(&mapped), [""; 0]);
+    assert_eq!(reported(&mapped), [""; 0]);
 }
 
-/// A table with every key of rows that has a say in generated code.
+/// A table with every key of rows that affects generated code.
 const EVERYTHING: &str = r#"lexibus = 1
 [device]
 name = "Pump"
@@ -448,7 +449,7 @@ title = "Objects"
 
 #[test]
 fn all_of_it_compiles() {
-    assert_eq!(said(EVERYTHING), [""; 0]);
+    assert_eq!(reported(EVERYTHING), [""; 0]);
     for accessors in [true, false] {
         let compilation = read(EVERYTHING);
         let text = compilation.rust(&RustOptions { accessors, ..RustOptions::default() }).expect("Rust");
@@ -473,7 +474,7 @@ fn what_is_read_along() {
          j = { reg = 10, type = \"u16\", access = \"ro\" }\n\
          k = { reg = \"100-299\", type = \"str(400)\", access = \"ro\" }",
     );
-    assert_eq!(said(&table), [""; 0]);
+    assert_eq!(reported(&table), [""; 0]);
     let text = rust(&table);
     assert!(text.contains("readable: &[rt::modbus::Span::new(1, 3), rt::modbus::Span::new(9, 10)],"), "{text}");
     let none = a("").replace("modbus = { table = \"holding\" }", "parameter = true");
@@ -489,7 +490,7 @@ fn registers_of_32_bits_have_an_address_each() {
          d = { reg = \"3-4\", type = \"u64\", access = \"ro\" }",
     )
     .replace("modbus = {", "bits = 32\nmodbus = { add = 0x8000,");
-    assert_eq!(said(&table), [""; 0]);
+    assert_eq!(reported(&table), [""; 0]);
     let text = rust(&table);
     for part in [
         "rt::Register::high_first(32769, 2).words_per_address(2)",
@@ -502,5 +503,9 @@ fn registers_of_32_bits_have_an_address_each() {
         assert!(text.contains(part), "{part}\n{text}");
     }
     let twice = table.replace("reg = \"3-4\"", "reg = \"2-3\"");
-    assert!(said(&twice)[0].contains("occurs twice") || said(&twice)[0].contains("takes"), "{:?}", said(&twice));
+    assert!(
+        reported(&twice)[0].contains("occurs twice") || reported(&twice)[0].contains("takes"),
+        "{:?}",
+        reported(&twice)
+    );
 }

@@ -1,5 +1,5 @@
-//! Register tables: spaces with several windows, values that fill their registers, what only some buses have, and numbers in
-//! several items.
+//! Tests register tables: spaces with several windows, values that fill their registers, rows for only some buses, and numbers
+//! in several items.
 
 mod form_support;
 
@@ -15,11 +15,12 @@ fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", format!("{HEAD}{text}").into_bytes()), &Options::default())
 }
 
-/// Codes and messages of the errors, and of the lints on windows.
-fn said(text: &str) -> Vec<String> {
+/// Returns codes and messages of the errors, and of the lints about windows.
+fn reported(text: &str) -> Vec<String> {
     let compilation = read(text);
-    let own = |code: &str| ["TAB004", "TAB005", "TAB006", "TAB007", "TAB048", "TAB049", "ESI042"].contains(&code);
-    let list = compilation.diagnostics.list().iter().filter(|found| own(found.code.id));
+    let is_checked =
+        |code: &str| ["TAB004", "TAB005", "TAB006", "TAB007", "TAB048", "TAB049", "ESI042"].contains(&code);
+    let list = compilation.diagnostics.list().iter().filter(|found| is_checked(found.code.id));
     list.map(|found| format!("{} {}", found.code.id, found.message)).collect()
 }
 
@@ -60,13 +61,13 @@ space = "register"
 #[test]
 fn a_row_has_all_windows_of_its_space() {
     let text = format!("{WINDOWS}level = {{ reg = 7, type = \"i8\", access = \"rw\" }}\n");
-    assert_eq!(said(&text), [""; 0]);
+    assert_eq!(reported(&text), [""; 0]);
     let compilation = read(&text);
     let windows: Vec<_> = item(&compilation, "level")
         .bindings
         .iter()
         .filter_map(|binding| match binding {
-            Binding::Indirect(own) => Some((own.read.is_some(), own.write.is_some(), own.number)),
+            Binding::Indirect(window) => Some((window.read.is_some(), window.write.is_some(), window.number)),
             _ => None,
         })
         .collect();
@@ -88,7 +89,7 @@ fn short_values_fill_their_registers() {
     }
     let plain = rust(&format!("{WINDOWS}{rows}").replace("extend = true\n", ""));
     assert!(plain.contains("rt::Register::holding(32775).words_per_address(2)") && !plain.contains("sign_extended"));
-    let found = said("[spaces.far]\nextend = true\ncanopen = { index = 0x2000 }\n");
+    let found = reported("[spaces.far]\nextend = true\ncanopen = { index = 0x2000 }\n");
     assert_eq!(found, ["TAB004 `extend` applies to Modbus registers, which the space does not have"]);
 }
 
@@ -96,9 +97,9 @@ fn short_values_fill_their_registers() {
 fn another_name_shares_the_address() {
     let rows = "save = { reg = 1, type = \"u32\", access = \"wo\" }\nsave_low = { reg = 1, type = \"u16\", access = \"wo\"SAME }\n";
     let text = format!("{WINDOWS}{rows}");
-    assert_eq!(said(&text.replace("SAME", ", same_as = \"save\"")), [""; 0]);
-    assert!(said(&text.replace("SAME", ""))[0].starts_with("TAB007 holding register 32769 occurs twice"));
-    assert!(said(&text.replace("SAME", ", same_as = \"write value\""))[0].starts_with("TAB007"));
+    assert_eq!(reported(&text.replace("SAME", ", same_as = \"save\"")), [""; 0]);
+    assert!(reported(&text.replace("SAME", ""))[0].starts_with("TAB007 holding register 32769 occurs twice"));
+    assert!(reported(&text.replace("SAME", ", same_as = \"write value\""))[0].starts_with("TAB007"));
 }
 
 const PDOS: &str = r#"[[chapters]]
@@ -120,27 +121,27 @@ entries = ["lamp", "pad/8"]
 
 #[test]
 fn pdos_of_one_bus_beside_those_of_another() {
-    assert_eq!(said(PDOS), [""; 0]);
+    assert_eq!(reported(PDOS), [""; 0]);
     let compilation = read(PDOS);
     let pdos = &compilation.catalog.as_ref().expect("a catalogue").devices[0].process_data.pdos;
-    let own: Vec<_> = pdos.iter().map(|pdo| (pdo.buses, pdo.entries.len())).collect();
-    assert_eq!(own, [(Some(ObjectBuses::COE), 2), (Some(ObjectBuses::CANOPEN), 0)]);
+    let entries: Vec<_> = pdos.iter().map(|pdo| (pdo.buses, pdo.entries.len())).collect();
+    assert_eq!(entries, [(Some(ObjectBuses::COE), 2), (Some(ObjectBuses::CANOPEN), 0)]);
     let text = rust(PDOS);
     assert!(text.contains("pub struct Lamp {") && text.contains("pub enum RxPdo1 {}"), "{text}");
     let both = PDOS.replace("buses = [\"ethercat\"]\n", "");
-    assert!(said(&both)[0].starts_with("ESI042"));
+    assert!(reported(&both)[0].starts_with("ESI042"));
     let neither = PDOS.replace("buses = [\"ethercat\"]\nentries", "buses = [\"modbus\"]\nentries");
-    assert_eq!(said(&neither)[0], "TAB004 PDOs exist on CANopen and EtherCAT only, and this one is on neither");
+    assert_eq!(reported(&neither)[0], "TAB004 PDOs exist on CANopen and EtherCAT only, and this one is on neither");
 }
 
 #[test]
 fn codes_of_one_bus() {
     let text =
         "[codes.alarms]\ndoc = \"What is wrong\"\nbuses = [\"ethercat\"]\n[codes.alarms.rows]\n7 = \"motor blocked\"\n";
-    assert_eq!(said(text), [""; 0]);
+    assert_eq!(reported(text), [""; 0]);
     let code = rust(&format!("{WINDOWS}a = {{ reg = 1, type = \"u32\", access = \"ro\" }}\n{text}"));
     assert!(code.contains("/// What is wrong.\n    ///\n    /// On ethercat."), "{code}");
-    assert!(said(&text.replace("ethercat", "ethercatt"))[0].starts_with("TAB004"));
+    assert!(reported(&text.replace("ethercat", "ethercatt"))[0].starts_with("TAB004"));
 }
 
 const COMPOSITE: &str = r#"high = { reg = 1, type = "u16", access = "rw" }
@@ -154,7 +155,7 @@ device = { parts = ["high", "low"], base = 16 }
 #[test]
 fn numbers_in_several_items() {
     let text = format!("{WINDOWS}{COMPOSITE}");
-    assert_eq!(said(&text), [""; 0]);
+    assert_eq!(reported(&text), [""; 0]);
     let code = rust(&text);
     for part in [
         "/// offset, split into [high](objects::HIGH), [low](objects::LOW) to the base 100. [sign](objects::SIGN) is 2 if the number is negative. Unit: pulse. From the marker.",
@@ -175,12 +176,12 @@ fn numbers_in_several_items() {
         ("sign = \"sign\", ", "", "TAB004 `negative` is a value of `sign`"),
         ("\"low\"], base = 100", "\"lower\"], base = 100", "TAB005"),
     ] {
-        let list = said(&text.replacen(old, new, 1));
-        assert!(list.first().is_some_and(|own| own.starts_with(found)), "{found}: {list:?}");
+        let list = reported(&text.replacen(old, new, 1));
+        assert!(list.first().is_some_and(|entry| entry.starts_with(found)), "{found}: {list:?}");
     }
 }
 
-/// Long names break their lines as `prettyplease` would.
+/// Long names are wrapped as by `prettyplease`.
 #[test]
 fn constants_keep_the_form_of_generated_code() {
     let long = "offset of the second axis from the marker of the first one";

@@ -1,5 +1,5 @@
-//! The table of the Vector Step, held against the text of its manual: every printed row is there, once, at its line,
-//! with the facts that its cells state. What a row deliberately reads otherwise has a doubt.
+//! Compares the table of the Vector Step with the text of its manual: every printed row is in the table once, cites its line,
+//! and has the facts of its cells. Deliberate differences have a doubt.
 
 #[path = "table_support/manual.rs"]
 mod manual_text;
@@ -32,13 +32,13 @@ fn registers(device: &Device) -> impl Iterator<Item = &Item> {
     chapters(device).flat_map(|group| &group.items)
 }
 
-/// The line of the row: the first of those that are cited.
+/// Returns the line of the row: the first cited one.
 fn line(item: &Item) -> Option<usize> {
     let cite = item.documentation.as_ref()?.cite.as_deref()?;
     cite.split([',', '-']).next()?.trim().parse().ok()
 }
 
-/// The number of the register, on Modbus or as the object that it is.
+/// Returns the register address, on Modbus or as part of the object.
 fn number(item: &Item) -> Option<u16> {
     item.bindings.iter().find_map(|binding| match binding {
         Binding::Register(register) => Some(register.address),
@@ -63,7 +63,7 @@ struct Printed<'m> {
     cells: Vec<&'m str>,
 }
 
-/// The rows of all register tables: a number, or a range of numbers, in front of a cell with an index or none.
+/// Returns the rows of all register tables: an address or a range before a cell with an index, if any.
 fn printed(manual: &[String]) -> Vec<Printed<'_>> {
     let mut rows = Vec::new();
     for (position, line) in manual.iter().enumerate() {
@@ -96,12 +96,12 @@ fn every_printed_row_is_there_at_its_line() {
     assert_eq!(registers(device).count(), 585, "10104-5 is printed twice");
     let mut wrong = Vec::new();
     for row in &printed {
-        // Printed a second time, with its description cut off.
+        // Printed a second time, with a truncated description.
         if row.line == 2981 {
             continue;
         }
         let Some(item) = by_line.get(&row.line) else {
-            wrong.push(format!("L{}: no row", row.line));
+            wrong.push(format!("line {}: no row", row.line));
             continue;
         };
         let letters = |text: &str| text.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();
@@ -110,7 +110,7 @@ fn every_printed_row_is_there_at_its_line() {
         let bits = base(device, item.ty).bits();
         let same_length = (bits == Some(32)) == is_double || row.first == 2011;
         if number(item) != Some(row.first) || !same_length || !same_name {
-            wrong.push(format!("L{}: {} at {:?}, {bits:?} bits", row.line, item.name, number(item)));
+            wrong.push(format!("line {}: {} at {:?}, {bits:?} bits", row.line, item.name, number(item)));
         }
     }
     assert_eq!(wrong, Vec::<String>::new());
@@ -127,7 +127,7 @@ fn types_access_mapping_and_saving_are_the_printed_ones() {
         let Some(item) = by_number.get(&row.first) else { continue };
         let all = row.cells[3..].join(" ").to_uppercase();
         let words = row.cells.last().unwrap_or(&"").to_uppercase().replace(['-', '_'], " ");
-        let says = |word: &str| words.split_whitespace().any(|own| own == word);
+        let says = |word: &str| words.split_whitespace().any(|entry| entry == word);
         let ty = [("SIGNED16", 16), ("SIGNED32", 32), ("UNSIGNED16", 16), ("UNSIGNED32", 32)];
         let printed_bits = ty.iter().find(|(name, _)| all.contains(name)).map(|&(_, bits)| bits);
         let own_bits = base(device, item.ty).bits();
@@ -144,13 +144,13 @@ fn types_access_mapping_and_saving_are_the_printed_ones() {
         facts.push(("type", printed_bits.is_none() || own_bits == printed_bits || row.first == 2011));
         let missing: Vec<_> = facts.into_iter().filter(|(_, holds)| !holds).map(|(fact, _)| fact).collect();
         if !missing.is_empty() && item.doubts.is_empty() {
-            wrong.push(format!("L{} {}: {missing:?}", row.line, item.name));
+            wrong.push(format!("line {} {}: {missing:?}", row.line, item.name));
         }
     }
     assert_eq!(wrong, Vec::<String>::new());
 }
 
-/// The rows of each chapter, as section 3.2 of the analysis counts them.
+/// Compares the number of rows of each chapter with section 3.2 of the analysis.
 const CHAPTERS: [usize; 36] = [
     7, 3, 3, 19, 9, 14, 3, 2, 4, 2, 45, 45, 25, 4, 16, 26, 1, 29, 5, 11, 90, 8, 9, 17, 69, 4, 5, 26, 4, 8, 15, 16, 2,
     10, 9, 20,
@@ -163,16 +163,16 @@ fn chapters_and_objects_are_complete() {
     let counts: Vec<usize> = chapters(device).map(|group| group.items.len()).filter(|&count| count > 0).collect();
     assert_eq!(counts, CHAPTERS);
     let objects = |first: u16, last: u16| {
-        let own = move |group: &&Group| group.index().is_some_and(|index| (first..=last).contains(&index));
-        let groups: Vec<&Group> = device.groups.iter().filter(own).collect();
+        let in_range = move |group: &&Group| group.index().is_some_and(|index| (first..=last).contains(&index));
+        let groups: Vec<&Group> = device.groups.iter().filter(in_range).collect();
         (groups.len(), groups.iter().map(|group| group.items.len()).sum::<usize>())
     };
     assert_eq!(objects(0x1000, 0x1FFF), (33, 135), "DS-301");
-    // 55 that are described, and the five sub-indices 0 that the boxes leave out.
+    // 55 described objects, and the five sub-indices 0 that the boxes leave out.
     assert_eq!(objects(0x6000, 0x67FF), (44, 60), "DSP-402");
     assert_eq!(objects(0x23E8, 0x23E8), (1, 7), "user variables");
     let saved = registers(device).filter_map(|item| item.behaviour.as_ref());
-    assert_eq!(saved.filter(|own| matches!(own.storage, Storage::OnCommand(_) | Storage::Immediate)).count(), 319);
+    assert_eq!(saved.filter(|entry| matches!(entry.storage, Storage::OnCommand(_) | Storage::Immediate)).count(), 319);
     let codes: BTreeMap<&str, usize> =
         device.code_tables.iter().map(|table| (table.name.as_str(), table.rows.len())).collect();
     assert_eq!(codes["emergency"], 19);

@@ -1,4 +1,5 @@
-//! XDD and XDC files: the same device as an EDS gives the same IR, real files are read whole, and nothing panics.
+//! Tests XDD and XDC files: they give the same IR as an EDS of the same device, real files are read completely, and nothing
+//! panics.
 
 mod corpus_support;
 
@@ -18,7 +19,7 @@ fn read(text: &str) -> (Option<Device>, Diagnostics) {
     (device, diagnostics)
 }
 
-/// The one device of a catalogue.
+/// Returns the only device of a catalog.
 fn only(catalog: Option<Catalog>) -> Option<Device> {
     let mut devices = catalog?.devices;
     assert_eq!(devices.len(), 1);
@@ -29,14 +30,14 @@ fn codes(diagnostics: &Diagnostics) -> Vec<&'static str> {
     diagnostics.list().iter().map(|diagnostic| diagnostic.code.id).collect()
 }
 
-/// The device of a text that has nothing to complain about.
+/// Returns the device of a text that must have no diagnostics.
 fn clean(text: &str) -> Device {
     let (device, diagnostics) = read(text);
     assert!(diagnostics.list().is_empty(), "{:#?}", diagnostics.list());
     device.expect("a device")
 }
 
-/// A file with one device profile and one communication profile.
+/// Returns a file with one device profile and one communication profile.
 fn container(device: &str, network: &str) -> String {
     format!(
         r#"<?xml version="1.0" encoding="utf-8"?>
@@ -447,7 +448,7 @@ const XDD_1_1: &str = r#"<?xml version="1.0" encoding="utf-8"?>
 </ISO15745ProfileContainer>
 "#;
 
-/// Clears what two files of the same device can't have in common: places, extensions, the notation of dates.
+/// Removes facts that differ between files of the same device: positions, extensions, the notation of dates.
 fn comparable(device: &Device) -> serde_json::Value {
     fn clear(value: &mut serde_json::Value) {
         match value {
@@ -464,7 +465,7 @@ fn comparable(device: &Device) -> serde_json::Value {
     let mut value = serde_json::to_value(device).unwrap();
     clear(&mut value);
     let header = value["header"].as_object_mut().unwrap();
-    // The version of CiA 306 is none of CiA 311.
+    // The version of CiA 306 does not apply to CiA 311.
     for key in
         ["file_name", "format_version", "creation_date", "creation_time", "modification_date", "modification_time"]
     {
@@ -660,9 +661,15 @@ fn the_network_profile() {
     let channel = &canopen.dynamic_channels[0];
     assert_eq!((channel.data_type, channel.range.as_str(), channel.offset), (5, "0xA080-0xA0BF", 16));
     assert_eq!((channel.direction.as_str(), channel.max_number), ("readOnly", Some(64)));
-    let own = device.commissioning.as_deref().unwrap();
-    assert_eq!((own.node_id, own.bit_rate, own.net_number), (Some(5), Some(500), Some(2)));
-    assert_eq!((own.node_name.as_str(), own.network_name.as_str(), own.manager), ("n", "net", false));
+    let commissioning = device.commissioning.as_deref().unwrap();
+    assert_eq!(
+        (commissioning.node_id, commissioning.bit_rate, commissioning.net_number),
+        (Some(5), Some(500), Some(2))
+    );
+    assert_eq!(
+        (commissioning.node_name.as_str(), commissioning.network_name.as_str(), commissioning.manager),
+        ("n", "net", false)
+    );
     for (key, value) in [("version/HW", "2"), ("conformanceClass", "B"), ("flyingMaster", "false")] {
         assert!(device.extensions.iter().any(|e| e.key == key && e.value == value), "{key}: {:#?}", device.extensions);
     }
@@ -692,7 +699,7 @@ fn broken_objects_are_repaired_and_reported() {
         "EDS025", "EDS033", "EDS034", "EDS035", "EDS036", "EDS046", "EDS067", "XDD004", "XDD004", "XDD006", "XDD006",
         "XDD006", "XDD006", "XDD007", "XDD007", "XDD008", "XDD008", "XDD008",
     ];
-    // The limit of an unknown type stays text without a report.
+    // A limit of an unknown type is kept as text, without a diagnostic.
     assert_eq!(found, expected, "{:#?}", diagnostics.list());
     assert_eq!(
         device.groups.iter().filter_map(|g| g.index()).collect::<Vec<_>>(),
@@ -767,7 +774,7 @@ fn what_cia_311_does_not_have_is_kept() {
     assert_eq!(extensions, [("tool", "x"), ("CANopenObject/note", "n")]);
 }
 
-/// The XDDs, XDCs and XPDs of the corpus.
+/// Returns the XDD, XDC and XPD files of the corpus.
 fn corpus_files() -> Vec<(String, Vec<u8>)> {
     let files = corpus_support::files().into_iter().flatten();
     files.filter(File::is_xml).map(|file| (file.name, file.bytes)).collect()
@@ -819,9 +826,9 @@ fn no_cut_and_no_damage_panics() {
         (device, diagnostics)
     };
     for (name, bytes) in files {
-        let own = name.starts_with("1.");
-        // A prefix is read in proportion to its length, so that long files are cut less often.
-        let step = if own { 97 } else { 997 * (1 + bytes.len() / 40_000) };
+        let is_small = name.starts_with("1.");
+        // Reading a prefix takes time in proportion to its length, so long files are cut less often.
+        let step = if is_small { 97 } else { 997 * (1 + bytes.len() / 40_000) };
         let end = bytes.iter().rposition(|byte| !byte.is_ascii_whitespace()).unwrap_or(0);
         for cut in (0..end).step_by(step) {
             let (device, diagnostics) = read(bytes[..cut].to_vec());
@@ -830,7 +837,7 @@ fn no_cut_and_no_damage_panics() {
             let fatal = errors.iter().filter(|&&code| code == "XML001" || code == "XDD002").count();
             assert_eq!(fatal, 1, "{name} cut at {cut}: {errors:?}");
         }
-        if !own {
+        if !is_small {
             continue;
         }
         for (round, at) in (0..bytes.len()).step_by(7).enumerate() {
@@ -841,7 +848,7 @@ fn no_cut_and_no_damage_panics() {
     }
 }
 
-/// One real device comes in both formats, written by the same tool.
+/// One real device is available in both formats, written by the same tool.
 #[test]
 fn a_real_device_gives_the_same_ir() {
     let Some(folder) = corpus_support::folder() else { return };
@@ -851,12 +858,12 @@ fn a_real_device_gives_the_same_ir() {
     let xdd = source("CANopenNode__CANopenNode__DS301_profile.xpd");
     let mut expected = only(eds::read(&eds, FileId(0), &[], &mut diagnostics)).unwrap();
     let mut actual = only(xdd::read(&xdd, FileId(0), &[], &mut diagnostics)).unwrap();
-    // The XPD also keeps the objects that are switched off.
+    // The XPD also keeps disabled objects.
     let enabled: Vec<_> = expected.groups.iter().map(|group| group.index()).collect();
     actual.groups.retain(|group| enabled.contains(&group.index()));
     assert_eq!((expected.groups.len(), actual.groups.len()), (enabled.len(), enabled.len()));
     for device in [&mut expected, &mut actual] {
-        // Only the XPD has descriptions; the EDS has a default for each entry of 0x1003, the XPD for none.
+        // Only the XPD has descriptions. The EDS has a default for each entry of 0x1003, the XPD has none.
         for group in &mut device.groups {
             group.documentation = None;
             for item in &mut group.items {

@@ -1,1 +1,1 @@
-//! Tests of the book as mdBook builds it, in `tests`.
+//! Tests of the book as built by mdBook, in `tests`.

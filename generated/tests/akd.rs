@@ -1,4 +1,4 @@
-//! The Kollmorgen AKD through its bindings: what its manual prints byte for byte, packed, written and read by generated code.
+//! Tests the bindings of the Kollmorgen AKD with the byte sequences of its manual, packed, written and read by generated code.
 
 #![cfg(feature = "akd")]
 
@@ -17,7 +17,7 @@ use lexibus_drives::akd::types::{
 };
 use lexibus_drives::akd::{codes, messages, objects, pdo, procedures, Akd, DEVICE, STARTUP};
 
-/// Objects that have any value; writes in their order.
+/// Objects with any value. Records the order of writes.
 #[derive(Default)]
 struct Slave {
     objects: HashMap<Object, Vec<u8>>,
@@ -41,7 +41,7 @@ impl Client for Slave {
     }
 }
 
-/// The start-up list of the example of free mapping (L924-946), with 0x1A00 where the manual assigns 0x1B01 (L942).
+/// The start-up list of the example (section 4.6.1), with 0x1A00 instead of 0x1B01, which the manual assigns.
 const LIST: [(u16, u8, &[u8]); 23] = [
     (0x1C12, 0, &[0x00]),
     (0x1C13, 0, &[0x00]),
@@ -82,12 +82,12 @@ fn the_start_up_list_is_a_procedure() {
     }
     let mut drive = Akd::new(slave);
     assert_eq!(drive.modes_of_operation().read(), Ok(ModesOfOperation::InterpolatedPosition));
-    // The sequence that selects the fixed mapping (L772-774).
+    // The sequence that selects a fixed mapping (section 4.5).
     let fixed: Vec<_> = procedures::ASSIGN_1701.iter().map(bytes).collect();
     assert_eq!(fixed, [(0x1C12, 0, &[0x00][..]), (0x1C12, 1, &[0x01, 0x17]), (0x1C12, 0, &[0x01])]);
 }
 
-/// The request of the mailbox that the manual prints (L1211-1226), which assigns 0x1704.
+/// The printed mailbox request that assigns 0x1704 (section 4.13.3).
 const REQUEST: [u8; 16] =
     [0x0A, 0x00, 0x00, 0x00, 0x00, 0x03, 0x00, 0x20, 0x2B, 0x12, 0x1C, 0x01, 0x04, 0x17, 0x00, 0x00];
 
@@ -98,12 +98,12 @@ fn the_request_of_the_mailbox_is_what_the_accessor_writes() {
     let (object, data) = drive.client().written.pop().expect("it was written");
     let (index, sub_index) = (object.index.to_le_bytes(), object.sub_index);
     assert_eq!([index[0], index[1], sub_index, data[0], data[1]], REQUEST[9..14]);
-    // The command says how many of the four bytes are written: 0x2F one, 0x2B two, 0x27 three, 0x23 four (L1157).
+    // The command states how many of the four bytes are written: 0x2F one, 0x2B two, 0x27 three, 0x23 four (section 4.13.1).
     assert_eq!((data.len(), REQUEST[8]), (2, 0x23 + (4 - 2) * 4));
     assert_eq!(REQUEST[14..], [0, 0]);
 }
 
-/// The reply (L1228-1245), with the length and the type that it has to have.
+/// The reply (section 4.13.3), with the correct length and type.
 const REPLY: [u8; 16] =
     [0x0A, 0x00, 0x00, 0x00, 0x00, 0x03, 0x00, 0x30, 0x60, 0x12, 0x1C, 0x01, 0x00, 0x00, 0x00, 0x00];
 
@@ -126,7 +126,7 @@ fn the_frames_of_the_mailbox() {
     assert_eq!(messages::Sdo::parse(&mut Reader::new(&REQUEST)), Some((0, request)));
     let reply = messages::SdoReply::read(&REQUEST, &mut Reader::new(&REPLY)).expect("the reply");
     assert_eq!((reply.r#type, reply.result, reply.data), (r#type, SdoResult::Written, 0));
-    // As printed it has a wrong length, and the type of a request.
+    // The printed reply has a wrong length, and the type of a request.
     for (byte, printed) in [(0, 0x0E), (7, 0x20)] {
         let mut wrong = REPLY;
         wrong[byte] = printed;
@@ -134,15 +134,15 @@ fn the_frames_of_the_mailbox() {
     }
 }
 
-mod own {
+mod mapped {
     use lexibus_drives::akd as drive;
 
     lexibus::pdo! {
-        /// What the example maps into 0x1600.
+        /// Objects that the example maps to 0x1600.
         pub struct Outputs: drive::pdo::RxPdo1600 { control_word, position_command_value: interpolation_data_record::position_command_value }
     }
     lexibus::pdo! {
-        /// What the example maps into 0x1A00.
+        /// Objects that the example maps to 0x1A00.
         pub struct Inputs: drive::pdo::TxPdo1A00 { status_word, internal_position_actual_value }
     }
 }
@@ -150,35 +150,37 @@ mod own {
 #[test]
 fn a_mapping_of_ones_own_gives_the_same_list() {
     let assignment =
-        Assignment::<8>::new(&DEVICE, &[own::Inputs::INDEX, own::Outputs::INDEX]).expect("they go together");
-    let assignment = assignment.with_mapping::<own::Inputs>().and_then(|own| own.with_mapping::<own::Outputs>());
+        Assignment::<8>::new(&DEVICE, &[mapped::Inputs::INDEX, mapped::Outputs::INDEX]).expect("they go together");
+    let assignment =
+        assignment.with_mapping::<mapped::Inputs>().and_then(|mapped| mapped.with_mapping::<mapped::Outputs>());
     let assignment = assignment.expect("both can be mapped");
     let writes: Vec<SdoWrite> = assignment.commands().collect();
     let writes: Vec<_> = writes.iter().map(bytes).collect();
-    // All of the list but what clears the PDOs that aren't used, and what a user added to it.
+    // The whole list except the steps that clear unused PDOs, and the step that a user added.
     let unused = [0x1A01, 0x1A02, 0x1A03, 0x1601, 0x1602, 0x1603, 0x6060, 0x60C2];
     let expected: Vec<_> = LIST.into_iter().filter(|(index, ..)| !unused.contains(index)).collect();
     assert_eq!(writes, expected);
-    let outputs = own::Outputs { control_word: ControlWord::from_raw(0x000F), position_command_value: -2 };
+    let outputs = mapped::Outputs { control_word: ControlWord::from_raw(0x000F), position_command_value: -2 };
     assert_eq!(outputs.pack(), [0x0F, 0x00, 0xFE, 0xFF, 0xFF, 0xFF]);
 }
 
 #[test]
 fn fixed_mappings_exclude_each_other() {
     let by_default = Assignment::<8>::by_default(&DEVICE).expect("they go together");
-    let assigned: Vec<u16> = by_default.pdos().map(|own| own.pdo.index).collect();
+    let assigned: Vec<u16> = by_default.pdos().map(|mapped| mapped.pdo.index).collect();
     assert_eq!(assigned, [0x1701, 0x1B01]);
-    assert_eq!((by_default.bytes(2), by_default.bytes(3)), (6, 6), "as the tool shows (L828-829)");
+    assert_eq!((by_default.bytes(2), by_default.bytes(3)), (6, 6), "as the tool shows (section 4.6)");
     let writes: Vec<_> = STARTUP.iter().map(bytes).collect();
     assert_eq!(writes.first(), Some(&(0x1C12, 0, &[0x00][..])));
     assert!(writes.contains(&(0x1C12, 1, &[0x01, 0x17])) && writes.contains(&(0x1C13, 1, &[0x01, 0x1B])));
-    assert_eq!(by_default.startup().filter(|own| own.transition == Transition::PS).count(), writes.len());
+    assert_eq!(by_default.startup().filter(|mapped| mapped.transition == Transition::PS).count(), writes.len());
     let error = Assignment::<8>::new(&DEVICE, &[0x1701, 0x1720]).expect_err("one fixed mapping only");
     assert_eq!(error, AssignmentError::Conflict(0x1701, 0x1720));
     let unknown = Assignment::<8>::new(&DEVICE, &[0x1704]).expect_err("the manual doesn't describe it");
     assert_eq!(unknown, AssignmentError::Unknown(0x1704));
-    let four = Assignment::<8>::new(&DEVICE, &[0x1600, 0x1601, 0x1602, 0x1603, 0x1A00]).expect("four at once (L808)");
-    assert!(four.with_mapping::<own::Outputs>().is_ok());
+    let four =
+        Assignment::<8>::new(&DEVICE, &[0x1600, 0x1601, 0x1602, 0x1603, 0x1A00]).expect("four at once (section 4.6)");
+    assert!(four.with_mapping::<mapped::Outputs>().is_ok());
 }
 
 #[test]
@@ -226,7 +228,7 @@ fn actual_values_are_unpacked() {
 
 #[test]
 fn latch_words() {
-    // L1075-1084: one bit each, and a number from bit 8 on.
+    // "Parola del controllo del blocco (2 byte)": one bit each, and a number from bit 8.
     let word = LatchControl::new();
     let bits = [
         word.with_enable_latch_1_rising(true),
@@ -242,7 +244,7 @@ fn latch_words() {
         LatchControlRead::Latch2Falling,
     ];
     assert_eq!(read.map(|read| word.with_read(read).raw()), [0x0100, 0x0200, 0x0300, 0x0400]);
-    // L1090-1103: the inputs are counted backwards.
+    // "Parola dello stato del blocco (2 byte)": the inputs are numbered in reverse.
     let status = |raw| LatchStatus::from_raw(raw);
     assert!(status(0x1000).digital_input_4() && status(0x2000).digital_input_3());
     assert!(status(0x4000).digital_input_2() && status(0x8000).digital_input_1());
@@ -260,7 +262,7 @@ fn latch_words() {
 #[test]
 fn cycle_times() {
     let mut drive = Akd::new(Slave::default());
-    // L1018-1024: 2 ms are 2 and -3, or 20 and -4.
+    // Section 4.9: 2 ms are 2 and -3, or 20 and -4.
     for (units, index) in [(2u8, -3i8), (20, -4)] {
         drive.interpolation_time_period().interpolation_time_units().write(units).expect("any value");
         drive.interpolation_time_period().interpolation_time_index().write(index).expect("any value");
@@ -270,22 +272,22 @@ fn cycle_times() {
     drive.interpolation_time_period().interpolation_time_units().write_scaled_by(0.002, (-3).into()).expect("2 ms");
     let written = drive.client().written.last().cloned();
     assert_eq!(written, Some((Object::new(0x60C2, 1), vec![0x02])));
-    // The shortest cycle, 0.25 ms (L1033-1035).
+    // The shortest cycle, 0.25 ms (section 4.10).
     drive
         .interpolation_time_period()
         .interpolation_time_units()
         .write_scaled_by(0.000_25, (-5).into())
         .expect("0.25 ms");
-    assert_eq!(drive.client().written.last().map(|own| own.1.as_slice()), Some(&[25][..]));
+    assert_eq!(drive.client().written.last().map(|mapped| mapped.1.as_slice()), Some(&[25][..]));
 }
 
 #[test]
 fn states_of_the_communication() {
-    // L609-616.
+    // Section 4.3.1.
     let control = AlControl::new().with_request(CommunicationState::Operational);
     assert_eq!((control.raw(), control.with_acknowledge(true).raw()), (0x0008, 0x0018));
     assert_eq!(AlControl::new().with_al_command(AlCommand::RequestPreOperational).raw(), 0x0002);
-    // L621-628: init, with the error bit.
+    // Section 4.3.2: init, with the error bit.
     let status = AlStatus::from_raw(0x0011);
     assert_eq!(
         (status.al_state(), status.error(), status.current()),
@@ -293,7 +295,7 @@ fn states_of_the_communication() {
     );
     assert_eq!(AlStatus::from_raw(0x0003).al_state(), Some(AlState::Bootstrap));
     assert_eq!(AlStatus::from_raw(0x0005).al_state(), None);
-    // L649-659: the way to operational is step by step, and bootstrap is left through init.
+    // "Singole transizioni di comunicazione": operational is reached step by step, and bootstrap is left through init.
     let next = |from: AlState| match from.toward(AlState::Operational) {
         Step::Command(command) => command,
         other => panic!("{other:?}"),
@@ -302,7 +304,7 @@ fn states_of_the_communication() {
     assert_eq!(next(AlState::PreOperational), AlCommand::RequestSafeOperational);
     assert_eq!(next(AlState::SafeOperational), AlCommand::RequestOperational);
     assert_eq!(next(AlState::Bootstrap), AlCommand::RequestInit);
-    // L637-639.
+    // Section 4.3.3.
     let known = [0x0000, 0x0011, 0x0017].map(AlStatusCode::from_raw);
     let named = [
         AlStatusCode::NoError,
@@ -315,7 +317,7 @@ fn states_of_the_communication() {
     assert_eq!(codes::Faults::from_raw(125), codes::Faults::SynchronisationLost);
 }
 
-/// The memory of the slave controller, of which a master reads and writes whole items, as the client of EtherCAT does.
+/// The memory of the slave controller. A master reads and writes whole items, as the EtherCAT client does.
 struct Memory(Vec<u8>);
 
 impl Client for Memory {
@@ -323,9 +325,9 @@ impl Client for Memory {
     type Error = LengthError;
 
     fn read(&mut self, memory: EscMemory, buffer: &mut [u8]) -> Result<usize, Error<LengthError>> {
-        let own = &self.0[usize::from(memory.address)..][..usize::from(memory.length)];
-        buffer.iter_mut().zip(own).for_each(|(to, from)| *to = *from);
-        Ok(own.len())
+        let mapped = &self.0[usize::from(memory.address)..][..usize::from(memory.length)];
+        buffer.iter_mut().zip(mapped).for_each(|(to, from)| *to = *from);
+        Ok(mapped.len())
     }
 
     fn write(&mut self, memory: EscMemory, data: &[u8]) -> Result<(), Error<LengthError>> {
@@ -338,7 +340,7 @@ impl Client for Memory {
     }
 }
 
-/// Where items are that a master only reads: their type is that of read-only ones.
+/// Items that a master only reads have a read-only type.
 fn read_only<V: Value>(item: Item<V, Ro, OnEsc>) -> (u16, u16) {
     (item.location().esc.address, item.location().esc.length)
 }
@@ -347,7 +349,7 @@ fn writable<V: Value>(item: Item<V, Rw, OnEsc>) -> (u16, u16) {
     (item.location().esc.address, item.location().esc.length)
 }
 
-/// L531-550, as the master has them.
+/// Section 4.1, with the access rights of the master.
 #[test]
 fn registers_of_the_slave_controller() {
     let read = [
@@ -384,12 +386,12 @@ fn registers_of_the_slave_controller() {
 #[test]
 fn the_memory_of_the_slave_controller_is_a_bus() {
     let mut drive = Akd::new(Memory(vec![0; 0x2000]));
-    // L607-616: both ways.
+    // Section 4.3.1, in both directions.
     let request = AlControl::new().with_al_command(AlCommand::RequestOperational).with_acknowledge(true);
     drive.al_control().write(request).expect("two bytes");
     assert_eq!(drive.client().0[0x0120..0x0122], [0x18, 0x00]);
     assert_eq!(drive.al_control().read(), Ok(request));
-    // L619-641: what the drive has there.
+    // Sections 4.3.2 and 4.3.3, as the drive writes them.
     drive.client().0[0x0130..0x0136].copy_from_slice(&[0x12, 0x00, 0, 0, 0x11, 0x00]);
     let status = drive.al_status().read().expect("two bytes");
     assert_eq!((status.al_state(), status.error()), (Some(AlState::PreOperational), true));
@@ -399,7 +401,7 @@ fn the_memory_of_the_slave_controller_is_a_bus() {
     assert!(enabled.eeprom_emulation() && enabled.sync_manager_2());
     drive.al_event_request().write(AlEventRequest::from_raw(0x0401)).expect("two bytes");
     assert_eq!(drive.client().0[0x0220..0x0222], [0x01, 0x04]);
-    // A sync manager, and the mailbox of L1211-1245.
+    // A sync manager, and the mailbox of section 4.13.3.
     let process_data = [0x00, 0x11, 0x06, 0x00, 0x24, 0x00, 0x01, 0x00];
     drive.sync_manager_2().write(&process_data).expect("eight bytes");
     assert_eq!(drive.client().0[0x0810..0x0818], process_data);
@@ -416,7 +418,7 @@ fn the_memory_of_the_slave_controller_is_a_bus() {
 
 #[test]
 fn events_of_the_slave_controller() {
-    // L567-578 and L585-596: bits of the second byte follow those of the first.
+    // Sections 4.2.1 and 4.2.2: bits of the second byte follow those of the first.
     let enable = InterruptEnable::new().with_eeprom_emulation(true).with_sync_manager_2(true);
     assert_eq!(enable.raw(), 0x0420);
     let request = AlEventRequest::from_raw(0x0801);
@@ -425,7 +427,7 @@ fn events_of_the_slave_controller() {
 
 #[test]
 fn states_and_commands_of_the_drive() {
-    // L743-750.
+    // "Stati della macchina di stato".
     let states = [
         (0x0000, DriveState::NotReadyToSwitchOn),
         (0x0040, DriveState::SwitchOnDisabled),
@@ -444,15 +446,15 @@ fn states_and_commands_of_the_drive() {
         StatusWord::from_raw(raw).drive_state().is_some()
     });
     assert_eq!(decoded.count(), 12, "of the 64 combinations of the six bits");
-    // L696-702.
+    // "Comandi nella parola di controllo".
     let word = |command| ControlWord::from_raw(0).with_drive_command(command).raw();
     assert_eq!((word(DriveCommand::Shutdown), word(DriveCommand::SwitchOn)), (0x06, 0x07));
     assert_eq!((word(DriveCommand::QuickStop), word(DriveCommand::DisableVoltage)), (0x02, 0x00));
     assert_eq!((word(DriveCommand::EnableOperation), word(DriveCommand::FaultReset)), (0x0F, 0x80));
     let halted = ControlWord::from_raw(0x0100).with_drive_command(DriveCommand::EnableOperation);
-    assert_eq!(halted.raw(), 0x010F, "a command leaves the other bits alone");
+    assert_eq!(halted.raw(), 0x010F, "a command does not change other bits");
     assert_eq!(DriveState::Fault.toward(DriveState::OperationEnabled), Step::Command(DriveCommand::FaultReset));
-    // L711-716: bits that mean something in one mode only.
+    // "Bit dipendenti dalla modalità nella parola di controllo": bits with a meaning in a single mode.
     let positioning = ControlWord::from_raw(0x000F).in_profile_position().with_new_set_point(true);
     assert_eq!(positioning.control_word().raw(), 0x001F);
     let modes = [1, 3, 4, 6, 7, 8].map(ModesOfOperation::from_raw);

@@ -1,5 +1,4 @@
-//! The Eco on EtherCAT through its bindings: what its manual says of slots, of the window of parameters, and of saving. Lines are
-//! the manual's.
+//! Tests the bindings of the Eco on EtherCAT: slots, the window of parameters, and saving, as its manual describes them.
 
 #![cfg(feature = "eco")]
 
@@ -15,7 +14,7 @@ use lexibus_drives::eco::{image, objects, pdo, procedures, Eco, DEVICE};
 
 type Answer<T> = Result<T, Error<Infallible>>;
 
-/// A drive that says what is done to it. Objects are 0 until they are written; those with an answer have it.
+/// A drive that records the writes. Objects are 0 until they are written, unless they have a prepared answer.
 #[derive(Default)]
 struct Slave {
     log: Vec<String>,
@@ -47,14 +46,14 @@ impl Client for Slave {
     }
 }
 
-/// L5711 to L5737: the address, 3 ms, the value; the value, the address, 3 ms.
+/// The window of parameters: write the address, wait 3 ms, read the value; or write the value and the address, and wait 3 ms.
 #[test]
 fn parameters_and_registers_by_their_window() -> Answer<()> {
     let mut slave = Slave::default();
     slave.answers.insert(Object::new(0x2005, 2), 80);
     assert_eq!(objects::D1.at(&mut slave).read()?, 80);
     objects::D2.at(&mut slave).write(40)?;
-    // R01 and R00, whose addresses are those of Modbus.
+    // R01 and R00, with their Modbus addresses.
     slave.answers.insert(Object::new(0x2005, 2), -127_i32 as u32);
     assert_eq!(objects::MODES_OF_OPERATION.at(&mut slave).read()?, Mode::AnalogueReference);
     objects::CONTROL_WORD.at(&mut slave).write(DriveCommand::from_raw(0x03))?;
@@ -76,14 +75,14 @@ fn parameters_and_registers_by_their_window() -> Answer<()> {
     Ok(())
 }
 
-/// L5755 to L5760: the axis off, then 0x11 to 0x2007. The rest is up to who reads the display.
+/// Saving: disable the axis, then write 0x11 to 0x2007. The user must check the display.
 #[test]
 fn saving_on_ethercat() -> Answer<()> {
     let mut drive = Eco::new(Slave::default());
     drive.controlword().write(Controlword::from_raw(0x0002))?;
     drive.save_parameters().write(0x11)?;
     assert_eq!(drive.client().log, ["write 0x6040:00 [02, 00]", "write 0x2007:00 [11]"]);
-    // The mode that saves by registers isn't one of 0x6060.
+    // The mode that saves registers is not a mode of 0x6060.
     drive.client().log.clear();
     assert_eq!(drive.modes_of_operation().write(Mode::SaveAndLoad), Err(Error::OutOfRange(OutOfRange)));
     assert!(drive.client().log.is_empty());
@@ -98,7 +97,7 @@ fn logged(procedure: &[SdoWrite]) -> Vec<String> {
     slave.log
 }
 
-/// L5598 to L5648: one PDO each way, and the mode. The procedure and the items write the same.
+/// The slots (section "PDO"): one PDO in each direction, and the mode. The procedure and the items write the same values.
 #[test]
 fn slots() -> Answer<()> {
     let slots: [(&[SdoWrite], u16, u16, Mode); 3] = [
@@ -127,12 +126,12 @@ fn slots() -> Answer<()> {
     Ok(())
 }
 
-/// What is in the PDOs of the slots (L5601 to L5640): two bytes of control or state, four of a position or a velocity.
+/// PDOs of the slots: two bytes of control or status, and four of a position or velocity.
 #[test]
 fn pdos_of_the_slots() {
     let entries = |index| {
-        let own = DEVICE.pdos.iter().find(|own| own.index == index).expect("a PDO of the drive");
-        (own.direction, own.mapping.iter().map(|entry| entry.word()).collect::<Vec<_>>())
+        let pdo = DEVICE.pdos.iter().find(|pdo| pdo.index == index).expect("a PDO of the drive");
+        (pdo.direction, pdo.mapping.iter().map(|entry| entry.word()).collect::<Vec<_>>())
     };
     for (index, direction, words) in [
         (0x1602, Direction::Output, [0x6040_0010, 0x607A_0020]),
@@ -148,13 +147,13 @@ fn pdos_of_the_slots() {
     assert_eq!(pdo::Velocity { controlword, target_velocity: -1000 }.pack(), [0x1F, 0, 0x18, 0xFC, 0xFF, 0xFF]);
     let back = pdo::ActualVelocity::unpack(&[0x37, 0x16, 0x18, 0xFC, 0xFF, 0xFF]).expect("six bytes");
     assert_eq!((back.statusword.raw(), back.velocity_actual_value), (0x1637, -1000));
-    // The default is the slot of the interpolator (L5581).
+    // The default is the interpolator slot.
     assert_eq!((image::Outputs::LEN, image::Inputs::LEN), (6, 6));
     let by_default = Assignment::<8>::by_default(&DEVICE).expect("they go together");
-    assert_eq!(by_default.pdos().map(|own| own.pdo.index).collect::<Vec<_>>(), [0x1600, 0x1A02]);
+    assert_eq!(by_default.pdos().map(|pdo| pdo.pdo.index).collect::<Vec<_>>(), [0x1600, 0x1A02]);
 }
 
-/// L5652 to L5660: the mode in PDOs of its own, beside those of a slot.
+/// The mode in separate PDOs, in addition to those of a slot.
 #[test]
 fn the_mode_in_a_pdo() {
     let all = [pdo::Position::INDEX, pdo::Mode::INDEX, pdo::ActualPosition::INDEX, pdo::ModeDisplay::INDEX];
@@ -168,7 +167,7 @@ fn the_mode_in_a_pdo() {
 
 #[test]
 fn any_pdos_of_a_mode_are_assigned() {
-    // The manual has a sync manager for two PDOs; the others go to that of their direction.
+    // The manual assigns sync managers to two PDOs. The others use the sync manager of their direction.
     let assigned: Result<Assignment, _> = Assignment::new(&DEVICE, &[0x1602, 0x1601, 0x1A02, 0x1A01]);
     assert!(assigned.is_ok(), "{assigned:?}");
     assert_eq!(DEVICE.pdos.len(), 8);

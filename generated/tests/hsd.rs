@@ -1,4 +1,4 @@
-//! The HSD motors through their bindings: parameters of both chapters, their units, bits and codes.
+//! Tests the bindings of the HSD motors: parameters of both chapters, their units, bits and codes.
 
 #![cfg(feature = "hsd")]
 
@@ -8,7 +8,7 @@ use lexibus::{Client, Error, Parameter, Serial};
 use lexibus_drives::hsd::types::{BitA, HomingType};
 use lexibus_drives::hsd::{codes, objects, HsdMotor, IDENTITY};
 
-/// A motor that keeps the bytes of its parameters.
+/// A motor that stores the bytes of its parameters.
 #[derive(Default)]
 struct Motor(HashMap<u32, Vec<u8>>);
 
@@ -39,7 +39,7 @@ fn parameters_are_in_their_units_and_ranges() {
     assert!(motor.pimax_pos().write(5001).is_err(), "at most 5000 rpm");
     motor.low_slim().write(-2_147_418_112).expect("the default");
     assert_eq!(motor.client().0[&0x011C].len(), 4);
-    // 5 A of 11.3137 A, to the nearest count.
+    // 5 A of 11.3137 A, rounded to the nearest raw value.
     assert_eq!(objects::KVELLIMAX.raw_by(5.0, 11.3137), Ok(14_482));
     assert_eq!((objects::KIQDPIMANT.name(), IDENTITY.vendor_name), ("KIQDPIMANT", "HSD S.p.A."));
 }

@@ -1,4 +1,4 @@
-//! The Vector Step through its bindings: one table, on CANopen, on EtherCAT and on Modbus; one axis, and three.
+//! Tests the bindings of the Vector Step: one table for CANopen, EtherCAT and Modbus, with one axis and with three.
 
 #![cfg(feature = "vector-step")]
 
@@ -12,7 +12,7 @@ use lexibus_drives::vector_step::types::{
 };
 use lexibus_drives::vector_step::{codes, objects, pdo, VectorStep, IDENTITY};
 
-/// Objects that have any value.
+/// Objects with any value.
 struct Objects<B>(HashMap<Object, Vec<u8>>, PhantomData<B>);
 
 impl<B> Objects<B> {
@@ -63,7 +63,7 @@ fn a_register_is_an_object_and_two_words() {
     canopen.rpostarg().write(-100_000).unwrap();
     ethercat.rpostarg().write(-100_000).unwrap();
     modbus.rpostarg().write(-100_000).unwrap();
-    // Register 8 is object 0x2008:01 (L2131), and its lower word comes first.
+    // Register 8 is object 0x2008:01, and its lower word comes first.
     assert_eq!(canopen.client().0[&Object::new(0x2008, 1)], (-100_000_i32).to_le_bytes());
     assert_eq!(ethercat.client().0[&Object::new(0x2008, 1)], (-100_000_i32).to_le_bytes());
     assert_eq!(modbus.client().0[8..10], [0x7960, 0xFFFE]);
@@ -90,7 +90,7 @@ fn profile_objects_have_units_bits_and_states() {
 
 #[test]
 fn one_step_at_a_time_to_operation() {
-    // The drive answers each command as its state machine has it (L2088-2105).
+    // The drive answers each command according to its state machine.
     let mut state = State::Fault;
     let mut commands = Vec::new();
     loop {
@@ -123,12 +123,13 @@ fn each_of_three_axes_has_its_objects() {
         drive.axis(axis).rpostarg().write(i32::from(axis)).unwrap();
     }
     let objects = &drive.client().0;
-    // 607A, 687A, 707A (L422-445); the sub-index is the axis (L455-483).
+    // 607A, 687A and 707A ("INDIRIZZAMENTO REGISTRI STANDARD DSP-402"). The sub-index is the axis ("INDIRIZZAMENTO REGISTRI
+    // PROPRIETARI AEC").
     let positions = [0x607A, 0x687A, 0x707A].map(|index| objects[&Object::new(index, 0)].clone());
-    assert_eq!(positions, [100, 200, 300].map(|own: i32| own.to_le_bytes().to_vec()));
+    assert_eq!(positions, [100, 200, 300].map(|position: i32| position.to_le_bytes().to_vec()));
     let targets = [1, 2, 3].map(|axis| objects[&Object::new(0x2008, axis)][0]);
     assert_eq!(targets, [1, 2, 3]);
-    // The EEPROM is the drive's.
+    // The EEPROM belongs to the drive.
     drive.axis(3).rloadsav().write(EepromCommand::from_raw(129)).unwrap();
     assert!(drive.client().0.contains_key(&Object::new(0x20C2, 1)));
     let missing = drive.axis(4).target_position().write(0);

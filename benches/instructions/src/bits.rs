@@ -1,8 +1,8 @@
-//! Bits of a word, and values that have names.
+//! Bits of a word, and named values.
 
 use lexibus_drives::demo_drive::types::{Controlword, ModesOfOperation, Statusword};
 
-/// The bits of a control word.
+/// Bits of a control word.
 mod controlword {
     use super::*;
 
@@ -21,7 +21,7 @@ mod controlword {
         same (left, right) left == right);
 }
 
-/// The bits of a status word.
+/// Bits of a status word.
 mod statusword {
     use super::*;
 

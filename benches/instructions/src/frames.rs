@@ -1,10 +1,10 @@
-//! Structs to the bytes of a frame and back.
+//! Structs packed to the bytes of a frame and unpacked.
 
 use lexibus::LengthError;
 use lexibus_drives::{demo_drive as demo, vector_step};
 use lexibus_instructions::{axis, hand, station};
 
-/// Declares the pairs `pack` and `unpack` of structs that are both called so, a module each. `same` compares the structs.
+/// Declares the pairs `pack` and `unpack` of structs with the same name, one module each. `same` compares the structs.
 macro_rules! frames {
     ($($name:ident: $length:literal, $ours:ty, $hand:ty, same |$left:ident, $right:ident| $same:expr;)*) => {$(
         /// Packing and unpacking.

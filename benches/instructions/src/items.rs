@@ -1,4 +1,4 @@
-//! Values on their way to an object of the dictionary and back.
+//! Values that are written to objects of the dictionary, or read from them.
 
 use core::hint::black_box;
 
@@ -35,7 +35,7 @@ mod integer {
         same (left, right) left == right);
 }
 
-/// An integer of a width that Rust doesn't have.
+/// An integer width that Rust does not have.
 mod integer_24 {
     use super::*;
 
@@ -66,7 +66,7 @@ mod integer_24 {
         same (left, right) left == right);
 }
 
-/// A drive behind a bus: a call that isn't inlined, as that of a bus library.
+/// A drive on a bus. Its methods are not inlined, like those of a bus library.
 pub struct Wire {
     data: [u8; 8],
     object: Object,
@@ -102,10 +102,10 @@ impl Client for Wire {
     }
 }
 
-/// What a function is called with that writes: a drive, and a value.
+/// Arguments of a function that writes: a drive and a value.
 struct Writing<D>(D, i32);
 
-/// Objects of the dictionary, through a client.
+/// Access to objects of the dictionary through a client.
 mod objects {
     use super::*;
 
@@ -153,7 +153,7 @@ mod objects {
         same (left, right) left == right);
 }
 
-/// A number of which some are out of range.
+/// A number with invalid values.
 fn value(frame: &[u8]) -> i32 {
     i32::from_le_bytes(part(frame, 0)) >> 10
 }

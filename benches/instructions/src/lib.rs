@@ -1,8 +1,8 @@
-//! Packing, unpacking and accessing values: generated, and beside it as a person would write it.
+//! Packing, unpacking and accessing values: generated code, and equivalent code that is written by hand.
 //!
-//! The binary of this crate holds pairs of functions that do the same; `valgrind` counts their instructions, and the test
-//! `instructions` of `lexibus` compares the counts. The bench in `benches/packing` measures the same structs beside
-//! other libraries.
+//! The binary of this crate contains pairs of equivalent functions. `valgrind` counts their instructions, and the test
+//! `instructions` of `lexibus` compares the counts. The bench in `benches/packing` compares the same structs with other
+//! libraries.
 
 pub mod hand;
 

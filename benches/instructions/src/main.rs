@@ -1,4 +1,4 @@
-//! Calls all pairs of functions, for `valgrind` to count their instructions, and prints the pairs' names.
+//! Calls all pairs of functions under `valgrind`, which counts their instructions, and prints the names of the pairs.
 
 #[macro_use]
 mod twins;
@@ -10,10 +10,10 @@ mod views;
 
 use twins::Frame;
 
-/// How often each function is called, each time with other bytes.
+/// Number of calls of each function, each with different bytes.
 const CALLS: u64 = 100;
 
-/// Bytes that look random and are the same in each run.
+/// Returns pseudo-random bytes that are the same in each run.
 fn noise(seed: u64) -> Frame {
     let mut state = seed.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     core::array::from_fn(|_| {
@@ -39,7 +39,7 @@ fn main() {
 mod tests {
     use super::*;
 
-    /// Each call panics where the two versions differ.
+    /// Each call panics if the results of both functions differ.
     #[test]
     fn generated_code_does_what_a_person_would_write() {
         all().for_each(|twins| (0..CALLS).for_each(|seed| (twins.call)(&noise(seed))));

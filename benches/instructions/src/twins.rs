@@ -1,19 +1,19 @@
-//! How pairs of functions are declared and called.
+//! Declares and calls pairs of equivalent functions.
 
-/// What the functions read: bytes that look random.
+/// Input of the functions: pseudo-random bytes.
 pub type Frame = [u8; 32];
 
 /// A pair of functions.
 pub struct Twins {
-    /// What is packed, unpacked or accessed.
+    /// Value that is packed, unpacked or accessed.
     pub case: &'static str,
-    /// What is done with it.
+    /// Operation.
     pub action: &'static str,
-    /// Calls both functions with what a frame holds, and panics where they don't do the same.
+    /// Calls both functions with the contents of a frame, and panics if the results differ.
     pub call: fn(&Frame),
 }
 
-/// A number for a name: FNV-1a.
+/// Returns a number for a name (FNV-1a).
 pub const fn number(name: &str) -> u32 {
     let (bytes, mut at, mut hash) = (name.as_bytes(), 0, 0x811C_9DC5_u32);
     while at < bytes.len() {
@@ -23,18 +23,18 @@ pub const fn number(name: &str) -> u32 {
     hash
 }
 
-/// Declares a module with the functions `ours` and `hand`, which do the same with an argument that is made of a
-/// [`Frame`], and `call`, which calls both and compares what they return.
+/// Declares a module with the equivalent functions `ours` and `hand`, whose argument is made from a [`Frame`]. `call` calls
+/// both and compares the results.
 ///
-/// Neither is inlined, so that its instructions can be told from those of others, and each begins with a number of its
-/// own: LLVM merges functions that are alike, and would leave one of them nothing but a jump. Both are called
-/// through a pointer, so that neither is made for the arguments that it gets here. Both pay the same for it.
+/// The functions are not inlined, so that their instructions can be counted separately. Each begins with a unique number,
+/// because LLVM would merge equal functions. Both are called through a pointer, so that they are not specialized for these
+/// arguments. The overhead is the same for both.
 macro_rules! pair {
     ($name:ident, $frame:ident,
      ours ($ours:ident: $ours_in:ty = $ours_make:expr) -> $ours_out:ty $ours_body:block
      hand ($hand:ident: $hand_in:ty = $hand_make:expr) -> $hand_out:ty $hand_body:block
      same ($left:ident, $right:ident) $same:expr) => {
-        /// Both versions.
+        /// Both functions.
         pub mod $name {
             #[allow(unused_imports)]
             use super::*;
@@ -72,10 +72,10 @@ macro_rules! pair {
     };
 }
 
-/// All pairs of modules that hold some, in one list.
+/// Lists the pairs of several modules.
 macro_rules! list {
     ($($case:ident: $($action:ident),*;)*) => {
-        /// All pairs.
+        /// Returns all pairs.
         pub const ALL: &[$crate::twins::Twins] = &[$($(
             $crate::twins::Twins { case: stringify!($case), action: stringify!($action), call: $case::$action::call },
         )*)*];

@@ -1,4 +1,4 @@
-//! Single fields of a process image, read and written where they stand.
+//! Single fields of a process image, read and written in place.
 
 use lexibus::LengthError;
 use lexibus_instructions::hand::{self, frame_mut, part};
@@ -7,7 +7,7 @@ use lexibus_instructions::{axis, station};
 use axis::image;
 use station::submodules::standard_telegram_3 as telegram;
 
-/// A number that takes whole bytes.
+/// A byte-aligned number.
 mod whole_bytes {
     use super::*;
 
@@ -33,7 +33,7 @@ mod whole_bytes {
         same (left, right) left == right);
 }
 
-/// A number that lies across bytes, in the second PDO of an image.
+/// A number that is not byte-aligned, in the second PDO of an image.
 mod odd_bits {
     use super::*;
 

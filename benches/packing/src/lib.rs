@@ -1,8 +1,8 @@
-//! The same two frames in the words of other libraries. The second is beyond most of them: fields of `ethercrab-wire` that
-//! have more than a byte start with one, and a number of 24 bits at bit 5 that `deku` reads (with `bit_order = "lsb"`) isn't
-//! what it writes back.
+//! The same two frames in the notation of other libraries. Most of them do not support the second one: in `ethercrab-wire`,
+//! fields of more than a byte must be byte-aligned, and `deku` (with `bit_order = "lsb"`) does not write back a 24-bit number
+//! at bit 5 as it read it.
 
-/// A word and a number of 32 bits.
+/// A word and a 32-bit number.
 pub mod whole_bytes {
     use bilge::prelude::*;
     use deku::prelude::*;
@@ -40,7 +40,7 @@ pub mod whole_bytes {
     }
 
     impl Bilge {
-        /// Its constructor is private.
+        /// Creates the struct, whose constructor is private.
         #[inline]
         pub fn of(word: u16, long: u32) -> Self {
             Self::new(word, long)
@@ -48,7 +48,7 @@ pub mod whole_bytes {
     }
 }
 
-/// Single bits, three bits with names, and a signed number of 24 bits at bit 5.
+/// Single bits, three named bits, and a signed 24-bit number at bit 5.
 pub mod odd_bits {
     use bilge::prelude::*;
 
@@ -57,7 +57,7 @@ pub mod odd_bits {
     pub enum Mode {
         Off,
         Position,
-        /// The fallback of `bilge` excludes numbers of one's own.
+        /// The fallback of `bilge` does not allow user-defined numbers.
         Two,
         Velocity,
         Torque,
@@ -78,7 +78,7 @@ pub mod odd_bits {
     }
 
     impl Bilge {
-        /// Its constructor is private.
+        /// Creates the struct, whose constructor is private.
         #[inline]
         pub fn of(
             ready: bool,

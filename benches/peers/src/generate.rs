@@ -1,11 +1,11 @@
-//! A description of registers to formatted Rust, Lexibus beside other generators.
+//! Measures the generation of formatted Rust from registers, by Lexibus and other generators.
 
 use device_driver_core::{CodegenTarget, CompileOptions, GeneralOptions, MirOptions};
 use lexibus_codegen::backend::rust;
 use lexibus_codegen::RustOptions;
 use svd2rust::{Config, Target};
 
-use crate::input::{growing, Kind};
+use crate::input::{growing, InputFormat};
 use crate::measure::{in_turns, Contestant};
 use crate::read::check;
 use crate::registers::{registers, Registers};
@@ -13,12 +13,12 @@ use crate::report::{Line, Table};
 
 pub const REGISTERS: usize = 1_000;
 
-/// The tables of this stage.
+/// Returns the tables of this stage.
 pub fn compare() -> Vec<Table> {
     vec![generators(), alone()]
 }
 
-/// Bytes to text, for each generator.
+/// Measures bytes to text, for each generator.
 fn generators() -> Table {
     let input = registers(REGISTERS);
     let mut contestants = [
@@ -34,10 +34,10 @@ fn generators() -> Table {
     Table { title: format!("Generation: {REGISTERS} registers of 6 fields, bytes to Rust"), bytes: None, lines }
 }
 
-/// IR to text, of an EDS of 10,000 entries.
+/// Measures IR to text, for an EDS of 10,000 entries.
 fn alone() -> Table {
     // 111 times ten records of nine entries.
-    let bytes = growing(Kind::Eds, 111);
+    let bytes = growing(InputFormat::Eds, 111);
     let compilation = check("bench.eds".to_owned(), bytes);
     let catalog = compilation.catalog.as_ref().expect("a catalogue");
     let options = RustOptions::default();
@@ -58,7 +58,7 @@ pub fn svd2rust(input: &Registers) -> Result<String, String> {
     svd2rust::generate(&input.svd, &config).map(|made| made.lib_rs).map_err(|error| format!("{error:#}"))
 }
 
-/// Text as users of svd2rust see it, who run a formatter over it.
+/// Returns formatted text, as users of svd2rust see it.
 pub fn formatted(code: &str) -> Result<String, String> {
     syn::parse_file(code).map(|file| prettyplease::unparse(&file)).map_err(|error| error.to_string())
 }

@@ -1,4 +1,4 @@
-//! How time and memory grow with the input, from 1 to 1,000 times the size.
+//! Measures time and memory for inputs of 1 to 1,000 times the size.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -8,24 +8,24 @@ use lexibus_codegen::source::Source;
 use lexibus_codegen::RustOptions;
 use serde_json::{json, Value};
 
-use crate::input::{growing, growing_device, Kind};
+use crate::input::{growing, growing_device, InputFormat};
 use crate::memory;
 use crate::read::check;
 
 const SIZES: [usize; 4] = [1, 10, 100, 1_000];
 
-/// What grows: a name, what its file is called, and how it is made.
+/// Growing inputs: title, file name, and generator.
 type Way = (&'static str, &'static str, fn(usize) -> Vec<u8>);
 
 const WAYS: [Way; 5] = [
-    ("EDS, records", "bench.eds", |size| growing(Kind::Eds, size)),
-    ("ESI, devices", "bench.xml", |size| growing(Kind::Esi, size)),
+    ("EDS, records", "bench.eds", |size| growing(InputFormat::Eds, size)),
+    ("ESI, devices", "bench.xml", |size| growing(InputFormat::Esi, size)),
     ("ESI, objects of one device", "bench.xml", growing_device),
-    ("GSDML, modules and records", "bench.xml", |size| growing(Kind::Gsdml, size)),
-    ("table, registers", "bench.toml", |size| growing(Kind::Table, size)),
+    ("GSDML, modules and records", "bench.xml", |size| growing(InputFormat::Gsdml, size)),
+    ("table, registers", "bench.toml", |size| growing(InputFormat::Table, size)),
 ];
 
-/// Nanoseconds a byte of input, and bytes of memory a byte of input.
+/// Nanoseconds per byte of input, and bytes of memory per byte of input.
 struct Cost {
     bytes: usize,
     read: f64,
@@ -35,7 +35,7 @@ struct Cost {
     left: f64,
 }
 
-/// Prints a table for each way to grow, and gives the same as JSON.
+/// Prints a table for each growing input, and returns the results as JSON.
 pub fn report(print: bool) -> Vec<Value> {
     WAYS.iter().map(|way| one(way, print)).collect()
 }
@@ -45,10 +45,10 @@ fn one(&(title, name, make): &Way, print: bool) -> Value {
     let costs = costs(name, &inputs);
     if print {
         println!("\nGrowth: {title}\n");
-        println!("| size | MB | read, ns a byte | check | emit | most memory, times the input | what is left |");
+        println!("| size | MB | read, ns per byte | check | emit | peak memory, times the input | retained memory |");
         println!("|---|---|---|---|---|---|---|");
     }
-    // The smallest has what every file costs, however short.
+    // The smallest input shows the fixed cost of every file.
     let usual = &costs[1];
     let mut rows = Vec::new();
     for (size, cost) in SIZES.iter().zip(&costs) {
@@ -75,7 +75,7 @@ fn one(&(title, name, make): &Way, print: bool) -> Value {
     json!({ "title": title, "sizes": rows })
 }
 
-/// What isn't as it should be is bold.
+/// Prints unexpected values in bold.
 fn mark(bad: bool) -> &'static str {
     if bad {
         " **!**"
@@ -84,12 +84,12 @@ fn mark(bad: bool) -> &'static str {
     }
 }
 
-/// The costs of all sizes, which have turns.
+/// Measures all sizes in turns.
 fn costs(name: &str, inputs: &[Vec<u8>]) -> Vec<Cost> {
     let options = Options::default();
     let read = |bytes: Vec<u8>| compile::read(Source::new(name, bytes), &options);
     let whole = |bytes: Vec<u8>| check(name.to_owned(), bytes);
-    // The first run of the program reads the profiles, which later ones have.
+    // The first run reads the profiles, which later runs reuse.
     drop(whole(inputs[0].clone()));
     let mut best = vec![[Duration::MAX; 2]; inputs.len()];
     for _ in 0..ROUNDS {
@@ -104,7 +104,7 @@ fn costs(name: &str, inputs: &[Vec<u8>]) -> Vec<Cost> {
 
 const ROUNDS: usize = 4;
 
-/// Short inputs have as much time as long ones, within reason.
+/// Short inputs are measured for as long as long ones, within limits.
 fn repetitions(bytes: usize) -> usize {
     (2_000_000 / bytes).clamp(1, 50)
 }
@@ -131,7 +131,7 @@ fn time(bytes: &[u8], work: impl Fn(Vec<u8>) -> Compilation) -> Duration {
     elapsed
 }
 
-/// IR to Rust, where there is no error: the best of three.
+/// Measures IR to Rust if there are no errors, as the minimum of three runs.
 fn emit(compilation: &Compilation) -> Option<Duration> {
     let once = || {
         let start = Instant::now();

@@ -1,4 +1,4 @@
-//! What is read: made by the generators of the compiler's benches, or files of one's own.
+//! Inputs: created by the generators of the compiler's benches, or files of the user.
 
 use std::path::{Path, PathBuf};
 
@@ -16,41 +16,41 @@ mod gsdml;
 pub mod table;
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Kind {
+pub enum InputFormat {
     Eds,
     Esi,
     Gsdml,
     Table,
 }
 
-/// A description in memory, and in a file for those that read nothing else.
+/// A description in memory, and in a file for readers that need one.
 pub struct Input {
     pub title: String,
-    pub kind: Kind,
+    pub kind: InputFormat,
     pub bytes: Vec<u8>,
     pub path: PathBuf,
 }
 
 impl Input {
-    fn new(folder: &Path, title: &str, kind: Kind, bytes: Vec<u8>) -> Self {
+    fn new(folder: &Path, title: &str, kind: InputFormat, bytes: Vec<u8>) -> Self {
         let extension = match kind {
-            Kind::Eds => "eds",
-            Kind::Esi | Kind::Gsdml => "xml",
-            Kind::Table => "toml",
+            InputFormat::Eds => "eds",
+            InputFormat::Esi | InputFormat::Gsdml => "xml",
+            InputFormat::Table => "toml",
         };
         let path = folder.join(format!("{title}.{extension}"));
         std::fs::write(&path, &bytes).expect("a folder that can be written to");
         Input { title: title.to_owned(), kind, bytes, path }
     }
 
-    /// One of the user's files, if it is of a kind that is compared here.
+    /// Returns a file of the user, if its format is compared.
     pub fn of_file(path: &Path) -> Option<Self> {
         let bytes = std::fs::read(path).ok()?;
         let name = path.file_name()?.to_string_lossy().into_owned();
         let kind = match compile::check(Source::new(name.as_str(), bytes.clone()), &Options::default()).format? {
-            Format::Eds | Format::Dcf => Kind::Eds,
-            Format::Esi => Kind::Esi,
-            Format::Gsdml => Kind::Gsdml,
+            Format::Eds | Format::Dcf => InputFormat::Eds,
+            Format::Esi => InputFormat::Esi,
+            Format::Gsdml => InputFormat::Gsdml,
             _ => return None,
         };
         Some(Input { title: name, kind, bytes, path: path.to_owned() })
@@ -61,12 +61,15 @@ impl Input {
     }
 }
 
-/// Small, typical and huge ones: some 36, 1,000 and as many entries as 15 MB of EDS and 30 MB of ESI and GSDML have.
+/// Returns small, typical and very large inputs: about 36 and 1,000 entries, 15 MB of EDS, and 30 MB of ESI and GSDML.
 pub fn of_three_sizes(folder: &Path) -> Vec<Input> {
-    let eds = |title: &str, records| Input::new(folder, title, Kind::Eds, eds::eds(records).into_bytes());
-    let esi = |title: &str, devices, shape| Input::new(folder, title, Kind::Esi, esi::esi(devices, shape).into_bytes());
-    let gsdml =
-        |title: &str, submodules, records| Input::new(folder, title, Kind::Gsdml, gsdml::gsdml(submodules, records));
+    let eds = |title: &str, records| Input::new(folder, title, InputFormat::Eds, eds::eds(records).into_bytes());
+    let esi = |title: &str, devices, shape| {
+        Input::new(folder, title, InputFormat::Esi, esi::esi(devices, shape).into_bytes())
+    };
+    let gsdml = |title: &str, submodules, records| {
+        Input::new(folder, title, InputFormat::Gsdml, gsdml::gsdml(submodules, records))
+    };
     vec![
         eds("EDS, small, 36 entries", 4),
         eds("EDS, typical, 990 entries", 110),
@@ -80,17 +83,17 @@ pub fn of_three_sizes(folder: &Path) -> Vec<Input> {
     ]
 }
 
-/// The same description at 1, 10, 100 and 1,000 times the size, for each way in which one grows.
-pub fn growing(kind: Kind, size: usize) -> Vec<u8> {
+/// Returns a description of 1, 10, 100 and 1,000 times the size, for each way to grow.
+pub fn growing(kind: InputFormat, size: usize) -> Vec<u8> {
     match kind {
-        Kind::Eds => eds::growing(size),
-        Kind::Esi => esi::growing(size),
-        Kind::Gsdml => gsdml::growing(size),
-        Kind::Table => table::growing(size),
+        InputFormat::Eds => eds::growing(size),
+        InputFormat::Esi => esi::growing(size),
+        InputFormat::Gsdml => gsdml::growing(size),
+        InputFormat::Table => table::growing(size),
     }
 }
 
-/// An ESI of one device alone, whose dictionary grows.
+/// Returns an ESI of one device with a growing dictionary.
 pub fn growing_device(size: usize) -> Vec<u8> {
     esi::esi(1, esi::Shape { records: 8 * size, single: 8 * size }).into_bytes()
 }

@@ -1,22 +1,22 @@
-//! The least that reading an EDS takes: where each section, key and value stands, and nothing made of it.
+//! The minimum work of reading an EDS: the spans of sections, keys and values, without any conversion.
 
 use memchr::{memchr, memchr_iter};
 
-/// A piece of the text, without the blanks around it.
+/// A piece of the text without surrounding blanks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span {
     pub start: u32,
     pub end: u32,
 }
 
-/// A section, which has the entries from its first one to that of the next.
+/// A section. Its entries end at the first entry of the next section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Section {
     pub name: Span,
     pub first_entry: u32,
 }
 
-/// All spans of a file, in its order.
+/// Returns all spans of a file in order.
 #[derive(Default)]
 pub struct Spans {
     pub sections: Vec<Section>,
@@ -25,7 +25,7 @@ pub struct Spans {
 
 pub fn lex(text: &str) -> Spans {
     let bytes = text.as_bytes();
-    // About what a line and a section of real files have.
+    // Approximate size of a line and a section in real files.
     let mut spans =
         Spans { sections: Vec::with_capacity(bytes.len() / 160), entries: Vec::with_capacity(bytes.len() / 20) };
     let mut start = 0;

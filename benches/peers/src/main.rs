@@ -1,4 +1,4 @@
-//! Lexibus beside what one would take instead, in one run: `benches/README.md` says how and what came out.
+//! Compares Lexibus with alternatives in one run. `benches/README.md` describes the method and the results.
 
 mod compile;
 mod generate;
@@ -24,7 +24,7 @@ Without a stage, all of them. With files, these are read instead of the inputs t
 
 const STAGES: [&str; 4] = ["read", "generate", "compile", "growth"];
 
-/// The arguments of the command line.
+/// Arguments of the command line.
 #[derive(Default)]
 struct Arguments {
     stages: Vec<String>,
@@ -89,7 +89,7 @@ fn read(files: &[PathBuf], folder: &Path, tables: &mut Tables) {
     }
 }
 
-/// Prints tables as they come, or keeps them.
+/// Prints tables immediately, or collects them.
 struct Tables {
     json: bool,
     made: Vec<Value>,

@@ -1,15 +1,15 @@
-//! Times of several programs for the same work, in turns.
+//! Measures several programs with the same work in turns.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-/// One of those that are compared: how long so many repetitions take it.
+/// A candidate, which returns the time of a number of repetitions.
 pub struct Contestant<'a> {
     pub name: String,
     run: Box<dyn FnMut(u32) -> Result<Duration, String> + 'a>,
 }
 
-/// Times of a run: means of rounds.
+/// Times of a run, as means of rounds.
 #[derive(Clone, Debug)]
 pub struct Sample {
     pub least: Duration,
@@ -17,20 +17,20 @@ pub struct Sample {
     pub rounds: usize,
 }
 
-/// Rounds where there is time for them.
+/// Number of rounds if there is enough time.
 const ROUNDS: usize = 15;
 
-/// Rounds of what takes long.
+/// Minimum number of rounds.
 const FEWEST: usize = 3;
 
-/// What a contestant may take for one input altogether, if it has had its fewest rounds.
+/// Time limit of a candidate for one input, after the minimum number of rounds.
 const PATIENCE: Duration = Duration::from_secs(4);
 
-/// So long a round takes at least, as far as repetitions help.
+/// Minimum duration of a round, reached by repetition.
 const ROUND: Duration = Duration::from_millis(10);
 
 impl<'a> Contestant<'a> {
-    /// `run` gets fresh input from `input`; making that isn't counted, nor is dropping what `run` made.
+    /// Creates a candidate. `run` gets new input from `input`. Creating the input and dropping the result are not measured.
     pub fn new<I, T>(
         name: impl Into<String>,
         mut input: impl FnMut() -> I + 'a,
@@ -50,20 +50,20 @@ impl<'a> Contestant<'a> {
         Contestant { name: name.into(), run: Box::new(run) }
     }
 
-    /// One that takes its own time.
+    /// Creates a candidate that measures its own time.
     pub fn with_clock(name: impl Into<String>, run: impl FnMut(u32) -> Result<Duration, String> + 'a) -> Self {
         Contestant { name: name.into(), run: Box::new(run) }
     }
 }
 
-/// What one contestant did so far.
+/// Results of one candidate so far.
 struct Progress {
     repetitions: u32,
     times: Vec<Duration>,
     spent: Duration,
 }
 
-/// Lets them run in turns, so that all have the same luck with what else the machine does.
+/// Runs the candidates in turns, so that other load on the machine affects all of them.
 pub fn in_turns(contestants: &mut [Contestant<'_>]) -> Vec<Result<Sample, String>> {
     let mut progress: Vec<_> = contestants.iter_mut().map(first_run).collect();
     for round in 0..ROUNDS {
@@ -84,7 +84,8 @@ pub fn in_turns(contestants: &mut [Contestant<'_>]) -> Vec<Result<Sample, String
     progress.into_iter().map(|progress| progress.map(|progress| sample(progress.times))).collect()
 }
 
-/// A run that isn't counted tells how many a round needs. One before it does what is done once in a program, such as reading profiles.
+/// Returns the number of repetitions per round, from a run that is not counted. An earlier run does one-time work such as
+/// reading profiles.
 fn first_run(contestant: &mut Contestant<'_>) -> Result<Progress, String> {
     (contestant.run)(1)?;
     let time = (contestant.run)(1)?.max(Duration::from_nanos(100));

@@ -1,9 +1,9 @@
-//! How much memory something asks for at most: the sizes of its blocks, without what the allocator adds to them.
+//! Measures peak memory: the sizes of allocated blocks, without the overhead of the allocator.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicBool, AtomicIsize, Ordering::Relaxed};
 
-/// The system's allocator, which counts while it is asked to.
+/// The system's allocator with optional counting.
 pub struct Counting;
 
 #[global_allocator]
@@ -20,7 +20,7 @@ fn count(change: isize) {
     }
 }
 
-// SAFETY: every call is passed on as it is.
+// SAFETY: every call is forwarded unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count(layout.size() as isize);
@@ -43,7 +43,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// Bytes that `work` has asked for at most, and those that what it made still has.
+/// Returns the peak memory of `work`, and the memory that its result retains.
 pub fn peak<T>(work: impl FnOnce() -> T) -> (usize, usize) {
     NOW.store(0, Relaxed);
     MOST.store(0, Relaxed);
@@ -61,7 +61,7 @@ fn counts_the_most_and_what_is_left() {
         drop(vec![0_u8; 3_000_000]);
         vec![0_u8; 1_000_000]
     });
-    // Other tests of the program may run beside this one.
+    // Other tests of the program may run at the same time.
     assert!((3_000_000..3_100_000).contains(&most), "{most}");
     assert!((1_000_000..1_100_000).contains(&left), "{left}");
 }

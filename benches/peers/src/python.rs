@@ -1,4 +1,4 @@
-//! Peers in Python: one process that reads files on demand and takes its own time.
+//! Runs Python readers in one process, which reads files on demand and measures the time.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -12,12 +12,12 @@ pub struct Python {
 }
 
 impl Python {
-    /// `None` where `setup.sh` hasn't run.
+    /// Starts the process; `None` if `setup.sh` was not run.
     pub fn start() -> Option<Self> {
         let here = Path::new(env!("CARGO_MANIFEST_DIR"));
         let python = here.join("target/python/bin/python");
         if !python.exists() {
-            eprintln!("benches/peers/setup.sh hasn't run: nothing in Python is measured");
+            eprintln!("benches/peers/setup.sh was not run: Python is not measured");
             return None;
         }
         let mut command = Command::new(python);
@@ -28,7 +28,7 @@ impl Python {
         Some(Python { child, requests, replies })
     }
 
-    /// How long `reader`, a function of `read.py`, takes for so many readings of `path`.
+    /// Returns the time that `reader`, a function of `read.py`, takes to read `path` this number of times.
     pub fn time(&mut self, reader: &str, path: &Path, repetitions: u32) -> Result<Duration, String> {
         let broken = |error: std::io::Error| format!("Python is gone: {error}");
         writeln!(self.requests, "{reader}\t{repetitions}\t{}", path.display()).map_err(broken)?;
@@ -40,7 +40,7 @@ impl Python {
 
 impl Drop for Python {
     fn drop(&mut self) {
-        // It ends with its input, of which nothing is left to write; an error says that it has ended already.
+        // The process ends when its input is closed. An error means that it has already ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

@@ -1,4 +1,4 @@
-//! Bytes to what a reader makes of them, Lexibus beside the others.
+//! Measures reading a description, by Lexibus and other readers.
 
 use std::cell::RefCell;
 use std::hint::black_box;
@@ -9,35 +9,35 @@ use lexibus_codegen::source::Source;
 use quick_xml::events::Event;
 use quick_xml::Reader;
 
-use crate::input::{Input, Kind};
+use crate::input::{Input, InputFormat};
 use crate::lexer;
 use crate::measure::{in_turns, Contestant};
 use crate::python::Python;
 use crate::report::{Line, Table};
 
-/// One table: all that read `input`.
+/// Returns the table of all readers of `input`.
 pub fn compare(input: &Input, python: &RefCell<Option<Python>>) -> Table {
     let mut field = vec![(lexibus(input), None)];
     let bytes = &input.bytes;
     match input.kind {
-        Kind::Eds => {
+        InputFormat::Eds => {
             field.push((text("span lexer", bytes, |text| Ok(lexer::lex(text))), Some(0.3)));
             field.push((text("canopen-host 0.6", bytes, canopen_host), Some(3.0)));
             field.extend(in_python("Python canopen 2.4", "canopen", input, python, Some(60.0)));
         }
-        Kind::Esi => {
+        InputFormat::Esi => {
             field.push((text("quick-xml events", bytes, events), Some(0.5)));
             field.push((text("taktora-ethercat-esi 0.5", bytes, taktora), Some(2.5)));
             field.push((text("ethercat-esi 0.2", bytes, ethercat_esi), Some(6.0)));
             field.extend(in_python("lxml 6.1", "lxml ESI", input, python, None));
         }
-        Kind::Gsdml => {
+        InputFormat::Gsdml => {
             field.push((text("quick-xml events", bytes, events), Some(0.5)));
             field.push((text("the same with attributes", bytes, attributes), None));
             field.extend(in_python("profinet-py 0.6", "profinet-py", input, python, None));
             field.extend(in_python("lxml 6.1", "lxml GSDML", input, python, None));
         }
-        Kind::Table => {}
+        InputFormat::Table => {}
     }
     let (mut contestants, targets): (Vec<_>, Vec<_>) = field.into_iter().unzip();
     let outcomes = in_turns(&mut contestants);
@@ -52,11 +52,11 @@ pub fn check(name: String, bytes: Vec<u8>) -> Compilation {
 }
 
 fn lexibus(input: &Input) -> Contestant<'_> {
-    let own = move || (input.name(), input.bytes.clone());
-    Contestant::new("Lexibus, checked IR", own, |(name, bytes)| Ok(check(name, bytes)))
+    let copy = move || (input.name(), input.bytes.clone());
+    Contestant::new("Lexibus, checked IR", copy, |(name, bytes)| Ok(check(name, bytes)))
 }
 
-/// A reader that wants text, and gets the bytes checked for that.
+/// Creates a reader of text. Checking the bytes for valid text is measured, too.
 fn text<'a, T: 'a>(name: &str, bytes: &'a [u8], read: impl Fn(&'a str) -> Result<T, String> + 'a) -> Contestant<'a> {
     let run = move |bytes: &'a [u8]| read(from_utf8(bytes).map_err(|error| error.to_string())?);
     Contestant::new(name, move || bytes, run)
@@ -89,7 +89,7 @@ fn ethercat_esi(text: &str) -> Result<ethercat_esi::EtherCatInfo, String> {
     ethercat_esi::EtherCatInfo::from_xml_str(text).map_err(|error| error.to_string())
 }
 
-/// All events and the position of each.
+/// Reads all events and their positions.
 fn events(text: &str) -> Result<u64, String> {
     let mut reader = Reader::from_str(text);
     let mut sum = 0;
@@ -104,7 +104,7 @@ fn events(text: &str) -> Result<u64, String> {
     }
 }
 
-/// The same, and the attributes of every tag taken apart: GSDML says next to nothing but by attributes.
+/// Like the function above, and splits the attributes of every tag, which contain most facts of a GSDML.
 fn attributes(text: &str) -> Result<u64, String> {
     let mut reader = Reader::from_str(text);
     let mut sum = 0;

@@ -1,35 +1,35 @@
-//! What is printed: a table an input, or all of them as JSON.
+//! Prints one table per input, or all results as JSON.
 
 use serde_json::{json, Value};
 
 use crate::measure::Sample;
 
-/// One contestant's times for one input.
+/// Times of one candidate for one input.
 pub struct Line {
     pub name: String,
     pub outcome: Result<Sample, String>,
-    /// How many times as fast as this one Lexibus has to be.
+    /// Required speed of Lexibus as a multiple of this candidate's.
     pub target: Option<f64>,
 }
 
-/// All contestants for one input; the first is Lexibus.
+/// All candidates for one input. The first one is Lexibus.
 pub struct Table {
     pub title: String,
-    /// What speed is counted in: bytes of input, or nothing where the times themselves say it.
+    /// Number of input bytes, for a speed; `None` for times.
     pub bytes: Option<usize>,
     pub lines: Vec<Line>,
 }
 
 impl Table {
-    /// How many times as fast as `line` the first line is.
+    /// Returns how many times as fast as `line` the first line is.
     fn ratio(&self, line: &Line) -> Option<f64> {
-        let own = self.lines[0].outcome.as_ref().ok()?.least.as_secs_f64();
-        Some(line.outcome.as_ref().ok()?.least.as_secs_f64() / own)
+        let lexibus = self.lines[0].outcome.as_ref().ok()?.least.as_secs_f64();
+        Some(line.outcome.as_ref().ok()?.least.as_secs_f64() / lexibus)
     }
 
     pub fn print(&self) {
         println!("\n{}\n", self.title);
-        println!("| who | {} | rounds | Lexibus is so many times as fast | target |", self.unit());
+        println!("| program | {} | rounds | speed of Lexibus as a multiple | target |", self.unit());
         println!("|---|---|---|---|---|");
         for (number, line) in self.lines.iter().enumerate() {
             let (name, sample) = match &line.outcome {
@@ -86,7 +86,7 @@ impl Table {
     }
 }
 
-/// The first line of a message, at most as long as a table bears.
+/// Returns the first line of a message, cut to the width of a table.
 fn shortened(message: &str) -> String {
     let line = message.lines().next().unwrap_or_default();
     line.chars().take(100).collect::<String>().replace('|', "/")

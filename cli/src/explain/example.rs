@@ -23,7 +23,7 @@ mod tests {
     #[test]
     fn an_example_shows_its_code() {
         for code in CODES {
-            // An unreadable file is no input of a case.
+            // Cases cannot show an unreadable file.
             let Some(text) = example(code) else {
                 assert_eq!(code.id, "IO001");
                 continue;

@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn words_are_no_markup() {
+    fn words_are_not_markup() {
         assert_eq!(escaped("[1000] and `<index>sub<n>`"), "\\[1000\\] and `<index>sub<n>`");
         assert_eq!(escaped("a ` alone"), "a \\` alone");
     }

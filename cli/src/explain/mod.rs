@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn the_catalogue_has_a_line_a_code() {
+    fn the_catalogue_has_a_line_per_code() {
         let catalogue = catalogue();
         assert_eq!(catalogue.lines().count(), codes::CODES.len());
         let columns = |id: &str| {

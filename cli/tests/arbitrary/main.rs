@@ -1,6 +1,6 @@
-//! Any IR that passes the lints emits Rust that compiles without a warning.
+//! Tests that every generated IR without errors produces Rust that compiles without warnings.
 //!
-//! `LEXIBUS_ARBITRARY=5000` draws so many catalogues; `LEXIBUS_ARBITRARY=7..8` draws the one of seed 7, and prints its code.
+//! `LEXIBUS_ARBITRARY=5000` generates 5,000 catalogs. `LEXIBUS_ARBITRARY=7..8` generates the catalog of seed 7, and prints its code.
 
 #[path = "../../../tests/support/arbitrary_ir/mod.rs"]
 mod arbitrary_ir;
@@ -26,36 +26,36 @@ use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 use outputs::Outputs;
 
-/// How many catalogues are drawn in the full lane; the fast lane draws a sixteenth.
+/// Number of catalogs in the full lane. The fast lane uses a sixteenth.
 const DRAWN: u64 = 400;
 
-/// Of so many of them, all other outputs are made where nobody asks for more.
+/// Number of catalogs for which all other outputs are made by default.
 const OUTPUTS: usize = 30;
 
-/// So many of them have the traits of other crates.
+/// Number of catalogs whose code has the traits of other crates.
 const WITH_TRAITS: usize = 60;
 
-/// So many of them are documented.
+/// Number of catalogs whose code is documented by rustdoc.
 const DOCUMENTED: usize = 30;
 
-/// Modules that are compiled together.
+/// Number of modules that are compiled together.
 const BATCH: usize = 60;
 
-/// Bytes of a catalogue.
+/// Number of random bytes for a catalog.
 const BYTES: usize = 8000;
 
 fn seeds() -> Range<u64> {
     let Ok(wanted) = std::env::var("LEXIBUS_ARBITRARY") else {
         return 0..if lane::is_full() { DRAWN } else { DRAWN / 16 };
     };
-    let number = |text: &str| text.parse().expect("a number of seeds, or a range of them");
+    let number = |text: &str| text.parse().expect("a number of seeds, or a range of seeds");
     match wanted.split_once("..") {
         Some((first, end)) => number(first)..number(end),
         None => 0..number(&wanted),
     }
 }
 
-/// Choices of a user.
+/// Generates the options of a user.
 fn options(b: &mut Bytes<'_>) -> RustOptions {
     let presence = |b: &mut Bytes<'_>| match b.within(0..=3) {
         0 => Presence::Never,
@@ -79,14 +79,14 @@ fn options(b: &mut Bytes<'_>) -> RustOptions {
     }
 }
 
-/// The catalogue of a seed, checked, and choices of a user.
+/// Returns the checked catalog of a seed, and the options of a user.
 fn drawn(seed: u64) -> (Compilation, RustOptions) {
     let bytes = seed::bytes(seed, BYTES);
     let (chosen, described) = bytes.split_at(100);
     (arbitrary_ir::compilation(described, &Options::default()), options(&mut Bytes::new(chosen)))
 }
 
-/// The Rust of a seed; `None` where the catalogue has errors or nothing that code could be generated for.
+/// Returns the Rust of a seed; `None` if the catalog has errors or nothing to generate.
 fn module(seed: u64) -> Option<String> {
     let (compilation, options) = drawn(seed);
     compilation.rust(&options)
@@ -97,15 +97,15 @@ fn what_passes_the_lints_compiles() {
     let seeds = seeds();
     let drawn = seeds.end - seeds.start;
     let kept: Vec<(String, String)> = seeds.filter_map(|seed| Some((format!("seed_{seed}"), module(seed)?))).collect();
-    println!("{} of {drawn} catalogues kept", kept.len());
+    println!("{} of {drawn} catalogs kept", kept.len());
     if let [(name, text)] = kept.as_slice() {
         println!("// {name}\n{text}");
     }
     let failures: Vec<String> = kept.chunks(BATCH).filter_map(|batch| compile_modules(batch).err()).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
-    // Of few, chance takes one more in ten.
+    // A small number of catalogs varies more, so the limit is lower by a tenth.
     let tenths = if drawn < 100 { 8 } else { 9 };
-    assert!(kept.len() as u64 * 10 >= drawn * tenths, "only {} of {drawn} catalogues have no errors", kept.len());
+    assert!(kept.len() as u64 * 10 >= drawn * tenths, "only {} of {drawn} catalogs have no errors", kept.len());
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn traits_of_other_crates_are_derived_for_it() {
     assert!(count("serde::Serialize") > kept.len() && count("defmt::Format") > kept.len());
 }
 
-/// What else is made of each catalogue.
+/// Returns the other outputs of each catalog.
 fn outputs() -> impl Iterator<Item = (u64, Compilation, Outputs)> {
     some(OUTPUTS).map(|seed| {
         let (compilation, _) = drawn(seed);
@@ -130,7 +130,7 @@ fn outputs() -> impl Iterator<Item = (u64, Compilation, Outputs)> {
     })
 }
 
-/// So many seeds, or all of those that somebody asks for.
+/// Returns this number of seeds, or all seeds that `LEXIBUS_ARBITRARY` names.
 fn some(most: usize) -> impl Iterator<Item = u64> {
     let all = std::env::var_os("LEXIBUS_ARBITRARY").is_some();
     seeds().take(if all { usize::MAX } else { most })
@@ -149,32 +149,32 @@ fn pages_have_no_markup_of_a_description_and_no_broken_link() {
     assert!(pages > 10 && links > pages, "{links} links on {pages} pages");
 }
 
-/// The indices of a device's objects.
+/// Returns the indices of a device's objects.
 fn indices(device: &Device) -> BTreeSet<u16> {
     device.groups.iter().filter_map(Group::index).collect()
 }
 
-/// The catalogue that an export is read as.
+/// Reads an export as a catalog.
 fn again(name: &str, text: &str) -> Catalog {
     let read = check(Source::new(name, text.into()), &Options::default());
-    let told: Vec<String> = read.diagnostics.list().iter().map(|found| read.one_line(found)).collect();
-    read.catalog.unwrap_or_else(|| panic!("{name}: {told:?}\n{text}"))
+    let messages: Vec<String> = read.diagnostics.list().iter().map(|found| read.one_line(found)).collect();
+    read.catalog.unwrap_or_else(|| panic!("{name}: {messages:?}\n{text}"))
 }
 
 #[test]
 fn exports_are_read_again() {
     let mut read = [0; 3];
     for (seed, compilation, made) in outputs() {
-        let catalog = compilation.catalog.as_ref().expect("a catalogue");
+        let catalog = compilation.catalog.as_ref().expect("a catalog");
         let dumped: serde_json::Value = serde_json::from_str(&made.dump).expect("JSON");
         assert_eq!(dumped["devices"].as_array().map(Vec::len), Some(catalog.devices.len()), "seed {seed}");
         for (at, text) in &made.eds {
-            let (own, again) = (indices(&catalog.devices[*at]), again("again.eds", text));
+            let (original, again) = (indices(&catalog.devices[*at]), again("again.eds", text));
             let exported = indices(&again.devices[0]);
             // Registers become objects, and PDOs get objects that describe them.
             let has_registers = catalog.files[0].format == Format::Table;
             let is_made = |index: &&u16| has_registers || (0x1400..0x1C00).contains(*index);
-            let more: Vec<&u16> = exported.difference(&own).filter(|index| !is_made(index)).collect();
+            let more: Vec<&u16> = exported.difference(&original).filter(|index| !is_made(index)).collect();
             assert!(more.is_empty(), "seed {seed}: {more:04X?} in\n{text}");
             read[0] += 1;
         }

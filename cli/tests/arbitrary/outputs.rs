@@ -1,23 +1,23 @@
-//! All that is made of a compilation beside Rust.
+//! Makes all outputs of a compilation except Rust.
 
 use lexibus_codegen::compile::Compilation;
 use lexibus_export::esi::{Export, Refusal};
 use lexibus_export::{eds, esi, gsdml, json};
 use lexibus_site::{Format, Page, Site};
 
-/// What each back end makes.
+/// Outputs of the back ends.
 pub struct Outputs {
     pub html: Vec<Page>,
     pub markdown: Vec<Page>,
-    /// The catalogue in full.
+    /// The catalog as JSON.
     pub dump: String,
-    /// EDS and DCF, each with the number of its device.
+    /// EDS and DCF files, each with the index of its device.
     pub eds: Vec<(usize, String)>,
     pub esi: Option<String>,
     pub gsdml: Option<String>,
 }
 
-/// Runs every back end but that of Rust.
+/// Runs every back end except Rust.
 pub fn others(compilation: &Compilation) -> Outputs {
     json::info(compilation);
     let mut outputs = Outputs {
@@ -47,7 +47,7 @@ fn site(format: Format, compilation: &Compilation) -> Vec<Page> {
     pages
 }
 
-/// An export that is given whatever fact it asks for; `None` where there is nothing to export.
+/// Exports with a value for every fact that the format needs; `None` if there is nothing to export.
 fn completed<O: Default>(
     export: impl Fn(&O) -> Result<Export, Refusal>,
     set: impl Fn(&mut O, &str, &str) -> Result<(), String>,
@@ -56,7 +56,7 @@ fn completed<O: Default>(
     if let Err(Refusal::Missing(facts)) = export(&options) {
         for fact in facts {
             let is_set = ["1", "true"].iter().any(|value| set(&mut options, fact.key, value).is_ok());
-            assert!(is_set, "`{}` takes neither a number nor a text", fact.key);
+            assert!(is_set, "`{}` accepts neither a number nor a truth value", fact.key);
         }
     }
     match export(&options) {

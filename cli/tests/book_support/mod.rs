@@ -1,37 +1,37 @@
-//! The blocks of code of the book's chapters.
+//! Reads the code blocks of the book.
 
 use std::path::{Path, PathBuf};
 
-/// A block of code.
+/// Code block.
 pub struct Block {
-    /// The line of its first word.
+    /// Line number of its first line.
     pub line: usize,
-    /// What stands behind the fence, such as `toml`.
+    /// Text after the fence, such as `toml`.
     pub kind: String,
-    /// The file that it is, where the comment in front of it says so: `<!-- file: NAME -->`.
+    /// File name in the comment above the block: `<!-- file: NAME -->`.
     pub file: Option<String>,
-    /// The example that it is the same as: `<!-- file: NAME = EXAMPLE -->`.
+    /// Example with the same contents: `<!-- file: NAME = EXAMPLE -->`.
     pub same_as: Option<String>,
-    /// Its lines.
+    /// Lines of the block.
     pub text: String,
 }
 
-/// The folder of the book.
+/// Returns the folder of the book.
 pub fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .ancestors()
-        .map(|own| own.join("docs"))
-        .find(|own| own.is_dir())
+        .map(|folder| folder.join("docs"))
+        .find(|folder| folder.is_dir())
         .expect("docs")
 }
 
-/// A chapter by its name.
+/// Returns the code blocks of a chapter.
 pub fn chapter(name: &str) -> Vec<Block> {
     let path = docs().join("src").join(name);
     blocks(&std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display())))
 }
 
-/// The blocks between fences of a text, in their order.
+/// Returns the code blocks of a text in order.
 pub fn blocks(text: &str) -> Vec<Block> {
     let mut blocks = Vec::new();
     let mut open: Option<Block> = None;
@@ -48,11 +48,11 @@ pub fn blocks(text: &str) -> Vec<Block> {
         }
         before = line;
     }
-    assert!(open.is_none(), "a block has no end");
+    assert!(open.is_none(), "a code block is not closed");
     blocks
 }
 
-/// What the comment in front of a block says of it.
+/// Parses the comment above a block: file name and example.
 fn file_of(line: &str) -> (Option<String>, Option<String>) {
     let Some(rest) = line.strip_prefix("<!-- file: ").and_then(|rest| rest.strip_suffix(" -->")) else {
         return (None, None);

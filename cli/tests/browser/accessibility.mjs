@@ -1,4 +1,4 @@
-// axe-core finds nothing on pages of every kind: names, labels, headings, roles and contrast, in both themes, and on a phone.
+// axe-core reports nothing on pages of every kind: names, labels, headings, roles and contrast, in both themes, and on a phone.
 import assert from "node:assert/strict";
 import { axe, Window, withBrowser } from "./browser.mjs";
 
@@ -40,7 +40,7 @@ async function examine(page, what) {
   assert.deepEqual(violations, [], what);
 }
 
-// As after somebody looked at all of it: what isn't in sight yet isn't laid out yet, and nobody knows whether it scrolls.
+// Scrolls through the page, because the browser lays out content only when it becomes visible.
 async function browsed(page) {
   await page.evaluate(async () => {
     const style = new CSSStyleSheet(), frame = () => new Promise(requestAnimationFrame);

@@ -1,4 +1,4 @@
-// A headless browser that opens pages from disk, and keeps a list of all that went wrong in it.
+// A headless browser that opens pages from disk and records every error.
 import { createRequire } from "node:module";
 import { pathToFileURL } from "node:url";
 import { readdirSync } from "node:fs";
@@ -9,27 +9,27 @@ const modules = process.env.LEXIBUS_BROWSER_MODULES ?? new URL("../../../target/
 const load = createRequire(path.join(modules, "from-here.js"));
 const { chromium } = load("playwright-core");
 
-// What axe-core is, as text to be run in a page.
+// Source of axe-core, to be run in a page.
 export const axe = load("axe-core").source;
 
-// The pages of a site, by their paths in it.
+// Returns the paths of the pages of a site.
 export function pagesOf(site) {
-  const all = readdirSync(site, { recursive: true }).map((own) => own.split(path.sep).join("/"));
-  return all.filter((own) => own.endsWith(".html")).sort();
+  const all = readdirSync(site, { recursive: true }).map((file) => file.split(path.sep).join("/"));
+  return all.filter((file) => file.endsWith(".html")).sort();
 }
 
-// All of `list` in the full lane, one of `step` in the fast lane.
+// Returns all of `list` in the full lane, and every `step`-th in the fast lane.
 export function sampled(list, step) {
   return list.filter((_, at) => process.env.LEXIBUS_LANE === "full" || at % step === 0);
 }
 
-// Neither may it talk to anybody by itself, nor look for a graphics card.
+// Disables the browser's background requests and the use of a graphics card.
 const FLAGS = [
   "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
   "--disable-component-update", "--disable-sync",
 ];
 
-// Runs `work` with a browser of its own, whose profile is new and empty, and ends the browser whatever happens.
+// Runs `work` with a browser that has an empty profile. The browser is always closed.
 export async function withBrowser(work) {
   const browser = await chromium.launch({ executablePath: process.env.CHROMIUM || await inPath("chromium"), args: FLAGS });
   try {
@@ -48,50 +48,49 @@ async function inPath(program) {
   throw new Error(`no ${program} in PATH`);
 }
 
-// Pages of a site that share what the browser keeps, in a window of their own.
+// Pages of a site in one window, with shared storage.
 export class Window {
   static async open(browser, site, options = {}) {
-    const own = new Window();
-    own.site = path.resolve(site);
-    own.root = pathToFileURL(own.site + path.sep).href;
-    // What asks for another place is told, and doesn't get there.
-    own.context = await browser.newContext({ viewport: { width: 1280, height: 800 }, offline: true, ...options });
-    own.context.setDefaultTimeout(60_000);
-    own.complaints = [];
-    own.requests = [];
-    own.#watch();
-    own.page = await own.context.newPage();
-    return own;
+    const opened = new Window();
+    opened.site = path.resolve(site);
+    opened.root = pathToFileURL(opened.site + path.sep).href;
+    // Requests for other addresses are recorded and blocked.
+    opened.context = await browser.newContext({ viewport: { width: 1280, height: 800 }, offline: true, ...options });
+    opened.context.setDefaultTimeout(60_000);
+    opened.complaints = [];
+    opened.requests = [];
+    opened.#watch();
+    opened.page = await opened.context.newPage();
+    return opened;
   }
 
   #watch() {
     const complain = (text) => this.complaints.push(text);
     this.context.on("request", (request) => {
       this.requests.push(request.url());
-      if (!request.url().startsWith(this.root)) complain(`asks for ${request.url()}`);
+      if (!request.url().startsWith(this.root)) complain(`requests ${request.url()}`);
     });
-    this.context.on("requestfailed", (request) => complain(`doesn't get ${request.url()}: ${request.failure()?.errorText}`));
+    this.context.on("requestfailed", (request) => complain(`failed to load ${request.url()}: ${request.failure()?.errorText}`));
     this.context.on("console", (message) => {
       if (!["log", "info", "debug"].includes(message.type())) complain(`console: ${message.text()}`);
     });
-    this.context.on("weberror", (error) => complain(`an error of a script: ${error.error()}`));
+    this.context.on("weberror", (error) => complain(`a script error: ${error.error()}`));
     this.context.on("dialog", (dialog) => { complain(`a dialog: ${dialog.message()}`); dialog.dismiss(); });
     this.context.on("page", (page) => {
       page.on("crash", () => complain("the page crashed"));
       page.on("download", (download) => complain(`a download of ${download.url()}`));
-      if (this.page) complain(`a further window: ${page.url()}`);
+      if (this.page) complain(`another window: ${page.url()}`);
     });
   }
 
-  // Opens a page of the site, by its path in it, an address within the page too. A page that only another address within
-  // leads to would not be loaded anew.
+  // Opens a page of the site by its path, which may have a fragment. A change of the fragment alone would not reload the page.
   async go(place) {
     await this.page.goto("about:blank");
     await this.page.goto(this.root + place, { waitUntil: "load" });
     return this.page;
   }
 
-  // Types into the search field as people do, from anywhere on the page, and waits for what is found, or for the word that nothing is.
+  // Types into the search field with the keyboard, and waits for results or the message that there are none.
   async search(text) {
     const { page } = this;
     await page.keyboard.press("Escape");
@@ -102,12 +101,12 @@ export class Window {
     return page.locator("#found li").allTextContents();
   }
 
-  // Fails where anything went wrong.
+  // Fails if an error was recorded.
   clean() {
     assert.deepEqual(this.complaints, []);
   }
 
-  // The place in the site where the page is.
+  // Returns the path of the current page in the site.
   get place() {
     return decodeURIComponent(this.page.url().slice(this.root.length));
   }

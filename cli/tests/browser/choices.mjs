@@ -1,4 +1,4 @@
-// The theme and the language of names are as the system has it, change with the keyboard, and stay chosen on other pages.
+// Theme and language follow the system settings, change with the keyboard, and persist on other pages.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
@@ -19,7 +19,7 @@ async function themes(browser, system, other) {
     assert.equal(await brightness(page), theme);
   }
   await window.go("kollmorgen-akd/codes.html");
-  assert.equal(await brightness(page), other, "the choice isn't kept");
+  assert.equal(await brightness(page), other, "the choice does not persist");
   window.clean();
   await window.close();
 }
@@ -36,22 +36,22 @@ async function languages(browser) {
   await choose("it");
   assert.equal(await shown(), "Impulsi giro encoder 1");
   await window.go("aec-vector-step/position-registers.html");
-  assert.equal(await page.locator("#language").inputValue(), "it", "the choice isn't kept");
+  assert.equal(await page.locator("#language").inputValue(), "it", "the choice does not persist");
   const named = await page.locator("tbody[id] > tr:first-child > td:nth-child(2)").allInnerTexts();
   assert.ok(named.length > 5 && named.every((name) => name.trim()), `a name is missing: ${named}`);
   await choose("");
   assert.ok((await page.locator("tbody[id=Rposact] td").first().innerText()).startsWith("Rposact Posizione"));
-  // By keyboard: the next of the list.
+  // Selects the next entry of the list with the keyboard.
   await page.locator("#language").focus();
   await page.keyboard.press("ArrowDown");
   assert.equal(await page.locator("#language").inputValue(), "-");
   window.clean();
 }
 
-// Which theme is seen.
+// Returns the visible theme.
 function brightness(page) {
   return page.evaluate(() => {
-    const sum = (colour) => colour.match(/\d+/g).slice(0, 3).reduce((sum, own) => sum + Number(own), 0);
+    const sum = (color) => color.match(/\d+/g).slice(0, 3).reduce((sum, part) => sum + Number(part), 0);
     const { backgroundColor, color } = getComputedStyle(document.body);
     return sum(backgroundColor) > sum(color) ? "light" : "dark";
   });

@@ -1,4 +1,4 @@
-// Faults that pages could have are noticed: a test of the other tests.
+// Tests the other scripts: they detect pages with errors.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";
@@ -6,11 +6,11 @@ import { Window, withBrowser } from "./browser.mjs";
 
 const policy = `<meta http-equiv="Content-Security-Policy" content="default-src 'none'">`;
 const FAULTS = [
-  ["an image from elsewhere", `<img src="http://192.0.2.1/x.png">`, "asks for http://192.0.2.1/x.png"],
-  ["a file of another folder", `<img src="../outside.png">`, "asks for "],
-  ["a file that is missing", `<script src="missing.js"></script>`, "doesn't get "],
-  ["an error of a script", `<script>throw new Error("broken")</script>`, "an error of a script: Error: broken"],
-  ["a promise that fails", `<script>Promise.reject(new Error("broken"))</script>`, "an error of a script: Error: broken"],
+  ["an image from elsewhere", `<img src="http://192.0.2.1/x.png">`, "requests http://192.0.2.1/x.png"],
+  ["a file of another folder", `<img src="../outside.png">`, "requests "],
+  ["a file that is missing", `<script src="missing.js"></script>`, "failed to load "],
+  ["a script error", `<script>throw new Error("broken")</script>`, "a script error: Error: broken"],
+  ["a promise that fails", `<script>Promise.reject(new Error("broken"))</script>`, "a script error: Error: broken"],
   ["an error on the console", `<script>console.error("broken")</script>`, "console: broken"],
   ["a dialog", `<script>alert("hello")</script>`, "a dialog: hello"],
   ["a script that the page's policy forbids", `${policy}<script>1</script>`, "console: "],
@@ -24,9 +24,9 @@ await withBrowser(async (browser) => {
     const window = await Window.open(browser, site);
     await window.go("page.html");
     await window.page.waitForTimeout(100);
-    const told = window.complaints.join("\n");
-    assert.equal(complaint === "", told === "", `${what}: ${told}`);
-    assert.ok(told.includes(complaint), `${what}: ${told}`);
+    const reported = window.complaints.join("\n");
+    assert.equal(complaint === "", reported === "", `${what}: ${reported}`);
+    assert.ok(reported.includes(complaint), `${what}: ${reported}`);
     await window.close();
   }
 });

@@ -1,5 +1,4 @@
-// Texts of descriptions that try to be markup are shown as what they are: nothing of them runs, loads or asks, in pages, in the list of
-// the search, and in what `lexibus diff` writes.
+// Markup in descriptions is shown as text. It runs and loads nothing in pages, search results and comparisons.
 import assert from "node:assert/strict";
 import { pagesOf, Window, withBrowser } from "./browser.mjs";
 
@@ -25,15 +24,15 @@ await withBrowser(async (browser) => {
   window.clean();
 });
 
-// What of the page could be of a description.
+// Returns the parts of the page that can come from a description.
 function look(window) {
   return window.page.evaluate(() => {
     const all = [...document.querySelectorAll("*")], texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
     let count = 0;
     while (texts.nextNode()) count += Number(texts.currentNode.data.includes("alert("));
     return {
-      scripts: [...document.scripts].map((own) => own.src.split("/").pop()),
-      handlers: all.filter((own) => own.getAttributeNames().some((name) => name.startsWith("on"))).length,
+      scripts: [...document.scripts].map((item) => item.src.split("/").pop()),
+      handlers: all.filter((item) => item.getAttributeNames().some((name) => name.startsWith("on"))).length,
       images: document.querySelectorAll("img, iframe, object, embed, form, base, link:not([rel=stylesheet])").length,
       texts: count,
     };
@@ -44,8 +43,8 @@ async function search(window) {
   for (const place of ["index.html", "table/index.html"]) {
     const page = await window.go(place);
     const found = await window.search("onerror=alert");
-    assert.ok(found.length >= 3 && found.every((own) => own.includes("<img src=x onerror=alert")), found.join("\n"));
-    assert.deepEqual(await page.evaluate(() => [...new Set([...document.querySelectorAll("#found *")].map((own) => own.tagName))].sort()), ["A", "LI", "SMALL"]);
+    assert.ok(found.length >= 3 && found.every((item) => item.includes("<img src=x onerror=alert")), found.join("\n"));
+    assert.deepEqual(await page.evaluate(() => [...new Set([...document.querySelectorAll("#found *")].map((item) => item.tagName))].sort()), ["A", "LI", "SMALL"]);
     await page.keyboard.press("Enter");
     await page.waitForURL(/#/);
     await page.waitForFunction(() => document.querySelector(":target"));

@@ -1,4 +1,4 @@
-// Tab goes through a page in its order, what has the focus is seen, and the first stop skips to the content.
+// Tab moves through a page in order, the focus is visible, and the first link skips to the content.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
@@ -24,7 +24,7 @@ async function order(window) {
   const seen = [];
   for (let at = 0; at < 3 * wanted.length && !seen.includes(rows[rows.length - 1]); at++) {
     await page.keyboard.press("Tab");
-    const own = await page.evaluate(() => {
+    const focused = await page.evaluate(() => {
       const element = document.activeElement, { outlineStyle, outlineWidth } = getComputedStyle(element), place = element.getBoundingClientRect();
       return {
         name: element.id || element.textContent,
@@ -32,9 +32,9 @@ async function order(window) {
         isInSight: place.width > 0 && place.bottom > 0 && place.top < innerHeight && place.right > 0,
       };
     });
-    assert.ok(own.isSeen, `${own.name} has the focus, which isn't seen`);
-    assert.ok(own.isInSight, `${own.name} has the focus, and isn't in sight`);
-    if (own.name !== "Copy") seen.push(own.name);
+    assert.ok(focused.isSeen, `${focused.name} has the focus, but no focus indicator`);
+    assert.ok(focused.isInSight, `${focused.name} has the focus, but is not in view`);
+    if (focused.name !== "Copy") seen.push(focused.name);
   }
   assert.deepEqual(seen, wanted);
 }
@@ -47,7 +47,7 @@ async function skips(window) {
   assert.ok(await page.evaluate(() => document.querySelector("main").contains(document.activeElement)));
 }
 
-// What is wider than a phone is scrolled with the arrows.
+// Arrow keys scroll content that is wider than a phone.
 async function scrolls(window) {
   const page = await window.go("eco/states-and-procedures.html");
   const box = page.locator(".wide[tabindex='0']").first();

@@ -1,5 +1,5 @@
-// 2,000 registers with eight fields each: what a page takes to load is bounded, and the last register is found and shown. How long it
-// takes is printed.
+// 2,000 registers with eight fields each: the loading time is bounded, and the search finds and shows the last register. Prints
+// the times.
 import assert from "node:assert/strict";
 import { statSync } from "node:fs";
 import path from "node:path";

@@ -1,5 +1,5 @@
-//! What `lexibus docs` and `lexibus diff --format html` write, opened from disk in a headless browser: scripts in this folder do
-//! what people do, and look at what they see. See README.md in this folder.
+//! Tests the output of `lexibus docs` and `lexibus diff --format html` in a headless browser. The scripts in this folder use the
+//! pages as a reader does. See README.md in this folder.
 
 #[path = "../../../codegen/site/tests/docs_support/hostile.rs"]
 mod hostile;
@@ -82,5 +82,5 @@ fn pictures_are_kept() {
     if lane::skips("taking pictures") {
         return;
     }
-    run("screenshots.mjs", || [sites::drives(), node::artefacts()]);
+    run("screenshots.mjs", || [sites::drives(), node::pictures()]);
 }

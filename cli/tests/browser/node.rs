@@ -1,17 +1,18 @@
-//! Node, which runs the scripts that steer the browser.
+//! Runs the scripts that control the browser with Node.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-/// Where `setup.sh` puts the libraries of the scripts, and pictures are kept.
-const PLACE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/browser");
+/// Folder for the libraries that `setup.sh` installs, and for pictures.
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/browser");
 
-/// Set where the tests may not be skipped, as in CI once `setup.sh` has done its work.
+/// Environment variable that forbids skipping the tests. CI sets it after `setup.sh`.
 const REQUIRED: &str = "LEXIBUS_BROWSER";
 
-/// Runs a script of this folder with these paths, which are made only where there is a browser; without one, says that the
-/// test is skipped. The script fails the test.
+/// Runs a script with these paths. The test fails if the script fails.
+///
+/// Without a browser, the paths are not created, and a message says that the test is skipped.
 pub fn run<const N: usize>(script: &str, paths: impl FnOnce() -> [PathBuf; N]) {
     if let Err(why) = ready() {
         assert!(std::env::var_os(REQUIRED).is_none(), "{REQUIRED} is set, but {why}");
@@ -19,28 +20,28 @@ pub fn run<const N: usize>(script: &str, paths: impl FnOnce() -> [PathBuf; N]) {
         return;
     }
     let output = node(script, &paths()).expect("Node runs");
-    let told = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    assert!(output.status.success(), "{script}: {told}");
-    print!("{told}");
+    let printed = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{script}: {printed}");
+    print!("{printed}");
 }
 
-/// Whether a browser can be steered, and if not, why.
+/// Returns why no browser can be controlled, as an error.
 fn ready() -> Result<(), &'static str> {
     static READY: OnceLock<Result<(), String>> = OnceLock::new();
     let ready = READY.get_or_init(|| match node("ready.mjs", &[]) {
         Ok(output) if output.status.success() => Ok(()),
-        Ok(output) => Err(format!("no browser can be steered ({})", String::from_utf8_lossy(&output.stderr).trim())),
-        Err(error) => Err(format!("there is no Node ({error})")),
+        Ok(output) => Err(format!("no browser can be controlled ({})", String::from_utf8_lossy(&output.stderr).trim())),
+        Err(error) => Err(format!("Node is not installed ({error})")),
     });
     ready.as_ref().copied().map_err(String::as_str)
 }
 
 fn node(script: &str, paths: &[PathBuf]) -> std::io::Result<Output> {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/browser").join(script);
-    Command::new("node").arg(script).args(paths).env("LEXIBUS_BROWSER_MODULES", PLACE).output()
+    Command::new("node").arg(script).args(paths).env("LEXIBUS_BROWSER_MODULES", FOLDER).output()
 }
 
-/// The folder for pictures.
-pub fn artefacts() -> PathBuf {
-    Path::new(PLACE).join("pictures")
+/// Returns the folder for pictures.
+pub fn pictures() -> PathBuf {
+    Path::new(FOLDER).join("pictures")
 }

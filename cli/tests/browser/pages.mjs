@@ -1,4 +1,4 @@
-// Each page loads with no error and no request for anything outside the site, and has what every page has.
+// Each page loads without errors and without requests outside of the site, and has the common elements.
 import assert from "node:assert/strict";
 import { pagesOf, sampled, Window, withBrowser } from "./browser.mjs";
 
@@ -13,8 +13,8 @@ await withBrowser(async (browser) => {
     window.requests.length = 0;
     const page = await window.go(place);
     assert.deepEqual(window.complaints, [], place);
-    const own = window.requests.map((url) => url.split("/").pop()).sort();
-    assert.deepEqual(own, [place.split("/").pop(), "site.css", "site.js"].sort(), place);
+    const loaded = window.requests.map((url) => url.split("/").pop()).sort();
+    assert.deepEqual(loaded, [place.split("/").pop(), "site.css", "site.js"].sort(), place);
     const seen = await page.evaluate(() => ({
       headings: document.querySelectorAll("h1").length,
       title: document.title,
@@ -26,7 +26,7 @@ await withBrowser(async (browser) => {
     assert.equal(seen.headings, 1, place);
     assert.ok(seen.title.length > 2 && seen.has > 20, `${place} is empty`);
     assert.equal(seen.styled, "flex", `${place} has no style`);
-    if (place !== "index.html") assert.deepEqual(seen.open, [seen.url], `${place}: the link that is marked`);
+    if (place !== "index.html") assert.deepEqual(seen.open, [seen.url], `${place}: the marked link is wrong`);
   }
   console.log(`${opened.length} of ${pages.length} pages`);
 });

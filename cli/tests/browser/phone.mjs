@@ -1,4 +1,4 @@
-// On a phone no page is wider than the screen: what is wider scrolls in its own box, which the keyboard reaches.
+// On a phone, no page is wider than the screen. Wide content scrolls in a box that the keyboard can reach.
 import assert from "node:assert/strict";
 import { pagesOf, sampled, Window, withBrowser } from "./browser.mjs";
 
@@ -9,7 +9,7 @@ await withBrowser(async (browser) => {
     let boxes = 0;
     for (const place of sampled(pagesOf(site), 8)) {
       const page = await window.go(place);
-      // What isn't in sight yet isn't laid out yet.
+      // The browser lays out content only when it becomes visible.
       const seen = await page.evaluate(() => {
         const style = new CSSStyleSheet();
         style.replaceSync("* { content-visibility: visible !important; }");
@@ -17,8 +17,8 @@ await withBrowser(async (browser) => {
         const all = [...document.querySelectorAll("main :not(svg, svg *)")];
         return {
           width: document.documentElement.scrollWidth,
-          lost: all.filter((own) => getComputedStyle(own).overflowX === "hidden").map((own) => own.outerHTML.slice(0, 80)),
-          scrolled: all.filter((own) => own.matches(".wide, pre") && own.scrollWidth > own.clientWidth).length,
+          lost: all.filter((item) => getComputedStyle(item).overflowX === "hidden").map((item) => item.outerHTML.slice(0, 80)),
+          scrolled: all.filter((item) => item.matches(".wide, pre") && item.scrollWidth > item.clientWidth).length,
           letters: parseFloat(getComputedStyle(document.body).fontSize),
         };
       });
@@ -27,7 +27,7 @@ await withBrowser(async (browser) => {
       assert.ok(seen.letters >= 14, place);
       boxes += seen.scrolled;
     }
-    assert.ok(boxes > 10, `only ${boxes} boxes are scrolled`);
+    assert.ok(boxes > 10, `only ${boxes} boxes scroll`);
     window.clean();
     await window.close();
   }

@@ -1,4 +1,4 @@
-// On paper there is the name of the device and what the page is about, dark on white whatever the theme, and nothing to click.
+// Printed pages show the device and the subject, dark on white in both themes, without controls.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
@@ -24,8 +24,8 @@ await withBrowser(async (browser) => {
     assert.deepEqual([seen.heading, seen.drawn], ["table-header-group", "block"]);
     assert.ok(seen.width <= 718, `${seen.width} wide`);
     assert.deepEqual(await page.locator("header").innerText(), "Vector Step");
-    for (const own of ["nav", "#search", "#theme", "#language", ".copy"]) {
-      assert.ok(await page.locator(own).first().isHidden(), `${own} is printed`);
+    for (const control of ["nav", "#search", "#theme", "#language", ".copy"]) {
+      assert.ok(await page.locator(control).first().isHidden(), `${control} is printed`);
     }
     assert.ok((await page.pdf({ format: "A4" })).length > 10_000);
     window.clean();

@@ -1,4 +1,4 @@
-// Whether there is a browser that can be steered; if not, why.
+// Checks whether a browser can be controlled, and prints why not.
 try {
   const { withBrowser } = await import("./browser.mjs");
   await withBrowser((browser) => console.log(`Chromium ${browser.version()}`));

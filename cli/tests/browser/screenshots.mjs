@@ -1,4 +1,4 @@
-// Pictures of each kind of page, in both themes, on a screen and on a phone, for people to look at.
+// Takes pictures of every kind of page for review, in both themes, on a desktop and a phone.
 import { mkdirSync } from "node:fs";
 import path from "node:path";
 import { Window, withBrowser } from "./browser.mjs";

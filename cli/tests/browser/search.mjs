@@ -1,8 +1,8 @@
-// The search finds numbers in both notations, names in two languages, units and descriptions, with the keyboard alone, and leads to the row.
+// The search finds numbers in both notations, names in two languages, units and descriptions. It works with the keyboard and leads to the row.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
-// Where it is typed, what is typed, what the first result has to be, and where Enter leads.
+// Page, typed text, expected first result, and target of Enter.
 const FOUND = [
   ["aec-vector-step/index.html", "0x6040", /^0x6040 Controlword/, "aec-vector-step/profile-objects.html#0x6040"],
   ["aec-vector-step/index.html", "6040", /^0x6040 Controlword/, "aec-vector-step/profile-objects.html#0x6040"],
@@ -15,16 +15,16 @@ const FOUND = [
   ["hsd-sm137-sm140/parameters.html", "velocita e della coppia", /^message Poll theoretical position Richiesta/, "hsd-sm137-sm140/messages.html#Poll_theoretical_position"],
   ["hsd-sm137-sm140/index.html", "low_level maximum current V", /^low_level 0x0005 KIQDLIMAX V · HSD Motor$/, "hsd-sm137-sm140/low-level-parameters.html#KIQDLIMAX"],
   ["hsd-sm137-sm140/index.html", "overheated", /^0x0001 overheated ALOVERHEATED/, "hsd-sm137-sm140/codes.html#alarm-0x0001"],
-  // Codes in the notation of the manual, the one of a cell too, and the numbers that a manual prints next to an index.
+  // Codes in the notation of the manual, including the notation of a cell, and numbers that a manual prints next to an index.
   ["kollmorgen-akd/index.html", "F125", /^F125 synchronisation lost/, "kollmorgen-akd/codes.html#faults-F125"],
   ["eco/index.html", "0x8700 synchronisation", /^34 synchronisation timed out/, "eco/codes.html#ethercat_alarms-34"],
   ["aec-vector-step/index.html", "register 63", /^register 63–64 Rvel/, "aec-vector-step/motion-parameters.html#Rvel"],
   ["eco/index.html", "32848", /^register R80 \(wire 0x8050\) mechatronic_80/, "eco/registers.html#mechatronic_80"],
   ["eco/index.html", "0x8050", /^register R80 \(wire 0x8050\) mechatronic_80/, "eco/registers.html#mechatronic_80"],
   ["kollmorgen-akd/index.html", "valore di comando di velocità", /^0x60FF Velocity command value/, "kollmorgen-akd/profile-objects.html#0x60FF"],
-  // A code between the ends of a range.
+  // A code within a range.
   ["eco/index.html", "0x8642", /^0x8000 to 0x8FFF monitoring/, "eco/codes.html#emergency-0x8000_to_0x8FFF"],
-  // Of all devices, from the first page; the device is a word like others.
+  // A search of all devices from the first page, with the device as one of the words.
   ["index.html", "akd 60ff", /^0x60FF Velocity command value .*AKD$/, "kollmorgen-akd/profile-objects.html#0x60FF"],
   ["index.html", "KP_VEL", /^parameter 0x0105 KP_VEL .*HSD Motor$/, "hsd-sm137-sm140/parameters.html#KP_VEL"],
 ];
@@ -46,7 +46,7 @@ await withBrowser(async (browser) => {
   window.clean();
 });
 
-// The row that the address says is in sight, below what stays at the top, and the keyboard goes on from there.
+// The row in the address is visible below the fixed header, and the keyboard continues from it.
 async function landed(window, what) {
   const { page } = window;
   await page.waitForFunction(() => document.querySelector(":target"));
@@ -60,24 +60,24 @@ async function landed(window, what) {
     const row = document.querySelector(":target");
     return row.contains(document.activeElement) || !row.querySelector("a");
   });
-  assert.ok(goesOn, `${what}: Tab goes elsewhere`);
+  assert.ok(goesOn, `${what}: Tab does not continue from the row`);
 }
 
-// A unit finds what is counted in it, whatever it is called.
+// A unit finds the registers with that unit, whatever their names are.
 async function units(window) {
   await window.go("eco/index.html");
   const found = await window.search("rpm");
-  const counted = found.filter((own) => own.endsWith(" rpm · Eco"));
-  assert.ok(counted.length >= 8 && counted.some((own) => own.startsWith("0x606C:00 velocity_actual_value")), found.join("\n"));
+  const counted = found.filter((entry) => entry.endsWith(" rpm · Eco"));
+  assert.ok(counted.length >= 8 && counted.some((entry) => entry.startsWith("0x606C:00 velocity_actual_value")), found.join("\n"));
 }
 
-// Arrows choose, the choice is told, Escape closes, and so does leaving the field.
+// Arrow keys select a result, which is announced. Escape closes the list, and so does leaving the field.
 async function arrows(window) {
   const page = await window.go("eco/index.html");
   const found = await window.search("homing");
   assert.ok(found.length > 3);
   const chosen = () => page.evaluate(() => [
-    [...document.querySelectorAll("#found a")].findIndex((own) => own.getAttribute("aria-selected") === "true"),
+    [...document.querySelectorAll("#found a")].findIndex((entry) => entry.getAttribute("aria-selected") === "true"),
     document.getElementById("search").getAttribute("aria-activedescendant"),
     document.getElementById("search").getAttribute("aria-expanded"),
   ]);

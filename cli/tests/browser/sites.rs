@@ -1,4 +1,4 @@
-//! Sites that the scripts open, each written once.
+//! Writes the sites that the scripts open, each only once.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,7 +9,7 @@ use lexibus_site::{Page, Site};
 
 use crate::hostile as descriptions;
 
-/// A new folder of this name.
+/// Creates an empty folder.
 pub fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("browser").join(name);
     let _ = std::fs::remove_dir_all(&path);
@@ -17,7 +17,7 @@ pub fn folder(name: &str) -> PathBuf {
     path
 }
 
-/// What the command line writes of these descriptions.
+/// Writes the site of these descriptions with the command line.
 fn documented(name: &str, descriptions: &[&str]) -> PathBuf {
     let site = folder(name);
     let dictionaries = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries");
@@ -26,26 +26,26 @@ fn documented(name: &str, descriptions: &[&str]) -> PathBuf {
     site
 }
 
-/// Runs the command line, which has to end with one of these codes.
+/// Runs the command line. The exit code must be one of `codes`.
 fn lexibus(arguments: impl FnOnce(&mut Command) -> &mut Command, codes: &[i32]) {
     let output = arguments(&mut Command::new(env!("CARGO_BIN_EXE_lexibus"))).output().expect("lexibus runs");
     let code = output.status.code().expect("an exit code");
     assert!(codes.contains(&code), "exit code {code}: {}", String::from_utf8_lossy(&output.stderr));
 }
 
-/// The site of the four drives that were transcribed from manuals.
+/// Returns the site of the four drives whose tables were transcribed from manuals.
 pub fn drives() -> PathBuf {
     const ALL: [&str; 4] = ["aec-vector-step.toml", "eco.toml", "hsd-sm137-sm140.toml", "kollmorgen-akd.toml"];
     static SITE: OnceLock<PathBuf> = OnceLock::new();
     SITE.get_or_init(|| documented("drives", &ALL)).clone()
 }
 
-/// The site of a single drive.
+/// Returns the site of a single drive.
 pub fn alone() -> PathBuf {
     documented("alone", &["demo-drive.eds"])
 }
 
-/// 2,000 registers with eight fields each.
+/// Returns a site with 2,000 registers of eight fields each.
 pub fn large() -> PathBuf {
     let field = |at: usize| {
         format!("\"{}-{}\" = {{ name = \"field {at}\", number = true, doc = \"What it does\" }}", 2 * at + 1, 2 * at)
@@ -66,7 +66,7 @@ pub fn large() -> PathBuf {
     site
 }
 
-/// Descriptions that try to be markup, and what `lexibus diff` tells of two versions of one, in `diff.html`.
+/// Returns a site of descriptions that contain markup, with a comparison of two versions in `diff.html`.
 pub fn hostile() -> PathBuf {
     let root = folder("hostile");
     let (mut site, mut pages) = (Site::default(), Vec::new());
@@ -86,13 +86,13 @@ fn write(root: &Path, page: &Page) {
     std::fs::write(path, &page.text).expect("a page");
 }
 
-/// Even the names of the files are markup.
+/// Writes the comparison of two files whose names also contain markup.
 fn difference(root: &Path) {
-    let own = descriptions::table();
-    let versions = [own.clone(), own.replace("reg = 1,", "reg = 3,").replace("alert(1)", "alert(4)")];
-    let place = folder("versions");
-    let [old, new] =
-        ["<img src=x onerror=alert(5)> old.toml", "<img src=x onerror=alert(6)> new.toml"].map(|name| place.join(name));
+    let table = descriptions::table();
+    let versions = [table.clone(), table.replace("reg = 1,", "reg = 3,").replace("alert(1)", "alert(4)")];
+    let folder = folder("versions");
+    let [old, new] = ["<img src=x onerror=alert(5)> old.toml", "<img src=x onerror=alert(6)> new.toml"]
+        .map(|name| folder.join(name));
     for (path, text) in [&old, &new].into_iter().zip(versions) {
         std::fs::write(path, text).expect("a temporary file");
     }

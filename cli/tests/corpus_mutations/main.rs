@@ -1,7 +1,7 @@
-//! Nothing panics: not on damaged files of the corpus, not on texts made of the words of EDS and XML, not on noise.
+//! Tests that the compiler does not panic on damaged files of the corpus, random combinations of EDS and XML words, or noise.
 //!
-//! Every input goes through reading, checking, rendering, the summary and the Rust back end. The seed is fixed, so that
-//! every run tests the same inputs; `PROPTEST_RNG_SEED` and `PROPTEST_CASES` try others:
+//! Every input is read, checked, rendered, summarized and compiled to Rust. The seed is fixed, so every run tests the same
+//! inputs. `PROPTEST_RNG_SEED` and `PROPTEST_CASES` select others:
 //!
 //! ```text
 //! PROPTEST_CASES=100000 PROPTEST_RNG_SEED=7 cargo test --release -p lexibus-cli --test corpus_mutations
@@ -25,10 +25,10 @@ use proptest::prelude::*;
 use proptest::sample::{select, subsequence, Index};
 use proptest::test_runner::{RngSeed, TestError, TestRunner};
 
-/// The fewest cases that show how many inputs reach the back end.
+/// Minimum number of cases for a meaningful share of inputs that reach the back end.
 const FEWEST: u32 = 40;
 
-/// So many cases in an optimized build, a sixth of them in a debug build, and a fourth of these in the fast lane.
+/// Returns a configuration with this number of cases. A debug build runs a sixth, and the fast lane a quarter of that.
 fn config(cases: u32) -> ProptestConfig {
     let mut config = ProptestConfig { failure_persistence: None, max_shrink_iters: 3000, ..ProptestConfig::default() };
     if std::env::var_os("PROPTEST_CASES").is_none() {
@@ -41,8 +41,9 @@ fn config(cases: u32) -> ProptestConfig {
     config
 }
 
-/// Runs `exercise` on what `make` makes of the values of a strategy; shows the smallest input that fails. Of a hundred
-/// inputs at least `usable` have to reach the back end, or the test would test little.
+/// Runs `exercise` on the inputs that `make` creates, and shows the smallest input that fails.
+///
+/// At least `usable` percent of the inputs must reach the back end, so that the test is meaningful.
 fn hold<T: Debug + Clone>(
     cases: u32,
     usable: u32,
@@ -66,25 +67,25 @@ fn hold<T: Debug + Clone>(
     assert!(reached * 100 >= usable * all, "only {reached} of {all} inputs reach the back end");
 }
 
-/// A change of a file.
+/// Change to a file.
 #[derive(Clone, Debug)]
 enum Edit {
     Flip(Index, u8),
     Delete(Index, usize),
     Repeat(Index, usize),
     Insert(Index, &'static str),
-    /// Gives the next entry or attribute another value.
+    /// Replaces the value of the next entry or attribute.
     Value(Index, &'static str),
-    /// Gives the next XML element that has one another text.
+    /// Replaces the text of the next XML element with a text.
     Text(Index, &'static str),
     DeleteElement(Index),
     RepeatElement(Index),
-    /// Puts the next XML element in front of another one.
+    /// Moves the next XML element before another one.
     MoveElement(Index, Index),
     DeleteLine(Index),
     RepeatLine(Index),
     SwapLines(Index, Index),
-    /// Puts a part of another file there.
+    /// Inserts a part of another file.
     Splice(Index, Index, Index, usize),
     Truncate(Index),
 }
@@ -105,7 +106,7 @@ fn edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// What values, keys, headers and elements are made of, and what they had better not be made of.
+/// Valid and invalid parts of values, keys, headers and elements.
 #[rustfmt::skip]
 const WORDS: &[&str] = &[
     "", "0", "1", "-1", "7", "8", "9", "254", "255", "256", "65535", "012", "018", "0x", "0x0", "0x7", "0xFFFF",
@@ -126,7 +127,7 @@ const WORDS: &[&str] = &[
     "0..4 7", "-5..5", "1..65535", "0..99999999", "0x00,0x01", "DependOnSlot", "TR", "MBoxOut", "Outputs", "PS",
 ];
 
-/// The changes of a file, or of a part of it.
+/// Changes to a file or to an excerpt of it.
 #[derive(Clone, Debug)]
 struct Recipe {
     file: Index,
@@ -138,7 +139,7 @@ fn recipe() -> impl Strategy<Value = Recipe> {
     (any::<Index>(), any::<Index>(), vec(edit(), 1..12)).prop_map(|(file, from, edits)| Recipe { file, from, edits })
 }
 
-/// The start of an EDS, with its header, and some of its objects.
+/// Returns an excerpt of an EDS: its header and some of its objects.
 fn excerpt(bytes: &[u8], from: &Index) -> Vec<u8> {
     const HEADER: usize = 700;
     const OBJECTS: usize = 6_000;
@@ -153,46 +154,46 @@ fn excerpt(bytes: &[u8], from: &Index) -> Vec<u8> {
 }
 
 fn apply(bytes: &mut Vec<u8>, edit: &Edit, files: &[File]) {
-    let place = |at: &Index, bytes: &[u8]| at.index(bytes.len() + 1);
+    let position = |at: &Index, bytes: &[u8]| at.index(bytes.len() + 1);
     match edit {
         Edit::Flip(at, mask) => {
             let at = at.index(bytes.len().max(1));
             bytes.iter_mut().skip(at).take(1).for_each(|byte| *byte ^= mask);
         }
         Edit::Delete(at, length) => {
-            let start = place(at, bytes);
+            let start = position(at, bytes);
             bytes.drain(start..bytes.len().min(start + length));
         }
         Edit::Repeat(at, length) => {
-            let start = place(at, bytes);
+            let start = position(at, bytes);
             let part = bytes[start..bytes.len().min(start + length)].to_vec();
             bytes.splice(start..start, part);
         }
         Edit::Insert(at, word) => {
-            let start = place(at, bytes);
+            let start = position(at, bytes);
             bytes.splice(start..start, word.bytes());
         }
         Edit::Value(at, word) => {
-            let start = place(at, bytes);
-            let value = value_behind(bytes, start);
+            let start = position(at, bytes);
+            let value = value_after(bytes, start);
             bytes.splice(value, word.bytes());
         }
         Edit::Text(at, word) => {
-            let start = place(at, bytes);
-            let text = text_behind(bytes, start);
+            let start = position(at, bytes);
+            let text = text_after(bytes, start);
             if !text.is_empty() {
                 bytes.splice(text, word.bytes());
             }
         }
-        Edit::DeleteElement(at) => drop(bytes.drain(element_behind(bytes, place(at, bytes)))),
+        Edit::DeleteElement(at) => drop(bytes.drain(element_after(bytes, position(at, bytes)))),
         Edit::RepeatElement(at) => {
-            let element = element_behind(bytes, place(at, bytes));
+            let element = element_after(bytes, position(at, bytes));
             let part = bytes[element.clone()].to_vec();
             bytes.splice(element.start..element.start, part);
         }
         Edit::MoveElement(at, to) => {
-            let element = element_behind(bytes, place(at, bytes));
-            let to = element_behind(bytes, place(to, bytes)).start;
+            let element = element_after(bytes, position(at, bytes));
+            let to = element_after(bytes, position(to, bytes)).start;
             if to <= element.start || to >= element.end {
                 let part = bytes[element.clone()].to_vec();
                 let to = if to >= element.end { to - part.len() } else { to };
@@ -200,14 +201,14 @@ fn apply(bytes: &mut Vec<u8>, edit: &Edit, files: &[File]) {
                 bytes.splice(to..to, part);
             }
         }
-        Edit::DeleteLine(at) => drop(bytes.drain(line_at(bytes, place(at, bytes)))),
+        Edit::DeleteLine(at) => drop(bytes.drain(line_at(bytes, position(at, bytes)))),
         Edit::RepeatLine(at) => {
-            let line = line_at(bytes, place(at, bytes));
+            let line = line_at(bytes, position(at, bytes));
             let part = bytes[line.clone()].to_vec();
             bytes.splice(line.start..line.start, part);
         }
         Edit::SwapLines(one, other) => {
-            let [mut one, mut other] = [one, other].map(|at| line_at(bytes, place(at, bytes)));
+            let [mut one, mut other] = [one, other].map(|at| line_at(bytes, position(at, bytes)));
             if one.start > other.start {
                 std::mem::swap(&mut one, &mut other);
             }
@@ -217,23 +218,23 @@ fn apply(bytes: &mut Vec<u8>, edit: &Edit, files: &[File]) {
         }
         Edit::Splice(at, file, from, length) => {
             let other = &files[file.index(files.len())].bytes;
-            let start = place(at, bytes);
+            let start = position(at, bytes);
             let from = from.index(other.len() + 1);
             bytes.splice(start..start, other[from..other.len().min(from + length)].iter().copied());
         }
-        Edit::Truncate(at) => bytes.truncate(place(at, bytes)),
+        Edit::Truncate(at) => bytes.truncate(position(at, bytes)),
     }
 }
 
-/// The line at a place, with its end.
+/// Returns the range of the line at a position, with its line end.
 fn line_at(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     let start = bytes[..at].iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
     let end = bytes[at..].iter().position(|&byte| byte == b'\n').map_or(bytes.len(), |end| at + end + 1);
     start..end
 }
 
-/// The value of the next entry, or of the next attribute, behind a place.
-fn value_behind(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
+/// Returns the range of the value of the next entry or attribute.
+fn value_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     let Some(equals) = bytes[at..].iter().position(|&byte| byte == b'=') else { return at..at };
     let start = at + equals + 1;
     let (start, ends): (usize, &[u8]) =
@@ -242,8 +243,8 @@ fn value_behind(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     start..start + length
 }
 
-/// The text of the next element behind a place that has one.
-fn text_behind(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
+/// Returns the range of the text of the next element with a text.
+fn text_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     let mut start = at;
     while let Some(end) = bytes[start..].iter().position(|&byte| byte == b'>') {
         start += end + 1;
@@ -255,9 +256,9 @@ fn text_behind(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     at..at
 }
 
-/// The next element behind a place that isn't the document's root, from its first byte to its last.
-fn element_behind(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
-    /// Larger ones are most of a file.
+/// Returns the range of the next element that is not the root of the document.
+fn element_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
+    /// A larger element is most of a file.
     const LARGEST: usize = 20_000;
     let is_tag = |at: usize| bytes[at] == b'<' && bytes.get(at + 1).is_some_and(u8::is_ascii_alphabetic);
     let is_start = |at: usize| is_tag(at) && !in_comment(bytes, at);
@@ -266,13 +267,13 @@ fn element_behind(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     elements.find(|element| element.len() < LARGEST).unwrap_or(at..at)
 }
 
-/// Whether a place is within an XML comment.
+/// Whether a position is within an XML comment.
 fn in_comment(bytes: &[u8], at: usize) -> bool {
     let last = |mark: &[u8]| bytes[..at].windows(mark.len()).rposition(|part| part == mark);
     last(b"<!--").is_some_and(|start| last(b"-->").is_none_or(|end| end < start))
 }
 
-/// Where the element ends that starts here.
+/// Returns the end of the element that starts at the first byte.
 fn end_of_element(bytes: &[u8]) -> Option<usize> {
     let (mut at, mut depth) = (0, 0);
     loop {
@@ -321,7 +322,7 @@ fn damaged_xml_files() {
     });
 }
 
-/// Other values alone leave XML well formed, so that what stands behind the syntax meets them.
+/// Changed values keep XML well formed, so they test the code after the parser.
 #[test]
 fn xml_files_with_other_values() {
     let Some(files) = of_kind(true) else { return };
@@ -337,7 +338,7 @@ fn xml_files_with_other_values() {
     });
 }
 
-/// What leaves XML well formed: other values, and elements that are missing, doubled, or at another place.
+/// Generates changes that keep XML well formed: other values, and removed, repeated or moved elements.
 fn regular_edit() -> impl Strategy<Value = Edit> {
     let harmless: Vec<&str> = WORDS.iter().copied().filter(|word| !word.contains(['<', '"', '&', '\0'])).collect();
     let at = any::<Index>;
@@ -350,7 +351,7 @@ fn regular_edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// The files of a format that aren't too large to be tried a hundred times.
+/// Returns the files of a format that are small enough for many runs.
 fn small_files(format: &str) -> Option<Vec<File>> {
     const LARGEST: usize = 120_000;
     let mut files = whole(format)?;
@@ -424,7 +425,7 @@ fn files_that_start_as_one_and_end_as_another() {
     });
 }
 
-/// Any name that decides for a format, and one that doesn't.
+/// Generates a file name with the extension of a format, or with another one.
 fn name() -> impl Strategy<Value = &'static str> {
     select(&["x.eds", "x.dcf", "x.xdd", "x.xdc", "", "x"][..])
 }
@@ -448,12 +449,12 @@ const SECTIONS: &str = "\
     2000Denotation 2000ObjectLinks 6040 6041 6060 607A A0 00A0 0005 M1ModuleInfo M1FixedObjects M1Fixed2000 \
     M1Fixed2000sub1 M1SubExtends M1SubExt2000 M1Comments x";
 
-/// One of the words of a list.
+/// Selects a word of a list.
 fn one_of(list: &'static str) -> impl Strategy<Value = &'static str> + Clone {
     select(list.split(' ').collect::<Vec<_>>())
 }
 
-/// The words of an EDS in any order, a line each or not.
+/// Generates the words of an EDS in any order, on one or several lines.
 #[test]
 fn texts_of_the_words_of_an_eds() {
     let line = prop_oneof![
@@ -483,9 +484,9 @@ fn escape(word: &str) -> String {
     word.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
-/// An element with attributes, text and children.
+/// Generates an element with attributes, text and children.
 fn element() -> impl Strategy<Value = String> {
-    // An attribute twice is no XML.
+    // Repeated attributes are not well-formed XML.
     let attributes = (subsequence(ATTRIBUTES.split(' ').collect::<Vec<_>>(), 0..6), vec(select(WORDS), 6));
     let open = (one_of(ELEMENTS), attributes).prop_map(|(name, (keys, values))| {
         let written = keys.iter().zip(&values).map(|(key, value)| format!(" {key}=\"{}\"", escape(value)));
@@ -530,7 +531,7 @@ fn texts_of_the_words_of_an_xdd() {
     });
 }
 
-/// Two runs of one program have other hash seeds and other addresses; the output has neither. Two threads run at once.
+/// The output does not depend on hash seeds or memory addresses, which differ between threads.
 #[test]
 fn two_runs_give_the_same_bytes() {
     let Some(files) = all_files() else { return };
@@ -547,9 +548,9 @@ fn two_runs_give_the_same_bytes() {
         let [one, other] = std::thread::scope(|scope| {
             [(); 2].map(|()| scope.spawn(|| made(file))).map(|run| run.join().expect("no panic"))
         });
-        assert_eq!(one.1, other.1, "{}: other findings", file.name);
+        assert_eq!(one.1, other.1, "{}: different diagnostics", file.name);
         let differing = one.0.lines().zip(other.0.lines()).zip(1..).find(|((one, other), _)| one != other);
-        assert_eq!(differing, None, "{}: the second output is another one, from this line on", file.name);
+        assert_eq!(differing, None, "{}: the second output differs from this line on", file.name);
         assert_eq!(one.0.len(), other.0.len(), "{}", file.name);
         bytes += one.0.len();
     }

@@ -1,4 +1,4 @@
-//! Register tables made of pieces of the examples of their documentation.
+//! Tests register tables that are assembled from pieces of the documentation's examples.
 
 #[path = "../../../codegen/tests/table_support/mod.rs"]
 mod table_support;
@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use table_support::{examples, whole};
 
-/// What tables are made of, to be cut and put together anew.
+/// Returns the tables that are cut and recombined.
 fn pieces() -> Vec<String> {
     let mut lines: Vec<String> =
         examples().iter().flat_map(|(_, block)| whole(block).lines().map(str::to_owned).collect::<Vec<_>>()).collect();
@@ -20,7 +20,7 @@ fn pieces() -> Vec<String> {
     lines
 }
 
-/// A value of TOML, for any place.
+/// Generates a TOML value.
 fn value() -> impl Strategy<Value = String> {
     const VALUES: [&str; 34] = [
         "0",
@@ -64,7 +64,7 @@ fn value() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
 
-    /// Whatever stands in a table, it is read, checked and, where it has no errors, generated without a panic.
+    /// A table with any content is read, checked and, if it has no errors, compiled without a panic.
     #[test]
     fn mutated_tables_do_not_panic(
         block in 0usize..128,
@@ -73,15 +73,15 @@ proptest! {
         let examples = examples();
         let pieces = pieces();
         let mut lines: Vec<String> = whole(&examples[block % examples.len()].1).lines().map(str::to_owned).collect();
-        for (place, kind, value, other) in changes {
+        for (position, kind, value, other) in changes {
             if lines.is_empty() {
                 break;
             }
-            let at = place.index(lines.len());
+            let at = position.index(lines.len());
             match kind {
                 0 => drop(lines.remove(at)),
                 1 => lines.insert(at, pieces[other.index(pieces.len())].clone()),
-                // Another value in the place of one that follows a `=`.
+                // Replaces the value after a `=`.
                 2 | 3 => {
                     let places: Vec<usize> = lines[at].match_indices(" = ").map(|(at, _)| at + 3).collect();
                     let Some(&start) = places.get(other.index(places.len().max(1))) else { continue };

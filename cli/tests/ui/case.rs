@@ -1,4 +1,4 @@
-//! One case: its folder, its settings, and its expected files.
+//! Reads a case: its folder, its settings, and its expected files.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,18 +10,18 @@ use lexibus_codegen::source::Source;
 use serde::Deserialize;
 use similar::TextDiff;
 
-/// The file of a case that has its settings.
+/// Name of the file with the settings of a case.
 const SETTINGS: &str = "case.toml";
-/// The file of a case that has the expected diagnostics; absent if there are none.
+/// Name of the file with the expected diagnostics, which is absent if there are none.
 const DIAGNOSTICS: &str = "diagnostics";
 
-/// `case.toml`.
+/// Settings in `case.toml`.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// The rule that the case shows, in one sentence.
+    /// Rule that the case shows, in one sentence.
     pub about: String,
-    /// The files that are compiled, in order, if that is not every file of the folder. With `diff`: the old and the new one.
+    /// Files to compile, in order; by default, every file of the folder. For `diff`, the old and the new file.
     inputs: Vec<String>,
     strict: bool,
     allow: Vec<String>,
@@ -34,7 +34,7 @@ pub struct Settings {
     objects: Vec<String>,
     overlays: Vec<String>,
     no_profiles: bool,
-    /// The input is not compiled once more with other line ends, encodings and byte order marks.
+    /// Whether the input is compiled only in its original form, without other line ends, encodings and byte order marks.
     pub one_form: bool,
     /// Parts of the outputs; an empty list means the whole output. See `part.rs`.
     pub rust: Option<Vec<String>>,
@@ -47,17 +47,17 @@ pub struct Settings {
     pub markdown: Option<Vec<String>>,
     /// `lexibus diff` of the two inputs.
     pub diff: bool,
-    /// Columns of a list of registers: `field=column`, as `--map` takes them.
+    /// Columns of a register list: `field=column`, as for `--map`.
     pub map: Vec<String>,
-    /// The register table that an import makes of the input, a CSV file.
+    /// Register table that is imported from the input, a CSV file.
     pub table: Option<Vec<String>>,
-    /// REAL values of an EDS or DCF as the bits of IEEE 754: `--real hex`.
+    /// Whether REAL values of an EDS or DCF are written as IEEE 754 bit patterns: `--real hex`.
     pub real_hex: bool,
-    /// Facts that an export is given: `key = "value"`.
+    /// Additional facts for an export: `key = "value"`, as for `--set`.
     pub set: BTreeMap<String, String>,
 }
 
-/// A case.
+/// Test case.
 pub struct Case {
     folder: PathBuf,
     pub settings: Settings,
@@ -73,19 +73,19 @@ impl Case {
         Case { folder, settings }
     }
 
-    /// `area/case`.
+    /// Returns the name of the case: `area/case`.
     pub fn name(&self) -> String {
         let parts: Vec<_> =
             self.folder.components().rev().take(2).map(|part| part.as_os_str().to_string_lossy()).collect();
         format!("{}/{}", parts[1], parts[0])
     }
 
-    /// The name of the case's folder.
+    /// Returns the name of the case's folder.
     pub fn folder_name(&self) -> String {
         self.name().split_once('/').expect("an area and a case").1.to_owned()
     }
 
-    /// The files to compile, in order.
+    /// Returns the files to compile, in order.
     pub fn inputs(&self) -> Vec<Source> {
         let mut names = self.settings.inputs.clone();
         if names.is_empty() {
@@ -103,30 +103,32 @@ impl Case {
         Source::new(name, bytes).in_folder(&self.folder)
     }
 
-    /// The same input with other bytes.
+    /// Returns the same input with other bytes.
     pub fn source_of(&self, name: &str, bytes: Vec<u8>) -> Source {
         Source::new(name, bytes).in_folder(&self.folder)
     }
 
-    /// The options of `case.toml`.
+    /// Returns the compiler options of the settings.
     pub fn options(&self) -> Options {
-        let own = &self.settings;
+        let settings = &self.settings;
         Options {
             levels: self.levels(),
-            node_id_aliases: own.node_id_alias.clone(),
-            choices: own.option.iter().map(|text| compile::choice(text).expect("NAME=CHOICE")).collect(),
+            node_id_aliases: settings.node_id_alias.clone(),
+            choices: settings.option.iter().map(|text| compile::choice(text).expect("NAME=CHOICE")).collect(),
             select: self.selection(),
-            overlays: own.overlays.iter().map(|name| self.source(name)).collect(),
-            no_profiles: own.no_profiles,
+            overlays: settings.overlays.iter().map(|name| self.source(name)).collect(),
+            no_profiles: settings.no_profiles,
             ..Options::default()
         }
     }
 
-    /// The levels of `case.toml`.
+    /// Returns the diagnostic levels of the settings.
     pub fn levels(&self) -> Levels {
-        let own = &self.settings;
-        let mut levels = if own.strict { Levels::strict() } else { Levels::lenient() };
-        for (codes, level) in [(&own.allow, Level::Allow), (&own.warn, Level::Warn), (&own.deny, Level::Deny)] {
+        let settings = &self.settings;
+        let mut levels = if settings.strict { Levels::strict() } else { Levels::lenient() };
+        for (codes, level) in
+            [(&settings.allow, Level::Allow), (&settings.warn, Level::Warn), (&settings.deny, Level::Deny)]
+        {
             for code in codes {
                 levels.set(code, level).unwrap_or_else(|error| panic!("{}: {error}", self.name()));
             }
@@ -135,23 +137,23 @@ impl Case {
     }
 
     fn selection(&self) -> Selection {
-        let own = &self.settings;
+        let settings = &self.settings;
         Selection {
-            devices: own.device.iter().map(|text| text.parse().expect("a selection")).collect(),
-            modules: own.module.iter().map(|text| text.as_str().into()).collect(),
-            objects: own.objects.iter().map(|text| text.parse().expect("a selection")).collect(),
+            devices: settings.device.iter().map(|text| text.parse().expect("a selection")).collect(),
+            modules: settings.module.iter().map(|text| text.as_str().into()).collect(),
+            objects: settings.objects.iter().map(|text| text.parse().expect("a selection")).collect(),
         }
     }
 
-    /// Compares the expected files with what was made.
+    /// Compares the expected files with the actual ones.
     ///
     /// # Errors
     ///
-    /// The difference, line by line, and how to accept it.
+    /// The difference line by line, and the command that accepts it.
     pub fn compare(&self, actual: &Outputs) -> Result<(), String> {
         let mut message = String::new();
         for name in self.expected_names().iter().filter(|name| !actual.contains_key(*name)) {
-            message += &format!("{}/{name} is there, but nothing is written to it\n", self.name());
+            message += &format!("{}/{name} exists, but the case has no such output\n", self.name());
         }
         for (name, text) in actual {
             let expected = std::fs::read_to_string(self.folder.join(name)).unwrap_or_default();
@@ -168,7 +170,7 @@ impl Case {
         Err(format!("{message}to accept: LEXIBUS_BLESS=1 cargo test -p lexibus-cli --test ui {filter}"))
     }
 
-    /// Writes the expected files, and removes those that are not made any more.
+    /// Writes the expected files, and removes obsolete ones.
     ///
     /// # Errors
     ///
@@ -183,7 +185,7 @@ impl Case {
         Ok(())
     }
 
-    /// The names of the expected files that are there.
+    /// Returns the names of the existing expected files.
     fn expected_names(&self) -> Vec<String> {
         self.file_names().into_iter().filter(|name| is_expected(name)).collect()
     }
@@ -196,16 +198,16 @@ impl Case {
         names
     }
 
-    /// The expected diagnostics.
+    /// Returns the expected diagnostics.
     pub fn expected_diagnostics(&self) -> String {
         std::fs::read_to_string(self.folder.join(DIAGNOSTICS)).unwrap_or_default()
     }
 }
 
-/// The files that a case makes: name and text.
+/// Output files of a case: name and text.
 pub type Outputs = BTreeMap<String, String>;
 
-/// Whether a file of a case is written by blessing.
+/// Whether a file of a case is an output.
 fn is_expected(name: &str) -> bool {
     name == DIAGNOSTICS || name.starts_with("output.")
 }
@@ -217,7 +219,7 @@ pub fn put_diagnostics(outputs: &mut Outputs, text: String) {
     }
 }
 
-/// The ending of a file.
+/// Returns the extension of a file.
 pub fn ending(name: &str) -> &str {
     Path::new(name).extension().and_then(|ending| ending.to_str()).unwrap_or_default()
 }

@@ -1,5 +1,5 @@
-//! The forms that real files come in: inputs are compiled with each line end, with and without a byte order mark and, for EDS,
-//! in Windows-1252. All forms have to say the same. The fast lane tries one form of each kind, and only on the quirks.
+//! Compiles inputs in the forms of real files: with each line end, with and without a byte order mark and, for EDS, in
+//! Windows-1252. The results must be equal. The fast lane tries one form of each kind, and only for the quirks.
 
 use lexibus_codegen::compile::{check, Compilation};
 use lexibus_codegen::source::Source;
@@ -31,14 +31,14 @@ pub fn all_say_the_same(case: &Case) -> Result<(), String> {
                 return Err(format!("{name} as {form}: {:?} instead of {found:?}", findings(&other)));
             }
             if other.catalog.as_ref().map(content) != described {
-                return Err(format!("{name} as {form}: another IR"));
+                return Err(format!("{name} as {form}: the IR differs"));
             }
         }
     }
     Ok(())
 }
 
-/// The other forms of a file, each with its name; none of a table, which is UTF-8 by its format, or of a list of registers.
+/// Returns the other forms of a file with their names. Tables and register lists have none.
 fn forms(input: &Source) -> Vec<(String, Vec<u8>)> {
     let is_eds = match ending(input.name()) {
         "eds" | "dcf" => true,
@@ -66,12 +66,12 @@ fn forms(input: &Source) -> Vec<(String, Vec<u8>)> {
     forms
 }
 
-/// Code, line and column of every diagnostic, except those about the encoding: that is what the forms differ in.
+/// Returns code, line and column of every diagnostic, except those about the encoding, which differ.
 fn findings(compilation: &Compilation) -> Vec<String> {
     let list = compilation.diagnostics.list().iter().filter(|found| found.code.id != "EDS013");
-    let place = |file: u32, offset| compilation.sources[file as usize].position(offset);
+    let position = |file: u32, offset| compilation.sources[file as usize].position(offset);
     list.map(|found| {
-        let at = place(found.span.file.0, found.span.start);
+        let at = position(found.span.file.0, found.span.start);
         format!("{} {}:{}", found.code.id, at.line, at.column)
     })
     .collect()

@@ -1,4 +1,4 @@
-//! Runs the cases of `tests/ui`: what the compiler reads, says and emits, side by side in a folder.
+//! Runs the cases of `tests/ui`. The folder of a case contains its input, diagnostics and output.
 //!
 //!     cargo test -p lexibus-cli --test ui                       # all cases
 //!     cargo test -p lexibus-cli --test ui e02                   # those with `e02` in their name
@@ -25,7 +25,7 @@ use libtest_mimic::{Arguments, Failed, Trial};
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui");
     let bless = std::env::var_os("LEXIBUS_BLESS").is_some();
-    assert!(!(bless && std::env::var_os("CI").is_some()), "CI compares expected files; it never writes them");
+    assert!(!(bless && std::env::var_os("CI").is_some()), "CI compares expected files and never writes them");
     let cases: Vec<Case> = folders(&root).iter().flat_map(|area| folders(area)).map(Case::open).collect();
     assert!(!cases.is_empty(), "no case is in {}", root.display());
 
@@ -49,7 +49,7 @@ fn run(case: &Case, bless: bool) -> Result<(), Failed> {
     forms::all_say_the_same(case).map_err(Failed::from)
 }
 
-/// Each suggested fix, applied alone, removes its diagnostic and adds none. Two of each code are enough.
+/// Checks that each suggested fix removes its diagnostic and adds none. Two fixes per code are tested.
 fn fixes_hold(case: &Case) -> Result<(), String> {
     let options = case.options();
     for input in case.inputs() {
@@ -60,7 +60,7 @@ fn fixes_hold(case: &Case) -> Result<(), String> {
     Ok(())
 }
 
-/// The folders in `folder`, sorted by name.
+/// Returns the subfolders of `folder`, sorted by name.
 fn folders(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("a folder entry").path()).collect();

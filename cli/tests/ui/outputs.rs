@@ -1,4 +1,4 @@
-//! What a case makes: the diagnostics as the terminal prints them, and the outputs that its settings ask for.
+//! Makes the outputs of a case: the diagnostics as the terminal prints them, and the outputs that the settings name.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{render, Severity};
@@ -13,11 +13,11 @@ use lexibus_site::{Format, Page, Site};
 use crate::case::{ending, put_diagnostics, Case, Outputs};
 use crate::part::{parts, Form};
 
-/// Everything that the case makes.
+/// Returns all outputs of a case.
 ///
 /// # Errors
 ///
-/// If an output that the case asks for cannot be made, or has not the part.
+/// If an output cannot be made or does not contain the part.
 pub fn of(case: &Case) -> Result<Outputs, String> {
     let mut outputs = Outputs::new();
     let inputs = case.inputs();
@@ -27,7 +27,7 @@ pub fn of(case: &Case) -> Result<Outputs, String> {
     }
     let options = case.options();
     let compilations: Vec<Compilation> = inputs.into_iter().map(|input| check(input, &options)).collect();
-    let mut diagnostics: String = compilations.iter().map(said).collect();
+    let mut diagnostics: String = compilations.iter().map(printed).collect();
     for compilation in &compilations {
         let name = compilations.len().gt(&1).then(|| compilation.sources[0].name());
         for (file, text) in made(case, compilation, &options, &mut diagnostics)? {
@@ -42,8 +42,8 @@ pub fn of(case: &Case) -> Result<Outputs, String> {
     Ok(outputs)
 }
 
-/// The diagnostics of a file as the terminal prints them.
-fn said(compilation: &Compilation) -> String {
+/// Returns the diagnostics of a file as the terminal prints them.
+fn printed(compilation: &Compilation) -> String {
     let diagnostics = &compilation.diagnostics;
     let list = diagnostics.list().iter();
     let text: String =
@@ -56,42 +56,44 @@ fn said(compilation: &Compilation) -> String {
     format!("{text}{name}: {}\n", render::summary(counts.0, counts.1))
 }
 
-/// The outputs of one file, with their names. Notes of exports go to the diagnostics.
+/// Adds the outputs of a file with their names. Notes of exports go to the diagnostics.
 fn made(
     case: &Case,
     compilation: &Compilation,
     options: &Options,
-    said: &mut String,
+    diagnostics: &mut String,
 ) -> Result<Vec<(String, String)>, String> {
-    let own = &case.settings;
+    let settings = &case.settings;
     let mut outputs = Vec::new();
     let mut put = |name: &str, text: &str, form, wanted: &Vec<String>| -> Result<(), String> {
         outputs.push((format!("output.{name}"), parts(text, form, wanted)?));
         Ok(())
     };
-    if let Some(wanted) = &own.rust {
+    if let Some(wanted) = &settings.rust {
         put("rs", &compilation.rust(&options.rust).ok_or("no Rust is generated")?, Form::Rust, wanted)?;
     }
-    if let Some(wanted) = &own.info {
+    if let Some(wanted) = &settings.info {
         put("info.json", &pretty(&json::info(compilation)), Form::Indented, wanted)?;
     }
-    if let Some(pointers) = &own.dump {
+    if let Some(pointers) = &settings.dump {
         let catalog = serde_json::to_value(usable(compilation)?).expect("JSON");
         put("ir.json", &pointed(&catalog, pointers)?, Form::Indented, &Vec::new())?;
     }
-    if let Some(wanted) = &own.markdown {
+    if let Some(wanted) = &settings.markdown {
         put("md", &pages(compilation), Form::Paragraphs, wanted)?;
     }
-    let exports = [("eds", &own.eds), ("dcf", &own.dcf), ("esi.xml", &own.esi), ("gsdml.xml", &own.gsdml)];
+    let exports =
+        [("eds", &settings.eds), ("dcf", &settings.dcf), ("esi.xml", &settings.esi), ("gsdml.xml", &settings.gsdml)];
     for (name, wanted) in exports {
         let Some(wanted) = wanted else { continue };
         let form = if name.ends_with("xml") { Form::Indented } else { Form::Paragraphs };
         match export(case, name, compilation)? {
             Ok(exported) => {
                 put(name, &exported.text, form, wanted)?;
-                *said += &exported.notes.iter().map(|note| format!("note: {name}: {note}\n")).collect::<String>();
+                *diagnostics +=
+                    &exported.notes.iter().map(|note| format!("note: {name}: {note}\n")).collect::<String>();
             }
-            Err(refusal) => *said += &format!("error: {name}: {refusal}\n"),
+            Err(refusal) => *diagnostics += &format!("error: {name}: {refusal}\n"),
         }
     }
     Ok(outputs)
@@ -105,7 +107,7 @@ fn pretty(value: &impl serde::Serialize) -> String {
     serde_json::to_string_pretty(value).expect("JSON") + "\n"
 }
 
-/// The values at JSON pointers, each after its pointer.
+/// Returns the values at JSON pointers, each after its pointer.
 fn pointed(catalog: &serde_json::Value, pointers: &[String]) -> Result<String, String> {
     let texts = pointers.iter().map(|pointer| {
         let value = catalog.pointer(pointer).ok_or_else(|| format!("the IR has nothing at {pointer}"))?;
@@ -114,7 +116,7 @@ fn pointed(catalog: &serde_json::Value, pointers: &[String]) -> Result<String, S
     texts.collect::<Result<Vec<String>, String>>().map(|texts| texts.concat())
 }
 
-/// Every page that `lexibus docs --format markdown` writes of a file, each after its path.
+/// Returns every Markdown page of a file, each after its path.
 fn pages(compilation: &Compilation) -> String {
     let mut site = Site::new(Format::Markdown);
     let mut pages = site.add_compilation("input", compilation);
@@ -122,9 +124,9 @@ fn pages(compilation: &Compilation) -> String {
     pages.iter().map(|Page { path, text, .. }| format!("== {path}\n\n{text}\n")).collect()
 }
 
-/// The outer error is one of the case, the inner one is the refusal that a user sees.
+/// Exports a file. The outer error concerns the case, the inner one is the refusal that a user sees.
 fn export(case: &Case, name: &str, compilation: &Compilation) -> Result<Result<Export, Refusal>, String> {
-    // As `lexibus export`: what profiles add is known wherever an export is read.
+    // `lexibus export` also leaves out what profiles add.
     let options = Options { no_profiles: true, ..case.options() };
     let again =
         check(case.source_of(compilation.sources[0].name(), compilation.sources[0].bytes().into_owned()), &options);
@@ -150,7 +152,7 @@ fn export(case: &Case, name: &str, compilation: &Compilation) -> Result<Result<E
     })
 }
 
-/// What `lexibus diff` prints.
+/// Returns the output of `lexibus diff`.
 fn difference(case: &Case, compilations: &[Compilation]) -> Result<String, String> {
     let [old, new] = compilations else { return Err(format!("{}: `diff` needs two inputs", case.name())) };
     let changes = compare(usable(old)?, usable(new)?);
@@ -158,16 +160,16 @@ fn difference(case: &Case, compilations: &[Compilation]) -> Result<String, Strin
     Ok(format!("{lines}{}\n", Summary::of(&changes)))
 }
 
-/// The register tables of lists, as `lexibus import` makes them.
+/// Returns the register tables that `lexibus import` makes from register lists.
 fn import_lists(case: &Case, inputs: Vec<Source>, outputs: &mut Outputs) -> Result<(), String> {
     let mut diagnostics = String::new();
     for input in inputs {
         let map: Result<_, String> = case.settings.map.iter().map(|text| lexibus_import::mapping(text)).collect();
         let options = lexibus_import::Options { levels: case.levels(), map: map?, ..Default::default() };
         let made = import(input, &options);
-        diagnostics += &said(&made.compilation);
+        diagnostics += &printed(&made.compilation);
         if let Some(wanted) = &case.settings.table {
-            let text = made.table.ok_or("the list becomes no table")?;
+            let text = made.table.ok_or("the list cannot be imported")?;
             *outputs.entry("output.toml".to_owned()).or_default() += &parts(&text, Form::Paragraphs, wanted)?;
         }
     }

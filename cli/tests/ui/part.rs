@@ -1,16 +1,15 @@
-//! The parts of an output that a case is about.
+//! Selects the parts of an output that a case shows.
 //!
-//! A part is found by a text in its first line. How far it goes depends on the form of the output:
+//! A part is found by a text in its first line. Its extent depends on the form of the output:
 //!
-//! - Rust, XML, JSON: the line and everything indented below it, with the line that closes it; in Rust also the documentation
-//!   and attributes above it. In Rust, the text is matched by whole words in the line that begins an item (`SPEED`, `fn speed`,
-//!   `struct RxPdo1`). A `^` at the end of the text chooses the element around the line instead, `^^` the one around that.
-//! - EDS, Markdown, plain text: the lines up to the next empty one; of a Markdown table its head and the lines that contain the
-//!   text.
+//! - Rust, XML, JSON: the line, everything indented below it, and the closing line. In Rust, documentation and attributes above
+//!   are included, and the text consists of whole words of an item's first line (`SPEED`, `fn speed`, `struct RxPdo1`). A `^` at
+//!   the end of the text selects the enclosing element, `^^` the next enclosing element.
+//! - EDS, Markdown, plain text: the lines up to the next empty line. Of a Markdown table, the header and the rows with the text.
 
 use std::ops::Range;
 
-/// How the lines of an output belong together.
+/// Structure of an output.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Form {
     /// Rust as `prettyplease` prints it.
@@ -21,11 +20,11 @@ pub enum Form {
     Paragraphs,
 }
 
-/// The parts of `text`; the whole text if none is asked for.
+/// Returns the parts of `text`, or the whole text if no part is named.
 ///
 /// # Errors
 ///
-/// If a part is not there.
+/// If `text` does not contain a part.
 pub fn parts(text: &str, form: Form, wanted: &[String]) -> Result<String, String> {
     if wanted.is_empty() {
         return Ok(text.to_owned());
@@ -48,7 +47,7 @@ pub fn parts(text: &str, form: Form, wanted: &[String]) -> Result<String, String
     Ok(texts.join(between))
 }
 
-/// Every block that `part` names, as lines.
+/// Returns the line ranges of every block that `part` names.
 fn find<'t>(lines: &[&'t str], form: Form, part: &str) -> Vec<Vec<&'t str>> {
     let text = part.trim_end_matches('^');
     let levels = part.len() - text.len();
@@ -74,7 +73,7 @@ fn find<'t>(lines: &[&'t str], form: Form, part: &str) -> Vec<Vec<&'t str>> {
     found
 }
 
-/// Whether the line begins an item of Rust with `text` in its head, as whole words.
+/// Whether the line begins a Rust item that contains `text` as whole words.
 fn begins_item(line: &str, text: &str) -> bool {
     let starts = ["pub ", "impl", "const ", "static ", "fn ", "type ", "mod ", "use "];
     let line = line.trim_start();
@@ -89,24 +88,24 @@ fn begins_item(line: &str, text: &str) -> bool {
     })
 }
 
-/// The line that opens the element `levels` around the line `at`.
+/// Returns the first line of the element that encloses the line `at`, by `levels` levels.
 fn outer(lines: &[&str], at: usize, levels: usize) -> usize {
     (0..levels).fold(at, |at, _| {
-        let own = indent(lines[at]);
-        (0..at).rev().find(|&above| !lines[above].is_empty() && indent(lines[above]) < own).unwrap_or(at)
+        let depth = indent(lines[at]);
+        (0..at).rev().find(|&above| !lines[above].is_empty() && indent(lines[above]) < depth).unwrap_or(at)
     })
 }
 
-/// The line `at`, what is indented below it, and what closes it; in Rust also what documents it.
+/// Returns the line `at` with the lines indented below, the closing line and, in Rust, its documentation.
 fn indented(lines: &[&str], at: usize, form: Form) -> Range<usize> {
-    let own = indent(lines[at]);
+    let depth = indent(lines[at]);
     let is_above =
-        |line: &str| indent(line) == own && ["///", "#["].iter().any(|mark| line.trim_start().starts_with(mark));
+        |line: &str| indent(line) == depth && ["///", "#["].iter().any(|mark| line.trim_start().starts_with(mark));
     let mut start = at;
     while form == Form::Rust && start > 0 && is_above(lines[start - 1]) {
         start -= 1;
     }
-    let below = lines[at + 1..].iter().take_while(|line| line.is_empty() || indent(line) > own).count();
+    let below = lines[at + 1..].iter().take_while(|line| line.is_empty() || indent(line) > depth).count();
     let closes = |line: &&&str| {
         let line = line.trim_start();
         line.starts_with(['}', ')', ']']) || line.starts_with("</")
@@ -115,14 +114,14 @@ fn indented(lines: &[&str], at: usize, form: Form) -> Range<usize> {
     start..end + usize::from(below > 0 && lines.get(end).filter(closes).is_some())
 }
 
-/// The lines around `at` up to empty ones.
+/// Returns the paragraph that contains the line `at`.
 fn paragraph(lines: &[&str], at: usize) -> Range<usize> {
     let start = lines[..at].iter().rposition(|line| line.is_empty()).map_or(0, |empty| empty + 1);
     let end = lines[at..].iter().position(|line| line.is_empty()).map_or(lines.len(), |empty| at + empty);
     start..end
 }
 
-/// The head of a Markdown table and its lines that contain `text`.
+/// Returns the header of a Markdown table and the rows that contain `text`.
 fn rows<'t>(table: &[&'t str], text: &str) -> Vec<&'t str> {
     let head = table.iter().position(|line| line.starts_with('|')).unwrap_or(0);
     let body = table[head..].iter().skip(2).filter(|line| line.contains(text));

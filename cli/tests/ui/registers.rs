@@ -1,4 +1,4 @@
-//! What holds for the cases together: no code and no quirk is without one, and what they generate compiles.
+//! Checks all cases together: every code and every quirk has a case, and the generated code compiles.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -14,7 +14,7 @@ use libtest_mimic::{Failed, Trial};
 use crate::case::{ending, Case};
 use crate::compile_support::compile_modules;
 
-/// Codes that no case can show: IO001 is about a file that cannot be read, and a test of the command line has it.
+/// Codes that no case can show. IO001 reports an unreadable file, which a test of the command line covers.
 const WITHOUT_INPUT: [&str; 1] = ["IO001"];
 
 /// Every diagnostic code has a case that is named after it and reports it.
@@ -24,7 +24,7 @@ pub fn every_code_has_a_case(cases: &[Case]) -> Trial {
     Trial::test("every code has a case", move || {
         let is_shown = |id: &str, name: &str| {
             let folder = format!("{}-{name}", id.to_lowercase());
-            cases.iter().any(|(own, said)| *own == folder && said.contains(&format!("[{id}]")))
+            cases.iter().any(|(name, diagnostics)| *name == folder && diagnostics.contains(&format!("[{id}]")))
         };
         let missing = CODES.iter().filter(|code| !is_shown(code.id, code.name)).map(|code| code.id);
         let missing: Vec<&str> = missing.filter(|id| !WITHOUT_INPUT.contains(id)).collect();
@@ -39,8 +39,8 @@ pub fn examples_are_those_of_the_cases(cases: &[Case], bless: bool) -> Trial {
     Trial::test("examples of codes", move || {
         let example = |id: &str, name: &str| {
             let folder = format!("{}-{name}", id.to_lowercase());
-            let (_, said) = cases.iter().find(|(case, _)| *case == folder)?;
-            let shown = said.split("\n\n").map(str::trim_end);
+            let (_, diagnostics) = cases.iter().find(|(case, _)| *case == folder)?;
+            let shown = diagnostics.split("\n\n").map(str::trim_end);
             let shown = shown.filter(|text| text.lines().next().is_some_and(|line| line.contains(&format!("[{id}]"))));
             shown.min_by_key(|text| (text.lines().count(), text.len())).map(|text| format!("=== {id}\n{text}\n\n"))
         };
@@ -74,7 +74,7 @@ pub fn every_quirk_has_a_case(cases: &[Case]) -> Trial {
     })
 }
 
-/// The number of a row: `| E01 | …`.
+/// Returns the identifier of a row: `| E01 | …`.
 fn row(line: &str) -> Option<&str> {
     let row = line.strip_prefix("| ")?.split(' ').next()?;
     let digits = row.strip_prefix(['E', 'X', 'G'])?;
@@ -88,10 +88,10 @@ fn none_missing(what: &str, missing: &[&str]) -> Result<(), Failed> {
     Err(format!("{what} is missing for {}", missing.join(", ")).into())
 }
 
-/// How many inputs are compiled as one crate. A crate each takes longer, and one crate of all needs too deep a stack.
+/// Number of inputs that are compiled as one crate. More crates take longer, and one crate for all needs too deep a stack.
 const INPUTS: usize = 50;
 
-/// The Rust of every input that has no error compiles without a warning. A trial for each crate.
+/// The Rust of every input without errors compiles without warnings. Each crate is a trial.
 pub fn rust_of_all_cases_compiles(cases: &[Case]) -> Vec<Trial> {
     let mut inputs = Vec::new();
     for case in cases {
@@ -116,7 +116,7 @@ pub fn rust_of_all_cases_compiles(cases: &[Case]) -> Vec<Trial> {
     inputs.chunks(INPUTS).enumerate().map(trial).collect()
 }
 
-/// Every lint reports something in a case, and nothing but codes that it declares.
+/// Every lint reports a diagnostic in a case, and reports only codes that it declares.
 pub fn lints_declare_their_codes(cases: &[Case]) -> Trial {
     let mut levels = Levels::lenient();
     CODES.iter().for_each(|code| levels.set(code.id, Level::Warn).expect("a code"));
@@ -140,7 +140,7 @@ pub fn lints_declare_their_codes(cases: &[Case]) -> Trial {
         let declared: BTreeSet<(&str, &str)> = declared.collect();
         let unknown: Vec<_> = declared.iter().filter(|(_, id)| CODES.iter().all(|code| code.id != *id)).collect();
         let undeclared: Vec<_> = reported.difference(&declared).collect();
-        let silent = LINTS.iter().map(|lint| lint.name).filter(|name| reported.iter().all(|(own, _)| own != name));
+        let silent = LINTS.iter().map(|lint| lint.name).filter(|name| reported.iter().all(|(lint, _)| lint != name));
         let silent: Vec<&str> = silent.collect();
         if unknown.is_empty() && undeclared.is_empty() && silent.is_empty() {
             return Ok(());

@@ -1,5 +1,5 @@
-//! What an XML reader can't do without, to compare with: a loop over the events of `quick-xml`, with the position of each, and the
-//! same with the attributes taken apart.
+//! Reference for XML readers: a loop over the events of `quick-xml` with their positions, and a loop that also splits the
+//! attributes.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -11,12 +11,12 @@ use lexibus_codegen::source::Source;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::Reader;
 
-/// All events of a file up to its end or an error, and where each ends.
+/// Reads all events of a file up to its end or an error, and their end positions.
 fn events(bytes: &[u8]) -> usize {
     walk(bytes, |_| 0)
 }
 
-/// The same, and the attributes of every tag, undecoded.
+/// Like the function above, and splits the attributes of every tag without decoding them.
 fn attributes(bytes: &[u8]) -> usize {
     walk(bytes, |tag| tag.attributes().flatten().map(|attribute| attribute.value.len()).sum())
 }
@@ -34,17 +34,17 @@ fn walk(bytes: &[u8], of_tag: impl Fn(&BytesStart<'_>) -> usize) -> usize {
     }
 }
 
-/// Measures the bare loop.
+/// Measures the loop over events.
 pub fn measure(bencher: Bencher<'_, '_>, bytes: Vec<u8>) {
     bencher.counter(BytesCount::new(bytes.len())).bench(|| events(divan::black_box(&bytes)));
 }
 
-/// Prints how long it takes from the bytes of all files to checked IR, beside both loops.
+/// Prints the time from the bytes of all files to checked IR, and the times of both loops.
 pub fn report(name: &str, files: &[Vec<u8>]) {
     let length: usize = files.iter().map(Vec::len).sum();
     let repetitions = (200_000_000 / length.max(1)).clamp(5, 50);
     let [mut bare, mut apart, mut full] = [Duration::MAX; 3];
-    // In turns, and the least of each, so that all have the same luck.
+    // Runs in turns and uses the minimum of each, so that other load affects all of them.
     for _ in 0..repetitions {
         bare = bare.min(time(|| files.iter().map(|file| events(file)).sum::<usize>()));
         apart = apart.min(time(|| files.iter().map(|file| attributes(file)).sum::<usize>()));
@@ -56,10 +56,10 @@ pub fn report(name: &str, files: &[Vec<u8>]) {
     println!("{name}: {:.1} MB", length as f64 / 1e6);
     println!("  bytes to checked IR                    {:6.1} MB/s", speed(full));
     println!("  events with positions                  {:6.1} MB/s, ratio {:.2}", speed(bare), ratio(bare));
-    println!("  the same, attributes taken apart       {:6.1} MB/s, ratio {:.2}", speed(apart), ratio(apart));
+    println!("  the same, with split attributes          {:6.1} MB/s, ratio {:.2}", speed(apart), ratio(apart));
 }
 
-/// How long it takes, without dropping what is made.
+/// Measures a function without dropping its results.
 fn time<T>(work: impl FnOnce() -> T) -> Duration {
     let start = Instant::now();
     let result = divan::black_box(work());
@@ -72,12 +72,12 @@ fn check(bytes: Vec<u8>) -> Compilation {
     compile::check(Source::new("bench.xml", bytes), &Options::default())
 }
 
-/// The same for what lies in a folder of the corpus beside the repository, where there is one: files without a catalogue are left
-/// out, and all are compared as UTF-8, which is what `quick-xml` reads.
+/// Measures the files in a folder of the corpus, if there is one. Files without a catalog are left out. All files are converted
+/// to UTF-8, which `quick-xml` needs.
 pub fn report_corpus(folder: &str) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus").join(folder);
     let Ok(entries) = std::fs::read_dir(folder) else {
-        println!("there is no corpus beside the repository");
+        println!("there is no corpus next to the repository");
         return;
     };
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));

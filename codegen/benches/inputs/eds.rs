@@ -1,8 +1,8 @@
-//! EDS files of any size.
+//! Creates EDS files of any size.
 
 use std::fmt::Write;
 
-/// An EDS with `records` records, in the words and with the proportions of real ones.
+/// Returns an EDS with `records` records in the style and proportions of real files.
 pub fn eds(records: usize) -> String {
     let mut text = String::from("[FileInfo]\nFileName=bench.eds\nEDSVersion=4.0\n\n[DeviceInfo]\nVendorName=Bench\n");
     text += "ProductName=Bench\nVendorNumber=1\nProductNumber=2\nRevisionNumber=3\nNrOfRXPDO=0\nNrOfTXPDO=0\n\n";
@@ -17,7 +17,7 @@ pub fn eds(records: usize) -> String {
     text
 }
 
-/// So many times 10 records.
+/// Returns an EDS of `size` times 10 records.
 pub fn growing(size: usize) -> Vec<u8> {
     eds(10 * size).into_bytes()
 }

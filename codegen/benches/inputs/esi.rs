@@ -1,21 +1,21 @@
-//! ESI files of any size.
+//! Creates ESI files of any size.
 
 use std::fmt::Write;
 
-/// What each device of a file has: records of nine entries, and single values.
+/// Size of each device: records of nine entries, and single values.
 #[derive(Clone, Copy)]
 pub struct Shape {
     pub records: usize,
     pub single: usize,
 }
 
-/// The dictionary of a drive, of 256 entries.
+/// Dictionary of a drive, with 256 entries.
 pub const DRIVE: Shape = Shape { records: 24, single: 40 };
 
-/// That of a small device, of 37 entries.
+/// Dictionary of a small device, with 37 entries.
 pub const SMALL: Shape = Shape { records: 3, single: 10 };
 
-/// A file of so many devices, in the words and with the proportions of real ones.
+/// Returns a file of this number of devices in the style and proportions of real files.
 pub fn esi(devices: usize, shape: Shape) -> String {
     let mut text = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<EtherCATInfo xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
@@ -30,7 +30,7 @@ pub fn esi(devices: usize, shape: Shape) -> String {
     text
 }
 
-/// So many small devices.
+/// Returns a file of `size` small devices.
 pub fn growing(size: usize) -> Vec<u8> {
     esi(size, SMALL).into_bytes()
 }
@@ -115,7 +115,7 @@ fn object(text: &mut String, index: usize) {
     );
 }
 
-/// Sync managers, and PDOs of ten single values each.
+/// Returns sync managers, and PDOs of ten single values each.
 fn process_data(text: &mut String, shape: Shape) {
     for (name, address, control) in
         [("MBoxOut", 0x1000, 0x26), ("MBoxIn", 0x1080, 0x22), ("Outputs", 0x1100, 0x64), ("Inputs", 0x1400, 0x20)]

@@ -1,25 +1,25 @@
-//! GSDML files of any size.
+//! Creates GSDML files of any size.
 
 use std::fmt::Write;
 
-/// Parameters of a record.
+/// Number of parameters of a record.
 const OF_A_RECORD: usize = 20;
 
-/// Records of a submodule of a drive.
+/// Number of records of a submodule of a drive.
 pub const DRIVE: usize = 25;
 
 const LANGUAGES: [&str; 5] = ["de", "fr", "it", "es", "zh"];
 
-/// How much of it there is.
+/// Size of a description.
 #[derive(Clone, Copy)]
 struct Size {
     submodules: usize,
-    /// Of each submodule.
+    /// Number of records per submodule.
     records: usize,
 }
 
 impl Size {
-    /// Texts of parameters; several parameters share one.
+    /// Number of parameter texts. Several parameters share one.
     fn texts(self) -> usize {
         (self.submodules * self.records * 24 / 5).max(64)
     }
@@ -29,8 +29,8 @@ impl Size {
     }
 }
 
-/// The description of a drive with so many submodules, and records in each of them, in the words and with the proportions of
-/// real ones.
+/// Returns the description of a drive with this number of submodules, and of records in each of them, in the style and
+/// proportions of real files.
 pub fn gsdml(submodules: usize, records: usize) -> Vec<u8> {
     let size = Size { submodules, records };
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n");
@@ -55,7 +55,7 @@ pub fn gsdml(submodules: usize, records: usize) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// So many times 100 parameters.
+/// Returns a description of `size` times 100 parameters.
 pub fn growing(size: usize) -> Vec<u8> {
     match size {
         1 => gsdml(1, 5),

@@ -1,13 +1,13 @@
-//! XDD files of any size.
+//! Creates XDD files of any size.
 
 use std::fmt::Write;
 
-/// So many times 10 records.
+/// Returns an XDD of `size` times 10 records.
 pub fn growing(size: usize) -> Vec<u8> {
     xdd(10 * size).into_bytes()
 }
 
-/// An XDD with `records` records. Every other of their values is a parameter of the application process.
+/// Returns an XDD with `records` records. Every second value is a parameter of the application process.
 fn xdd(records: usize) -> String {
     let (mut parameters, mut objects) = (String::new(), String::new());
     for number in 0..records {

@@ -1,5 +1,4 @@
-//! The stages from the bytes of a description to Rust: what is measured of every format, on inputs that grow from 1 to 1,000
-//! times the size.
+//! The measured stages from the bytes of a description to Rust, for inputs of 1 to 1,000 times the size.
 
 use divan::counter::BytesCount;
 use divan::Bencher;
@@ -10,7 +9,7 @@ use lexibus_codegen::resolve::resolve;
 use lexibus_codegen::source::Source;
 use lexibus_codegen::RustOptions;
 
-/// Times the smallest input.
+/// Input sizes as multiples of the smallest one.
 pub const SIZES: [usize; 4] = [1, 10, 100, 1_000];
 
 /// Bytes to IR.
@@ -33,7 +32,7 @@ pub fn passes(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     });
 }
 
-/// Bytes to checked IR, with profiles and the digest of the source.
+/// Bytes to checked IR, including profiles and the digest of the source.
 pub fn check(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     bencher
         .counter(BytesCount::new(bytes.len()))
@@ -41,7 +40,7 @@ pub fn check(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
         .bench_values(|bytes| compile::check(Source::new(name, bytes), &Options::default()));
 }
 
-/// Checked IR to the Rust of all its devices; bytes are those of the description.
+/// Checked IR to the Rust of all devices. The throughput counts the bytes of the description.
 pub fn emit(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     let count = BytesCount::new(bytes.len());
     let compilation = compile::check(Source::new(name, bytes), &Options::default());
@@ -56,7 +55,7 @@ pub fn whole(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     });
 }
 
-/// The measurements of a format, of files with this name that `growing` makes.
+/// Measures the stages of a format, for files with this name that `growing` creates.
 macro_rules! measure {
     ($name:literal) => {
         #[divan::bench(args = stages::SIZES, max_time = 2)]

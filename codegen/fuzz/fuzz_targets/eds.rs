@@ -1,4 +1,4 @@
-//! Any bytes, given as .eds.
+//! Compiles any bytes as an EDS.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| lexibus_codegen_fuzz::everything("fuzz.eds", bytes));

@@ -1,4 +1,4 @@
-//! Any bytes, given as .xml: seeds of this target are ESI files.
+//! Compiles any bytes as XML. The seeds of this target are ESI files.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| lexibus_codegen_fuzz::everything("fuzz.xml", bytes));

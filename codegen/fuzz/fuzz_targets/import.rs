@@ -1,4 +1,4 @@
-//! Any bytes, given as a list of registers; the table that it becomes is read again.
+//! Imports any bytes as a register list, and compiles the resulting table.
 #![no_main]
 
 use lexibus_codegen::source::Source;

@@ -1,4 +1,4 @@
-//! Any bytes, made into IR: no output of it may panic, and what has no errors emits Rust.
+//! Creates an IR from any bytes. No output may panic, and an IR without errors must compile to Rust.
 #![no_main]
 
 use lexibus_codegen::compile::Options;

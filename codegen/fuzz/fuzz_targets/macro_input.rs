@@ -1,7 +1,7 @@
-//! Any text, given between the parentheses of `dictionary!`; what its options say is generated.
+//! Parses any text as the arguments of `dictionary!`, and generates code with the resulting options.
 #![no_main]
 
-// The macro itself can't be called from a program. What it reads can: the files that a call names aren't opened here.
+// A program cannot call the macro itself, only its parser. Files that a call names are not opened.
 #[allow(dead_code)]
 #[path = "../../../macros/src/call.rs"]
 mod call;
@@ -16,7 +16,7 @@ libfuzzer_sys::fuzz_target!(|text: &str| {
     match syn::parse2::<call::Call>(tokens) {
         Ok(call) => {
             let compilation = check(Source::new(call.path.value(), DEMO.into()), &call.options);
-            // Text that is no Rust is the macro's error, not its panic.
+            // The compiler rejects text that is not Rust before the macro runs.
             let _ = compilation.rust(&call.options.rust).map(|text| text.parse::<proc_macro2::TokenStream>());
         }
         Err(error) => drop(error.to_compile_error()),

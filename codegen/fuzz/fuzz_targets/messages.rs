@@ -1,12 +1,13 @@
-//! Any bytes, as a stream of frames, and as a request and its reply: whatever is read is written as the same bytes.
+//! Reads any bytes as a stream of frames, and as a request and its reply. Everything that is read must be written as the same
+//! bytes.
 #![no_main]
 
 use lexibus::framing::Framing;
 use lexibus::message::{Message, Reader, Reply, Request, WriteError, Writer};
 use lexibus_drives::hsd::messages::*;
 
-/// What `write` writes is what was read, up to `known` bytes. A setting whose length isn't that of its parameter, and a value beyond
-/// its limits, are read, for whoever looks for what is wrong on a line, and not written.
+/// Checks that `write` returns the bytes that were read, up to `known` bytes. Settings of wrong length and values beyond their
+/// limits can be read, to diagnose a bus, but not written.
 fn same(name: &str, data: &[u8], known: usize, write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) {
     let mut again = [0; 2 * MAX_DATA];
     let mut to = Writer::new(&mut again);
@@ -16,34 +17,34 @@ fn same(name: &str, data: &[u8], known: usize, write: impl FnOnce(&mut Writer<'_
         Err(error) => panic!("{name} was read, and isn't written: {error}"),
         Ok(()) => {
             assert_eq!(to.written().len(), data.len(), "{name}");
-            // Zeros that stand for a value are written as such, and read whatever they are.
+            // A value of zeros is written as zeros, but reads any bytes.
             let known = if name == CmdGetParN::NAME { known.min(6) } else { known };
             assert_eq!(to.written()[..known], data[..known], "{name}");
         }
     }
 }
 
-/// A request that is read is the one that is written, and so is a reply to it.
+/// A request that is read must be written as the same bytes, and so must a reply to it.
 fn request<'r, M: Request<'r>>(data: &'r [u8], answer: &'r [u8]) {
     let _ = M::Refusal::read(data, &mut Reader::new(answer));
     let reply = M::Reply::read(data, &mut Reader::new(answer));
     let Some((node, request)) = M::parse(&mut Reader::new(data)) else { return };
     same(M::NAME, data, data.len(), |to| request.write(node, to));
     if let Some(reply) = reply {
-        // A reply may have the request's bytes once more, and anything in place of those that a short request lacks.
+        // A reply can repeat the bytes of the request. Bytes that a short request lacks can have any value.
         same(M::NAME, answer, data.len().min(answer.len()), |to| reply.write(data, to));
     }
 }
 
-/// Each frame of a stream has data that make the same frame.
+/// The data of each frame must encode to the same frame.
 fn frames(stream: &[u8]) {
     let (mut decoder, mut data) = (FRAMING.decoder(), [0; MAX_DATA]);
     for &byte in stream {
         let Ok(Some(length)) = FRAMING.decode(&mut decoder, byte, &mut data) else { continue };
         let mut frame = [0; 2 * MAX_DATA + 8];
-        let taken = FRAMING.encode(&data[..length], &mut frame).expect("data of a frame");
+        let encoded = FRAMING.encode(&data[..length], &mut frame).expect("data of a frame");
         let (mut again, mut same) = (FRAMING.decoder(), [0; MAX_DATA]);
-        let found: Vec<_> = frame[..taken].iter().map(|&byte| FRAMING.decode(&mut again, byte, &mut same)).collect();
+        let found: Vec<_> = frame[..encoded].iter().map(|&byte| FRAMING.decode(&mut again, byte, &mut same)).collect();
         assert_eq!(found.last(), Some(&Ok(Some(length))));
         assert_eq!(same[..length], data[..length]);
     }

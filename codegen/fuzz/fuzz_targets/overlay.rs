@@ -1,4 +1,4 @@
-//! Any bytes, given as a table that corrects a description.
+//! Compiles a description with any bytes as an overlay.
 #![no_main]
 
 use lexibus_codegen_fuzz::overlaid;
@@ -10,7 +10,7 @@ const DESCRIPTIONS: [(&str, &str); 3] = [
 ];
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    // One a run, told by the length: a run is what costs, and a byte more is the next description.
+    // The length selects one description per run, because runs are slow. One more byte selects the next description.
     let (name, description) = DESCRIPTIONS[bytes.len() % DESCRIPTIONS.len()];
     overlaid(name, description, bytes);
 });

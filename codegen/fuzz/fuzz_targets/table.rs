@@ -1,4 +1,4 @@
-//! Any bytes, given as .toml: seeds of this target are register tables.
+//! Compiles any bytes as TOML. The seeds of this target are register tables.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| lexibus_codegen_fuzz::everything("fuzz.toml", bytes));

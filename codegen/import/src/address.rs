@@ -1,8 +1,8 @@
-//! Where a register is: numbers, ranges, bits, tables of Modbus, objects.
+//! Parses addresses: numbers, ranges, bits, Modbus tables, objects.
 
 use super::cells::{self, hexadecimal};
 
-/// A table of Modbus.
+/// Modbus table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum Table {
     Holding,
@@ -12,7 +12,7 @@ pub(super) enum Table {
 }
 
 impl Table {
-    /// Its word in the format.
+    /// Returns the name of the table in a register table.
     pub fn name(self) -> &'static str {
         match self {
             Table::Holding => "holding",
@@ -22,17 +22,17 @@ impl Table {
         }
     }
 
-    /// Whether it is a table of bits.
+    /// Whether the table consists of bits.
     pub fn is_bits(self) -> bool {
         matches!(self, Table::Coil | Table::Discrete)
     }
 
-    /// Whether a master can't write it.
+    /// Whether the table is read-only.
     pub fn is_read_only(self) -> bool {
         matches!(self, Table::Input | Table::Discrete)
     }
 
-    /// The table of a number with the table's digit in front (40001), and the number of its first register.
+    /// Returns the table of an address that starts with the digit of a table (40001), and the first address of the table.
     pub fn of_number(number: u32) -> Option<(Table, u32)> {
         let found = match number {
             1..=9_999 => (Table::Coil, 1),
@@ -58,37 +58,37 @@ impl Table {
     }
 }
 
-/// What a cell says of an address.
+/// Address in a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Address {
     pub first: u32,
-    /// The end of a range.
+    /// Last address of a range.
     pub last: Option<u32>,
-    /// The table, where the cell names one.
+    /// Table that the cell names.
     pub table: Option<Table>,
-    /// Lowest and highest bit, for a part of a register.
+    /// Lowest and highest bit of a part of a register.
     pub bits: Option<(u8, u8)>,
     pub is_hex: bool,
 }
 
-/// How a column writes its addresses.
+/// Notation of the addresses of a column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Style {
-    /// Bare digits are hexadecimal.
+    /// Whether bare digits are hexadecimal.
     pub is_hex: bool,
-    /// `4x0001`, and so `0x0001` for coils.
+    /// Whether addresses have the form `4x0001`. Then `0x0001` is a coil.
     pub is_x: bool,
-    /// A spreadsheet made fractions of all numbers: `40001.0`.
+    /// Whether all addresses end in `.0`, as some spreadsheets write them.
     pub is_fraction: bool,
 }
 
 impl Style {
-    /// The style of a column.
+    /// Detects the notation of a column.
     pub fn of<'c>(cells: impl Iterator<Item = &'c str> + Clone, is_hex: bool) -> Style {
         let mut filled = cells.filter(|text| !cells::is_blank(text));
         let is_x = filled.clone().any(|text| x_notation(text).is_some_and(|(digit, _)| digit != '0'));
         let is_fraction = filled.clone().next().is_some() && filled.clone().all(|text| text.ends_with(".0"));
-        // Letters in the digits of one number show that all are hexadecimal.
+        // If one address contains a letter, all are hexadecimal.
         let letters = |text: &str| {
             let is_plain = !text.is_empty() && text.chars().all(|digit| digit.is_ascii_hexdigit());
             is_plain
@@ -99,7 +99,7 @@ impl Style {
     }
 }
 
-/// `4x0012`: the digit, and the number.
+/// Parses `4x0012`, and returns the digit of the table and the number.
 fn x_notation(text: &str) -> Option<(char, u32)> {
     let mut letters = text.chars();
     let digit = letters.next().filter(|digit| matches!(digit, '0' | '1' | '3' | '4'))?;
@@ -109,12 +109,12 @@ fn x_notation(text: &str) -> Option<(char, u32)> {
     is_number.then(|| Some((digit, digits.parse().ok()?))).flatten()
 }
 
-/// Reads the address of a cell.
+/// Parses the address in a cell.
 pub(super) fn read(text: &str, style: Style) -> Option<Address> {
     let text = text.trim();
     let text = if style.is_fraction { text.strip_suffix(".0").unwrap_or(text) } else { text };
-    let (place, bits) = part_of(text);
-    let (first, last) = ends(place);
+    let (registers, bits) = part_of(text);
+    let (first, last) = ends(registers);
     let start = single(first, style)?;
     let last = match last {
         Some(last) => Some(end_of(start.first, last, Style { is_hex: is_hexadecimal(first, style), ..style })?),
@@ -124,7 +124,7 @@ pub(super) fn read(text: &str, style: Style) -> Option<Address> {
     Some(Address { last, bits, ..start })
 }
 
-/// A number of a register and the bits of it: `40010.3`, `40010 bit 3`, `40010:0-3`.
+/// Divides the register address from the bits after it: `40010.3`, `40010 bit 3`, `40010:0-3`.
 fn part_of(text: &str) -> (&str, Option<(u8, u8)>) {
     let lower = text.to_ascii_lowercase();
     let by_word = lower.find("bit").map(|at| (at, at + 3));
@@ -136,15 +136,15 @@ fn part_of(text: &str) -> (&str, Option<(u8, u8)>) {
     };
     let divided = by_word.or_else(by_mark).and_then(|(end, start)| Some((text.get(..end)?, text.get(start..)?)));
     let marks = |letter: char| letter.is_whitespace() || matches!(letter, '.' | ':' | '/' | '_' | '-' | 's');
-    match divided
-        .and_then(|(place, rest)| Some((place.trim_end_matches(marks), bit_range(rest.trim_start_matches(marks))?)))
-    {
-        Some((place, bits)) => (place, Some(bits)),
+    match divided.and_then(|(register, rest)| {
+        Some((register.trim_end_matches(marks), bit_range(rest.trim_start_matches(marks))?))
+    }) {
+        Some((register, bits)) => (register, Some(bits)),
         None => (text, None),
     }
 }
 
-/// `3`, `0-3`, `15..8`: lowest and highest bit.
+/// Parses `3`, `0-3` or `15..8`, and returns the lowest and highest bit.
 pub(super) fn bit_range(text: &str) -> Option<(u8, u8)> {
     let text = text.trim().trim_start_matches(['b', 'B']).trim_matches(['[', ']', ' ']);
     let (one, other) = text.split_once("..").or_else(|| text.split_once(['-', '–', ':', '~'])).unwrap_or((text, text));
@@ -153,7 +153,7 @@ pub(super) fn bit_range(text: &str) -> Option<(u8, u8)> {
     (high < 64).then_some((low, high))
 }
 
-/// The bits that a mask has, where they are neighbours: `0x00F0` is `(4, 7)`.
+/// Returns the lowest and highest bit of a mask of adjacent bits: `0x00F0` is `(4, 7)`.
 pub(super) fn mask(text: &str) -> Option<(u8, u8)> {
     let value = u64::try_from(hexadecimal(text, false)?).ok().filter(|&value| value > 0)?;
     let low = value.trailing_zeros();
@@ -162,12 +162,12 @@ pub(super) fn mask(text: &str) -> Option<(u8, u8)> {
     is_whole.then_some((low as u8, (low + bits - 1) as u8))
 }
 
-/// Start and end of a range.
+/// Divides a range into start and end.
 fn ends(text: &str) -> (&str, Option<&str>) {
     let words = ["..", "…", "~", " to ", " bis ", "–", "-", "/", "&", "+"];
     let divided = words.into_iter().find_map(|word| text.split_once(word));
     let list = || {
-        // `40,001` has its thousands apart; `40001, 40002` are two.
+        // `40,001` is one address with a thousands separator. `40001, 40002` are two addresses.
         let (first, rest) = text.split_once(',')?;
         let is_number = rest.len() == 3 && rest.chars().all(|digit| digit.is_ascii_digit());
         (!is_number || first.len() > 3).then(|| (first, rest.rsplit(',').next().unwrap_or(rest)))
@@ -178,7 +178,7 @@ fn ends(text: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// The end of a range; it may leave out what it shares with the start.
+/// Returns the end of a range. The end may omit leading digits of the start.
 fn end_of(first: u32, last: &str, style: Style) -> Option<u32> {
     let end = single(last, style)?.first;
     if end >= first {
@@ -195,7 +195,7 @@ fn end_of(first: u32, last: &str, style: Style) -> Option<u32> {
     }
 }
 
-/// Whether the digits of a number are hexadecimal.
+/// Whether a number is hexadecimal.
 fn is_hexadecimal(text: &str, style: Style) -> bool {
     hexadecimal(text, style.is_hex).is_some() && !(style.is_x && x_notation(text.trim()).is_some())
 }
@@ -229,7 +229,7 @@ fn single(text: &str, style: Style) -> Option<Address> {
     is_number.then(|| Some(Address { first: digits.parse().ok()?, table, ..Address::default() })).flatten()
 }
 
-/// A table of Modbus by its name or by function codes, and the access that the codes tell.
+/// Parses the name of a Modbus table, or function codes. Function codes also determine access rights.
 pub(super) fn table(text: &str) -> Option<(Table, Option<&'static str>)> {
     let lower = text.to_lowercase();
     let names = [
@@ -284,7 +284,7 @@ fn by_function(text: &str) -> Option<(Table, Option<&'static str>)> {
     Some((table, Some(access)))
 }
 
-/// Index and sub-index of an object, as the format writes them.
+/// Parses the index and sub-index of an object.
 pub(super) fn object(index: &str, sub: &str) -> Option<(u16, Option<u8>)> {
     let (index, inner) = match index.split_once([':', '/', '.']) {
         Some((index, inner)) => (index.trim(), inner.trim()),
@@ -318,7 +318,7 @@ mod tests {
             assert_eq!(read(text, plain), Some(Address { last: Some(64), ..number(63) }), "{text}");
         }
         assert_eq!(read("10099-100", plain), Some(Address { last: Some(10100), ..number(10099) }));
-        // An end without a mark is in the notation of the start.
+        // An end without a prefix has the notation of the start.
         let range = |first, last| Some(Address { last: Some(last), is_hex: true, ..number(first) });
         assert_eq!(read("0x0010-11", plain), range(0x10, 0x11));
         assert_eq!(read("0x0010-17", plain), range(0x10, 0x17));
@@ -328,7 +328,7 @@ mod tests {
         for text in ["40010.3", "40010:3", "40010 bit 3", "40010/bit3", "40010.b3"] {
             assert_eq!(read(text, plain), Some(Address { bits: Some((3, 3)), ..number(40010) }), "{text}");
         }
-        assert_eq!(read("40010.0-3", plain).and_then(|own| own.bits), Some((0, 3)));
+        assert_eq!(read("40010.0-3", plain).and_then(|address| address.bits), Some((0, 3)));
         assert_eq!(read("4x0012", plain), Some(Address { table: Some(Table::Holding), ..number(12) }));
         assert_eq!(read("HR100", plain), Some(Address { table: Some(Table::Holding), ..number(100) }));
         assert_eq!(read("40001.0", Style { is_fraction: true, ..plain }), Some(number(40001)));

@@ -1,8 +1,8 @@
-//! What stands in a single cell: numbers, factors, units, access, order of words.
+//! Parses single cells: numbers, factors, units, access rights, word order.
 
 use lexibus_codegen::frontend::table::usual_unit;
 
-/// A number, and how it is written.
+/// Number and its notation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Number {
     Int { value: i128, is_hex: bool },
@@ -25,13 +25,13 @@ impl Number {
     }
 }
 
-/// Whether a cell says nothing.
+/// Whether a cell has no content, or only a placeholder such as `n/a`.
 pub(super) fn is_blank(text: &str) -> bool {
     const NOTHING: [&str; 12] = ["", "-", "--", "---", "–", "—", "/", "n/a", "na", "n.a.", "none", "null"];
     NOTHING.contains(&text.trim().to_lowercase().as_str())
 }
 
-/// An integer in hexadecimal: `0x1F`, `1Fh`, `#x1F`, `16#1F`, `$1F`; bare digits where `is_hex`.
+/// Parses a hexadecimal integer: `0x1F`, `1Fh`, `#x1F`, `16#1F`, `$1F`, and bare digits if `is_hex`.
 pub(super) fn hexadecimal(text: &str, is_hex: bool) -> Option<i128> {
     let text = text.trim();
     let marked = ["0x", "0X", "#x", "16#", "$", "&H", "&h"].into_iter().find_map(|mark| text.strip_prefix(mark));
@@ -42,12 +42,12 @@ pub(super) fn hexadecimal(text: &str, is_hex: bool) -> Option<i128> {
         _ => return None,
     };
     let digits: String = digits.chars().filter(|&letter| !matches!(letter, '_' | ' ')).collect();
-    // `from_str_radix` would take a sign.
+    // `from_str_radix` would accept a sign.
     let is_number = !digits.is_empty() && digits.chars().all(|digit| digit.is_ascii_hexdigit());
     is_number.then(|| i128::from_str_radix(&digits, 16).ok()).flatten()
 }
 
-/// A number in any notation; `comma` where a comma is the decimal point.
+/// Parses a number in any notation. `comma` states that the decimal mark is a comma.
 pub(super) fn number(text: &str, comma: bool) -> Option<Number> {
     let text: String = text.trim().replace(['\u{a0}', '\u{202f}', '\'', '_'], "").replace(['−', '–'], "-");
     let (sign, digits) = match text.strip_prefix('-') {
@@ -72,7 +72,7 @@ pub(super) fn number(text: &str, comma: bool) -> Option<Number> {
     Some(Number::Real(sign as f64 * value))
 }
 
-/// The digits of a number with a point before its fraction and nothing between thousands.
+/// Returns the digits of a number with a decimal point and without thousands separators.
 fn point(digits: &str, comma: bool) -> String {
     let groups = |mark: char| {
         let mut parts = digits.split(mark);
@@ -89,7 +89,7 @@ fn point(digits: &str, comma: bool) -> String {
     }
 }
 
-/// What a number without a sign says of decimal points: `Some(true)` for a comma, `Some(false)` for a point.
+/// Returns whether the decimal mark of a number is a comma; `None` if the number does not show it.
 pub(super) fn decimal_mark(text: &str) -> Option<bool> {
     let digits = text.trim().trim_start_matches(['-', '+']);
     let (whole, fraction) = digits.split_once([',', '.'])?;
@@ -98,7 +98,7 @@ pub(super) fn decimal_mark(text: &str) -> Option<bool> {
     (is_number(whole) && is_number(fraction) && is_clear).then(|| digits.contains(','))
 }
 
-/// A number with the unit of its row behind it, or none.
+/// Parses a number that may be followed by the unit of its row.
 pub(super) fn quantity(text: &str, unit: &str, comma: bool) -> Option<Number> {
     let text = text.trim();
     number(text, comma).or_else(|| {
@@ -108,12 +108,12 @@ pub(super) fn quantity(text: &str, unit: &str, comma: bool) -> Option<Number> {
     })
 }
 
-/// Two numbers: `0..100`, `0-100`, `-40 to 85`, `[0; 100]`.
+/// Parses a range of two numbers: `0..100`, `0-100`, `-40 to 85`, `[0; 100]`.
 pub(super) fn range(text: &str, unit: &str, comma: bool) -> Option<(Number, Number)> {
     let text = text.trim().trim_matches(['[', ']', '(', ')']).trim();
     let words = ["..", "…", "~", "÷", " to ", " bis ", " a ", " - ", ";", "–", "/"];
     let divided = words.into_iter().find_map(|word| text.split_once(word));
-    // The first `-` may be a sign.
+    // A `-` at the start is a sign.
     let by_dash = || {
         let (at, _) = text.char_indices().skip(1).find(|&(_, letter)| letter == '-')?;
         Some((text.get(..at)?, text.get(at + 1..)?))
@@ -123,14 +123,14 @@ pub(super) fn range(text: &str, unit: &str, comma: bool) -> Option<(Number, Numb
     Some((quantity(low, unit, comma)?, quantity(high, unit, comma)?))
 }
 
-/// A factor, and whether it might be meant the other way round.
+/// Scale factor. It is ambiguous if its inverse may be meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Factor {
     pub value: f64,
     pub is_ambiguous: bool,
 }
 
-/// `0.1`, `x0.1`, `x10`, `/100`, `1/10`, `10^-1`, `0.1 V`.
+/// Parses a scale factor: `0.1`, `x0.1`, `x10`, `/100`, `1/10`, `10^-1`, `0.1 V`.
 pub(super) fn factor(text: &str, unit: &str, comma: bool) -> Option<Factor> {
     let text = text.trim().trim_start_matches('=');
     let clear = |value: f64| Factor { value, is_ambiguous: false };
@@ -139,7 +139,7 @@ pub(super) fn factor(text: &str, unit: &str, comma: bool) -> Option<Factor> {
         clear(1.0 / whole(rest)?)
     } else if let Some(rest) = text.strip_prefix(['x', 'X', '*', '×', '·']) {
         let value = whole(rest)?;
-        // "x10" may also say that the register has ten times the value.
+        // "x10" can also mean that the raw value is ten times the physical value.
         Factor { value, is_ambiguous: value > 1.0 }
     } else if let Some((base, exponent)) = text.split_once('^').or_else(|| text.split_once("**")) {
         let exponent = number(exponent.trim_matches(['(', ')']), comma)?.int()?;
@@ -153,7 +153,7 @@ pub(super) fn factor(text: &str, unit: &str, comma: bool) -> Option<Factor> {
     (found.value.is_finite() && found.value != 0.0).then_some(found)
 }
 
-/// A unit as it is written, and a factor in front of it (`0.1 °C`, `1/10 V`).
+/// Parses a unit and the factor before it (`0.1 °C`, `1/10 V`).
 pub(super) fn unit(text: &str, comma: bool) -> (String, Option<f64>) {
     let text = text.trim().trim_matches(['[', ']']).trim();
     let is_number = |letter: char| letter.is_ascii_digit() || matches!(letter, '.' | ',' | '/' | ' ');
@@ -169,12 +169,12 @@ pub(super) fn unit(text: &str, comma: bool) -> (String, Option<f64>) {
     }
 }
 
-/// The usual symbol of a unit.
+/// Returns the usual symbol of a unit.
 fn symbol(text: &str) -> String {
     usual_unit(text).unwrap_or(text).to_owned()
 }
 
-/// `ro`, `rw`, `wo` or `const`.
+/// Parses access rights, and returns them as register tables spell them: `ro`, `rw`, `wo`, `const`, `rwr` or `rww`.
 pub(super) fn access(text: &str) -> Option<&'static str> {
     let lower = text.to_lowercase();
     let letters: String = lower.chars().filter(|letter| letter.is_alphanumeric()).collect();
@@ -200,14 +200,14 @@ pub(super) fn access(text: &str) -> Option<&'static str> {
     })
 }
 
-/// Which word and which byte comes first: `low_first` and `swap` of the format.
+/// Order of words and bytes: the keys `low_first` and `swap` of a register table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Order {
     pub low_first: Option<bool>,
     pub swap: Option<bool>,
 }
 
-/// `ABCD`, `CDAB`, `BADC`, `DCBA`, big and little endian, `MSW first` …; `of_words` where only words are meant.
+/// Parses a word and byte order such as `ABCD`, `little endian` or `MSW first`. `of_words` states that bytes keep their order.
 pub(super) fn order(text: &str, of_words: bool) -> Option<Order> {
     let lower = text.to_lowercase();
     let letters: String = lower.chars().filter(|letter| letter.is_alphanumeric()).collect();

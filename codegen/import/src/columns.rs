@@ -1,4 +1,4 @@
-//! What the columns of a list are, by their titles.
+//! Recognizes the columns of a list by their titles.
 
 use std::fmt;
 
@@ -8,33 +8,33 @@ use super::records::{Record, Records};
 
 macro_rules! fields {
     ($($(#[$doc:meta])* $variant:ident $name:literal [$($title:literal)*])*) => {
-        /// What a column says of a register.
+        /// Property of a register that a column contains.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Field {
             $($(#[$doc])* $variant,)*
         }
 
-        /// Each field with its name, and the titles that columns of it have.
+        /// Fields with their names and the titles of their columns.
         const FIELDS: &[(Field, &str, &[&str])] = &[$((Field::$variant, $name, &[$($title),*])),*];
     };
 }
 
 fields! {
-    /// Its name.
+    /// Name.
     Name "name" [
         "name" "register name" "signal" "signal name" "parameter" "parameter name" "tag" "tag name" "variable"
         "variable name" "variablenname" "item" "label" "data name" "point" "point name" "object name" "title" "symbol"
         "field name" "mnemonic" "bezeichnung" "parametername" "registername" "signalname" "nome" "nome parametro"
         "nome registro" "nome variabile" "parametro" "variabile" "denominazione" "etichetta" "nom" "nombre"
     ]
-    /// What it is, in words.
+    /// Description.
     Doc "doc" [
         "description" "doc" "documentation" "note" "notes" "remark" "remarks" "comment" "comments" "explanation"
         "meaning" "details" "detail" "desc" "info" "information" "function" "beschreibung" "bemerkung" "bemerkungen"
         "kommentar" "anmerkung" "hinweis" "bedeutung" "funktion" "descrizione" "nota" "commento" "commenti"
         "osservazioni" "significato" "funzione" "descripción" "beschrijving"
     ]
-    /// Its number.
+    /// Register address.
     Reg "reg" [
         "register" "address" "addr" "reg" "register address" "modbus address" "modbus register" "modbus"
         "register number" "register no" "reg no" "reg addr" "reg address" "start address" "starting address"
@@ -44,149 +44,149 @@ fields! {
         "registernummer" "register nr" "indirizzo" "indirizzo modbus" "indirizzo registro" "registro" "registro modbus"
         "numero registro" "n registro" "ind" "dirección" "direccion" "adres"
     ]
-    /// Index of its object.
+    /// Index of the object.
     Index "index" ["index" "object index" "object" "idx" "indice" "objekt" "oggetto" "od index" "canopen index" "obj"]
-    /// Sub-index of its object.
+    /// Sub-index of the object.
     Sub "sub" ["sub" "subindex" "sub index" "sub idx" "subidx" "si" "sottoindice" "sub indice" "unterindex"]
-    /// Its number in a command protocol.
+    /// Parameter number in a command protocol.
     Param "param" [
         "parameter number" "parameter no" "param" "param no" "par no" "parameternummer" "parameter nr" "pnu"
         "numero parametro"
     ]
-    /// The bits of the register that it is about.
+    /// Bits of the register that the row describes.
     Part "part" [
         "bit" "bit no" "bit number" "bit position" "bit offset" "mask" "bit mask" "bitmask" "bitposition" "bit nr"
         "posizione bit" "maschera"
     ]
-    /// Which table of Modbus it is in.
+    /// Modbus table.
     Table "table" [
         "table" "function code" "functioncode" "fc" "fcode" "modbus function" "register type" "registertype"
         "function codes" "modbus table" "object type" "register table" "modbus function code" "funktionscode"
         "registertyp" "codice funzione" "tipo registro" "tipo di registro" "area" "kind"
     ]
-    /// Its type.
+    /// Data type.
     Type "type" [
         "type" "data type" "datatype" "format" "data format" "value type" "variable type" "numeric type" "dtype"
         "datentyp" "typ" "tipo" "tipo dato" "tipo di dato" "tipo dati" "formato" "tipo variabile"
     ]
-    /// How many registers it takes.
+    /// Length in registers.
     Words "words" [
         "words" "length" "len" "size" "registers" "number of registers" "no of registers" "num registers" "reg count"
         "register count" "quantity" "qty" "count" "number of words" "no of words" "word count" "size words"
         "length words" "register length" "width" "anzahl" "länge" "anzahl register" "registeranzahl" "größe" "lunghezza"
         "numero registri" "n registri" "dimensione" "quantità"
     ]
-    /// How many bytes it takes.
+    /// Length in bytes.
     Bytes "bytes" ["bytes" "size bytes" "length bytes" "number of bytes" "no of bytes" "byte count" "byte"]
-    /// How many bits it takes.
+    /// Length in bits.
     Width "width" ["bit length" "bit size" "size bits" "length bits" "bit width" "number of bits" "bitlänge"]
-    /// Which of its words and bytes comes first.
+    /// Order of words and bytes.
     Order "order" [
         "order" "byte order" "byteorder" "word order" "wordorder" "endianness" "endian" "swap" "word swap" "byte swap"
         "byte word order" "ordine byte" "ordine word" "byte reihenfolge" "wortreihenfolge"
     ]
-    /// Its unit.
+    /// Unit.
     Unit "unit" [
         "unit" "units" "unit of measure" "unit of measurement" "uom" "engineering unit" "eng unit" "eu" "measure unit"
         "einheit" "einheiten" "um" "u m" "unità" "unita" "unità di misura" "unita di misura" "unidad" "eenheid" "unité"
     ]
-    /// The factor from raw to physical.
+    /// Scale factor from raw to physical value.
     Scale "scale" [
         "scale" "scaling" "factor" "scale factor" "scaling factor" "multiplier" "multiplication factor" "resolution"
         "precision" "conversion" "conversion factor" "coefficient" "multiply" "faktor" "skalierung" "skalierungsfaktor"
         "auflösung" "multiplikator" "scala" "fattore" "fattore di scala" "risoluzione" "moltiplicatore" "coefficiente"
         "fattore di conversione"
     ]
-    /// What the raw value is divided by.
+    /// Divisor of the raw value.
     Divisor "divisor" ["divisor" "divider" "divide" "divide by" "gain" "teiler" "divisore" "guadagno"]
-    /// The power of ten that it is multiplied by, or the register that holds it.
+    /// Exponent of ten of the scale factor, or the register that contains it.
     Exponent "exponent" ["sf" "exponent" "scale exponent" "power of ten" "sunssf" "esponente"]
-    /// How many of its digits are behind the point.
+    /// Number of decimal places.
     Decimals "decimals" [
         "decimals" "decimal places" "decimal" "dec" "digits" "dp" "decimal point" "nachkommastellen" "dezimalstellen"
         "decimali" "cifre decimali"
     ]
-    /// The physical value of raw 0.
+    /// Physical value of raw value 0.
     Offset "offset" ["offset" "value offset" "bias" "scale offset" "scaling offset" "nullpunkt"]
-    /// The smallest value.
+    /// Minimum.
     Min "min" [
         "min" "minimum" "min value" "minimum value" "low limit" "lower limit" "lower" "low" "minimalwert" "untergrenze"
         "minwert" "minimo" "valore minimo" "val min" "limite inferiore" "mín" "mini"
     ]
-    /// The greatest value.
+    /// Maximum.
     Max "max" [
         "max" "maximum" "max value" "maximum value" "high limit" "upper limit" "upper" "high" "maximalwert" "obergrenze"
         "maxwert" "massimo" "valore massimo" "val max" "limite superiore" "máx" "maxi"
     ]
-    /// Smallest and greatest value.
+    /// Minimum and maximum.
     Range "range" [
         "range" "value range" "min max" "limits" "min max range" "valid range" "setting range" "data range"
         "wertebereich" "bereich" "campo" "intervallo" "range valori" "campo di variazione" "min max value"
     ]
-    /// The value before anybody wrote it.
+    /// Default value.
     Default "default" [
         "default" "default value" "initial" "initial value" "factory" "factory default" "factory setting"
         "factory value" "preset" "def" "init" "reset value" "standardwert" "werkseinstellung" "standard"
         "voreinstellung" "vorgabe" "valore di default" "predefinito" "valore predefinito" "valore iniziale"
     ]
-    /// Who may do what with it.
+    /// Access rights.
     Access "access" [
         "access" "r w" "rw" "read write" "ro rw" "access type" "access mode" "access rights" "permission" "permissions"
         "attribute" "attributes" "attr" "mode" "property" "read write property" "r o" "ro" "r" "r w access" "zugriff"
         "zugriffsart" "lesen schreiben" "l s" "accesso" "lettura scrittura" "tipo accesso" "attributo" "r w ro"
     ]
-    /// A raw value that is no number.
+    /// Raw value that means "not available".
     Na "na" [
         "invalid" "invalid value" "na value" "n a value" "not available" "error value" "null value" "nan value"
         "not implemented" "ungültig"
     ]
-    /// What its values mean.
+    /// Names of the values.
     Enum "enum" [
         "enum" "enumeration" "values" "enumerations" "options" "option" "possible values" "value description"
         "value meaning" "selection" "states" "codes" "coding" "value list" "values description" "value" "werte"
         "auswahl" "wertebedeutung" "valori" "enumerazione" "opzioni" "valori ammessi" "valore" "codifica"
     ]
-    /// What its bits mean.
+    /// Names of the bits.
     Bits "bits" [
         "bits" "bit field" "bitfield" "bit description" "bit meaning" "bit definition" "flags" "bit description meaning"
         "significato bit"
     ]
-    /// The chapter that it belongs to.
+    /// Chapter of the row.
     Chapter "chapter" [
         "chapter" "group" "category" "section" "block" "module" "menu" "function group" "class" "subsystem" "gruppe"
         "kategorie" "kapitel" "bereich gruppe" "gruppo" "categoria" "sezione" "capitolo"
     ]
-    /// Where the manual says it.
+    /// Page or section of the manual.
     Cite "cite" ["cite" "page" "page no" "manual page" "seite" "pagina" "pag"]
-    /// Its name in the manual's language.
+    /// Name in the language of the manual.
     Orig "orig" ["orig" "original" "original name" "originalname" "nome originale" "local name"]
-    /// How many of the same follow each other.
+    /// Number of repetitions.
     Count "count" ["repeat" "repeats" "instances" "number of instances" "array size" "array length" "elements"]
 }
 
 impl Field {
-    /// The field of this name.
+    /// Returns the field with this name, in any case.
     pub fn find(name: &str) -> Option<Field> {
-        FIELDS.iter().find(|(_, own, _)| own.eq_ignore_ascii_case(name)).map(|&(field, ..)| field)
+        FIELDS.iter().find(|(_, known, _)| known.eq_ignore_ascii_case(name)).map(|&(field, ..)| field)
     }
 
-    /// Its name.
+    /// Returns the name of the field.
     pub fn name(self) -> &'static str {
         FIELDS.iter().find(|(field, ..)| *field == self).map_or("", |&(_, name, _)| name)
     }
 
-    /// The names of all fields.
+    /// Returns the names of all fields.
     pub fn names() -> impl Iterator<Item = &'static str> {
         FIELDS.iter().map(|&(_, name, _)| name)
     }
 
-    /// The name of a field that is most similar.
+    /// Returns the most similar name of a field.
     pub fn similar(name: &str) -> Option<&'static str> {
-        let best = Field::names().map(|own| (edit_distance(name, own), own)).min()?;
+        let best = Field::names().map(|known| (edit_distance(name, known), known)).min()?;
         (best.0 * 2 <= name.chars().count()).then_some(best.1)
     }
 
-    /// Whether it tells where a register is.
+    /// Whether the field is the address of a row.
     pub fn is_address(self) -> bool {
         matches!(self, Field::Reg | Field::Index | Field::Param)
     }
@@ -198,19 +198,19 @@ impl fmt::Display for Field {
     }
 }
 
-/// A column that was recognised.
+/// Column with a known field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Column {
     pub field: Field,
-    /// Its place in a line.
+    /// Position in a line.
     pub at: usize,
-    /// Whether the title says that its numbers are hexadecimal.
+    /// Whether the title states that the numbers are hexadecimal.
     pub is_hex: bool,
-    /// Whether the title is about words rather than bytes, or says gain rather than divisor.
+    /// Whether the title mentions words instead of bytes, or a gain instead of a divisor.
     pub hint: Hint,
 }
 
-/// What else a title says.
+/// Additional meaning of a title.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Hint {
     #[default]
@@ -219,47 +219,51 @@ pub(super) enum Hint {
     Gain,
 }
 
-/// The columns of a list.
+/// Columns of a list.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Columns {
     pub list: Vec<Column>,
-    /// The line of titles; `None` where the caller names every column by its number.
+    /// Line with the titles; `None` if the caller names every column by its number.
     pub header: Option<usize>,
-    /// How many cells a line has.
+    /// Number of cells of a line.
     pub width: usize,
 }
 
 impl Columns {
-    /// The first column of a field.
+    /// Returns the first column of a field.
     pub fn get(&self, field: Field) -> Option<Column> {
         self.all(field).next()
     }
 
-    /// The columns of a field.
+    /// Returns the columns of a field.
     pub fn all(&self, field: Field) -> impl Iterator<Item = Column> + '_ {
         self.list.iter().copied().filter(move |column| column.field == field)
     }
 
-    /// Whether anything tells where a register is.
+    /// Whether a column contains addresses.
     pub fn has_address(&self) -> bool {
         self.list.iter().any(|column| column.field.is_address())
     }
 
-    /// How well a file was understood.
+    /// Returns a score for the number of recognized columns. An address counts four more.
     pub fn score(&self) -> usize {
         self.list.len() + if self.has_address() { 4 } else { 0 }
     }
 }
 
-/// How many lines may stand above the titles.
+/// Maximum number of lines above the titles.
 const PREAMBLE: usize = 40;
 
-/// Finds the line of titles, and what the columns are. `Err` has the column of `map` that doesn't exist.
+/// Finds the titles and the fields of the columns.
+///
+/// # Errors
+///
+/// The column of `map` that does not exist.
 pub(super) fn find<'m>(records: &Records, map: &'m [(Field, String)]) -> Result<Columns, &'m str> {
     let by_number = map.iter().all(|(_, column)| number(column).is_some());
     let (mut best, mut missing) = (Columns::default(), None);
     for (line, record) in records.list.iter().take(PREAMBLE).enumerate() {
-        // Numbers of columns fit any line: titles have to be recognised too.
+        // Column numbers fit any line, so a line of titles must also have a known title.
         if by_number && plain(record).is_empty() {
             continue;
         }
@@ -280,7 +284,7 @@ pub(super) fn find<'m>(records: &Records, map: &'m [(Field, String)]) -> Result<
     }
 }
 
-/// A column named by its number, from 1 on.
+/// Returns the position of a column that is named by its number (`#1` is the first).
 fn number(column: &str) -> Option<usize> {
     column.strip_prefix('#')?.trim().parse::<usize>().ok()?.checked_sub(1)
 }
@@ -296,13 +300,13 @@ fn column_of(field: Field, at: usize, title: &str) -> Column {
     Column { field, at, is_hex, hint }
 }
 
-/// The columns that titles tell by themselves.
+/// Returns the columns with a known title.
 fn plain(record: &Record) -> Vec<Column> {
     let mut list: Vec<Column> = Vec::new();
     for (at, cell) in record.filled() {
         let title = normal(&cell.text);
         let Some(field) = field_of(&title) else { continue };
-        // A second address is the one on the wire; documentation may have several columns.
+        // A second address is the wire address. Documentation can have several columns.
         let before = list.iter().filter(|column| column.field == field).count();
         let many = match field {
             Field::Doc => usize::MAX,
@@ -324,7 +328,7 @@ fn titles<'m>(record: &Record, map: &'m [(Field, String)]) -> Result<Columns, &'
             return Err(name.as_str());
         };
         let is_mapped = |column: &Column| {
-            let names = map.iter().filter(|(own, _)| *own == column.field);
+            let names = map.iter().filter(|(mapped, _)| *mapped == column.field);
             names
                 .clone()
                 .any(|(_, name)| normal(name) == normal(record.text(column.at)) || number(name) == Some(column.at))
@@ -332,12 +336,12 @@ fn titles<'m>(record: &Record, map: &'m [(Field, String)]) -> Result<Columns, &'
         list.retain(|column| column.at != at && (column.field != *field || *field == Field::Doc || is_mapped(column)));
         list.push(column_of(*field, at, &normal(record.text(at))));
     }
-    // Behind the last title there are no columns.
+    // There are no columns after the last title.
     let width = record.filled().last().map_or(0, |(at, _)| at + 1);
     Ok(Columns { list, header: None, width })
 }
 
-/// Looking for a cell by its text.
+/// Finds a cell by its text.
 trait PositionOf {
     fn position_of(self, is_it: impl Fn(&str) -> bool) -> Option<usize>;
 }
@@ -348,14 +352,14 @@ impl<'a, I: Iterator<Item = (usize, &'a super::records::Cell)>> PositionOf for I
     }
 }
 
-/// A title in lower case, its words divided by one blank each.
+/// Returns a title in lower case, with one blank between words.
 pub(super) fn normal(title: &str) -> String {
     let letters = title.chars().map(|letter| if letter.is_alphanumeric() { letter } else { ' ' });
     let lower = letters.collect::<String>().to_lowercase();
     lower.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Words that say nothing of what a column is.
+/// Words of titles that do not help to recognize a column.
 const FILLERS: [&str; 24] = [
     "hex",
     "dec",
@@ -383,7 +387,7 @@ const FILLERS: [&str; 24] = [
     "0",
 ];
 
-/// Whether an address is that of an object: on CANopen or EtherCAT, and not on Modbus.
+/// Whether a title names the address of an object on CANopen or EtherCAT, not on Modbus.
 fn is_fieldbus(title: &str) -> bool {
     let has = |list: &[&str]| title.split(' ').any(|word| list.contains(&word));
     has(&["address", "adresse", "indirizzo", "addr"])
@@ -407,7 +411,7 @@ fn field_of(title: &str) -> Option<Field> {
         let has = |list: &[&str]| words().any(|word| list.contains(&word));
         match () {
             () if words().count() > 4 => None,
-            // "Indirizzo CAN EtherCAT Profinet", beside a column with the number on Modbus.
+            // "Indirizzo CAN EtherCAT Profinet", next to a column with the Modbus address.
             () if is_fieldbus(title) => Some(Field::Index),
             () if has(&["subindex", "sub"]) => Some(Field::Sub),
             () if has(&["address", "adresse", "indirizzo", "addr"]) => Some(Field::Reg),

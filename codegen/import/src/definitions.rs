@@ -1,8 +1,8 @@
-//! Named values and bits of a list, each once.
+//! Collects the named values and bits of a list without duplicates.
 
 use std::collections::{HashMap, HashSet};
 
-/// Named values or bits, as keys and values of TOML.
+/// Named values or bits, as TOML keys and values.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Definition {
     pub name: String,
@@ -10,34 +10,34 @@ pub(super) struct Definition {
     pub entries: Vec<(String, String)>,
 }
 
-/// All of a list, with their names and entries for whoever looks for them.
+/// Definitions of a list, indexed by their entries and names.
 #[derive(Debug, Default)]
 pub(super) struct Definitions {
     list: Vec<Definition>,
-    places: HashMap<(bool, Vec<(String, String)>), usize>,
+    positions: HashMap<(bool, Vec<(String, String)>), usize>,
     names: HashSet<String>,
-    /// Number of the next definition with a name, so that equal names aren't counted from the start each time.
+    /// Suffix for the next definition with this name. Without it, each repeated name would count from 2 again.
     next: HashMap<String, u32>,
 }
 
 impl Definitions {
-    /// The place of the definition with these entries: one that is there already, or a new one, which is called after the row that
-    /// has it first.
-    pub fn place(&mut self, is_bits: bool, entries: Vec<(String, String)>, row: &str) -> usize {
+    /// Returns the index of the definition with these entries. Adds a definition named after `row` if there is none.
+    pub fn add(&mut self, is_bits: bool, entries: Vec<(String, String)>, row: &str) -> usize {
         let key = (is_bits, entries);
-        if let Some(&place) = self.places.get(&key) {
-            return place;
+        if let Some(&position) = self.positions.get(&key) {
+            return position;
         }
-        let (place, name) = (self.list.len(), self.free_name(row));
+        let (position, name) = (self.list.len(), self.free_name(row));
         self.list.push(Definition { name, is_bits, entries: key.1.clone() });
-        self.places.insert(key, place);
-        place
+        self.positions.insert(key, position);
+        position
     }
 
     pub fn into_list(self) -> Vec<Definition> {
         self.list
     }
 
+    /// Returns an unused name in camel case.
     fn free_name(&mut self, row: &str) -> String {
         let words = row.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
         let camel: String =
@@ -61,11 +61,12 @@ mod tests {
     fn each_meaning_has_one_name() {
         let entries = |value: &str| vec![("0".to_owned(), value.to_owned())];
         let mut all = Definitions::default();
-        let places = [("op mode", "off"), ("other", "off"), ("Op-Mode", "on"), ("OpMode2", "idle"), ("op mode", "run")]
-            .map(|(row, value)| all.place(false, entries(value), row));
-        assert_eq!(places, [0, 0, 1, 2, 3]);
-        assert_eq!(all.place(true, entries("off"), "?"), 4, "bits aren't values");
-        let names: Vec<String> = all.into_list().into_iter().map(|own| own.name).collect();
+        let positions =
+            [("op mode", "off"), ("other", "off"), ("Op-Mode", "on"), ("OpMode2", "idle"), ("op mode", "run")]
+                .map(|(row, value)| all.add(false, entries(value), row));
+        assert_eq!(positions, [0, 0, 1, 2, 3]);
+        assert_eq!(all.add(true, entries("off"), "?"), 4, "bits are not values");
+        let names: Vec<String> = all.into_list().into_iter().map(|definition| definition.name).collect();
         assert_eq!(names, ["OpMode", "OpMode2", "Opmode2", "OpMode3", "Values"]);
     }
 }

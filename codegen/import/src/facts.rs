@@ -1,4 +1,4 @@
-//! What a line says of its register beside the address: order, unit and factor, limits, meaning, words.
+//! Reads the properties of a row: word order, unit, factor, limits, named values, documentation.
 
 use std::collections::HashSet;
 
@@ -10,33 +10,35 @@ use lexibus_codegen::text::brief;
 use super::cells::{self, Number, Order};
 use super::columns::{Field, Hint};
 use super::records::{Cell, Record};
-use super::rows::{tidy, Place, Reader, Reference, Type};
+use super::rows::{tidy, Reader, Reference, RowAddress, Type};
 use super::types::{self, Base};
 use super::values::{self, List};
 use super::write::{digits, int, quoted, real};
 
-/// How many letters of a description make a name.
+/// Maximum length of a name that is made from a description.
 const NAME_LETTERS: usize = 60;
 
-/// What is longer is no unit.
+/// Maximum length of a unit.
 const UNIT_LETTERS: usize = 24;
 
 impl Reader<'_, '_> {
     pub fn order(&mut self, record: &Record, ty: Type) -> Order {
-        let mut order = types::read(self.text(record, Field::Type)).map_or(Order::default(), |own| own.order);
+        let mut order = types::read(self.text(record, Field::Type)).map_or(Order::default(), |ty| ty.order);
         if let Some(cell) = self.cell(record, Field::Order) {
             let of_words = self.columns.get(Field::Order).is_some_and(|column| column.hint == Hint::Words);
             match cells::order(&cell.text, of_words) {
-                Some(own) => order = own,
-                None => self.unreadable(cell, "order of words or bytes"),
+                Some(written) => order = written,
+                None => self.unreadable(cell, "a word or byte order"),
             }
         }
-        // A single word has no order of words.
+        // A single word has no word order.
         let is_long = ty.size().is_none_or(|bits| bits > 16);
         Order { low_first: order.low_first.filter(|_| is_long), swap: order.swap.filter(|_| ty.base != Base::Bool) }
     }
 
-    /// Unit, scale, offset and values that are no numbers. Returns the factor by another row, and that by a number.
+    /// Adds unit, scale, offset and the value for "not available" to `facts`.
+    ///
+    /// Returns the reference to another row with the factor, and the factor and offset as numbers.
     pub fn quantity(
         &mut self,
         record: &Record,
@@ -61,7 +63,9 @@ impl Reader<'_, '_> {
             (Some(offset), None) => facts.push(("offset", real(offset))),
             (Some(_), Some(_)) => {
                 if let Some(cell) = self.cell(record, Field::Offset) {
-                    self.unreadable(cell, "offset beside a factor that another row holds");
+                    let message = "an offset cannot be combined with a factor from another row".to_owned();
+                    let label = "left out; the rest of the row is kept";
+                    self.report(&codes::CSV_UNREADABLE_CELL, cell.span, message, label);
                 }
             }
             (None, _) => {}
@@ -70,15 +74,15 @@ impl Reader<'_, '_> {
         (reference, (factor.unwrap_or(1.0), offset.unwrap_or(0.0)))
     }
 
-    /// Whether a unit can be one. One that nobody knows is told once: it may be misspelt, or have a factor in it.
+    /// Whether a text can be a unit. Reports an unknown unit once: it may be misspelled or contain a factor.
     fn is_symbol(&mut self, record: &Record, unit: &str) -> bool {
         let Some(cell) = self.cell(record, Field::Unit) else { return true };
         if unit.chars().count() > UNIT_LETTERS || unit.contains(['<', '>', '=', ';']) {
-            self.unreadable(cell, "unit");
+            self.unreadable(cell, "a unit");
             return false;
         }
         if !is_unit(unit) && self.units.insert(unit.to_owned()) {
-            let message = format!("the unit `{}` isn't known: `[units]` defines it, without a scale", brief(unit));
+            let message = format!("the unit `{}` is unknown: it is added to `[units]` without a scale", brief(unit));
             self.diagnostics.push(Diagnostic::new(&codes::CSV_ASSUMPTION, cell.span, message));
         }
         true
@@ -90,7 +94,7 @@ impl Reader<'_, '_> {
             Some(Number::Int { value, is_hex }) if ty.is_integer() && ty.fits(value, is_hex) => {
                 facts.push(("na", format!("{{ {} = \"not available\" }}", int(value, is_hex))));
             }
-            _ => self.unreadable(cell, &format!("value of {}", ty.text())),
+            _ => self.unreadable(cell, &format!("a value of {}", ty.text())),
         }
     }
 
@@ -98,7 +102,7 @@ impl Reader<'_, '_> {
         let cell = self.cell(record, field)?;
         let number = cells::quantity(&cell.text, unit, self.style.comma);
         if number.is_none() {
-            self.unreadable(cell, "number");
+            self.unreadable(cell, "a number");
         }
         number
     }
@@ -108,7 +112,7 @@ impl Reader<'_, '_> {
             if let Some(factor) = cells::factor(&cell.text, unit, self.style.comma) {
                 if factor.is_ambiguous {
                     let message =
-                        "a factor `x10` is read as physical = raw × 10; the register may also have ten times the value";
+                        "a factor `x10` is read as physical = raw × 10, but can also mean raw = physical × 10";
                     self.assume("times", cell.span, message);
                 }
                 return Some(factor.value);
@@ -120,13 +124,13 @@ impl Reader<'_, '_> {
             let divides = self.style.gain_divides;
             if self.columns.get(Field::Divisor).is_some_and(|column| column.hint == Hint::Gain) {
                 let message = if divides {
-                    "a gain of 10 is read as: physical = raw / 10"
+                    "a gain of 10 is read as physical = raw / 10"
                 } else {
-                    "a gain of 0.1 is read as: physical = raw × 0.1"
+                    "a gain of 0.1 is read as physical = raw × 0.1"
                 };
                 self.assume("gain", cell.span, message);
             }
-            return match cells::factor(&cell.text, unit, self.style.comma).map(|own| own.value) {
+            return match cells::factor(&cell.text, unit, self.style.comma).map(|factor| factor.value) {
                 Some(value) if divides => Some(1.0 / value).filter(|factor| factor.is_finite()),
                 Some(value) => Some(value),
                 None => {
@@ -139,7 +143,8 @@ impl Reader<'_, '_> {
             Some(cell) => (cell, 1),
             None => (self.cell(record, Field::Decimals)?, -1),
         };
-        let exponent = cells::number(&cell.text, false).and_then(Number::int).filter(|own| (-12..=12).contains(own));
+        let exponent =
+            cells::number(&cell.text, false).and_then(Number::int).filter(|exponent| (-12..=12).contains(exponent));
         match exponent {
             Some(exponent) => Some(power_of_ten(sign * exponent as i32)),
             None => {
@@ -149,18 +154,19 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// A factor that another row holds.
+    /// Returns the reference to another row that contains the factor.
     fn other(&mut self, cell: &Cell, is_exponent: bool) -> Option<Reference> {
         let name = tidy(&cell.text);
         if !self.names.contains(&name) {
-            self.unreadable(cell, "factor, and no name of another row");
+            self.unreadable(cell, "a factor or the name of another row");
             return None;
         }
-        // SunSpec's scale factors are exponents of ten, and so called.
+        // By the naming convention of SunSpec, these are exponents of ten.
         let is_exponent = is_exponent || name.to_lowercase().ends_with("_sf");
         Some(Reference { name: row_name(&name), is_exponent, span: cell.span })
     }
 
+    /// Adds minimum, maximum and default to `facts`.
     pub fn limits(&mut self, record: &Record, ty: Type, factor: (f64, f64), facts: &mut Vec<(&'static str, String)>) {
         let unit = self.text(record, Field::Unit).to_owned();
         let mut values: Vec<(&'static str, Field, Option<Number>)> = Vec::new();
@@ -171,12 +177,12 @@ impl Reader<'_, '_> {
                 }
                 // A range may be a list of values, which `meaning` reads.
                 None if values::read(&cell.text).is_some() => {}
-                None => self.unreadable(cell, "range such as 0..100"),
+                None => self.unreadable(cell, "a range such as 0..100"),
             }
         }
         for (key, field) in [("min", Field::Min), ("max", Field::Max), ("default", Field::Default)] {
             let Some(cell) = self.cell(record, field) else { continue };
-            values.retain(|(own, ..)| *own != key);
+            values.retain(|(other, ..)| *other != key);
             if key == "default" && matches!(ty.base, Base::Text) {
                 facts.push((key, quoted(&tidy(&cell.text))));
                 continue;
@@ -189,13 +195,14 @@ impl Reader<'_, '_> {
             let Some(cell) = self.cell(record, field) else { continue };
             match number.and_then(|number| self.raw(cell.span, number, ty, factor)) {
                 Some(text) => facts.push((key, text)),
-                None => self.unreadable(cell, &format!("value of {}", ty.text())),
+                None => self.unreadable(cell, &format!("a value of {}", ty.text())),
             }
         }
     }
 
-    /// A limit as the device has it.
-    fn raw(&mut self, span: Span, number: Number, ty: Type, (factor, offset): (f64, f64)) -> Option<String> {
+    /// Returns a limit as a raw value in TOML.
+    fn raw(&mut self, span: Span, number: Number, ty: Type, scaling: (f64, f64)) -> Option<String> {
+        let (factor, offset) = scaling;
         if ty.elements.is_some() {
             return None;
         }
@@ -206,11 +213,7 @@ impl Reader<'_, '_> {
             return Some(real(number.real()));
         }
         if self.style.physical && factor != 1.0 {
-            self.assume(
-                "physical",
-                span,
-                "limits have fractions, and so are in physical units: they are divided by the scale",
-            );
+            self.assume("physical", span, "limits with fractions are read as physical values and divided by the scale");
             let raw = (number.real() - offset) / factor;
             let value = raw.round();
             let is_whole = (raw - value).abs() < 1e-6 * value.abs().max(1.0) && value.abs() < 1e15;
@@ -222,38 +225,39 @@ impl Reader<'_, '_> {
         number.int().filter(|&value| ty.fits(value, is_hex)).map(|value| int(value, is_hex))
     }
 
-    pub fn name(&mut self, record: &Record, place: Option<&Place>) -> String {
-        let own = row_name(self.text(record, Field::Name));
+    /// Returns the name of a row: from its name, its description or its address.
+    pub fn name(&mut self, record: &Record, address: Option<&RowAddress>) -> String {
+        let written = row_name(self.text(record, Field::Name));
         let is_list = |text: &str| values::read(text).is_some_and(|list| list.entries.len() > 1);
         let described =
             || row_name(Some(self.text(record, Field::Doc)).filter(|text| !is_list(text)).unwrap_or_default());
-        let by_place = || match place {
-            Some(Place::Register { address, .. }) => format!("register {}", address.first),
-            Some(Place::Object { index, sub }) => format!("object {index:04X}:{}", sub.unwrap_or(0)),
-            Some(Place::Parameter(number)) => format!("parameter {number}"),
+        let by_address = || match address {
+            Some(RowAddress::Register { printed, .. }) => format!("register {}", printed.first),
+            Some(RowAddress::Object { index, sub }) => format!("object {index:04X}:{}", sub.unwrap_or(0)),
+            Some(RowAddress::Parameter(number)) => format!("parameter {number}"),
             None => "row".to_owned(),
         };
-        Some(own)
+        Some(written)
             .filter(|name| !name.is_empty())
             .or_else(|| Some(described()).filter(|name| !name.is_empty()))
-            .unwrap_or_else(by_place)
+            .unwrap_or_else(by_address)
     }
 
-    /// What values or bits mean; what of it can't be said so comes back as words.
+    /// Reads the names of values or bits. Returns the index of their definition, or the text if it is not a list.
     pub fn meaning(&mut self, record: &Record, ty: Type, name: &str) -> (Option<usize>, Option<String>) {
         let fields = [(Field::Bits, true), (Field::Enum, false), (Field::Range, false)];
         for (field, of_bits) in fields {
             let Some(cell) = self.cell(record, field) else { continue };
             let Some(list) = values::read(&cell.text) else {
-                // What is said of values need not be a list: it is kept as words.
+                // A range that is not a list was read as limits.
                 if field == Field::Range {
                     continue;
                 }
                 self.report(
                     &codes::CSV_UNREADABLE_CELL,
                     cell.span,
-                    format!("`{}` is no list such as `0=off, 1=on`", brief(&tidy(&cell.text))),
-                    "kept as words",
+                    format!("`{}` is not a list such as `0=off, 1=on`", brief(&tidy(&cell.text))),
+                    "kept as documentation",
                 );
                 return (None, Some(tidy(&cell.text)));
             };
@@ -266,7 +270,7 @@ impl Reader<'_, '_> {
         (None, None)
     }
 
-    /// A definition with these entries: one that is there already, or a new one.
+    /// Returns the index of the definition with these entries. Adds it if it is new.
     pub fn define(&mut self, span: Span, list: &List, is_bits: bool, ty: Type, name: &str) -> Option<usize> {
         let mut entries: Vec<(String, String)> = Vec::new();
         let mut keys = HashSet::new();
@@ -289,22 +293,25 @@ impl Reader<'_, '_> {
             }
             entries.push((key, value));
         }
-        (!entries.is_empty()).then(|| self.definitions.place(is_bits, entries, name))
+        (!entries.is_empty()).then(|| self.definitions.add(is_bits, entries, name))
     }
 
-    /// A list of values or bits that stands among the words.
+    /// Returns a list of values or bits in the documentation.
     pub fn described_list<'c>(&self, record: &'c Record, ty: Type) -> Option<(&'c Cell, List)> {
         let columns = self.columns.all(Field::Doc).filter(|_| ty.is_integer());
         let mut cells = columns.filter_map(|column| record.cells.get(column.at));
         cells.find_map(|cell| Some((cell, values::read(&cell.text).filter(|list| list.entries.len() > 1)?)))
     }
 
-    /// Documentation, the page, the name in another language. A list that was read is no words any more.
+    /// Adds documentation, citation and original name to `facts`.
+    ///
+    /// `more` is added to the documentation. The cell at `listed` was read as a list and is left out.
     pub fn words(
         &mut self,
         record: &Record,
         name: &str,
-        (more, listed): (Option<String>, Option<Span>),
+        more: Option<String>,
+        listed: Option<Span>,
         facts: &mut Vec<(&'static str, String)>,
     ) {
         if let Some(cell) = self.cell(record, Field::Orig) {
@@ -326,11 +333,11 @@ impl Reader<'_, '_> {
 }
 
 fn power_of_ten(exponent: i32) -> f64 {
-    // 10⁻¹ as a power isn't the nearest number to 0.1.
+    // `powi` would not return the number that is nearest to 0.1.
     format!("1e{exponent}").parse().unwrap_or(1.0)
 }
 
-/// A truth value as a number.
+/// Returns a truth value as a number.
 fn truth(text: &str) -> Option<Number> {
     let value = match text.to_lowercase().as_str() {
         "true" | "on" | "yes" | "enabled" | "ja" | "sì" | "si" | "ein" => 1,
@@ -340,7 +347,7 @@ fn truth(text: &str) -> Option<Number> {
     Some(Number::Int { value, is_hex: false })
 }
 
-/// A name as the format takes it: braces would be filled in.
+/// Returns a valid name for a row: without braces and control characters, at most 60 characters long.
 pub(super) fn row_name(text: &str) -> String {
     let text = unbraced(&tidy(text));
     let text: String = text.chars().filter(|letter| !letter.is_control()).collect();
@@ -352,7 +359,7 @@ pub(super) fn row_name(text: &str) -> String {
     short.trim_end().to_owned()
 }
 
-/// Braces stand for numbers in names of the format.
+/// Replaces braces, which are placeholders for numbers in names of a register table.
 fn unbraced(name: &str) -> String {
     name.replace('{', "(").replace('}', ")")
 }

@@ -1,5 +1,5 @@
 //! Converts lists of registers (CSV, as spreadsheets save them) to register tables, which
-//! [`lexibus-codegen`](lexibus_codegen) compiles to typed Rust. The command `lexibus import` is the same as a program.
+//! [`lexibus-codegen`](lexibus_codegen) compiles to typed Rust. The command `lexibus import` uses this crate.
 //!
 //! ```
 //! use lexibus_codegen::source::Source;
@@ -8,25 +8,24 @@
 //! let list = "Register,Name,Type,Access,Unit\n40001,Set point,INT16,RW,rpm\n";
 //! let import = import(Source::new("pump.csv", list.into()), &Options::default());
 //! assert!(import.table.unwrap().contains(r#""Set point" = { reg = 40001, type = "i16", access = "rw", unit = "rpm" }"#));
-//! for finding in import.compilation.diagnostics.list() {
-//!     println!("{}: {}", finding.code.id, finding.message);
+//! for diagnostic in import.compilation.diagnostics.list() {
+//!     println!("{}: {}", diagnostic.code.id, diagnostic.message);
 //! }
 //! ```
 //!
 //! | file | subject |
 //! |---|---|
-//! | `records` | lines and cells, with their places |
-//! | `quotes` | the same where a quote is a letter |
-//! | `columns` | what each column is, by its title |
-//! | `cells`, `types`, `address`, `values` | what stands in a single cell |
-//! | `style` | what only all cells of a column tell: decimal comma, hexadecimal addresses, limits in physical units |
-//! | `rows` | a line to a row of the format: its place, type and access |
-//! | `facts` | what it says besides: unit, factor, limits, meaning, words |
-//! | `layout` | rows to chapters and spaces; names and addresses that occur twice |
-//! | `write` | all of it as TOML |
+//! | `records` | lines and cells, with their positions |
+//! | `quotes` | lines and cells of a file whose quotation marks are letters |
+//! | `columns` | field of each column, by its title |
+//! | `cells`, `types`, `address`, `values` | content of a single cell |
+//! | `style` | notation of a whole column: decimal comma, hexadecimal addresses, limits in physical units |
+//! | `rows` | address, type and access rights of each row |
+//! | `facts` | other properties of a row: unit, factor, limits, named values, documentation |
+//! | `layout` | chapters and spaces of the rows; repeated names and addresses |
+//! | `write` | the table as TOML |
 //!
-//! Nothing is lost in silence: a cell that can't be read is reported, and a line that can't become a row is written
-//! down as a comment.
+//! Unreadable cells are reported. A line that cannot become a row is reported and kept as a comment.
 #![forbid(unsafe_code)]
 
 mod address;
@@ -53,29 +52,29 @@ use lexibus_codegen::text::brief;
 use columns::Columns;
 use records::{Record, Records};
 
-/// What a caller may choose.
+/// Options of an import.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// The level of each code.
+    /// Level of each diagnostic code.
     pub levels: Levels,
-    /// Columns by their title, or `#` and their number.
+    /// Fields of columns. A column is named by its title, or by `#` and its number.
     pub map: Vec<(Field, String)>,
-    /// What stands between cells; by default, what fits.
+    /// Delimiter between cells; by default, the one that fits best.
     pub delimiter: Option<u8>,
-    /// Name of the device; by default, that of the file.
+    /// Name of the device; by default, the name of the file.
     pub name: Option<String>,
 }
 
-/// What became of a list.
+/// Result of an import.
 #[derive(Debug)]
 pub struct Import {
-    /// The file with the findings about it; its catalogue is empty.
+    /// The file and its diagnostics. The catalog is empty.
     pub compilation: Compilation,
-    /// The register table; `None` where there are errors.
+    /// The register table; `None` if there are errors.
     pub table: Option<String>,
 }
 
-/// The file that is imported.
+/// Identifier of the imported file.
 const FILE: FileId = FileId(0);
 
 /// Reads a list of registers and writes it as a register table.
@@ -90,23 +89,22 @@ fn convert(source: &Source, options: &Options, diagnostics: &mut Diagnostics) ->
     let (records, columns) = match divide(source, options) {
         Ok(divided) => divided,
         Err(column) => {
-            let message = format!("there is no column called `{}`", brief(&column));
+            let message = format!("there is no column `{}`", brief(&column));
             diagnostics.push(Diagnostic::new(&codes::CSV_NO_SUCH_COLUMN, Span::new(FILE, 0, 0), message));
             return None;
         }
     };
     if let Some(span) = records.unclosed {
-        let message = "a quote is opened here and never closed";
+        let message = "the quotation mark is never closed";
         diagnostics.push(Diagnostic::new(&codes::CSV_UNCLOSED_QUOTE, span, message));
     }
     for &span in &records.letters {
-        let message = "a quote is opened here and not closed in its cell";
-        diagnostics.push(Diagnostic::new(&codes::CSV_UNCLOSED_QUOTE, span, message).label("taken as a letter"));
+        let message = "the quotation mark is not closed in its cell";
+        diagnostics.push(Diagnostic::new(&codes::CSV_UNCLOSED_QUOTE, span, message).label("read as part of the text"));
     }
     if !columns.has_address() {
-        let message = "no line has titles of columns, one of them an address";
-        let help =
-            "titles such as Name, Address, Type, Access are recognised; `--map reg=TITLE` or `--map reg=#2` says it";
+        let message = "no line has column titles that include an address";
+        let help = "use titles such as Name, Address, Type and Access, or name the address column with `--map reg=#2`";
         diagnostics.push(Diagnostic::new(&codes::CSV_NO_COLUMNS, Span::new(FILE, 0, 0), message).help(help));
         return None;
     }
@@ -118,7 +116,11 @@ fn convert(source: &Source, options: &Options, diagnostics: &mut Diagnostics) ->
     Some(write::table(&list, &name, source.name()))
 }
 
-/// The lines of a file and what its columns are; `Err` has the title of a column that doesn't exist.
+/// Divides a file into lines, and recognizes its columns.
+///
+/// # Errors
+///
+/// The title of a column of `options.map` that does not exist.
 fn divide(source: &Source, options: &Options) -> Result<(Records, Columns), String> {
     let declared = records::declared_delimiter(source.text());
     let start = declared.map_or(0, |(_, length)| length);
@@ -132,7 +134,7 @@ fn divide(source: &Source, options: &Options) -> Result<(Records, Columns), Stri
             records = quotes::divide(source, FILE, start);
         }
         match columns::find(&records, &options.map) {
-            // The one under which most titles make sense.
+            // The delimiter with the most known titles is right.
             Ok(columns) if best.as_ref().is_none_or(|(score, ..)| columns.score() > *score) => {
                 best = Some((columns.score(), records, columns));
             }
@@ -148,7 +150,7 @@ fn divide(source: &Source, options: &Options) -> Result<(Records, Columns), Stri
     }
 }
 
-/// One finding for all columns that are left out.
+/// Reports all columns that are not imported in one diagnostic.
 fn unknown_columns(records: &Records, columns: &Columns, diagnostics: &mut Diagnostics) {
     let Some(header) = columns.header.and_then(|line| records.list.get(line)) else { return };
     let is_known = |at: usize| columns.list.iter().any(|column| column.at == at);
@@ -156,14 +158,14 @@ fn unknown_columns(records: &Records, columns: &Columns, diagnostics: &mut Diagn
     let Some(first) = unknown.first() else { return };
     let titles: Vec<String> = unknown.iter().map(|cell| format!("`{}`", brief(&cell.text))).collect();
     let message = match titles.as_slice() {
-        [one] => format!("the column {one} isn't imported"),
-        all => format!("the columns {} aren't imported", all.join(", ")),
+        [one] => format!("the column {one} is not imported"),
+        all => format!("the columns {} are not imported", all.join(", ")),
     };
-    let help = format!("`--map doc=\"{}\"` keeps it as documentation", brief(&first.text));
+    let help = format!("import it as documentation with `--map doc=\"{}\"`", brief(&first.text));
     diagnostics.push(Diagnostic::new(&codes::CSV_UNKNOWN_COLUMN, first.span, message).help(help));
 }
 
-/// The lines with data: what is below the titles, without titles that are repeated.
+/// Returns the lines with data: those below the titles, except repeated titles.
 fn data<'r>(records: &'r Records, columns: &Columns) -> impl Iterator<Item = &'r Record> {
     let header = columns.header.and_then(|line| records.list.get(line));
     let texts = |record: &Record| record.cells.iter().map(|cell| cell.text.clone()).collect::<Vec<_>>();
@@ -173,11 +175,11 @@ fn data<'r>(records: &'r Records, columns: &Columns) -> impl Iterator<Item = &'r
     below.filter(move |record| record.filled().next().is_some() && Some(texts(record)) != titles)
 }
 
-/// The argument `FIELD=COLUMN` of a command line.
+/// Parses the argument `FIELD=COLUMN` of a command line.
 ///
 /// # Errors
 ///
-/// What is wrong with it.
+/// A message if the text has no such form, or the field is unknown.
 pub fn mapping(text: &str) -> Result<(Field, String), String> {
     let (field, column) = text.split_once('=').ok_or("write FIELD=TITLE or FIELD=#NUMBER")?;
     let (field, column) = (field.trim(), column.trim());
@@ -185,24 +187,26 @@ pub fn mapping(text: &str) -> Result<(Field, String), String> {
         return Err("write FIELD=TITLE or FIELD=#NUMBER".to_owned());
     }
     let known = || Field::names().collect::<Vec<_>>().join(", ");
-    let hint =
-        || Field::similar(field).map_or_else(|| format!("one of {}", known()), |own| format!("did you mean `{own}`?"));
+    let hint = || {
+        Field::similar(field)
+            .map_or_else(|| format!("use one of {}", known()), |name| format!("did you mean `{name}`?"))
+    };
     Field::find(field)
         .map(|field| (field, column.to_owned()))
         .ok_or_else(|| format!("there is no field `{field}`: {}", hint()))
 }
 
-/// The delimiter that an argument of a command line names.
+/// Parses a delimiter on a command line: a character, `tab`, `comma` or `semicolon`.
 ///
 /// # Errors
 ///
-/// That it names none.
+/// A message if the text is not a delimiter.
 pub fn delimiter(text: &str) -> Result<u8, String> {
     match (text, text.as_bytes()) {
         ("tab" | "\\t", _) => Ok(b'\t'),
         ("comma", _) => Ok(b','),
         ("semicolon", _) => Ok(b';'),
         (_, &[byte]) if byte.is_ascii() && !matches!(byte, b'"' | b'\n' | b'\r') => Ok(byte),
-        _ => Err("one character, or tab, comma, semicolon".to_owned()),
+        _ => Err("expected one character, or `tab`, `comma` or `semicolon`".to_owned()),
     }
 }

@@ -1,20 +1,20 @@
-//! Quotes in files whose cells tabs divide. Manuals and tools that write them know nothing of quoting: a quote that opens a cell
-//! and has no other at the cell's end is a letter, and doesn't swallow the lines behind it.
+//! Divides tab-separated files whose quotation marks are letters. Many tools write such files without quoting.
+//! A quotation mark at the start of a cell is a letter unless another one ends the cell.
 
 use lexibus_codegen::source::{FileId, Source, Span};
 
 use super::records::{visible, Cell, Record, Records};
 
-/// What stands between cells here.
+/// Delimiter between cells.
 pub(super) const TAB: u8 = b'\t';
 
-/// Whether a quoted cell has more in it than a cell: tabs and ends of lines.
+/// Whether a quoted cell contains other cells: both tabs and line ends.
 pub(super) fn swallows(records: &Records) -> bool {
     let cells = || records.list.iter().flat_map(|record| &record.cells);
     records.unclosed.is_some() || cells().any(|cell| cell.text.contains('\t') && cell.text.contains('\n'))
 }
 
-/// Divides the text again, cell by cell.
+/// Divides the text from `start` into cells.
 pub(super) fn divide(source: &Source, file: FileId, start: usize) -> Records {
     let (text, mut at) = (source.text(), start);
     let (mut records, mut record) = (Records::default(), Record::default());
@@ -40,7 +40,7 @@ pub(super) fn divide(source: &Source, file: FileId, start: usize) -> Records {
     records
 }
 
-/// How long a quoted text is, whose closing quote stands at the end of its cell and which has no tab at all.
+/// Returns the length of a quoted text. `None` if it contains a tab, or no quotation mark ends the cell.
 fn closed(body: &str) -> Option<usize> {
     let mut skip = false;
     for (at, letter) in body.char_indices() {
@@ -59,14 +59,16 @@ fn closed(body: &str) -> Option<usize> {
 }
 
 fn cell(source: &Source, raw: Span, is_letter: bool) -> Cell {
-    let own = source.slice(raw);
+    let raw_text = source.slice(raw);
     if is_letter {
-        let start = raw.start + (own.len() - own.trim_start().len()) as u32;
-        return Cell { text: own.trim().to_owned(), span: Span { start, end: start + own.trim().len() as u32, ..raw } };
+        let start = raw.start + (raw_text.len() - raw_text.trim_start().len()) as u32;
+        let text = raw_text.trim().to_owned();
+        let end = start + text.len() as u32;
+        return Cell { text, span: Span { start, end, ..raw } };
     }
     let (span, _) = visible(source, raw, TAB);
-    let is_quoted = own.starts_with('"');
-    let text = if is_quoted { source.slice(span).replace("\"\"", "\"") } else { own.trim().to_owned() };
+    let is_quoted = raw_text.starts_with('"');
+    let text = if is_quoted { source.slice(span).replace("\"\"", "\"") } else { raw_text.trim().to_owned() };
     Cell { text: text.trim().to_owned(), span }
 }
 
@@ -79,8 +81,8 @@ mod tests {
         let records = divide(&source, FileId(0), 0);
         let texts = |record: &Record| record.cells.iter().map(|cell| cell.text.clone()).collect();
         for cell in records.list.iter().flat_map(|record| &record.cells) {
-            let own = source.slice(cell.span);
-            assert!(own == cell.text || own.replace("\"\"", "\"") == cell.text, "{cell:?}");
+            let shown = source.slice(cell.span);
+            assert!(shown == cell.text || shown.replace("\"\"", "\"") == cell.text, "{cell:?}");
         }
         (records.list.iter().map(texts).collect(), records.letters.len())
     }

@@ -1,16 +1,16 @@
-//! The cells of a file, each with its place.
+//! Divides a file into lines and cells with their positions.
 
 use csv_core::{ReadFieldResult, ReaderBuilder};
 use lexibus_codegen::source::{FileId, Source, Span};
 
-/// A cell: its text without quotes and blanks around it, and where that stands.
+/// Cell. The text and its span exclude quotation marks and surrounding blanks.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cell {
     pub text: String,
     pub span: Span,
 }
 
-/// A line of cells.
+/// Line of cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Record {
     pub cells: Vec<Cell>,
@@ -18,35 +18,35 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// The text of a cell; empty where the line is too short.
+    /// Returns the text of a cell; empty if the line is too short.
     pub fn text(&self, column: usize) -> &str {
         self.cells.get(column).map_or("", |cell| cell.text.as_str())
     }
 
-    /// The cells that aren't empty, with their columns.
+    /// Returns the cells that are not empty, with their columns.
     pub fn filled(&self) -> impl Iterator<Item = (usize, &Cell)> {
         self.cells.iter().enumerate().filter(|(_, cell)| !cell.text.is_empty())
     }
 }
 
-/// The lines of a file.
+/// Lines of a file.
 #[derive(Debug, Default)]
 pub(super) struct Records {
     pub list: Vec<Record>,
-    /// A quote that nothing closes.
+    /// First quotation mark that is never closed.
     pub unclosed: Option<Span>,
-    /// Quotes that were taken as letters.
+    /// Quotation marks that were read as letters.
     pub letters: Vec<Span>,
 }
 
-/// Excel's own way to say what stands between cells: a first line `sep=;`.
+/// Returns the delimiter that a first line `sep=;` declares (an Excel convention), and the length of that line.
 pub(super) fn declared_delimiter(text: &str) -> Option<(u8, usize)> {
     let line = text.lines().next()?;
     let &[delimiter] = line.trim_end().strip_prefix("sep=")?.as_bytes() else { return None };
     Some((delimiter, line.len())).filter(|_| delimiter.is_ascii())
 }
 
-/// Divides the text from `start` on into cells.
+/// Divides the text from `start` into cells.
 pub(super) fn read(source: &Source, file: FileId, delimiter: u8, start: usize) -> Records {
     let bytes = source.text().as_bytes();
     let mut reader = ReaderBuilder::new().delimiter(delimiter).build();
@@ -58,7 +58,7 @@ pub(super) fn read(source: &Source, file: FileId, delimiter: u8, start: usize) -
         let (result, read, written) = reader.read_field(bytes.get(at..).unwrap_or_default(), &mut buffer[length..]);
         (at, length) = (at + read, length + written);
         match result {
-            // At the end of the file the next call says so.
+            // The next call returns `End` if the file has ended.
             ReadFieldResult::InputEmpty => {}
             ReadFieldResult::OutputFull => buffer.resize(buffer.len() * 2, 0),
             ReadFieldResult::Field { record_end } => {
@@ -77,6 +77,7 @@ pub(super) fn read(source: &Source, file: FileId, delimiter: u8, start: usize) -
     }
 }
 
+/// Adds a line with the span of its cells. A line without cells is dropped.
 pub(super) fn finish(records: &mut Records, mut record: Record) {
     if let (Some(first), Some(last)) = (record.cells.first(), record.cells.last()) {
         record.span = Span { end: last.span.end.max(first.span.start), ..first.span };
@@ -84,7 +85,7 @@ pub(super) fn finish(records: &mut Records, mut record: Record) {
     }
 }
 
-/// The part of a cell that is its text, and whether a quote is open at its end.
+/// Returns the span of a cell's text, and whether a quotation mark is open at its end.
 pub(super) fn visible(source: &Source, raw: Span, delimiter: u8) -> (Span, bool) {
     let text = source.slice(raw);
     let body = text.trim_start_matches(['\r', '\n']);

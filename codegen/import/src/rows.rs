@@ -1,4 +1,4 @@
-//! A line to a row of the format.
+//! Converts lines of the list to rows of a register table.
 
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -15,28 +15,29 @@ use super::records::{Cell, Record, Records};
 use super::style::Style;
 use super::types::{self, Base, Written};
 
-/// Where a row is.
+/// Address of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Place {
-    Register { address: Address, table: Option<Table>, wire: Option<u32>, object: Option<(u16, Option<u8>)> },
+pub(super) enum RowAddress {
+    Register { printed: Address, table: Option<Table>, wire: Option<u32>, object: Option<(u16, Option<u8>)> },
     Object { index: u16, sub: Option<u8> },
     Parameter(u32),
 }
 
-/// A type of the format.
+/// Type of a row, as a register table declares it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Type {
     pub base: Base,
     pub bits: u32,
     pub elements: Option<u32>,
-    /// Bytes of a text.
+    /// Length of a text in bytes.
     pub length: Option<u32>,
 }
 
 impl Type {
+    /// Returns the type as a register table spells it, such as `u16[4]`.
     pub fn text(&self) -> String {
         let length = || self.length.map_or(String::new(), |length| format!("({length})"));
-        let own = match self.base {
+        let value = match self.base {
             Base::Unsigned => format!("u{}", self.bits),
             Base::Signed | Base::Exponent => format!("i{}", self.bits),
             Base::Float => format!("f{}", self.bits),
@@ -44,10 +45,10 @@ impl Type {
             Base::Text => format!("str{}", length()),
             Base::Bytes => format!("bytes{}", length()),
         };
-        self.elements.map_or(own.clone(), |count| format!("{own}[{count}]"))
+        self.elements.map_or(value.clone(), |count| format!("{value}[{count}]"))
     }
 
-    /// Bits of the whole value, where known.
+    /// Size of the whole value in bits, if it is known.
     pub fn size(&self) -> Option<u32> {
         match self.base {
             Base::Text | Base::Bytes => self.length.and_then(|length| length.checked_mul(8)),
@@ -59,7 +60,7 @@ impl Type {
         matches!(self.base, Base::Unsigned | Base::Signed | Base::Exponent)
     }
 
-    /// Whether an integer has this value; of a signed one, also as a pattern of bits.
+    /// Whether the type can hold this value. Signed types also accept a hexadecimal bit pattern.
     pub fn fits(&self, value: i128, is_hex: bool) -> bool {
         let modulus = 1i128 << self.bits.min(64);
         match self.base {
@@ -74,7 +75,7 @@ impl Type {
     }
 }
 
-/// A factor that another row holds.
+/// Reference to another row that contains the scale factor.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Reference {
     pub name: String,
@@ -82,48 +83,48 @@ pub(super) struct Reference {
     pub span: Span,
 }
 
-/// A row of the format.
+/// Row of a register table.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
     pub name: String,
     pub span: Span,
-    /// The text of the line, for a comment.
+    /// Text of the line, which is kept as a comment if the line cannot become a row.
     pub text: String,
     pub chapter: Rc<str>,
-    /// Where it is; `Err` has the reason why it can't be a row.
-    pub place: Result<Place, &'static str>,
+    /// Address of the row, or the reason why the line cannot become a row.
+    pub address: Result<RowAddress, &'static str>,
     pub ty: Type,
     pub access: Option<&'static str>,
     pub order: Order,
     pub scale: Option<Reference>,
     pub count: Option<u32>,
-    /// Place and meaning in `List::definitions`, where values or bits are named.
+    /// Index in `Rows::definitions` of the names of values or bits.
     pub meaning: Option<usize>,
-    /// What else is said, as keys and values of TOML.
+    /// Remaining TOML keys and values.
     pub facts: Vec<(&'static str, String)>,
 }
 
-/// All rows of a list.
+/// Rows of a list.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
     pub rows: Vec<Row>,
     pub definitions: Vec<Definition>,
-    /// Whether nothing tells the access of any row.
+    /// Whether no row has access rights.
     pub no_access: bool,
-    /// Whether addresses are written `4x0001`, and so count from 1.
+    /// Whether addresses have the form `4x0001`, which counts from 1.
     pub from_one: bool,
 }
 
-/// The state of reading.
+/// Reads the lines of a list.
 pub(super) struct Reader<'r, 'd> {
     pub columns: &'r Columns,
     pub diagnostics: &'d mut Diagnostics,
     pub style: Style,
-    /// Assumptions that were told.
-    pub told: BTreeSet<&'static str>,
-    /// Units that nobody knows, of those that were told.
+    /// Assumptions that have been reported.
+    pub assumptions: BTreeSet<&'static str>,
+    /// Unknown units that have been reported.
     pub units: BTreeSet<String>,
-    /// The names of all lines.
+    /// Names of all lines.
     pub names: BTreeSet<String>,
     pub definitions: Definitions,
 }
@@ -137,7 +138,7 @@ pub(super) fn read(records: &Records, columns: &Columns, diagnostics: &mut Diagn
         columns,
         diagnostics,
         style,
-        told: BTreeSet::new(),
+        assumptions: BTreeSet::new(),
         units: BTreeSet::new(),
         names: names.unwrap_or_default(),
         definitions: Definitions::default(),
@@ -153,17 +154,17 @@ pub(super) fn read(records: &Records, columns: &Columns, diagnostics: &mut Diagn
     let header = columns.header.and_then(|line| records.list.get(line));
     let no_access = rows.iter().all(|row| row.access.is_none());
     if let Some(header) = header.filter(|_| no_access) {
-        reader.assume("access", header.span, "no column tells what may be written: all registers are read-only");
+        reader.assume("access", header.span, "no column states access rights: all registers are read-only");
     }
     Rows { rows, definitions: reader.definitions.into_list(), no_access, from_one: style.addresses[0].is_x }
 }
 
-/// Whether the second of two addresses is no address on the wire, which is never above the number by so much.
-fn is_index(number: Address, second: Address) -> bool {
-    second.is_hex && !number.is_hex && second.first > number.first && (0x1000..=0x9FFF).contains(&second.first)
+/// Whether the second of two addresses is an object index. A wire address is never greater than the printed address.
+fn is_index(printed: Address, second: Address) -> bool {
+    second.is_hex && !printed.is_hex && second.first > printed.first && (0x1000..=0x9FFF).contains(&second.first)
 }
 
-/// A text on one line.
+/// Returns the text on one line.
 pub(super) fn tidy(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -183,18 +184,18 @@ impl Reader<'_, '_> {
     }
 
     pub fn unreadable(&mut self, cell: &Cell, what: &str) {
-        let message = format!("`{}` is no {what}", brief(&tidy(&cell.text)));
+        let message = format!("`{}` is not {what}", brief(&tidy(&cell.text)));
         self.report(&codes::CSV_UNREADABLE_CELL, cell.span, message, "left out; the rest of the row is kept");
     }
 
-    /// Tells once what was assumed.
+    /// Reports an assumption once.
     pub fn assume(&mut self, key: &'static str, span: Span, message: &str) {
-        if self.told.insert(key) {
+        if self.assumptions.insert(key) {
             self.diagnostics.push(Diagnostic::new(&codes::CSV_ASSUMPTION, span, message));
         }
     }
 
-    /// The title of a chapter: a line with one cell that is no address.
+    /// Returns the chapter title, if the line consists of one cell that is not an address.
     fn title(&self, record: &Record) -> Option<String> {
         let mut filled = record.filled();
         let (Some((at, cell)), None) = (filled.next(), filled.next()) else { return None };
@@ -205,33 +206,33 @@ impl Reader<'_, '_> {
 
     fn row(&mut self, record: &Record, chapter: &Rc<str>) -> Row {
         self.count_cells(record);
-        let place = self.place(record);
-        let part = self.part(record, place.as_ref().ok());
-        let ty = self.ty(record, place.as_ref().ok(), part);
+        let address = self.address(record);
+        let part = self.part(record, address.as_ref().ok());
+        let ty = self.ty(record, address.as_ref().ok(), part);
         let mut facts = Vec::new();
         if let Some((low, high)) = part {
             let text = if low == high { format!("\"{low}\"") } else { format!("\"{high}-{low}\"") };
             facts.push(("part", text));
         }
-        let access = self.access(record, place.as_ref().ok());
+        let access = self.access(record, address.as_ref().ok());
         let order = self.order(record, ty);
         let (scale, factor) = self.quantity(record, ty, &mut facts);
         self.limits(record, ty, factor, &mut facts);
-        let name = self.name(record, place.as_ref().ok());
+        let name = self.name(record, address.as_ref().ok());
         let (meaning, words) = self.meaning(record, ty, &name);
         let described = self.described_list(record, ty).filter(|_| meaning.is_none());
         let by_words =
             described.as_ref().and_then(|(cell, list)| self.define(cell.span, list, list.is_bits, ty, &name));
         let listed = described.filter(|_| by_words.is_some()).map(|(cell, _)| cell.span);
         let meaning = meaning.or(by_words);
-        self.words(record, &name, (words, listed), &mut facts);
-        let own = tidy(self.text(record, Field::Chapter));
+        self.words(record, &name, words, listed, &mut facts);
+        let written = tidy(self.text(record, Field::Chapter));
         Row {
             name,
             span: record.span,
             text: record.cells.iter().map(|cell| tidy(&cell.text)).collect::<Vec<_>>().join(" | "),
-            chapter: if own.is_empty() { chapter.clone() } else { own.into() },
-            place,
+            chapter: if written.is_empty() { chapter.clone() } else { written.into() },
+            address,
             ty,
             access,
             order,
@@ -242,19 +243,19 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// A line has as many cells as there are titles.
+    /// Reports a line that has more or fewer cells than there are titles.
     fn count_cells(&mut self, record: &Record) {
-        let (own, width) = (record.cells.len(), self.columns.width);
-        // Cells without a title, and nothing in them, are no cells.
+        let (cells, width) = (record.cells.len(), self.columns.width);
+        // Empty cells without a title do not count.
         let last = record.filled().last().map_or(0, |(at, _)| at + 1);
-        let own = own.min(last.max(width));
-        if own != width && width > 0 {
-            let message = format!("the line has {own} cells, and the titles are {width}");
-            self.report(&codes::CSV_RAGGED_ROW, record.span, message, "read from the left");
+        let cells = cells.min(last.max(width));
+        if cells != width && width > 0 {
+            let message = format!("the line has {cells} cells, but there are {width} titles");
+            self.report(&codes::CSV_RAGGED_ROW, record.span, message, "cells are assigned to titles from the left");
         }
     }
 
-    fn place(&mut self, record: &Record) -> Result<Place, &'static str> {
+    fn address(&mut self, record: &Record) -> Result<RowAddress, &'static str> {
         let (index, sub) = (self.cell(record, Field::Index), self.text(record, Field::Sub));
         if let Some(cell) = self.cell(record, Field::Reg) {
             let object = index.and_then(|index| self.object(index, sub));
@@ -262,35 +263,36 @@ impl Reader<'_, '_> {
         }
         if let Some(cell) = index {
             return match address::object(&cell.text, sub) {
-                Some((index, sub)) => Ok(Place::Object { index, sub }),
-                None => self.no_row(cell, "index of an object", "the object can't be read"),
+                Some((index, sub)) => Ok(RowAddress::Object { index, sub }),
+                None => self.no_row(cell, "an object index", "the object can't be read"),
             };
         }
         if let Some(cell) = self.cell(record, Field::Param) {
-            let number = cells::number(&cell.text, false).and_then(Number::int).and_then(|own| u32::try_from(own).ok());
+            let number =
+                cells::number(&cell.text, false).and_then(Number::int).and_then(|number| u32::try_from(number).ok());
             return match number {
-                Some(number) => Ok(Place::Parameter(number)),
-                None => self.no_row(cell, "number of a parameter", "the number can't be read"),
+                Some(number) => Ok(RowAddress::Parameter(number)),
+                None => self.no_row(cell, "a parameter number", "the number can't be read"),
             };
         }
         let message = "the line has no address".to_owned();
-        self.report(&codes::CSV_NO_ROW, record.span, message, "written down as a comment");
+        self.report(&codes::CSV_NO_ROW, record.span, message, "kept as a comment");
         Err("no address")
     }
 
     fn no_row<T>(&mut self, cell: &Cell, what: &str, reason: &'static str) -> Result<T, &'static str> {
-        let message = format!("`{}` is no {what}", brief(&tidy(&cell.text)));
-        self.report(&codes::CSV_NO_ROW, cell.span, message, "the line is written down as a comment");
+        let message = format!("`{}` is not {what}", brief(&tidy(&cell.text)));
+        self.report(&codes::CSV_NO_ROW, cell.span, message, "the line is kept as a comment");
         Err(reason)
     }
 
-    /// The object that a register is, too. An index with another number of digits than four is misprinted.
+    /// Returns the object of a row that also has a register. An index that does not have four digits is a misprint.
     fn object(&mut self, cell: &Cell, sub: &str) -> Option<(u16, Option<u8>)> {
         let digits = cell.text.split([':', '/', '.']).next().unwrap_or_default().chars();
         let is_marked = cell.text.starts_with("0x") || cell.text.starts_with("0X");
         let found = address::object(&cell.text, sub).filter(|_| !is_marked || digits.count() == 6);
         if found.is_none() {
-            self.unreadable(cell, "index of an object, which has four digits");
+            self.unreadable(cell, "an object index of four digits");
         }
         found
     }
@@ -300,14 +302,14 @@ impl Reader<'_, '_> {
         record: &Record,
         cell: &Cell,
         object: Option<(u16, Option<u8>)>,
-    ) -> Result<Place, &'static str> {
-        let Some(address) = address::read(&cell.text, self.style.addresses[0]) else {
-            return self.no_row(cell, "number of a register", "the address can't be read");
+    ) -> Result<RowAddress, &'static str> {
+        let Some(printed) = address::read(&cell.text, self.style.addresses[0]) else {
+            return self.no_row(cell, "a register address", "the address can't be read");
         };
         let table = self.cell(record, Field::Table).and_then(|cell| {
             let found = address::table(&cell.text);
             if found.is_none() {
-                self.unreadable(cell, "table of Modbus");
+                self.unreadable(cell, "a Modbus table");
             }
             found.map(|(table, _)| table)
         });
@@ -316,77 +318,79 @@ impl Reader<'_, '_> {
         let wire = second.and_then(|cell| {
             let found = address::read(&cell.text, self.style.addresses[1]);
             if found.is_none() {
-                self.unreadable(cell, "number of a register");
+                self.unreadable(cell, "a register address");
             }
             Some((cell, found?))
         });
-        let table = table.or(address.table);
+        let table = table.or(printed.table);
         Ok(match wire {
-            Some((cell, second)) if object.is_none() && is_index(address, second) => {
-                let message = "the second address is hexadecimal and above the number: read as the index of an object";
+            Some((cell, second)) if object.is_none() && is_index(printed, second) => {
+                let message = "the second address is hexadecimal and greater than the first: read as an object index";
                 self.assume("index", cell.span, message);
-                Place::Register { address, table, wire: None, object: Some((second.first as u16, None)) }
+                RowAddress::Register { printed, table, wire: None, object: Some((second.first as u16, None)) }
             }
-            wire => Place::Register { address, table, wire: wire.map(|(_, own)| own.first), object },
+            wire => RowAddress::Register { printed, table, wire: wire.map(|(_, second)| second.first), object },
         })
     }
 
-    /// The bits of the register that the row is about.
-    fn part(&mut self, record: &Record, place: Option<&Place>) -> Option<(u8, u8)> {
+    /// Returns the bits of the register that the row describes, if it does not describe the whole register.
+    fn part(&mut self, record: &Record, address: Option<&RowAddress>) -> Option<(u8, u8)> {
         // Only registers have parts.
         let table =
-            place.and_then(|place| if let Place::Register { table, .. } = place { Some(table) } else { None })?;
+            address.and_then(
+                |address| if let RowAddress::Register { table, .. } = address { Some(table) } else { None },
+            )?;
         if table.is_some_and(Table::is_bits) {
             return None;
         }
-        if let Some(Place::Register { address: Address { bits: Some(bits), .. }, .. }) = place {
+        if let Some(RowAddress::Register { printed: Address { bits: Some(bits), .. }, .. }) = address {
             return Some(*bits);
         }
         let cell = self.cell(record, Field::Part)?;
         let found = address::mask(&cell.text).or_else(|| address::bit_range(&cell.text));
         let is_number = |text: &str| text.chars().all(|letter| letter.is_ascii_digit());
         if found.is_none() && (cell.text.starts_with("0x") || is_number(&cell.text)) {
-            self.unreadable(cell, "bit, range of bits or mask of neighbouring bits");
+            self.unreadable(cell, "a bit, a bit range or a mask of adjacent bits");
         }
-        // A mask of the whole register says nothing.
+        // A mask of all bits describes the whole register.
         found.filter(|&(low, high)| (low, high) != (0, 15))
     }
 
-    fn ty(&mut self, record: &Record, place: Option<&Place>, part: Option<(u8, u8)>) -> Type {
+    fn ty(&mut self, record: &Record, address: Option<&RowAddress>, part: Option<(u8, u8)>) -> Type {
         let of = |base, bits| Type { base, bits, elements: None, length: None };
-        if matches!(place, Some(Place::Register { table: Some(table), .. }) if table.is_bits()) {
+        if matches!(address, Some(RowAddress::Register { table: Some(table), .. }) if table.is_bits()) {
             return of(Base::Bool, 1);
         }
         let cell = self.cell(record, Field::Type);
         let written = cell.and_then(|cell| types::read(&cell.text));
         if let Some((low, high)) = part {
             let bits = u32::from(high - low) + 1;
-            let is_signed = written.is_some_and(|own| own.base == Base::Signed) && bits > 1;
+            let is_signed = written.is_some_and(|written| written.base == Base::Signed) && bits > 1;
             return if bits == 1 {
                 of(Base::Bool, 1)
             } else {
                 of(if is_signed { Base::Signed } else { Base::Unsigned }, bits)
             };
         }
-        let size = self.size(record, place);
+        let size = self.size(record, address);
         match (cell, written) {
             (_, Some(written)) => self.sized(record, written, size),
             (Some(cell), None) => {
                 let ty = guess(size);
-                let message = format!("`{}` is no type", brief(&tidy(&cell.text)));
-                self.report(&codes::CSV_UNREADABLE_CELL, cell.span, message, &format!("taken as {}", ty.text()));
+                let message = format!("`{}` is not a type", brief(&tidy(&cell.text)));
+                self.report(&codes::CSV_UNREADABLE_CELL, cell.span, message, &format!("read as {}", ty.text()));
                 ty
             }
             (None, None) => {
                 let ty = guess(size);
                 let lists = [Field::Bits, Field::Enum].into_iter().any(|field| !self.text(record, field).is_empty());
                 if !lists {
-                    let message = format!("nothing tells the type: taken as {}", ty.text());
+                    let message = format!("the type is not stated: {} is assumed", ty.text());
                     let span = self.cell(record, Field::Reg).map_or(record.span, |cell| cell.span);
                     match self.columns.get(Field::Type) {
                         Some(_) => self.diagnostics.push(Diagnostic::new(&codes::CSV_ASSUMPTION, span, message)),
                         None => {
-                            self.assume("type", span, "no column tells types: they are taken as u16, or by the length")
+                            self.assume("type", span, "no column states types: they follow from the length, or are u16")
                         }
                     }
                 }
@@ -395,25 +399,25 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// The bits that a row takes, by a column or the range of its address.
-    fn size(&mut self, record: &Record, place: Option<&Place>) -> Option<u32> {
+    /// Returns the size of a row in bits, from a column or from the range of its address.
+    fn size(&mut self, record: &Record, address: Option<&RowAddress>) -> Option<u32> {
         for (field, unit) in [(Field::Width, 1), (Field::Bytes, 8), (Field::Words, 16)] {
             let Some(cell) = self.cell(record, field) else { continue };
             let number = cells::quantity(&cell.text, "", false).and_then(Number::int);
             match number.and_then(|number| u32::try_from(number).ok()).filter(|number| (1..=4096).contains(number)) {
                 Some(number) => return Some(number * unit),
-                None => self.unreadable(cell, "length"),
+                None => self.unreadable(cell, "a length"),
             }
         }
-        match place {
-            Some(Place::Register { address: Address { first, last: Some(last), .. }, .. }) => {
+        match address {
+            Some(RowAddress::Register { printed: Address { first, last: Some(last), .. }, .. }) => {
                 (last - first).checked_add(1)?.checked_mul(16).filter(|&bits| bits <= 65536)
             }
             _ => None,
         }
     }
 
-    /// A written type with the length of its row.
+    /// Combines the type that a cell states with the size of the row.
     fn sized(&mut self, record: &Record, written: Written, size: Option<u32>) -> Type {
         let mut ty = Type {
             base: written.base,
@@ -427,7 +431,7 @@ impl Reader<'_, '_> {
                 && written.base == Base::Unsigned
             {
                 let span = self.cell(record, Field::Type).map_or(record.span, |cell| cell.span);
-                self.assume("bits", span, "integers without a length have 16 bits");
+                self.assume("bits", span, "integers without a stated length are read as 16-bit integers");
             }
             return ty;
         };
@@ -450,56 +454,58 @@ impl Reader<'_, '_> {
         ty
     }
 
-    /// Holds the length of a type against that of its row; a multiple of it makes an array.
+    /// Compares the size of a type with that of its row. If the row is a multiple of the type, the type becomes an array.
     fn compare(&mut self, record: &Record, ty: &mut Type, size: u32) {
-        let own = ty.size().unwrap_or(size);
-        // A value of fewer bits than a register takes one; a column of lengths may count bytes or bits.
-        let is_same = own.div_ceil(16) * 16 == size.div_ceil(16) * 16 || own == size / 2 || own == size / 16;
+        let of_type = ty.size().unwrap_or(size);
+        // A value smaller than a register occupies a whole one. A length column may contain bytes or bits.
+        let is_same =
+            of_type.div_ceil(16) * 16 == size.div_ceil(16) * 16 || of_type == size / 2 || of_type == size / 16;
         if is_same {
             return;
         }
-        if ty.elements.is_none() && ty.bits >= 16 && size > own && size.is_multiple_of(own) {
-            ty.elements = Some(size / own);
+        if ty.elements.is_none() && ty.bits >= 16 && size > of_type && size.is_multiple_of(of_type) {
+            ty.elements = Some(size / of_type);
             return;
         }
         let cell = [Field::Words, Field::Bytes, Field::Width, Field::Reg]
             .into_iter()
             .find_map(|field| self.cell(record, field));
         let span = cell.map_or(record.span, |cell| cell.span);
-        let message = format!("{} registers, and {} takes {}", size.div_ceil(16), ty.text(), own.div_ceil(16));
+        let message =
+            format!("the row has {} registers, but {} has {}", size.div_ceil(16), ty.text(), of_type.div_ceil(16));
         self.report(&codes::CSV_UNREADABLE_CELL, span, message, "the type is used");
     }
 
-    fn access(&mut self, record: &Record, place: Option<&Place>) -> Option<&'static str> {
-        let table = match place {
-            Some(Place::Register { table, .. }) => *table,
+    fn access(&mut self, record: &Record, address: Option<&RowAddress>) -> Option<&'static str> {
+        let table = match address {
+            Some(RowAddress::Register { table, .. }) => *table,
             _ => None,
         };
         if let Some(cell) = self.cell(record, Field::Access) {
             match cells::access(&cell.text) {
                 Some(access) => return Some(access),
-                None => self.unreadable(cell, "access"),
+                None => self.unreadable(cell, "access rights"),
             }
         }
         let by_function = self.cell(record, Field::Table).and_then(|cell| address::table(&cell.text)?.1);
         by_function.or_else(|| table.filter(|table| table.is_read_only()).map(|_| "ro"))
     }
 
-    /// How many of the same follow each other.
+    /// Returns how often the row repeats, if it repeats.
     fn repetition(&mut self, record: &Record) -> Option<u32> {
         let cell = self.cell(record, Field::Count)?;
         let number = cells::number(&cell.text, false).and_then(Number::int);
         match number.and_then(|number| u32::try_from(number).ok()).filter(|number| (1..=1024).contains(number)) {
             Some(number) => Some(number).filter(|&number| number > 1),
             None => {
-                self.unreadable(cell, "number of repetitions");
+                self.unreadable(cell, "a number of repetitions");
                 None
             }
         }
     }
 }
 
-/// The type of a row that tells no more than its length.
+/// Returns the assumed type of a row that states at most its length.
 fn guess(size: Option<u32>) -> Type {
     let of = |bits, elements| Type { base: Base::Unsigned, bits, elements, length: None };
     match size {

@@ -1,4 +1,4 @@
-//! What only all cells of a column tell.
+//! Detects the notation of a list from whole columns.
 
 use super::address;
 use super::cells;
@@ -6,28 +6,29 @@ use super::columns::{Columns, Field, Hint};
 use super::records::Record;
 use super::types::{self, Base};
 
-/// How a list is written.
+/// Notation of a list.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Style {
-    /// A comma is the decimal point.
+    /// Whether the decimal mark is a comma.
     pub comma: bool,
-    /// How the number of the register is written, and a second address.
+    /// Notation of the first and second address column.
     pub addresses: [address::Style; 2],
-    /// Minimum, maximum and default are in physical units.
+    /// Whether minimum, maximum and default are physical values.
     pub physical: bool,
-    /// A gain is what the raw value is divided by.
+    /// Whether the raw value is divided by the gain.
     pub gain_divides: bool,
 }
 
 impl Style {
+    /// Detects the notation of the lines below the titles.
     pub fn of(records: &[&Record], columns: &Columns) -> Style {
-        let texts = |field: Field, place: usize| {
-            let column = columns.all(field).nth(place);
+        let texts = |field: Field, position: usize| {
+            let column = columns.all(field).nth(position);
             let cells = column.into_iter().flat_map(|column| records.iter().map(move |record| record.text(column.at)));
             (cells, column.is_some_and(|column| column.is_hex))
         };
-        let address = |place: usize| {
-            let (cells, is_hex) = texts(Field::Reg, place);
+        let address = |position: usize| {
+            let (cells, is_hex) = texts(Field::Reg, position);
             address::Style::of(cells, is_hex)
         };
         let numbers = [Field::Scale, Field::Divisor, Field::Offset, Field::Min, Field::Max, Field::Default];
@@ -45,14 +46,14 @@ impl Style {
     }
 }
 
-/// Whether a limit of an integer has a fraction: then the scale is in it already.
+/// Whether a limit of an integer has a fraction. Such limits are physical values, already scaled.
 fn has_physical_limit(record: &Record, columns: &Columns, comma: bool) -> bool {
     let text = |field| columns.get(field).map_or("", |column| record.text(column.at));
     let factors = [Field::Scale, Field::Divisor, Field::Decimals, Field::Exponent];
     let is_scaled = factors.into_iter().any(|field| !cells::is_blank(text(field)))
         || cells::unit(text(Field::Unit), comma).1.is_some();
     let is_integer = types::read(text(Field::Type)).is_none_or(|ty| ty.base != Base::Float);
-    // A sheet that prints every number with a point, the addresses too, has no fractions by that.
+    // If even addresses have a decimal point, `.0` is not a sign of a fraction.
     let prints_points = matches!(cells::number(text(Field::Reg), comma), Some(cells::Number::Real(_)));
     let is_fraction = |number: cells::Number| match number {
         cells::Number::Real(value) => value.fract() != 0.0 || !prints_points,

@@ -1,8 +1,8 @@
-//! Names of types, as lists of registers spell them.
+//! Parses the names of types in lists of registers.
 
 use super::cells::{self, Order};
 
-/// What kind of value a type is of.
+/// Base type of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Base {
     Unsigned,
@@ -11,47 +11,47 @@ pub(super) enum Base {
     Bool,
     Text,
     Bytes,
-    /// The exponent of ten of other registers (SunSpec).
+    /// Exponent of ten for other registers (SunSpec).
     Exponent,
 }
 
-/// A type as far as its name tells.
+/// Properties of a type that its name states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Written {
     pub base: Base,
-    /// Bits of a value, where the name has them or everybody means the same by it.
+    /// Size of a value in bits, if the name contains it or has only one usual meaning.
     pub bits: Option<u32>,
-    /// Whether the name has the bits itself.
+    /// Whether the name contains the size.
     pub is_explicit: bool,
-    /// Letters or bytes of a text.
+    /// Length of a text in bytes.
     pub length: Option<u32>,
-    /// Elements of an array.
+    /// Number of elements of an array.
     pub elements: Option<u32>,
     pub order: Order,
 }
 
-/// The words of a name that are about order; ESPHome has `_R`.
+/// Words of a type name that mean swapped words. ESPHome uses `_R`.
 const SWAPPED: [&str; 10] = ["swapped", "swap", "swp", "cdab", "lsw", "lswfirst", "r", "rev", "reversed", "inverse"];
 const ORDERS: [&str; 16] = [
     "abcd", "badc", "dcba", "le", "be", "little", "big", "endian", "msw", "mswfirst", "first", "msb", "lsb", "low",
     "high", "order",
 ];
 
-/// Reads the name of a type.
+/// Parses the name of a type.
 pub(super) fn read(text: &str) -> Option<Written> {
     let lower = text.to_lowercase();
     let (name, elements) = array(&lower);
     let words: Vec<&str> = name.split(|letter: char| !letter.is_alphanumeric() && letter != '/').collect();
     let words: Vec<&str> = words.into_iter().filter(|word| !word.is_empty()).collect();
     let is_swapped = words.iter().skip(1).any(|word| SWAPPED.contains(word));
-    let about_order = |place: usize, word: &str| {
-        place > 0 && (SWAPPED.contains(&word) || ORDERS.contains(&word) || (word == "word" && is_swapped))
+    let about_order = |position: usize, word: &str| {
+        position > 0 && (SWAPPED.contains(&word) || ORDERS.contains(&word) || (word == "word" && is_swapped))
     };
-    let kept = words.iter().enumerate().filter(|(place, word)| !about_order(*place, word)).map(|(_, word)| *word);
+    let kept = words.iter().enumerate().filter(|(position, word)| !about_order(*position, word)).map(|(_, word)| *word);
     let glued: String = kept.collect();
-    let said: Vec<&str> =
-        words.iter().enumerate().filter(|(place, word)| about_order(*place, word)).map(|(_, w)| *w).collect();
-    let order = match cells::order(&said.join(" "), false) {
+    let order_words: Vec<&str> =
+        words.iter().enumerate().filter(|(position, word)| about_order(*position, word)).map(|(_, w)| *w).collect();
+    let order = match cells::order(&order_words.join(" "), false) {
         Some(order) => order,
         None if is_swapped => Order { low_first: Some(true), swap: None },
         None => Order::default(),
@@ -67,7 +67,7 @@ pub(super) fn read(text: &str) -> Option<Written> {
             order,
         ),
     };
-    // A single `char` is a byte, and several are a text.
+    // One `char` is a byte, several are a text.
     let glued = if glued == "char" && elements.is_some() { "chars".to_owned() } else { glued };
     let written = single(&glued)?;
     Some(match (written.base, elements) {
@@ -76,7 +76,7 @@ pub(super) fn read(text: &str) -> Option<Written> {
     })
 }
 
-/// A name, and the number of elements behind it: `u16[10]`, `string(16)`, `uint16 x 4`.
+/// Divides a type name from the number of elements after it: `u16[10]`, `string(16)`, `uint16 x 4`.
 fn array(text: &str) -> (&str, Option<u32>) {
     let bracket = text.trim_end().strip_suffix([']', ')']).and_then(|rest| rest.rsplit_once(['[', '(']));
     let times = || text.rsplit_once(" x ").or_else(|| text.rsplit_once('*'));
@@ -126,7 +126,7 @@ fn single(glued: &str) -> Option<Written> {
     };
     let base = base(word)?;
     let number: Option<u32> = digits.parse().ok();
-    // "16" and "32 bit" are unsigned; other numbers are no types.
+    // "16" and "32 bit" are unsigned integers. Other bare numbers are not types.
     if word.is_empty() && !matches!(number, Some(8 | 16 | 32 | 64)) {
         return None;
     }
@@ -213,7 +213,7 @@ mod tests {
             ("Intero senza segno", Base::Unsigned, None),
         ];
         for (text, base, bits) in cases {
-            assert_eq!(read(text).map(|own| (own.base, own.bits)), Some((base, bits)), "{text}");
+            assert_eq!(read(text).map(|ty| (ty.base, ty.bits)), Some((base, bits)), "{text}");
         }
         for text in ["", "uint65", "uint128", "pump", "float16", "é", "12", "BCD16"] {
             assert_eq!(read(text), None, "{text}");
@@ -223,13 +223,13 @@ mod tests {
     #[test]
     fn texts_arrays_and_orders() {
         for text in ["string16", "String(16)", "char[16]", "STR 16", "ASCII16"] {
-            assert_eq!(read(text).and_then(|own| own.length), Some(16), "{text}");
+            assert_eq!(read(text).and_then(|ty| ty.length), Some(16), "{text}");
         }
-        assert_eq!(read("u16[10]").and_then(|own| own.elements), Some(10));
-        assert_eq!(read("uint16 x 4").and_then(|own| own.elements), Some(4));
+        assert_eq!(read("u16[10]").and_then(|ty| ty.elements), Some(10));
+        assert_eq!(read("uint16 x 4").and_then(|ty| ty.elements), Some(4));
         for text in ["INT32 swapped", "S_DWORD_R", "float32 (CDAB)", "uint32 LSW first", "FP32_R", "int32 word swap"] {
-            assert_eq!(read(text).and_then(|own| own.order.low_first), Some(true), "{text}");
+            assert_eq!(read(text).and_then(|ty| ty.order.low_first), Some(true), "{text}");
         }
-        assert_eq!(read("uint32 BE").and_then(|own| own.order.low_first), Some(false));
+        assert_eq!(read("uint32 BE").and_then(|ty| ty.order.low_first), Some(false));
     }
 }

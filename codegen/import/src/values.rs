@@ -1,26 +1,26 @@
-//! Lists of values and bits in a cell: `0=Off, 1=On`, `Bit 0: running; Bit 1: fault`.
+//! Parses lists of values and bits in a cell: `0=Off, 1=On`, `Bit 0: running; Bit 1: fault`.
 
 use super::cells;
 
-/// One of a list.
+/// Entry of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Entry {
     pub first: i128,
-    /// The end of a range.
+    /// Last number of a range.
     pub last: Option<i128>,
     pub is_hex: bool,
     pub name: String,
 }
 
-/// A list of named values, or of named bits.
+/// List of named values, or of named bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct List {
     pub entries: Vec<Entry>,
-    /// Whether the cell says that these are bits.
+    /// Whether the cell marks all entries as bits.
     pub is_bits: bool,
 }
 
-/// The head of an entry: its numbers, and how much of the text it takes.
+/// Head of an entry: its numbers, and its length in the text.
 struct Head {
     first: i128,
     last: Option<i128>,
@@ -29,7 +29,7 @@ struct Head {
     length: usize,
 }
 
-/// Reads a list that begins at the start of the cell.
+/// Parses a list that begins at the start of the cell.
 pub(super) fn read(text: &str) -> Option<List> {
     let text = text.trim().trim_matches(['{', '}', '[', ']']).trim();
     let mut heads: Vec<(usize, Head)> = Vec::new();
@@ -47,8 +47,8 @@ pub(super) fn read(text: &str) -> Option<List> {
         return None;
     }
     let mut entries = Vec::new();
-    for (place, (at, head)) in heads.iter().enumerate() {
-        let end = heads.get(place + 1).map_or(text.len(), |(next, _)| *next);
+    for (position, (at, head)) in heads.iter().enumerate() {
+        let end = heads.get(position + 1).map_or(text.len(), |(next, _)| *next);
         let name = text.get(at + head.length..end)?;
         let marks =
             |letter: char| letter.is_whitespace() || matches!(letter, ',' | ';' | '|' | '/' | '"' | '(' | '=' | ':');
@@ -59,12 +59,12 @@ pub(super) fn read(text: &str) -> Option<List> {
     entries.iter().any(|entry| !entry.name.is_empty()).then_some(List { entries, is_bits })
 }
 
-/// Whether a mark between entries stands before this place.
+/// Whether the text before `at` ends with a separator of entries.
 fn after_mark(text: &str, at: usize) -> bool {
     text.get(..at).is_some_and(|before| before.trim_end().ends_with([',', ';', '|', '/', '\n', '\r', '(']))
 }
 
-/// `0 =`, `Bit 3:`, `0x10 -`, `3..7 =`; with `strict` only what can't be a part of a name.
+/// Parses the head of an entry: `0 =`, `Bit 3:`, `0x10 -`, `3..7 =`. `strict` excludes heads that can be part of a name.
 fn head(text: &str, strict: bool) -> Option<Head> {
     let lower = text.get(..text.len().min(8)).unwrap_or(text).to_ascii_lowercase();
     let word = ["bits", "bit", "b", "d"].into_iter().find(|word| {
@@ -82,7 +82,7 @@ fn head(text: &str, strict: bool) -> Option<Head> {
     let mark = rest.trim_start_matches(' ');
     let clear = ["=>", "->", "=", ":", "→", ")", "\t"].into_iter().find(|sign| mark.starts_with(sign));
     let weak = ["– ", "- "].into_iter().find(|sign| mark.starts_with(sign) && !strict);
-    // "Bit 3 running", where a word says that it is a bit.
+    // "Bit 3 running" has no separator, but the word "Bit".
     let bare = || (word.is_some() && !strict && blanks > 0).then_some("");
     let sign = clear.or(weak).or_else(bare)?;
     let after = mark.get(sign.len()..)?;
@@ -93,7 +93,7 @@ fn head(text: &str, strict: bool) -> Option<Head> {
     Some(Head { first, last, is_hex, is_bit: word.is_some(), length: text.len() - after.len() })
 }
 
-/// An integer at the start of a text.
+/// Parses an integer at the start of a text. Returns it, whether it is hexadecimal, and the remaining text.
 fn integer(text: &str) -> Option<(i128, bool, &str)> {
     let sign = usize::from(text.starts_with('-'));
     let digits = text.get(sign..)?;
@@ -111,7 +111,7 @@ fn integer(text: &str) -> Option<(i128, bool, &str)> {
     Some((if sign == 1 { -value } else { value }, is_hex, rest))
 }
 
-/// The end of a range: `..7`, `-7`, ` to 7`.
+/// Parses the end of a range: `..7`, `-7`, ` to 7`.
 fn until(text: &str) -> Option<(i128, &str)> {
     let marks = ["...", "..", "…", "~", "–", "-", " to ", " - ", " – "];
     let rest = marks.into_iter().find_map(|mark| text.strip_prefix(mark))?;
@@ -119,7 +119,7 @@ fn until(text: &str) -> Option<(i128, &str)> {
     Some((last, rest))
 }
 
-/// Whether a name says that a value or bit means nothing.
+/// Whether a name marks a value or bit as reserved or unused.
 pub(super) fn is_reserved(name: &str) -> bool {
     const WORDS: [&str; 12] = [
         "reserved",

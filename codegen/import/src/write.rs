@@ -1,4 +1,4 @@
-//! The table as TOML: one aligned line a row.
+//! Writes the table as TOML, with one aligned line per row.
 
 use std::collections::HashSet;
 use std::fmt::Write as _;
@@ -6,12 +6,12 @@ use std::fmt::Write as _;
 use lexibus_codegen::frontend::table::is_unit;
 
 use super::layout::{Chapter, Listing, Space};
-use super::rows::{Place, Row};
+use super::rows::{Row, RowAddress};
 
-/// Keys are filled up to this length, and no further.
+/// Maximum length to which keys are padded.
 const MAX_KEY: usize = 36;
 
-/// A text in quotes. A `$` in front would be an option.
+/// Returns a TOML string. A blank is put before a leading `$`, which would refer to an option.
 pub(super) fn quoted(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 2);
     out.push('"');
@@ -33,7 +33,7 @@ pub(super) fn quoted(text: &str) -> String {
     out
 }
 
-/// A key: bare where it can be.
+/// Returns a TOML key, without quotation marks if possible.
 fn key(text: &str) -> String {
     let is_bare = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '_' | '-');
     if !text.is_empty() && text.chars().all(is_bare) {
@@ -43,7 +43,7 @@ fn key(text: &str) -> String {
     }
 }
 
-/// The digits of an integer.
+/// Returns the digits of an integer.
 pub(super) fn digits(value: i128, is_hex: bool) -> String {
     match value {
         0.. if is_hex => format!("0x{value:X}"),
@@ -51,7 +51,7 @@ pub(super) fn digits(value: i128, is_hex: bool) -> String {
     }
 }
 
-/// An integer; one that TOML can't hold is a text.
+/// Returns an integer in TOML. An integer beyond 64 bits becomes a string.
 pub(super) fn int(value: i128, is_hex: bool) -> String {
     let text = digits(value, is_hex);
     if i64::try_from(value).is_ok() {
@@ -61,6 +61,7 @@ pub(super) fn int(value: i128, is_hex: bool) -> String {
     }
 }
 
+/// Returns a floating-point number in TOML.
 pub(super) fn real(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e9 {
         format!("{value:.0}")
@@ -69,29 +70,30 @@ pub(super) fn real(value: f64) -> String {
     }
 }
 
-/// A comment on one line.
+/// Returns a comment line.
 fn comment(text: &str) -> String {
     let text: String = text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect();
     format!("# {text}\n")
 }
 
-/// The whole table.
+/// Returns the whole table.
 pub(super) fn table(list: &Listing, name: &str, source: &str) -> String {
     let mut out =
-        comment(&format!("Register table, made of {source} by `lexibus import`. Compare it with the manual."));
+        comment(&format!("Register table generated from {source} by `lexibus import`. Check it against the manual."));
     out += "lexibus = 1\n\n[device]\n";
     let _ = writeln!(out, "name = {}", quoted(name));
-    let mut places = list.chapters.iter().flat_map(|chapter| &chapter.rows).map(|row| row.place);
-    let is_object = |place| matches!(place, Ok(Place::Object { .. } | Place::Register { object: Some(_), .. }));
-    // On which of the other buses the objects are is for a person to say.
-    if !list.spaces.is_empty() && !places.any(is_object) {
+    let mut addresses = list.chapters.iter().flat_map(|chapter| &chapter.rows).map(|row| row.address);
+    let is_object =
+        |address| matches!(address, Ok(RowAddress::Object { .. } | RowAddress::Register { object: Some(_), .. }));
+    // The list does not state the bus of objects, so the user must add it.
+    if !list.spaces.is_empty() && !addresses.any(is_object) {
         out += "buses = [\"modbus\"]\n";
     }
     if list.no_access {
-        out += "\n[defaults]\naccess = \"ro\"    # the list doesn't say what may be written\n";
+        out += "\n[defaults]\naccess = \"ro\"    # the list has no access rights\n";
     }
-    list.spaces.iter().for_each(|own| space(&mut out, own));
-    list.chapters.iter().for_each(|own| chapter(&mut out, own, list));
+    list.spaces.iter().for_each(|item| space(&mut out, item));
+    list.chapters.iter().for_each(|item| chapter(&mut out, item, list));
     definitions(&mut out, list);
     units(&mut out, list);
     out
@@ -107,8 +109,8 @@ fn space(out: &mut String, space: &Space) {
     }
     *out += " }";
     *out += match (space.is_first_known, space.first) {
-        (false, _) => "    # `first = 1` where the manual counts registers from 1\n",
-        (true, 2..) => "    # this number is address 0 on the wire\n",
+        (false, _) => "    # write `first = 1` if the manual counts registers from 1\n",
+        (true, 2..) => "    # this printed address is wire address 0\n",
         (true, _) => "\n",
     };
 }
@@ -121,41 +123,41 @@ fn chapter(out: &mut String, chapter: &Chapter, list: &Listing) {
     if let Some(table) = chapter.table {
         let _ = writeln!(out, "space = \"{}\"", table.name());
     }
-    let rows = || chapter.rows.iter().filter(|row| row.place.is_ok());
+    let rows = || chapter.rows.iter().filter(|row| row.address.is_ok());
     if rows().next().is_some() {
         *out += "\n[chapters.registers]\n";
     }
     let longest = rows().map(|row| key(&row.name).chars().count()).max().unwrap_or(0).min(MAX_KEY);
-    let columns = rows().map(|row| head(row).map(|own| own.chars().count()));
-    let widths = columns.fold([0; 3], |widest, own| std::array::from_fn(|at| widest[at].max(own[at])));
+    let columns = rows().map(|row| head(row).map(|text| text.chars().count()));
+    let widths = columns.fold([0; 3], |widest, lengths| std::array::from_fn(|at| widest[at].max(lengths[at])));
     for row in &chapter.rows {
-        match row.place {
+        match row.address {
             Ok(_) => line(out, row, longest, widths, list),
             Err(reason) => *out += &comment(&format!("{reason}: {}", row.text)),
         }
     }
 }
 
-/// The entries that stand below each other: the address, the type, the access.
+/// Returns the aligned entries of a row: address, type and access rights.
 fn head(row: &Row) -> [String; 3] {
-    let place = match row.place {
-        Ok(Place::Register { address, object, .. }) => {
+    let address = match row.address {
+        Ok(RowAddress::Register { printed, object, .. }) => {
             let obj = object.map_or(String::new(), |(index, sub)| match sub {
                 Some(sub) => format!(", obj = \"0x{index:04X}:{sub}\""),
                 None => format!(", obj = 0x{index:04X}"),
             });
-            let number = |value: u32| if address.is_hex { format!("0x{value:04X}") } else { value.to_string() };
-            match address.last {
-                Some(last) => format!("reg = \"{}-{}\"{obj}", number(address.first), number(last)),
-                None => format!("reg = {}{obj}", number(address.first)),
+            let number = |value: u32| if printed.is_hex { format!("0x{value:04X}") } else { value.to_string() };
+            match printed.last {
+                Some(last) => format!("reg = \"{}-{}\"{obj}", number(printed.first), number(last)),
+                None => format!("reg = {}{obj}", number(printed.first)),
             }
         }
-        Ok(Place::Object { index, sub }) => format!("obj = \"0x{index:04X}:{}\"", sub.unwrap_or(0)),
-        Ok(Place::Parameter(number)) => format!("param = {number}"),
+        Ok(RowAddress::Object { index, sub }) => format!("obj = \"0x{index:04X}:{}\"", sub.unwrap_or(0)),
+        Ok(RowAddress::Parameter(number)) => format!("param = {number}"),
         Err(_) => String::new(),
     };
     let access = row.access.map_or(String::new(), |access| format!("access = \"{access}\""));
-    [place, format!("type = \"{}\"", row.ty.text()), access]
+    [address, format!("type = \"{}\"", row.ty.text()), access]
 }
 
 fn line(out: &mut String, row: &Row, longest: usize, widths: [usize; 3], list: &Listing) {
@@ -163,11 +165,11 @@ fn line(out: &mut String, row: &Row, longest: usize, widths: [usize; 3], list: &
     let _ = write!(out, "{name:longest$} = {{ ");
     let rest = rest(row, list);
     let head = head(row);
-    let last = if rest.is_empty() { head.iter().rposition(|own| !own.is_empty()).unwrap_or(0) } else { head.len() };
-    for (at, (own, width)) in head.iter().zip(widths).enumerate() {
-        let comma = if at < last && !own.is_empty() { "," } else { "" };
-        let text = format!("{own}{comma}");
-        // What nothing follows needs no blanks.
+    let last = if rest.is_empty() { head.iter().rposition(|entry| !entry.is_empty()).unwrap_or(0) } else { head.len() };
+    for (at, (entry, width)) in head.iter().zip(widths).enumerate() {
+        let comma = if at < last && !entry.is_empty() { "," } else { "" };
+        let text = format!("{entry}{comma}");
+        // The last entry needs no padding.
         if at < last && width > 0 {
             let _ = write!(out, "{text:0$} ", width + 1);
         } else if at == last {
@@ -177,47 +179,48 @@ fn line(out: &mut String, row: &Row, longest: usize, widths: [usize; 3], list: &
     let _ = writeln!(out, "{}}}", if rest.is_empty() { String::new() } else { rest.join(", ") + " " });
 }
 
-/// What stands behind address, type and access.
+/// Returns the entries after address, type and access rights.
 fn rest(row: &Row, list: &Listing) -> Vec<String> {
     let mut rest = Vec::new();
-    let table = match row.place {
-        Ok(Place::Register { table, .. }) => table,
+    let table = match row.address {
+        Ok(RowAddress::Register { table, .. }) => table,
         _ => None,
     };
     let space = list.spaces.iter().find(|space| Some(space.table) == table);
-    // Only registers have words.
-    let is_register = matches!(row.place, Ok(Place::Register { .. }));
-    let low_first = row.order.low_first.filter(|&own| is_register && own != space.is_some_and(|space| space.low_first));
+    // Only registers have a word order.
+    let is_register = matches!(row.address, Ok(RowAddress::Register { .. }));
+    let of_space = space.is_some_and(|space| space.low_first);
+    let low_first = row.order.low_first.filter(|&low_first| is_register && low_first != of_space);
     rest.extend(low_first.map(|low| format!("order = \"{}\"", if low { "low_first" } else { "high_first" })));
-    let swap = row.order.swap.filter(|&own| is_register && own != space.is_some_and(|space| space.swap));
+    let swap = row.order.swap.filter(|&swap| is_register && swap != space.is_some_and(|space| space.swap));
     rest.extend(swap.map(|swap| format!("swap = {swap}")));
     rest.extend(row.count.map(|count| format!("count = {count}")));
     if let Some(scale) = &row.scale {
         let kind = if scale.is_exponent { "exponent" } else { "by" };
         rest.push(format!("scale = {{ {kind} = {} }}", quoted(&scale.name)));
     }
-    if let Some(own) = row.meaning.and_then(|at| list.definitions.get(at)) {
-        rest.push(format!("{} = {}", if own.is_bits { "bits" } else { "enum" }, quoted(&own.name)));
+    if let Some(definition) = row.meaning.and_then(|at| list.definitions.get(at)) {
+        rest.push(format!("{} = {}", if definition.is_bits { "bits" } else { "enum" }, quoted(&definition.name)));
     }
     rest.extend(row.facts.iter().map(|(key, value)| format!("{key} = {value}")));
     rest
 }
 
 fn definitions(out: &mut String, list: &Listing) {
-    let rows = list.chapters.iter().flat_map(|chapter| &chapter.rows).filter(|row| row.place.is_ok());
+    let rows = list.chapters.iter().flat_map(|chapter| &chapter.rows).filter(|row| row.address.is_ok());
     let used: HashSet<usize> = rows.filter_map(|row| row.meaning).collect();
-    for (_, own) in list.definitions.iter().enumerate().filter(|(at, _)| used.contains(at)) {
-        let (kind, inner) = if own.is_bits { ("bits", "at") } else { ("enums", "values") };
-        let _ = writeln!(out, "\n[{kind}.{}.{inner}]", key(&own.name));
-        for (key, value) in &own.entries {
+    for (_, definition) in list.definitions.iter().enumerate().filter(|(at, _)| used.contains(at)) {
+        let (kind, inner) = if definition.is_bits { ("bits", "at") } else { ("enums", "values") };
+        let _ = writeln!(out, "\n[{kind}.{}.{inner}]", key(&definition.name));
+        for (key, value) in &definition.entries {
             let _ = writeln!(out, "{key} = {value}");
         }
     }
 }
 
-/// Units that nobody knows are defined, so that what they are can be written down.
+/// Defines the unknown units, so that the user can complete their definitions.
 fn units(out: &mut String, list: &Listing) {
-    let rows = list.chapters.iter().flat_map(|chapter| &chapter.rows).filter(|row| row.place.is_ok());
+    let rows = list.chapters.iter().flat_map(|chapter| &chapter.rows).filter(|row| row.address.is_ok());
     let units = rows.flat_map(|row| &row.facts).filter(|(key, _)| *key == "unit").map(|(_, unit)| unit.as_str());
     let unknown: std::collections::BTreeSet<&str> = units.filter(|unit| !is_unit(unit.trim_matches('"'))).collect();
     if !unknown.is_empty() {

@@ -1,4 +1,4 @@
-//! Lists of registers become register tables that `check` accepts and `generate` takes.
+//! Tests that imported register tables pass `check` and `generate`.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{Levels, Severity};
@@ -8,7 +8,7 @@ use lexibus_codegen::source::Source;
 use lexibus_import::{import, mapping, Import};
 use proptest::prelude::*;
 
-/// The import of a list called `name`.
+/// Imports a list with this file name.
 fn read_as(name: &str, text: impl Into<Vec<u8>>, options: &lexibus_import::Options) -> Import {
     import(Source::new(name, text.into()), options)
 }
@@ -17,33 +17,34 @@ fn read(text: &str) -> Import {
     read_as("list.csv", text, &lexibus_import::Options::default())
 }
 
-/// The findings of an import: line, column, code.
+/// Returns line, column and code of each diagnostic of an import.
 fn findings(import: &Import) -> Vec<(u32, u32, &'static str)> {
     let source = &import.compilation.sources[0];
     let list = import.compilation.diagnostics.list().iter();
-    list.map(|own| {
-        let at = source.position(own.span.start);
-        (at.line, at.column, own.code.id)
+    list.map(|diagnostic| {
+        let at = source.position(diagnostic.span.start);
+        (at.line, at.column, diagnostic.code.id)
     })
     .collect()
 }
 
-/// The device of a list that has nothing to find fault with, nor its table.
+/// Returns the device of a list. Neither the list nor its table may have diagnostics.
 fn device(text: &str) -> Device {
     let import = read(text);
     assert_eq!(findings(&import), [], "{text}");
     accepted(&import)
 }
 
-/// The device of a table: `check` has nothing against it, and `generate` makes something of it.
+/// Returns the device of an imported table, which must pass `check` and `generate`.
 fn accepted(import: &Import) -> Device {
     let table = import.table.as_ref().expect("a table");
     let options = Options::default();
     let compilation: Compilation = check(Source::new("list.toml", table.clone().into_bytes()), &options);
-    let said: Vec<String> = compilation.diagnostics.list().iter().map(|own| compilation.one_line(own)).collect();
-    assert_eq!(said, Vec::<String>::new(), "{table}");
+    let list = compilation.diagnostics.list().iter();
+    let messages: Vec<String> = list.map(|diagnostic| compilation.one_line(diagnostic)).collect();
+    assert_eq!(messages, Vec::<String>::new(), "{table}");
     assert!(compilation.rust(&options.rust).is_some(), "{table}");
-    compilation.catalog.expect("a catalogue").devices.remove(0)
+    compilation.catalog.expect("a catalog").devices.remove(0)
 }
 
 fn item<'d>(device: &'d Device, name: &str) -> &'d Item {
@@ -53,7 +54,7 @@ fn item<'d>(device: &'d Device, name: &str) -> &'d Item {
 
 fn register<'d>(device: &'d Device, name: &str) -> &'d RegisterBinding {
     match &item(device, name).bindings[0] {
-        Binding::Register(own) => own,
+        Binding::Register(register) => register,
         other => panic!("{name} is {other:?}"),
     }
 }
@@ -76,7 +77,7 @@ fn a_list_as_vendors_write_it() {
     assert!(register(&device, "Position").low_word_first && !register(&device, "Running time").low_word_first);
     assert_eq!(item(&device, "Speed setpoint").limits.high, Some(Value::Int(3000)));
     assert_eq!(item(&device, "Speed setpoint").default, Some(Value::Int(1500)));
-    let scale = item(&device, "Temperature").quantity.as_ref().and_then(|own| own.scale.clone());
+    let scale = item(&device, "Temperature").quantity.as_ref().and_then(|quantity| quantity.scale.clone());
     assert_eq!(scale, Some(Scale::Linear { factor: 0.1, offset: 0.0 }));
     let shapes: Vec<&Shape> = device.types.iter().map(|ty| &ty.shape).collect();
     assert!(matches!(shapes[..], [Shape::Enumeration { .. }, Shape::BitField { .. }]), "{shapes:?}");
@@ -89,7 +90,7 @@ fn german_and_italian_lists() {
          Drehzahl;100;UINT16;Lesen/Schreiben;U/min;0,5;0;3000\nTemperatur;101;INT16;Lesen;°C;0,1;;\n",
     );
     assert_eq!(item(&german, "Drehzahl").access, Access::ReadWrite);
-    assert_eq!(item(&german, "Drehzahl").quantity.as_ref().map(|own| own.unit.as_str()), Some("rpm"));
+    assert_eq!(item(&german, "Drehzahl").quantity.as_ref().map(|quantity| quantity.unit.as_str()), Some("rpm"));
     let italian = device(
         "Indirizzo;Descrizione;Tipo;U.M.;Fattore;Valore Minimo;Valore Massimo;Accesso\n;Misure;;;;;;\n\
          1000;Tensione L1;UINT16;V;0,1;;;Lettura\n;Impostazioni;;;;;;\n1100;Soglia;INT16;V;1;-5;5;L/S\n",
@@ -142,7 +143,7 @@ fn what_gateways_and_integrations_have() {
         "Address,Name,Type,Size,Scale Factor,Units,RW Access\n40072,A,uint16,1,A_SF,A,R\n40076,A_SF,sunssf,1,,,R\n\
          40094,WH,acc32,2,A_SF,Wh,R\n40020,Mn,string,16,,,R\n",
     );
-    let scale = item(&sunspec, "A").quantity.as_ref().and_then(|own| own.scale.clone());
+    let scale = item(&sunspec, "A").quantity.as_ref().and_then(|quantity| quantity.scale.clone());
     assert_eq!(scale, Some(Scale::Exponent { exponent: "A_SF".into(), base: 10, fraction: 0 }));
     assert_eq!(item(&sunspec, "Mn").ty, Type::VisibleString(Some(32)));
     let parts = device("Name,Address,Type,Access\na,10.0,bool,ro\nb,10.1,bool,ro\nc,10.2-4,u16,ro\nd,11,u16,ro\n");
@@ -152,7 +153,7 @@ fn what_gateways_and_integrations_have() {
     let orders = device("Name,Address,Type,Word order,Access\na,1,float32,CDAB,ro\nb,3,float32,ABCD,ro\n");
     assert!(register(&orders, "a").low_word_first && !register(&orders, "b").low_word_first);
     let rest = device("Name,Address,Type,Invalid value,Repeat,Access\nt,1,int16,0x7FFF,,ro\nbuf,10,u32,,3,ro\n");
-    assert_eq!(item(&rest, "t").quantity.as_ref().map(|own| own.sentinels.len()), Some(1));
+    assert_eq!(item(&rest, "t").quantity.as_ref().map(|quantity| quantity.sentinels.len()), Some(1));
     assert_eq!(register(&rest, "buf 3").address, 14);
 }
 
@@ -200,11 +201,11 @@ fn every_cell_that_cannot_be_read_is_told() {
     assert_eq!(findings(&import), expected);
     let table = import.table.expect("a table");
     for line in
-        ["# the address can't be read: b | x", "\"a 2\" = {", "# the address is taken: g | 7", "# no address: i |"]
+        ["# the address can't be read: b | x", "\"a 2\" = {", "# the address is used twice: g | 7", "# no address: i |"]
     {
         assert!(table.contains(line), "{line}\n{table}");
     }
-    // A row that lost a cell is kept, and so are the words of a cell that is no list.
+    // A row with an unreadable cell is kept, and the text of a cell that is not a list becomes documentation.
     assert!(table.contains("doc = \"Off/On\"") && table.contains("reg = 4, type = \"u8\""), "{table}");
 }
 
@@ -252,7 +253,7 @@ fn strict_imports_nothing_that_was_not_read() {
     assert!(import.table.is_none() && import.compilation.diagnostics.count(Severity::Error) == 1);
 }
 
-/// A cell as lists have them, right and wrong.
+/// Generates cells as they occur in lists, valid and invalid.
 fn cell() -> impl Strategy<Value = String> {
     const CELLS: [&str; 70] = [
         "",
@@ -376,7 +377,7 @@ fn limits_with_a_decimal_point_are_physical() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
-    /// Whatever stands in the cells, the table is one: no error is left for `check` to find.
+    /// `check` reports no error in an imported table, for any content of the cells.
     #[test]
     fn tables_of_any_cells_are_accepted(
         titles in prop::sample::subsequence(&TITLES[..], 4..16).prop_shuffle(),
@@ -391,23 +392,23 @@ proptest! {
         if let Some(table) = read(&list).table {
             let options = Options::default();
             let compilation = check(Source::new("list.toml", table.clone().into_bytes()), &options);
-            let errors = compilation.diagnostics.list().iter().filter(|own| own.severity == Severity::Error);
-            let errors: Vec<String> = errors.map(|own| compilation.one_line(own)).collect();
+            let errors = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
+            let errors: Vec<String> = errors.map(|diagnostic| compilation.one_line(diagnostic)).collect();
             prop_assert_eq!(errors, Vec::<String>::new(), "{}\n{}", list, table);
             prop_assert!(compilation.rust(&options.rust).is_some());
         }
     }
 
-    /// No text makes it panic.
+    /// The import does not panic on any text.
     #[test]
     fn any_text_is_read(text in "\\PC*|(Name|Address|Type|[0-9.x,;\t\"\n-]){0,60}") {
         read(&text);
     }
 }
 
-/// How many findings have this code.
+/// Returns the number of diagnostics with this code.
 fn count(import: &Import, code: &str) -> usize {
-    findings(import).iter().filter(|(.., own)| *own == code).count()
+    findings(import).iter().filter(|(.., other)| *other == code).count()
 }
 
 #[test]
@@ -426,11 +427,11 @@ fn lines_of_a_list_that_stand_for_many_items() {
 
 #[test]
 fn names_of_repeated_lines_that_are_taken() {
-    // Each line with a number takes a name that the second repeated one tries.
+    // Each numbered line uses a name that the second repeated row tries.
     let tried = limits::MAX_DERIVED_ITEMS / 1000;
-    let lines = |taken: usize| {
-        let taken: String = (0..taken).map(|at| format!("{},P 1000 {},u8,\n", 5000 + at, at + 2)).collect();
-        let text = format!("Param,Name,Type,Repeat\n0,P,u8,1000\n{taken}1000,P,u8,1000\n");
+    let lines = |used: usize| {
+        let used: String = (0..used).map(|at| format!("{},P 1000 {},u8,\n", 5000 + at, at + 2)).collect();
+        let text = format!("Param,Name,Type,Repeat\n0,P,u8,1000\n{used}1000,P,u8,1000\n");
         let imported = read(&text);
         let rows =
             imported.table.as_deref().expect("a table").lines().filter(|line| line.contains("count = 1000")).count();
@@ -440,9 +441,9 @@ fn names_of_repeated_lines_that_are_taken() {
     assert_eq!(lines(tried + 9), (1, 1));
 }
 
-// Passages of the manual of the AEC Vector Step, as they are printed; the number in a test's name is that of the notes' section 4.
+// Passages of the AEC Vector Step manual, as printed. The number in a test's name is the item in section 4 of the notes.
 
-/// The titles of the manual's register tables (L2128), and these rows below them.
+/// Imports rows below the column titles of the register tables in the manual.
 fn manual(rows: &str) -> Import {
     let titles =
         "Indirizzo Modbus / Profibus\tIndirizzo CAN EtherCAT Profinet\tNome Registro\tDescrizione\tU.M.\tValore \
@@ -450,7 +451,7 @@ fn manual(rows: &str) -> Import {
     read_as("list.tsv", format!("{titles}{rows}"), &lexibus_import::Options::default())
 }
 
-/// The rows that were written.
+/// Returns the rows of the imported table.
 fn rows(import: &Import) -> Vec<&str> {
     let lines = import.table.as_deref().expect("a table").lines();
     lines.skip_while(|line| *line != "[chapters.registers]").skip(1).take_while(|line| !line.is_empty()).collect()
@@ -472,12 +473,12 @@ fn item_53_a_quote_that_would_swallow_seven_rows() {
     );
     let expected = [(1, 1, "CSV007"), (3, 108, "CSV008"), (8, 10, "CSV003"), (9, 10, "CSV003"), (10, 10, "CSV003")];
     assert_eq!(findings(&import), expected);
-    let said = &import.compilation.diagnostics.list()[1].message;
-    assert_eq!(said, "a quote is opened here and not closed in its cell");
+    let message = &import.compilation.diagnostics.list()[1].message;
+    assert_eq!(message, "the quotation mark is not closed in its cell");
     let names: Vec<&str> = rows(&import).iter().filter_map(|row| row.split(' ').next()).collect();
     assert_eq!(names.len(), 9, "{names:?}");
     assert!(rows(&import)[1].contains(r#"(solo BMD con resolver). \"RW SAVE" }"#), "{:?}", rows(&import)[1]);
-    // Item 21: a range is no index, and none is made of it.
+    // Item 21: a range is not an index, so the row has no object.
     assert!(
         rows(&import)[6].starts_with(r#"Rrslvrawangleout = { reg = "10194-10195", "#)
             && !rows(&import)[6].contains("obj")
@@ -507,8 +508,9 @@ fn item_25_a_row_of_ten_cells_and_a_title_of_none() {
     let import = read_as("list.tsv", format!("{titles}{rows}"), &lexibus_import::Options::default());
     let expected = [(1, 1, "CSV007"), (2, 1, "CSV007"), (2, 1, "CSV005"), (2, 80, "CSV003"), (3, 127, "CSV003")];
     assert_eq!(findings(&import), expected);
-    let said: Vec<&str> = import.compilation.diagnostics.list().iter().map(|own| own.message.as_str()).collect();
-    assert!(said.contains(&"the line has 10 cells, and the titles are 9"), "{said:?}");
+    let list = import.compilation.diagnostics.list().iter();
+    let messages: Vec<&str> = list.map(|diagnostic| diagnostic.message.as_str()).collect();
+    assert!(messages.contains(&"the line has 10 cells, but there are 9 titles"), "{messages:?}");
     assert!(!import.table.as_deref().expect("a table").contains("[units]"));
 }
 
@@ -521,14 +523,14 @@ fn item_26_a_line_of_dashes() {
     );
     let codes: Vec<_> = findings(&import).into_iter().filter(|(line, ..)| *line == 3).map(|(.., code)| code).collect();
     assert_eq!(codes, ["CSV004", "CSV003", "CSV003"]);
-    let said = &import.compilation.diagnostics.list()[1].message;
-    assert_eq!(said, "`-------` is no number of a register");
+    let message = &import.compilation.diagnostics.list()[1].message;
+    assert_eq!(message, "`-------` is not a register address");
     assert!(rows(&import)[1].starts_with("# the address can't be read: ------- | "));
 }
 
 #[test]
 fn items_18_and_19_indices_beside_numbers() {
-    // The number is the address on Modbus, and not what the index is counted from.
+    // The printed address is the Modbus wire address, not the base of the index.
     let import = manual(
         "10144\t0x4800\tRalmbuffres\tReset buffer storico allarmi\t\t\t\tUnsigned16\tRW SAVE\n\
          10145\t0x4801\tRalmbuffptr\tPuntatore al buffer storico allarmi\t\t0\t15\tUnsigned16\tRW SAVE\n\
@@ -538,18 +540,20 @@ fn items_18_and_19_indices_beside_numbers() {
          ",
     );
     assert_eq!(findings(&import), [(1, 1, "CSV007"), (5, 1, "CSV003"), (6, 6, "CSV003")]);
-    let said = &import.compilation.diagnostics.list()[1].message;
-    assert_eq!(said, "the index is 0x4803, and by 3 of 4 lines it would be 0x4804");
+    let message = &import.compilation.diagnostics.list()[1].message;
+    assert_eq!(message, "the index is 0x4803, but 3 of 4 lines suggest 0x4804");
     let table = import.table.as_deref().expect("a table");
     assert!(table.contains("modbus = { table = \"holding\", first = 0 }"), "{table}");
     let device = check(Source::new("list.toml", table.as_bytes().to_vec()), &Options::default());
-    let codes: Vec<_> = device.diagnostics.list().iter().map(|own| (own.code.id, own.message.as_str())).collect();
+    let list = device.diagnostics.list().iter();
+    let codes: Vec<_> = list.map(|diagnostic| (diagnostic.code.id, diagnostic.message.as_str())).collect();
     let series = "the row has object 0x4803, but 0x4804 follows from the neighboring rows";
     assert_eq!(codes, [("TAB001", series)]);
-    let device = device.catalog.expect("a catalogue").devices.remove(0);
+    let device = device.catalog.expect("a catalog").devices.remove(0);
     let bindings = &item(&device, "Ralmbuffres").bindings;
-    assert!(bindings.iter().any(|own| matches!(own, Binding::Object { index: 0x4800, .. })), "{bindings:?}");
-    assert!(bindings.iter().any(|own| matches!(own, Binding::Register(own) if own.address == 10144)), "{bindings:?}");
+    assert!(bindings.iter().any(|binding| matches!(binding, Binding::Object { index: 0x4800, .. })), "{bindings:?}");
+    let is_register = |binding: &Binding| matches!(binding, Binding::Register(register) if register.address == 10144);
+    assert!(bindings.iter().any(is_register), "{bindings:?}");
 }
 
 #[test]
@@ -571,8 +575,8 @@ fn item_60_a_default_in_the_cell_of_a_limit() {
         .diagnostics
         .list()
         .iter()
-        .filter(|own| own.code.id == "CSV003" && !own.message.ends_with("type"))
-        .filter_map(|own| own.message.split('`').nth(1))
+        .filter(|diagnostic| diagnostic.code.id == "CSV003" && !diagnostic.message.ends_with("type"))
+        .filter_map(|diagnostic| diagnostic.message.split('`').nth(1))
         .collect();
     let printed = ["-4 (Default -4)", "Default 65535", "(Default 4)", "(Default 0)", "Default 512", "Default 25"];
     let more = ["Default 12", "Default 13", "1234567890 0x499602D2", "1234567890 0x499602D2"];
@@ -582,10 +586,14 @@ fn item_60_a_default_in_the_cell_of_a_limit() {
 #[test]
 fn units_that_nobody_knows_are_told() {
     let import = read("Register,Name,Unit\n1,a,Imp. Enc.\n2,b,Imp. Enc.\n3,c,V\n4,d,a = b\n");
-    let said: Vec<&str> = import.compilation.diagnostics.list().iter().map(|own| own.message.as_str()).collect();
-    assert!(said.contains(&"the unit `Imp. Enc.` isn't known: `[units]` defines it, without a scale"), "{said:?}");
-    assert!(said.contains(&"`a = b` is no unit"), "{said:?}");
-    assert_eq!(said.iter().filter(|said| said.contains("Imp. Enc.")).count(), 1);
+    let list = import.compilation.diagnostics.list().iter();
+    let messages: Vec<&str> = list.map(|diagnostic| diagnostic.message.as_str()).collect();
+    assert!(
+        messages.contains(&"the unit `Imp. Enc.` is unknown: it is added to `[units]` without a scale"),
+        "{messages:?}"
+    );
+    assert!(messages.contains(&"`a = b` is not a unit"), "{messages:?}");
+    assert_eq!(messages.iter().filter(|message| message.contains("Imp. Enc.")).count(), 1);
 }
 
 #[test]
@@ -593,7 +601,7 @@ fn an_index_beside_a_number_without_a_title_that_says_so() {
     let import = read("Register,Address,Name,Type,Access\n198,0x20C6,a,u16,rw\n199,0x20C7,b,u16,rw\n");
     assert_eq!(findings(&import), [(2, 5, "CSV007")]);
     assert_eq!(rows(&import)[0], r#"a = { reg = 198, obj = 0x20C6, type = "u16", access = "rw" }"#);
-    // Two addresses of one register stay what they are.
+    // Two addresses of one register are not an object index.
     let import = read("Register,Address,Name,Type,Access\n40001,0x0000,a,u16,rw\n40002,0x0001,b,u16,rw\n");
     assert_eq!((findings(&import), import.table.unwrap().contains("first = 40001")), (vec![], true));
 }

@@ -1,36 +1,36 @@
-//! Runs `rustc`, or clippy where it is installed, and rustdoc over generated code.
+//! Runs `rustc`, or clippy if it is installed, and rustdoc on generated code.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::OnceLock;
 
-/// Compiles `bindings` as the module of a `no_std` crate in which every warning is an error.
+/// Compiles `bindings` as a module of a `no_std` crate in which every warning is an error.
 ///
 /// # Errors
 ///
-/// What the compiler printed.
-#[allow(dead_code)] // Not every test compiles by this one.
+/// The output of the compiler.
+#[allow(dead_code)] // not every test uses it
 pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
     compile_with(compiler(), "2021", name, bindings)
 }
 
-/// The same without clippy.
+/// Like [`compile`], without clippy.
 ///
 /// # Errors
 ///
-/// What the compiler printed.
+/// The output of the compiler.
 #[allow(dead_code)]
 pub fn compile_by_rustc(name: &str, bindings: &str) -> Result<(), String> {
     compile_with(Command::new("rustc"), "2021", name, bindings)
 }
 
-/// The same in another edition of Rust.
+/// Like [`compile`], in another edition of Rust.
 ///
 /// # Errors
 ///
-/// What the compiler printed.
-#[allow(dead_code)] // Not every test that compiles asks for an edition.
+/// The output of the compiler.
+#[allow(dead_code)] // not every test uses it
 pub fn compile_in(edition: &str, name: &str, bindings: &str) -> Result<(), String> {
     compile_with(compiler(), edition, name, bindings)
 }
@@ -49,12 +49,12 @@ fn compile_with(command: Command, edition: &str, name: &str, bindings: &str) -> 
     result.map_err(|text| format!("{name} doesn't compile:\n{}", start(&text)))
 }
 
-/// Compiles modules, each with its name, as those of one crate: that takes less time than a crate each. What their `cfg` ask for is
-/// the feature `optional`, which the crate hasn't got.
+/// Compiles named modules as one crate, which is faster than one crate per module. Their `cfg` attributes may name the feature
+/// `optional`, which is off.
 ///
 /// # Errors
 ///
-/// What the compiler printed.
+/// The output of the compiler.
 #[allow(dead_code)]
 pub fn compile_modules(modules: &[(String, String)]) -> Result<(), String> {
     let stem = stem();
@@ -71,18 +71,18 @@ pub fn compile_modules(modules: &[(String, String)]) -> Result<(), String> {
     let mut command = compiler();
     command.args(["--check-cfg", "cfg(feature, values(\"optional\"))"]);
     let result = metadata(command, "2021", &stem, &root);
-    // What fails stays, to be looked at.
+    // After a failure, the files are kept for inspection.
     for path in files.iter().filter(|_| result.is_ok()) {
         let _ = std::fs::remove_file(path);
     }
     result
 }
 
-/// Checks modules, each with its name, as those of a crate that has serde and defmt, and the feature `optional`.
+/// Checks named modules as one crate with serde, defmt, and the feature `optional`.
 ///
 /// # Errors
 ///
-/// What cargo printed.
+/// The output of cargo.
 #[allow(dead_code)]
 pub fn check_with_traits(modules: &[(String, String)]) -> Result<(), String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -96,7 +96,7 @@ pub fn check_with_traits(modules: &[(String, String)]) -> Result<(), String> {
          serde = {{ version = \"1\", default-features = false, features = [\"derive\"] }}\ndefmt = \"1\"\n"
     );
     std::fs::write(folder.join("Cargo.toml"), manifest).expect("a manifest");
-    // The versions of the workspace, so that nothing is fetched anew.
+    // Uses the versions of the workspace, so that nothing is downloaded.
     std::fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock")).expect("the workspace's Cargo.lock");
     let mut text = String::from("#![no_std]\n#![deny(warnings)]\n//! Bindings.\n");
     for (name, bindings) in modules {
@@ -107,7 +107,7 @@ pub fn check_with_traits(modules: &[(String, String)]) -> Result<(), String> {
     let output = Command::new(env!("CARGO"))
         .args(["check", "--quiet"])
         .current_dir(&folder)
-        // Where the drive crates of other tests have the same dependencies.
+        // Shares the target folder with the drive crates of other tests, which have the same dependencies.
         .env("CARGO_TARGET_DIR", folder.with_file_name("drive-crate"))
         .output()
         .expect("cargo runs");
@@ -130,29 +130,29 @@ fn metadata(mut command: Command, edition: &str, stem: &Path, root: &Path) -> Re
     Err(String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
-/// Documents `bindings` as modules of modules of a crate; every warning of rustdoc is an error: above all a link that leads
-/// nowhere, to two places, or to what isn't public.
+/// Documents `bindings` as nested modules of a crate. Every warning of rustdoc is an error, such as a broken, ambiguous or
+/// private link.
 ///
 /// # Errors
 ///
-/// What rustdoc printed.
-#[allow(dead_code)] // Not every test that compiles documents, too.
+/// The output of rustdoc.
+#[allow(dead_code)] // not every test uses it
 pub fn document(name: &str, bindings: &[&str]) -> Result<(), String> {
     documented(name, bindings, |_| ())
 }
 
-/// A page of the documentation of `bindings`, by its path from that of their module.
+/// Returns a page of the documentation of `bindings`, by its path relative to the module's page.
 ///
 /// # Errors
 ///
-/// What rustdoc printed.
+/// The output of rustdoc.
 #[allow(dead_code)]
 pub fn page(name: &str, bindings: &str, path: &str) -> Result<String, String> {
     let read = |folder: &Path| std::fs::read_to_string(folder.join("bindings/outer_0/device").join(path));
     documented(name, &[bindings], read)?.map_err(|error| format!("{path}: {error}"))
 }
 
-/// Hands the folder of the documentation to `read`.
+/// Passes the documentation folder to `read`.
 fn documented<T>(name: &str, bindings: &[&str], read: impl FnOnce(&Path) -> T) -> Result<T, String> {
     let stem = stem();
     let (folder, root) = (stem.with_extension("doc"), stem.with_extension("rs"));
@@ -187,7 +187,7 @@ fn documented<T>(name: &str, bindings: &[&str], read: impl FnOnce(&Path) -> T) -
 ///
 /// # Errors
 ///
-/// What the compiler, or the program, printed.
+/// The output of the compiler or the program.
 #[allow(dead_code)]
 pub fn run(name: &str, text: &str) -> Result<(), String> {
     let stem = stem();
@@ -212,12 +212,12 @@ pub fn run(name: &str, text: &str) -> Result<(), String> {
     Err(format!("{name}:\n{}", start(&text)))
 }
 
-/// What a compiler said first.
+/// Returns the first message of a compiler.
 fn start(text: &str) -> String {
     text.lines().take(40).collect::<Vec<_>>().join("\n")
 }
 
-/// The start of a name for temporary files, which no other test has.
+/// Returns a unique prefix for names of temporary files.
 fn stem() -> PathBuf {
     static NUMBER: AtomicUsize = AtomicUsize::new(0);
     let number = NUMBER.fetch_add(1, Ordering::Relaxed);
@@ -233,7 +233,7 @@ fn folder() -> &'static Path {
     })
 }
 
-/// Clippy's driver is `rustc` with more lints; it needs the libraries of the toolchain that it belongs to.
+/// Clippy's driver is `rustc` with additional lints, and needs the libraries of its toolchain.
 fn compiler() -> Command {
     static PROGRAM: OnceLock<(PathBuf, PathBuf)> = OnceLock::new();
     let (program, libraries) = PROGRAM.get_or_init(|| {
@@ -243,7 +243,7 @@ fn compiler() -> Command {
         if clippy.is_file() {
             return (clippy, sysroot.join("lib"));
         }
-        eprintln!("clippy isn't installed: generated code is checked by rustc alone");
+        eprintln!("clippy is not installed: only rustc checks generated code");
         (sysroot.join("bin/rustc"), sysroot.join("lib"))
     });
     let mut command = Command::new(program);
@@ -251,13 +251,13 @@ fn compiler() -> Command {
     command
 }
 
-/// The runtime's metadata, made once.
+/// Returns the runtime's metadata, which is built once.
 fn runtime() -> &'static Path {
     static RUNTIME: OnceLock<PathBuf> = OnceLock::new();
     RUNTIME.get_or_init(|| build_runtime("rmeta", "metadata"))
 }
 
-/// The runtime as a library that a program can be linked with, made once.
+/// Returns the runtime as a library for programs, which is built once.
 fn library() -> &'static Path {
     static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
     LIBRARY.get_or_init(|| build_runtime("rlib", "link"))
@@ -273,6 +273,6 @@ fn build_runtime(extension: &str, emit: &str) -> PathBuf {
         .args(["--cap-lints", "allow", "-C", "debug-assertions"])
         .status()
         .expect("rustc runs");
-    assert!(status.success(), "the runtime doesn't compile");
+    assert!(status.success(), "the runtime does not compile");
     path
 }

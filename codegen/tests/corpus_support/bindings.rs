@@ -1,4 +1,4 @@
-//! The bindings of every device of the corpus, each different one once.
+//! Generates the bindings of every device of the corpus, without duplicates.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -11,12 +11,12 @@ use lexibus_codegen::source::Source;
 
 use super::{lane, File};
 
-/// The text below the header, which names the file and its digest.
+/// Returns the text below the header, which contains the file name and its digest.
 pub fn body(text: &str) -> &str {
     text.split_once("\n\n").map_or(text, |(_, body)| body)
 }
 
-/// What a file describes, device by device: many files share devices, and one device a time needs little memory.
+/// Returns the bindings of a file, device by device. Many files share devices, and single devices need little memory.
 pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Catalog>> + '_> {
     let Some(catalog) = compilation.catalog.as_ref().filter(|_| compilation.is_usable()) else {
         return Box::new(std::iter::empty());
@@ -24,7 +24,7 @@ pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Ca
     if catalog.devices.len() <= 1 || compilation.format == Some(Format::Gsdml) {
         return Box::new(std::iter::once(Cow::Borrowed(catalog)));
     }
-    // The first one is enough for the fast lane: the others of a file are like it.
+    // The fast lane reads only the first device, because the others of a file are similar.
     let count = if lane::is_full() { catalog.devices.len() } else { 1 };
     Box::new(catalog.devices.iter().take(count).map(|device: &Device| {
         let (files, devices) = (catalog.files.clone(), vec![device.clone()]);
@@ -33,11 +33,11 @@ pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Ca
     }))
 }
 
-/// Hands the bindings of all `files` to `test`, on all processors, and gives the number of different ones.
+/// Passes the bindings of all `files` to `test`, on all processors. Returns the number of different bindings.
 ///
 /// # Panics
 ///
-/// With the first failures, and where a file is rejected without a reason.
+/// With the first failures, and if a file is rejected without a reason.
 pub fn each(files: Vec<File>, options: &Options, test: impl Fn(&str, &str) -> Result<(), String> + Sync) -> usize {
     let (seen, failures) = (Mutex::new(HashSet::new()), Mutex::new(Vec::new()));
     on_all_processors(files, |File { name, bytes }| {
@@ -45,7 +45,7 @@ pub fn each(files: Vec<File>, options: &Options, test: impl Fn(&str, &str) -> Re
         let texts = catalogs(&compilation).filter_map(|catalog| rust::emit_catalog(&catalog, &options.rust));
         let texts: Vec<String> = texts.collect();
         let nothing_to_say = texts.is_empty() && !compilation.diagnostics.has_errors();
-        assert!(!nothing_to_say || is_silent(&compilation), "{name}: rejected in silence");
+        assert!(!nothing_to_say || is_silent(&compilation), "{name}: rejected without a diagnostic");
         for text in texts {
             let is_new = seen.lock().expect("what was seen").insert(body(&text).to_owned());
             if !is_new {
@@ -61,16 +61,16 @@ pub fn each(files: Vec<File>, options: &Options, test: impl Fn(&str, &str) -> Re
     seen.into_inner().expect("what was seen").len()
 }
 
-/// Does `work` with each of `all`, on all processors.
+/// Runs `work` for each element of `all`, on all processors.
 ///
 /// # Panics
 ///
-/// As `work` does.
+/// If `work` panics.
 pub fn on_all_processors<T: Send>(all: Vec<T>, work: impl Fn(T) + Sync) {
     let queue = Mutex::new(all.into_iter());
     let one_by_one = || {
-        while let Some(own) = { queue.lock().expect("the queue").next() } {
-            work(own);
+        while let Some(entry) = { queue.lock().expect("the queue").next() } {
+            work(entry);
         }
     };
     std::thread::scope(|scope| {
@@ -80,7 +80,7 @@ pub fn on_all_processors<T: Send>(all: Vec<T>, work: impl Fn(T) + Sync) {
     });
 }
 
-/// A file of nothing but texts of diagnosis describes no device.
+/// A file that contains only diagnosis texts describes no device.
 fn is_silent(compilation: &Compilation) -> bool {
     let catalog = compilation.catalog.as_ref();
     catalog.is_some_and(|catalog| catalog.devices.is_empty() && catalog.modules.is_empty())

@@ -1,4 +1,4 @@
-//! Suggested fixes: each one, applied alone, removes its diagnostic and adds none.
+//! Tests suggested fixes: each one removes its diagnostic and adds none.
 
 use std::collections::BTreeMap;
 
@@ -6,19 +6,19 @@ use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::Diagnostic;
 use lexibus_codegen::source::Source;
 
-/// Applies the fixes in the first file of a compilation one by one, at most `most` of each code, and compares the diagnostics. Gives
-/// the number of fixes. `source` makes a source of another text.
+/// Applies the fixes in the first file of a compilation one by one, at most `most` of each code, and compares the diagnostics.
+/// Returns the number of fixes. `source` creates a source from a text.
 ///
 /// # Errors
 ///
-/// The fixes that change nothing, leave their diagnostic or add another one.
+/// The fixes that change nothing, keep their diagnostic or add another one.
 pub fn all_hold(
     text: &str,
     options: &Options,
     most: usize,
     source: impl Fn(String) -> Source,
 ) -> Result<usize, String> {
-    // The text is decoded already; a fix is applied to UTF-8.
+    // The text has been decoded, so the fixed text is UTF-8.
     let plain = check(source(text.to_owned()), options);
     let before = places(&plain);
     let (mut counts, mut wrong, mut applied) = (BTreeMap::new(), Vec::new(), 0);
@@ -34,11 +34,11 @@ pub fn all_hold(
         let (old, mut fixed) = (&text[range.clone()], text.to_owned());
         fixed.replace_range(range, fix);
         let after = places(&check(source(fixed), options));
-        let own = key(&plain, diagnostic);
+        let actual = key(&plain, diagnostic);
         let count_in = |places: &BTreeMap<Key, usize>, key: &Key| places.get(key).copied().unwrap_or_default();
         let added: Vec<_> = after.keys().filter(|key| count_in(&after, key) > count_in(&before, key)).collect();
-        if count_in(&after, &own) >= count_in(&before, &own) || !added.is_empty() {
-            wrong.push(format!("{own:?}: `{old}` to `{fix}` ({}) adds {added:?}", diagnostic.message));
+        if count_in(&after, &actual) >= count_in(&before, &actual) || !added.is_empty() {
+            wrong.push(format!("{actual:?}: `{old}` to `{fix}` ({}) adds {added:?}", diagnostic.message));
         }
     }
     if wrong.is_empty() {
@@ -56,7 +56,7 @@ fn key(compilation: &Compilation, diagnostic: &Diagnostic) -> Key {
     (diagnostic.code.id, file, compilation.sources[file].position(diagnostic.span.start).line as usize)
 }
 
-/// How many diagnostics each code has on each line.
+/// Returns the number of diagnostics by code and line.
 fn places(compilation: &Compilation) -> BTreeMap<Key, usize> {
     let mut places = BTreeMap::new();
     for diagnostic in compilation.diagnostics.list() {

@@ -1,15 +1,15 @@
-//! What an EDS says of its objects, read line by line without the compiler's help.
+//! Reads the objects of an EDS line by line, without the code under test.
 
 use std::collections::BTreeMap;
 
 use super::number::plain;
 use super::{entry, header, lines};
 
-/// One `Key=Value` line.
+/// A `Key=Value` line.
 #[derive(Clone, Debug)]
 pub struct Fact {
     pub line: u32,
-    /// As the file spells it.
+    /// Spelling of the key in the file.
     pub key: String,
     pub value: String,
 }
@@ -17,30 +17,30 @@ pub struct Fact {
 /// All sections of one name.
 #[derive(Default)]
 pub struct Section {
-    /// The lines of its headers.
+    /// Line numbers of the headers.
     pub headers: Vec<u32>,
-    /// Every value of a key, by the key in lower case.
+    /// Values by key in lower case.
     pub facts: BTreeMap<String, Vec<Fact>>,
 }
 
 impl Section {
-    /// The value that counts: the last (E28).
+    /// Returns the effective value: the last one (E28).
     pub fn get(&self, key: &str) -> Option<&Fact> {
         self.facts.get(key)?.last()
     }
 
-    /// The value that counts, without a comment; missing where it is empty (E05).
+    /// Returns the effective value without a comment; `None` if it is empty (E05).
     pub fn text(&self, key: &str) -> Option<&str> {
         Some(cut(&self.get(key)?.value).0).filter(|text| !text.is_empty())
     }
 
-    /// The value that counts, as a number.
+    /// Returns the effective value as a number.
     pub fn number(&self, key: &str) -> Option<i128> {
         plain(self.text(key)?)
     }
 }
 
-/// What follows the index in the name of a section.
+/// Suffix after the index in the name of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
     Object,
@@ -51,7 +51,7 @@ pub enum Part {
     Links,
 }
 
-/// The sections of a file that are about objects.
+/// Sections of a file that describe objects.
 #[derive(Default)]
 pub struct Reading {
     pub sections: BTreeMap<(u16, Part), Section>,
@@ -80,14 +80,14 @@ impl Reading {
         self.sections.get(&(index, part))
     }
 
-    /// The sub-indices of an object that have sections of their own.
+    /// Returns the sub-indices of an object that have their own sections.
     pub fn subs(&self, index: u16) -> Vec<u8> {
         let of_object = self.sections.keys().filter(|(other, _)| *other == index);
         of_object.filter_map(|(_, part)| if let Part::Sub(sub) = part { Some(*sub) } else { None }).collect()
     }
 }
 
-/// `xxxx`, `xxxxsubN`, `xxxxName` and so on, in any case and with leading zeros (E24, E26, E41, E57).
+/// Parses the name of a section in any case and with leading zeros: `xxxx`, `xxxxsubN`, `xxxxName` … (E24, E26, E41, E57).
 fn part_of(name: &str) -> Option<(u16, Part)> {
     let name = name.to_ascii_lowercase();
     let hex = |digits: &str| u32::from_str_radix(digits.trim(), 16).ok().filter(|_| !digits.starts_with('+'));
@@ -103,7 +103,7 @@ fn part_of(name: &str) -> Option<(u16, Part)> {
     Some((index.try_into().ok()?, part))
 }
 
-/// The value of a key of fixed form, and the comment behind it with its mark (E20, E21).
+/// Divides the value of a key of fixed form from the comment after it, which keeps its mark (E20, E21).
 pub fn cut(text: &str) -> (&str, &str) {
     match text.find([';', '#']) {
         Some(at) => (text[..at].trim_end(), &text[at..]),

@@ -1,4 +1,4 @@
-//! What tests of exports have in common: the IR of what was exported, beside that of the original.
+//! Compares the IR of an exported file with the original one.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::File;
 
-/// What the file says, without what profiles add.
+/// Reads a file without the additions of profiles.
 pub fn options() -> Options {
     Options { no_profiles: true, ..Options::default() }
 }
@@ -18,7 +18,7 @@ pub fn source(file: &File) -> Source {
     Source::new(file.name.as_str(), file.bytes.clone())
 }
 
-/// The IR without places, and without what it says of the files that were read.
+/// Returns the IR without positions and without the list of files.
 pub fn content(catalog: &Catalog) -> Value {
     let mut value = serde_json::to_value(catalog).expect("JSON");
     value["files"] = Value::Null;
@@ -28,7 +28,7 @@ pub fn content(catalog: &Catalog) -> Value {
     value
 }
 
-/// Calls `change` for every object, the outer ones first.
+/// Calls `change` for every object, outer ones first.
 pub fn each_object(value: &mut Value, change: &mut impl FnMut(&mut serde_json::Map<String, Value>)) {
     match value {
         Value::Object(fields) => {
@@ -40,7 +40,7 @@ pub fn each_object(value: &mut Value, change: &mut impl FnMut(&mut serde_json::M
     }
 }
 
-/// Where two values differ first.
+/// Returns the first difference between two values.
 pub fn difference(left: &Value, right: &Value, path: &str) -> Option<String> {
     match (left, right) {
         (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => {
@@ -59,16 +59,16 @@ pub fn difference(left: &Value, right: &Value, path: &str) -> Option<String> {
     }
 }
 
-/// How often each code was reported.
+/// Returns the number of diagnostics by code.
 pub fn counts(compilation: &Compilation) -> BTreeMap<&'static str, usize> {
     let mut counts = BTreeMap::new();
     compilation.diagnostics.list().iter().for_each(|found| *counts.entry(found.code.id).or_default() += 1);
     counts
 }
 
-/// Takes all extension attributes out, and gives how often each is there.
+/// Removes all extension attributes, and returns the number of each.
 pub fn take_extensions(value: &mut Value) -> BTreeMap<(String, String), usize> {
-    let mut taken = BTreeMap::new();
+    let mut removed = BTreeMap::new();
     each_object(value, &mut |fields| {
         let Some(Value::Array(list)) = fields.insert("extensions".into(), Value::Null).filter(|old| !old.is_null())
         else {
@@ -77,8 +77,8 @@ pub fn take_extensions(value: &mut Value) -> BTreeMap<(String, String), usize> {
         };
         for extension in list {
             let text = |name: &str| extension[name].as_str().unwrap_or_default().to_owned();
-            *taken.entry((text("key"), text("value"))).or_default() += 1;
+            *removed.entry((text("key"), text("value"))).or_default() += 1;
         }
     });
-    taken
+    removed
 }

@@ -1,7 +1,7 @@
-//! Validation against the schemas of ETG and PI, by libxml2.
+//! Validates files against the schemas of ETG and PI with libxml2.
 //!
-//! The schemas are next to the repository and no part of it. libxml2 is called through Python's `lxml`. Without the schemas or
-//! `lxml`, tests say so and pass.
+//! The schemas are outside of the repository. Python's `lxml` calls libxml2. Without the schemas or `lxml`, tests print a
+//! message and pass.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,7 +9,7 @@ use std::process::Command;
 use super::python;
 use super::root::root;
 
-/// Prints a line for every violation: the name of the file, the line, and what is wrong.
+/// Python script that prints one line per violation: file name, line and message.
 const SCRIPT: &str = "\
 import os, sys
 from lxml import etree
@@ -27,14 +27,14 @@ for name in sorted(os.listdir(folder)):
 print('done')
 ";
 
-/// A validator for one schema.
+/// Validator for one schema.
 pub struct Schema {
     path: PathBuf,
     python: PathBuf,
 }
 
 impl Schema {
-    /// The schema at `path` below the folder of schemas; `None`, with a message, where it or the validator is missing.
+    /// Loads the schema at `path` in the folder of schemas; `None`, with a message, if the schema or the validator is missing.
     pub fn new(path: &str) -> Option<Self> {
         let path = root().join("../shared/schemas").join(path);
         if !path.is_file() {
@@ -45,7 +45,7 @@ impl Schema {
         Some(Schema { path, python })
     }
 
-    /// What is wrong with `files`, which are names and contents; `what` tells calls of one program apart.
+    /// Returns the violations in `files` (names and contents). `what` distinguishes the calls of one program.
     pub fn violations<'f>(&self, what: &str, files: impl IntoIterator<Item = (&'f str, &'f [u8])>) -> Vec<String> {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("xsd-{what}-{}", std::process::id()));
         let _ = std::fs::remove_dir_all(&folder);

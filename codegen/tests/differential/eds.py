@@ -18,12 +18,12 @@ from canopen.objectdictionary import ODArray, ODRecord, ODVariable, datatypes, e
 
 logging.disable(logging.CRITICAL)
 
-# The node-ID where the file gives the device none.
+# Node-ID for files without one.
 NODE_ID = 5
 
 
 def value(value, data_type):
-    """A value with its kind: a number, a 'text', or x'octets'."""
+    """Returns a value with its kind: a number, a 'text', or x'octets'."""
     if isinstance(value, (bytes, bytearray)):
         return f"x'{value.hex()}'" if value else None
     if isinstance(value, str):
@@ -34,50 +34,50 @@ def value(value, data_type):
     return None if value is None else str(value)
 
 
-def variable(own):
+def variable(entry):
     return {
-        "name": own.name,
-        "type": str(own.data_type),
-        "access": own.access_type,
-        "mappable": "yes" if own.pdo_mappable else None,
-        "default": value(own.default, own.data_type),
-        "relative": "yes" if own.relative else None,
-        "value": value(own.value, own.data_type),
-        "low": value(own.min, own.data_type),
-        "high": value(own.max, own.data_type),
-        "unit": own.unit,
-        "factor": None if own.factor == 1 else value(own.factor, datatypes.REAL64),
-        "description": own.description,
-        "storage": own.storage_location,
+        "name": entry.name,
+        "type": str(entry.data_type),
+        "access": entry.access_type,
+        "mappable": "yes" if entry.pdo_mappable else None,
+        "default": value(entry.default, entry.data_type),
+        "relative": "yes" if entry.relative else None,
+        "value": value(entry.value, entry.data_type),
+        "low": value(entry.min, entry.data_type),
+        "high": value(entry.max, entry.data_type),
+        "unit": entry.unit,
+        "factor": None if entry.factor == 1 else value(entry.factor, datatypes.REAL64),
+        "description": entry.description,
+        "storage": entry.storage_location,
     }
 
 
 def device(dictionary):
-    own = dictionary.device_information
+    entry = dictionary.device_information
     number = lambda value: None if value is None else str(value)
     flag = lambda value: "yes" if value else None
     return {
-        "vendor name": own.vendor_name,
-        "vendor number": number(own.vendor_number),
-        "product name": own.product_name,
-        "product number": number(own.product_number),
-        "revision number": number(own.revision_number),
-        "order code": own.order_code,
-        "boot-up master": flag(own.simple_boot_up_master),
-        "boot-up slave": flag(own.simple_boot_up_slave),
-        "granularity": number(None if own.granularity is None else int(own.granularity)),
-        "dynamic channels": flag(own.dynamic_channels_supported),
-        "group messaging": flag(own.group_messaging),
-        "RPDOs": number(own.nr_of_RXPDO),
-        "TPDOs": number(own.nr_of_TXPDO),
-        "LSS": flag(own.LSS_supported),
-        "bit rates": " ".join(str(rate // 1000) for rate in sorted(own.allowed_baudrates)),
+        "vendor name": entry.vendor_name,
+        "vendor number": number(entry.vendor_number),
+        "product name": entry.product_name,
+        "product number": number(entry.product_number),
+        "revision number": number(entry.revision_number),
+        "order code": entry.order_code,
+        "boot-up master": flag(entry.simple_boot_up_master),
+        "boot-up slave": flag(entry.simple_boot_up_slave),
+        "granularity": number(None if entry.granularity is None else int(entry.granularity)),
+        "dynamic channels": flag(entry.dynamic_channels_supported),
+        "group messaging": flag(entry.group_messaging),
+        "RPDOs": number(entry.nr_of_RXPDO),
+        "TPDOs": number(entry.nr_of_TXPDO),
+        "LSS": flag(entry.LSS_supported),
+        "bit rates": " ".join(str(rate // 1000) for rate in sorted(entry.allowed_baudrates)),
         "bit rate": number(dictionary.bitrate and dictionary.bitrate // 1000),
         "comments": dictionary.comments.rstrip(),
     }
 
 
-# The keys of [FileInfo] that CiA 306 has.
+# The keys of [FileInfo] in CiA 306.
 FILE_INFO = (
     "FileName FileVersion FileRevision EDSVersion Description CreationTime CreationDate CreatedBy ModificationTime "
     "ModificationDate ModifiedBy LastEDS"
@@ -101,16 +101,16 @@ def elements(dictionary, node_id):
             continue
         kind = "array" if isinstance(thing, ODArray) else "record"
         assert kind == "array" or isinstance(thing, ODRecord)
-        # An object has a storage location of its own here, its value one above.
+        # An object has a storage location here, its value one level above.
         found[f"{index:04X}"] = {"kind": kind, "name": thing.name, "storage": thing.storage_location}
-        for sub, own in thing.subindices.items():
-            found[f"{index:04X}:{sub:02X}"] = variable(own)
+        for sub, entry in thing.subindices.items():
+            found[f"{index:04X}:{sub:02X}"] = variable(entry)
     facts["dummies"] = " ".join(dummies)
     return {name: {key: fact for key, fact in facts.items() if fact} for name, facts in found.items()}
 
 
 def load(text, path, strict):
-    """The dictionary, and the node-ID that the file gives."""
+    """Returns the dictionary, and the node-ID of the file."""
 
     def source():
         file = io.StringIO(text)
@@ -126,12 +126,12 @@ def load(text, path, strict):
 
 
 def repaired(text, error):
-    """The text without what the library stumbled over; the same text where nobody can say what is missing."""
-    said = str(error)
-    if found := re.match(r"No option '((?:Dummy|Line)\d+)' in section: '(\w+)'", said):
+    """Returns the text without the cause of an error; the same text if the cause is unknown."""
+    message = str(error)
+    if found := re.match(r"No option '((?:Dummy|Line)\d+)' in section: '(\w+)'", message):
         value = "0" if found[1].startswith("Dummy") else ""
         return text.replace(f"[{found[2]}]", f"[{found[2]}]\n{found[1]}={value}", 1)
-    if not (found := re.match(r"invalid literal for int\(\) with base 0: '(.*)'", said)):
+    if not (found := re.match(r"invalid literal for int\(\) with base 0: '(.*)'", message)):
         return text
     if not found[1]:
         return re.sub(r"(?m)^(ObjectType|VendorNumber|ProductNumber|RevisionNumber)=[ \t]*$", "", text)
@@ -141,13 +141,13 @@ def repaired(text, error):
 
 
 def answer(path):
-    """What the library says of a file: first of the file itself, then of its text, repaired as often as that helps."""
+    """Returns the facts of a file: from the file, or from its text, which is repaired as often as that helps."""
     errors, text, strict = [], "", True
     try:
         if not path.lower().endswith((".eds", ".dcf")):
             canopen.import_od(path)
         text = open(path).read()
-    except Exception as error:  # Whatever goes wrong is the answer.
+    except Exception as error:  # Any exception is the result.
         errors.append(error)
         if not isinstance(error, UnicodeDecodeError):
             return errors, None

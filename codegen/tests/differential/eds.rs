@@ -1,4 +1,4 @@
-//! EDS and DCF files: Python's `canopen` reads the same objects, values and facts of the device.
+//! Compares EDS and DCF files with Python's `canopen`: objects, values and facts of the device.
 
 use lexibus_codegen::compile::check;
 use lexibus_codegen::ir::{Access, Device, Extension, Group, Item, ObjectCode, Type, Value};
@@ -9,7 +9,7 @@ use super::facts::{put, put_flag, put_some, real, Elements, Facts};
 use super::peer::answers;
 use super::tally::Tally;
 
-/// The node-ID where the file gives the device none; the script has the same.
+/// Node-ID for files without one. The script uses the same.
 const NODE_ID: u8 = 5;
 
 #[test]
@@ -23,17 +23,17 @@ fn canopen_reads_the_same_facts() {
         }
         let Some(peer) = &answer.elements else { continue };
         let device = compilation.catalog.as_ref().map(|catalog| &catalog.devices[0]);
-        let own = device.map(elements).unwrap_or_default();
-        let case = Case::new(file, peer, &own, NODE_ID);
-        tally.file(&file.name, peer, &own, |difference| reason(&case, &difference));
+        let elements = device.map(elements).unwrap_or_default();
+        let case = Case::new(file, peer, &elements, NODE_ID);
+        tally.file(&file.name, peer, &elements, |difference| reason(&case, &difference));
     }
     tally.finish(396_000);
 }
 
-/// The facts that Lexibus has of a device.
+/// Returns the facts that Lexibus reads from a device.
 fn elements(device: &Device) -> Elements {
     let mut elements = Elements::from([("device".to_owned(), header(device))]);
-    let node_id = device.commissioning.as_ref().and_then(|own| own.node_id).unwrap_or(NODE_ID);
+    let node_id = device.commissioning.as_ref().and_then(|commissioning| commissioning.node_id).unwrap_or(NODE_ID);
     for group in &device.groups {
         let Some(index) = group.index() else { continue };
         elements.insert(format!("{index:04X}"), object(group));
@@ -57,9 +57,9 @@ fn header(device: &Device) -> Facts {
     put_some(&mut facts, "revision number", identity.revision_number);
     put(&mut facts, "order code", identity.order_code.as_str());
     file_info(&mut facts, device);
-    if let Some(own) = &device.commissioning {
-        put_some(&mut facts, "node-ID", own.node_id);
-        put_some(&mut facts, "bit rate", own.bit_rate.filter(|&rate| rate != 0));
+    if let Some(commissioning) = &device.commissioning {
+        put_some(&mut facts, "node-ID", commissioning.node_id);
+        put_some(&mut facts, "bit rate", commissioning.bit_rate.filter(|&rate| rate != 0));
     }
     let Some(canopen) = &device.canopen else { return facts };
     put_flag(&mut facts, "boot-up master", canopen.boot_up_master);
@@ -72,13 +72,13 @@ fn header(device: &Device) -> Facts {
     put_flag(&mut facts, "LSS", canopen.lss);
     let words = |numbers: Vec<String>| numbers.join(" ");
     put(&mut facts, "bit rates", words(canopen.bit_rates.iter().map(ToString::to_string).collect()));
-    // The library knows those of the types 1 to 7.
+    // The library reads baud rates of types 1 to 7.
     let dummies = canopen.dummies.iter().filter(|code| (1..8).contains(*code));
     put(&mut facts, "dummies", words(dummies.map(ToString::to_string).collect()));
     facts
 }
 
-/// What the file says about itself.
+/// Adds the facts about the file.
 fn file_info(facts: &mut Facts, device: &Device) {
     let header = &device.header;
     put(facts, "FileName", header.file_name.as_str());
@@ -96,7 +96,7 @@ fn file_info(facts: &mut Facts, device: &Device) {
     put(facts, "comments", header.comments.join("\n").trim_end());
 }
 
-/// What the object is, as the library tells them apart.
+/// Returns the object type in the library's terms.
 fn kind(group: &Group) -> &'static str {
     match group.object_code() {
         Some(ObjectCode::Var | ObjectCode::Domain) => "value",
@@ -120,14 +120,14 @@ fn object(group: &Group) -> Facts {
 
 fn item(item: &Item, extensions: &[Extension], node_id: u8) -> Facts {
     let mut facts = Facts::new();
-    let value = |value: Option<&Value>| value.and_then(|own| self::value(own, item.ty, node_id));
+    let value = |value: Option<&Value>| value.and_then(|entry| self::value(entry, item.ty, node_id));
     put(&mut facts, "name", item.name.as_str());
     put(&mut facts, "type", code(item.ty));
     put(&mut facts, "access", Access::name(item.access));
     put_flag(&mut facts, "mappable", item.mappable.any());
     put_some(&mut facts, "default", value(item.default.as_ref()));
     put_flag(&mut facts, "relative", matches!(item.default, Some(Value::NodeId(_))));
-    put_some(&mut facts, "value", value(item.configured.as_ref().and_then(|own| own.value.as_ref())));
+    put_some(&mut facts, "value", value(item.configured.as_ref().and_then(|configured| configured.value.as_ref())));
     put_some(&mut facts, "low", value(item.limits.low.as_ref()));
     put_some(&mut facts, "high", value(item.limits.high.as_ref()));
     put_some(&mut facts, "unit", extension(extensions, "Unit"));
@@ -139,10 +139,10 @@ fn item(item: &Item, extensions: &[Extension], node_id: u8) -> Facts {
 }
 
 fn extension<'e>(extensions: &'e [Extension], key: &str) -> Option<&'e str> {
-    extensions.iter().rev().find(|own| own.key == key).map(|own| own.value.as_str())
+    extensions.iter().rev().find(|extension| extension.key == key).map(|extension| extension.value.as_str())
 }
 
-/// The number that CiA 301 has for a type. It is written out here, for what Lexibus reads DataType with is under test.
+/// Returns the number of a type in CiA 301. It is written out here, because the code that reads DataType is under test.
 fn code(ty: Type) -> String {
     let code = match ty {
         Type::Boolean => 0x01,
@@ -176,7 +176,7 @@ fn code(ty: Type) -> String {
     code.to_string()
 }
 
-/// A value as the script writes it.
+/// Returns a value in the notation of the script.
 fn value(value: &Value, ty: Type, node_id: u8) -> Option<String> {
     Some(match value.resolved(node_id) {
         Value::Bool(value) => i32::from(value).to_string(),

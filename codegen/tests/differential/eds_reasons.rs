@@ -1,5 +1,5 @@
-//! Why `canopen` and Lexibus may differ: each reason looks at the text of the file, read without either of them, and at
-//! whether Lexibus has what the row of the table of quirks says.
+//! Reasons why `canopen` and Lexibus differ. Each reason checks the text of the file, read without either, and whether Lexibus
+//! has the value that the table of quirks demands.
 
 use super::corpus_support::number::{hex_digits, number, Number};
 use super::corpus_support::reading::{Part, Reading, Section};
@@ -8,16 +8,16 @@ use super::eds_expected as expected;
 use super::facts::{Difference, Elements};
 use super::tally::Reasons;
 
-/// What the library does in a way of its own, with a sentence each.
+/// Deviations of the library, each with a sentence.
 const PEER: &[(&str, &str)] = &[
-    ("files by ending", "It takes files whose names end with .eds and .dcf, and no XML."),
-    ("files without sections", "A file without a section of CiA 306 is an empty dictionary to it, and no error."),
-    ("identity of 1018", "It has the identity of [DeviceInfo] only, also where that is 0 and object 0x1018 isn't."),
+    ("files by ending", "It reads only files with the extensions .eds and .dcf, and no XML."),
+    ("files without sections", "It reads a file without a section of CiA 306 as an empty dictionary, not as an error."),
+    ("identity of 1018", "It reads the identity only from [DeviceInfo], even if that is 0 and object 0x1018 is not."),
     ("limits that are no integers", "It reads every limit as an integer, and drops those of reals and texts."),
-    ("limits with $NODEID", "It reads formulas in values, but not in limits, and drops them."),
-    ("node-ID 255", "It takes any number for a node-ID; 255 is how LSS says that there is none, and Lexibus drops it."),
-    ("suffixes of C", "It drops `0x1234LL`; Lexibus reads the number, and says so."),
-    ("times of two numbers", "It takes the blank out of `1 2000`, and reads days and milliseconds as one number."),
+    ("limits with $NODEID", "It reads formulas in values, but drops those in limits."),
+    ("node-ID 255", "It accepts any number as a node-ID. In LSS, 255 means none, so Lexibus drops it."),
+    ("suffixes of C", "It drops `0x1234LL`. Lexibus reads the number and reports it."),
+    ("times of two numbers", "It removes the blank from `1 2000`, and reads days and milliseconds as one number."),
 ];
 
 pub const REASONS: Reasons = Reasons {
@@ -28,24 +28,24 @@ pub const REASONS: Reasons = Reasons {
     peer: PEER,
 };
 
-/// A file, and what both read from it.
+/// A file with both readings.
 pub struct Case<'a> {
     pub text: String,
     pub reading: Reading,
     pub peer: &'a Elements,
-    pub own: &'a Elements,
+    pub ours: &'a Elements,
     node_id: u8,
 }
 
 impl Case<'_> {
-    /// Without a node-ID in the file, or with one that LSS takes for none, formulas are resolved with `node_id`.
-    pub fn new<'a>(file: &File, peer: &'a Elements, own: &'a Elements, node_id: u8) -> Case<'a> {
+    /// Formulas are resolved with `node_id` if the file has no node-ID, or the one that LSS uses for none.
+    pub fn new<'a>(file: &File, peer: &'a Elements, ours: &'a Elements, node_id: u8) -> Case<'a> {
         let text = file.text();
         let given = peer.get("device").and_then(|facts| facts.get("node-ID")?.parse().ok()).filter(|id| *id != 255);
-        Case { reading: Reading::of(&text), text, peer, own, node_id: given.unwrap_or(node_id) }
+        Case { reading: Reading::of(&text), text, peer, ours, node_id: given.unwrap_or(node_id) }
     }
 
-    /// The section of an element, and what it is: `1018` and `1018:01`.
+    /// Returns the section of an element, and its kind: `1018` and `1018:01`.
     fn section(&self, element: &str) -> Option<&Section> {
         let (index, sub) = address(element)?;
         match sub {
@@ -72,41 +72,41 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
     }
 }
 
-/// What one of the two doesn't have at all.
+/// Returns the reason for an element that one of the readers does not have.
 fn missing(case: &Case<'_>, index: u16, sub: Option<u8>, difference: &Difference<'_>) -> Option<&'static str> {
-    difference.own?;
+    difference.ours?;
     let object = case.reading.get(index, Part::Object);
     let compact = object.and_then(|object| object.number("compactsubobj")).unwrap_or(-1);
     match sub {
         Some(sub) if i128::from(sub) <= compact => {
             let expected = expected::compact(&case.reading, index, sub, case.node_id);
-            Some("E43").filter(|_| case.own.get(difference.element) == expected.as_ref())
+            Some("E43").filter(|_| case.ours.get(difference.element) == expected.as_ref())
         }
         _ => Some("E70").filter(|_| object.is_none() && is_announced(case, index, sub)),
     }
 }
 
-/// Whether an object that the file doesn't describe belongs to a PDO that it announces.
+/// Whether an object that the file does not describe belongs to an announced PDO.
 fn is_announced(case: &Case<'_>, index: u16, sub: Option<u8>) -> bool {
     if !(0x1400..0x1C00).contains(&index) {
         return false;
     }
     let Some(sub) = sub else {
         let first = index & !0x3FF;
-        let all = case.own.range(format!("{first:04X}")..format!("{:04X}", first + 0x200));
+        let all = case.ours.range(format!("{first:04X}")..format!("{:04X}", first + 0x200));
         let count = all.filter(|(name, _)| name.len() == 4).count();
         return expected::pdos(&case.text, index) == i128::try_from(count).ok();
     };
-    let ty = case.own.get(&format!("{index:04X}:{sub:02X}")).and_then(|facts| facts.get("type"));
+    let ty = case.ours.get(&format!("{index:04X}:{sub:02X}")).and_then(|facts| facts.get("type"));
     ty.is_some() && ty.map(String::as_str) == expected::compact_pdo(&case.text, index, sub)
 }
 
 fn of_device(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static str> {
     let Some(fact) = difference.fact else {
-        let is_nothing = case.own.is_empty() && case.peer.values().all(|facts| facts.is_empty());
+        let is_nothing = case.ours.is_empty() && case.peer.values().all(|facts| facts.is_empty());
         return is_nothing.then_some("files without sections");
     };
-    let (peer, own) = (difference.peer, difference.own);
+    let (peer, ours) = (difference.peer, difference.ours);
     let keys: &[&str] = match fact {
         "vendor name" => &["VendorName"],
         "RPDOs" => &["NrOfRXPDO"],
@@ -115,30 +115,30 @@ fn of_device(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static st
         "bit rates" => &["BaudRate_1000", "BaudRate_500", "BaudRate_250", "BaudRate_125"],
         _ => &[],
     };
-    let is_expected = || own.is_some() && own == expected::of_device(&case.text, fact).as_deref();
+    let is_expected = || ours.is_some() && ours == expected::of_device(&case.text, fact).as_deref();
     let identity = ["vendor number", "product number", "revision number"].iter().position(|name| *name == fact);
-    let in_object = identity.and_then(|at| case.own.get(&format!("1018:{:02X}", at + 1))?.get("default"));
+    let in_object = identity.and_then(|at| case.ours.get(&format!("1018:{:02X}", at + 1))?.get("default"));
     match fact {
         "granularity" if peer == Some("1") && is_expected() => Some("E82"),
         "comments" if is_misspelt(&case.text, "Line5") && is_expected() => Some("E59"),
-        "node-ID" if own.is_none() && peer == Some("255") => Some("node-ID 255"),
-        _ if peer.is_none_or(|peer| peer == "0") && own.is_some() && own == in_object.map(String::as_str) => {
+        "node-ID" if ours.is_none() && peer == Some("255") => Some("node-ID 255"),
+        _ if peer.is_none_or(|peer| peer == "0") && ours.is_some() && ours == in_object.map(String::as_str) => {
             Some("identity of 1018")
         }
-        _ if own.is_none() && peer == Some("\"\"") => Some("E23"),
+        _ if ours.is_none() && peer == Some("\"\"") => Some("E23"),
         _ if keys.iter().any(|key| is_misspelt(&case.text, key)) && is_expected() => Some("E66"),
         _ => None,
     }
 }
 
-/// Whether a file has `key`, in any letters.
+/// Whether a file has `key`, in any case.
 fn has_key(text: &str, key: &str) -> bool {
-    lines(text).iter().any(|(_, line)| entry(line).is_some_and(|(own, _)| own.eq_ignore_ascii_case(key)))
+    lines(text).iter().any(|(_, line)| entry(line).is_some_and(|(ours, _)| ours.eq_ignore_ascii_case(key)))
 }
 
-/// Whether a file has `key`, but in other letters only.
+/// Whether a file has `key`, but only in another case.
 fn is_misspelt(text: &str, key: &str) -> bool {
-    has_key(text, key) && !lines(text).iter().any(|(_, line)| entry(line).is_some_and(|(own, _)| own == key))
+    has_key(text, key) && !lines(text).iter().any(|(_, line)| entry(line).is_some_and(|(ours, _)| ours == key))
 }
 
 fn of_value(
@@ -148,7 +148,7 @@ fn of_value(
     fact: &str,
     difference: &Difference<'_>,
 ) -> Option<&'static str> {
-    let (peer, own) = (difference.peer, difference.own);
+    let (peer, ours) = (difference.peer, difference.ours);
     let object = case.reading.get(index, Part::Object)?;
     let is_compact = object.number("compactsubobj").is_some_and(|count| count > 0);
     if let Some(sub) = sub.filter(|&sub| is_compact && case.reading.get(index, Part::Sub(sub)).is_none()) {
@@ -159,7 +159,7 @@ fn of_value(
             _ => return None,
         };
         let facts = expected::compact(&case.reading, index, sub, case.node_id)?;
-        return Some(reason).filter(|_| own.is_some() && own == facts.get(fact).map(String::as_str));
+        return Some(reason).filter(|_| ours.is_some() && ours == facts.get(fact).map(String::as_str));
     }
     let section = case.section(difference.element)?;
     let ty = section.number("datatype").unwrap_or(0);
@@ -168,15 +168,15 @@ fn of_value(
         "value" => "parametervalue",
         "low" => "lowlimit",
         "high" => "highlimit",
-        // The library calls what it doesn't know a DOMAIN, and Lexibus what it is.
+        // The library reads unknown types as DOMAIN. Lexibus keeps the type.
         "type" => {
             let is_unknown = peer == Some("15") && !(1..=0x1B).contains(&ty);
-            return Some("E56").filter(|_| is_unknown && own == Some(&ty.to_string()));
+            return Some("E56").filter(|_| is_unknown && ours == Some(&ty.to_string()));
         }
         "access" => {
             let text = section.text("accesstype");
             let is_strange = text.map(str::to_lowercase).as_deref() == peer;
-            return Some("E48").filter(|_| is_strange && own == Some(expected::access(text)));
+            return Some("E48").filter(|_| is_strange && ours == Some(expected::access(text)));
         }
         _ => return None,
     };
@@ -184,7 +184,7 @@ fn of_value(
     match fact {
         "relative" => {
             let is_strange = !raw.contains("$NODEID") && expected::is_relative(raw);
-            Some("E14").filter(|_| is_strange && own == Some("yes"))
+            Some("E14").filter(|_| is_strange && ours == Some("yes"))
         }
         "low" | "high" => of_limit(raw, ty, case.node_id, difference),
         _ => of_text(raw, ty, case.node_id, difference),
@@ -192,11 +192,11 @@ fn of_value(
 }
 
 fn of_limit(raw: &str, ty: i128, node_id: u8, difference: &Difference<'_>) -> Option<&'static str> {
-    let (peer, own) = (difference.peer, difference.own?);
+    let (peer, ours) = (difference.peer, difference.ours?);
     if !(1..=0x1B).contains(&ty) {
-        return Some("E56").filter(|_| own == format!("raw {raw}"));
+        return Some("E56").filter(|_| ours == format!("raw {raw}"));
     }
-    let is_expected = peer.is_none() && expected::value(raw, ty, node_id).as_deref() == Some(own);
+    let is_expected = peer.is_none() && expected::value(raw, ty, node_id).as_deref() == Some(ours);
     match number(raw) {
         _ if !is_expected => None,
         Some(Number::NodeId(_)) => Some("limits with $NODEID"),
@@ -205,14 +205,14 @@ fn of_limit(raw: &str, ty: i128, node_id: u8, difference: &Difference<'_>) -> Op
     }
 }
 
-/// Why a default or a configured value is another one: by its text, and the number of its type.
+/// Returns the reason for a different default or configured value, from its text and type number.
 fn of_text(raw: &str, ty: i128, node_id: u8, difference: &Difference<'_>) -> Option<&'static str> {
-    let (peer, own) = (difference.peer, difference.own?);
+    let (peer, ours) = (difference.peer, difference.ours?);
     let bare = raw.trim_matches('"');
-    let kept = own == format!("raw {raw}");
-    let is_expected = || expected::value(raw, ty, node_id).as_deref() == Some(own);
+    let kept = ours == format!("raw {raw}");
+    let is_expected = || expected::value(raw, ty, node_id).as_deref() == Some(ours);
     match ty {
-        0x09 | 0x0B => Some("E23").filter(|_| own == format!("'{bare}'") && raw.len() == bare.len() + 2),
+        0x09 | 0x0B => Some("E23").filter(|_| ours == format!("'{bare}'") && raw.len() == bare.len() + 2),
         0x0F => Some("E54").filter(|_| kept && peer.is_none()),
         0x08 | 0x11 => Some("E51").filter(|_| peer.is_none() && hex_digits(raw).is_some() && is_expected()),
         0x0C | 0x0D => Some("times of two numbers").filter(|_| kept && raw.split(' ').count() == 2),
@@ -221,7 +221,7 @@ fn of_text(raw: &str, ty: i128, node_id: u8, difference: &Difference<'_>) -> Opt
             Some(Number::NodeId(0)) if raw.eq_ignore_ascii_case("$NODEID") => Some("E16").filter(|_| is_expected()),
             Some(_) => None,
             None if kept => Some("E19"),
-            None => with_suffix(raw, own),
+            None => with_suffix(raw, ours),
         },
         1..=0x1B => {
             let is_unsigned = expected::signed_bits(ty).is_some() && number(raw)? == Number::Plain(peer?.parse().ok()?);
@@ -231,18 +231,18 @@ fn of_text(raw: &str, ty: i128, node_id: u8, difference: &Difference<'_>) -> Opt
     }
 }
 
-/// A number with a suffix: `00h` is hexadecimal, `0x1ULL` is one of the language C.
-fn with_suffix(raw: &str, own: &str) -> Option<&'static str> {
-    let own: i128 = own.parse().ok()?;
+/// Parses a number with a suffix: `00h` is hexadecimal, `0x1ULL` is from C.
+fn with_suffix(raw: &str, ours: &str) -> Option<&'static str> {
+    let ours: i128 = ours.parse().ok()?;
     let hexadecimal = raw.strip_suffix(['h', 'H']).and_then(|digits| i128::from_str_radix(digits, 16).ok());
-    if hexadecimal == Some(own) {
+    if hexadecimal == Some(ours) {
         return Some("E19");
     }
     let bare = raw.trim_end_matches(['U', 'L', 'u', 'l']);
-    (number(bare) == Some(Number::Plain(own))).then_some("suffixes of C")
+    (number(bare) == Some(Number::Plain(ours))).then_some("suffixes of C")
 }
 
-/// Keys whose value is a number to the library.
+/// Keys whose value is a number for the library.
 const NUMBERS: [&str; 4] = ["ObjectType", "VendorNumber", "ProductNumber", "RevisionNumber"];
 
 /// Whether a file has `key` without a value.
@@ -250,10 +250,10 @@ fn is_empty(text: &str, key: &str) -> bool {
     lines(text).iter().any(|(_, line)| entry(line) == Some((key, "")))
 }
 
-/// Why the library can't load a file at all.
+/// Returns the reason why the library cannot load a file.
 pub fn rejection(file: &File, error: &str) -> Option<&'static str> {
     let text = file.text();
-    let has_section = |name: &str| lines(&text).iter().any(|(_, line)| header(line).is_some_and(|own| own.0 == name));
+    let has_section = |name: &str| lines(&text).iter().any(|(_, line)| header(line).is_some_and(|ours| ours.0 == name));
     let (kind, rest) = error.split_once(": ")?;
     match kind {
         "UnicodeDecodeError" => Some("E30"),

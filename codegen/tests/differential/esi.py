@@ -13,7 +13,7 @@ from lxml import etree
 
 from esi_objects import objects
 from esi_types import basic, flag, name, names, nonzero, number
-from reading import parse, text, told, xpath
+from reading import parse, text, nonempty, xpath
 
 
 def pdos(found, owner, parent, types):
@@ -157,22 +157,22 @@ def elements(root):
     found, devices, modules = {}, 0, 0
     for info in xpath("self::EtherCATInfo | self::EtherCATModule | EtherCATInfo")(root):
         vendor = {"vendor": name(info, "Vendor/Name"), "vendor number": number(text(info, "Vendor/Id"))}
-        for own in xpath("Descriptions/Devices/Device | Devices/Device")(info):
-            device(found, f"device {devices}", own, vendor)
+        for node in xpath("Descriptions/Devices/Device | Devices/Device")(info):
+            device(found, f"device {devices}", node, vendor)
             devices += 1
-        for own in xpath("Descriptions/Modules/Module | Modules/Module")(info):
-            module(found, f"module {modules}", own, vendor)
+        for node in xpath("Descriptions/Modules/Module | Modules/Module")(info):
+            module(found, f"module {modules}", node, vendor)
             modules += 1
     if root.tag == "EtherCATDict":
         found["device 0"] = {}
         objects(found, "device 0", xpath("Dictionary")(root))
-    return told(found)
+    return nonempty(found)
 
 
 for path in sys.argv[1:]:
     try:
         answer = {"elements": elements(parse(path))}
     except etree.XMLSyntaxError as error:
-        # What libxml2 makes of it all the same is what there is to compare with.
+        # The text that libxml2 recovers is compared.
         answer = {"errors": [str(error).split(" (<string>")[0]], "elements": elements(parse(path, recover=True))}
     print(json.dumps(answer))

@@ -1,4 +1,4 @@
-//! ESI files: XPath by lxml reads the same devices, modules, PDOs and settings. Their objects are in `esi_objects`.
+//! Compares ESI files with lxml's XPath: devices, modules, PDOs and settings. `esi_objects` compares their objects.
 
 use lexibus_codegen::compile::check;
 use lexibus_codegen::ir::{
@@ -23,21 +23,21 @@ fn xpath_reads_the_same_facts_from_esi() {
             tally.rejected(&file.name, error, rejection(error));
         }
         let Some(peer) = &answer.elements else { continue };
-        let own = compilation.catalog.as_ref().map(elements).unwrap_or_default();
-        let case = Case::new(file, peer, &own);
-        tally.file(&file.name, peer, &own, |difference| reason(&case, &difference));
+        let elements = compilation.catalog.as_ref().map(elements).unwrap_or_default();
+        let case = Case::new(file, peer, &elements);
+        tally.file(&file.name, peer, &elements, |difference| reason(&case, &difference));
     }
     tally.finish(555_000);
 }
 
-/// The facts that Lexibus has of a file.
+/// Returns the facts that Lexibus reads from a file.
 fn elements(catalog: &Catalog) -> Elements {
     let mut elements = Elements::new();
-    for (at, own) in catalog.devices.iter().enumerate() {
-        device(&mut elements, &format!("device {at}"), own);
+    for (at, catalog) in catalog.devices.iter().enumerate() {
+        device(&mut elements, &format!("device {at}"), catalog);
     }
-    for (at, own) in catalog.modules.iter().enumerate() {
-        module(&mut elements, &format!("module {at}"), own);
+    for (at, catalog) in catalog.modules.iter().enumerate() {
+        module(&mut elements, &format!("module {at}"), catalog);
     }
     elements
 }
@@ -54,11 +54,11 @@ fn device(elements: &mut Elements, owner: &str, device: &Device) {
         put_flag(&mut facts, "OP only", fmmu.op_only);
         elements.insert(format!("{owner} FMMU {at}"), facts);
     }
-    for (at, own) in device.process_data.sync_managers.iter().enumerate() {
-        elements.insert(format!("{owner} Sm {at}"), sync_manager(own));
+    for (at, entry) in device.process_data.sync_managers.iter().enumerate() {
+        elements.insert(format!("{owner} Sm {at}"), sync_manager(entry));
     }
-    for (at, own) in settings.clocks.iter().flat_map(|clocks| &clocks.modes).enumerate() {
-        elements.insert(format!("{owner} mode {at}"), mode(own));
+    for (at, settings) in settings.clocks.iter().flat_map(|clocks| &clocks.modes).enumerate() {
+        elements.insert(format!("{owner} mode {at}"), mode(settings));
     }
     if let Some(slots) = &settings.slots {
         let mut facts = Facts::new();
@@ -67,8 +67,8 @@ fn device(elements: &mut Elements, owner: &str, device: &Device) {
         put_flag(&mut facts, "download", slots.download_idents);
         elements.insert(format!("{owner} slots"), facts);
     }
-    for (at, own) in device.slots.iter().enumerate() {
-        elements.insert(format!("{owner} slot {at}"), slot(own));
+    for (at, entry) in device.slots.iter().enumerate() {
+        elements.insert(format!("{owner} slot {at}"), slot(entry));
     }
     let coe = settings.mailbox.as_ref().and_then(|mailbox| mailbox.coe.as_ref());
     commands(elements, owner, coe.map_or(&[], |coe| &coe.init_commands));
@@ -123,30 +123,30 @@ fn module(elements: &mut Elements, owner: &str, module: &Module) {
     objects(elements, owner, &module.groups, &module.types);
 }
 
-fn sync_manager(own: &SyncManager) -> Facts {
+fn sync_manager(sync_manager: &SyncManager) -> Facts {
     let mut facts = Facts::new();
-    put(&mut facts, "purpose", own.purpose.label());
-    put_number(&mut facts, "address", own.start_address);
-    put_some(&mut facts, "size", own.default_size);
-    put_some(&mut facts, "least", own.size_range.0);
-    put_some(&mut facts, "most", own.size_range.1);
-    put_number(&mut facts, "control", own.control);
-    put_number(&mut facts, "enable", u8::from(own.enable));
-    put_flag(&mut facts, "OP only", own.op_only);
-    put_flag(&mut facts, "virtual", own.is_virtual);
+    put(&mut facts, "purpose", sync_manager.purpose.label());
+    put_number(&mut facts, "address", sync_manager.start_address);
+    put_some(&mut facts, "size", sync_manager.default_size);
+    put_some(&mut facts, "least", sync_manager.size_range.0);
+    put_some(&mut facts, "most", sync_manager.size_range.1);
+    put_number(&mut facts, "control", sync_manager.control);
+    put_number(&mut facts, "enable", u8::from(sync_manager.enable));
+    put_flag(&mut facts, "OP only", sync_manager.op_only);
+    put_flag(&mut facts, "virtual", sync_manager.is_virtual);
     facts
 }
 
-fn mode(own: &ClockMode) -> Facts {
+fn mode(mode: &ClockMode) -> Facts {
     let mut facts = Facts::new();
-    put(&mut facts, "name", own.name.as_str());
-    put(&mut facts, "description", own.description.as_str());
-    put_number(&mut facts, "assign", own.assign_activate);
+    put(&mut facts, "name", mode.name.as_str());
+    put(&mut facts, "description", mode.description.as_str());
+    put_number(&mut facts, "assign", mode.assign_activate);
     let times = [
-        ("CycleTimeSync0", own.cycle_sync0),
-        ("ShiftTimeSync0", own.shift_sync0),
-        ("CycleTimeSync1", own.cycle_sync1),
-        ("ShiftTimeSync1", own.shift_sync1),
+        ("CycleTimeSync0", mode.cycle_sync0),
+        ("ShiftTimeSync0", mode.shift_sync0),
+        ("CycleTimeSync1", mode.cycle_sync1),
+        ("ShiftTimeSync1", mode.shift_sync1),
     ];
     for (name, time) in times {
         put_number(&mut facts, name, time.nanoseconds);
@@ -155,44 +155,44 @@ fn mode(own: &ClockMode) -> Facts {
     facts
 }
 
-fn slot(own: &Slot) -> Facts {
+fn slot(slot: &Slot) -> Facts {
     let mut facts = Facts::new();
-    put_names(&mut facts, "name", &own.name, &own.names);
-    put(&mut facts, "least", own.instances.0.to_string());
-    put(&mut facts, "most", own.instances.1.to_string());
-    put_some(&mut facts, "group", own.group);
-    put(&mut facts, "SlotIndexIncrement", own.index_increment.to_string());
-    put(&mut facts, "SlotPdoIncrement", own.pdo_increment.to_string());
-    put(&mut facts, "SlotGroupIndexIncrement", own.group_index_increment.to_string());
-    put(&mut facts, "SlotGroupPdoIncrement", own.group_pdo_increment.to_string());
-    let idents = own.fits.iter().filter_map(|fit| if let Fit::Ident(ident) = fit { Some(ident) } else { None });
+    put_names(&mut facts, "name", &slot.name, &slot.names);
+    put(&mut facts, "least", slot.instances.0.to_string());
+    put(&mut facts, "most", slot.instances.1.to_string());
+    put_some(&mut facts, "group", slot.group);
+    put(&mut facts, "SlotIndexIncrement", slot.index_increment.to_string());
+    put(&mut facts, "SlotPdoIncrement", slot.pdo_increment.to_string());
+    put(&mut facts, "SlotGroupIndexIncrement", slot.group_index_increment.to_string());
+    put(&mut facts, "SlotGroupPdoIncrement", slot.group_pdo_increment.to_string());
+    let idents = slot.fits.iter().filter_map(|fit| if let Fit::Ident(ident) = fit { Some(ident) } else { None });
     put(&mut facts, "idents", idents.map(ToString::to_string).collect::<Vec<_>>().join(" "));
     let classes =
-        own.fits.iter().filter_map(|fit| if let Fit::Class(class) = fit { Some(class.as_str()) } else { None });
+        slot.fits.iter().filter_map(|fit| if let Fit::Class(class) = fit { Some(class.as_str()) } else { None });
     put(&mut facts, "classes", classes.collect::<Vec<_>>().join(" / "));
     facts
 }
 
 fn commands(elements: &mut Elements, owner: &str, commands: &[InitCommand]) {
-    for (at, own) in commands.iter().enumerate() {
+    for (at, entry) in commands.iter().enumerate() {
         let mut facts = Facts::new();
-        put(&mut facts, "transitions", own.transitions.join(" "));
-        put(&mut facts, "index", own.index.to_string());
-        put_number(&mut facts, "sub-index", own.sub_index);
-        put(&mut facts, "data", hex(&own.data));
-        put_flag(&mut facts, "complete", own.complete_access);
-        put_flag(&mut facts, "fixed", own.fixed);
-        put_flag(&mut facts, "by slot", own.depends_on_slot);
-        put(&mut facts, "comment", own.comment.as_str());
+        put(&mut facts, "transitions", entry.transitions.join(" "));
+        put(&mut facts, "index", entry.index.to_string());
+        put_number(&mut facts, "sub-index", entry.sub_index);
+        put(&mut facts, "data", hex(&entry.data));
+        put_flag(&mut facts, "complete", entry.complete_access);
+        put_flag(&mut facts, "fixed", entry.fixed);
+        put_flag(&mut facts, "by slot", entry.depends_on_slot);
+        put(&mut facts, "comment", entry.comment.as_str());
         elements.insert(format!("{owner} command {at}"), facts);
     }
 }
 
 fn pdos(elements: &mut Elements, owner: &str, pdos: &[Pdo], types: &[TypeDef]) {
     for (kind, direction) in [("RxPdo", Direction::Receive), ("TxPdo", Direction::Transmit)] {
-        for (at, own) in pdos.iter().filter(|pdo| pdo.direction == direction).enumerate() {
+        for (at, item) in pdos.iter().filter(|pdo| pdo.direction == direction).enumerate() {
             let key = format!("{owner} {kind} {at}");
-            for (place, entry) in own.entries.iter().enumerate() {
+            for (place, entry) in item.entries.iter().enumerate() {
                 let mut facts = Facts::new();
                 put_number(&mut facts, "index", entry.index);
                 put_number(&mut facts, "sub-index", entry.sub_index);
@@ -203,23 +203,23 @@ fn pdos(elements: &mut Elements, owner: &str, pdos: &[Pdo], types: &[TypeDef]) {
                 put_flag(&mut facts, "by slot", entry.depends_on_slot);
                 elements.insert(format!("{key} entry {place}"), facts);
             }
-            elements.insert(key, pdo(own));
+            elements.insert(key, pdo(item));
         }
     }
 }
 
-fn pdo(own: &Pdo) -> Facts {
+fn pdo(pdo: &Pdo) -> Facts {
     let mut facts = Facts::new();
-    put_number(&mut facts, "index", own.mapping_index);
-    put_names(&mut facts, "name", &own.name, &own.names);
-    put_some(&mut facts, "Sm", own.sync_manager);
-    put_some(&mut facts, "Su", own.sync_unit);
-    put_flag(&mut facts, "fixed", own.fixed);
-    put_flag(&mut facts, "mandatory", own.mandatory);
-    put_flag(&mut facts, "virtual", own.is_virtual);
-    put_flag(&mut facts, "by slot", own.depends_on_slot);
-    put(&mut facts, "excludes", own.excludes.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "));
-    let excluded = own.excluded_sync_managers.iter().map(ToString::to_string);
+    put_number(&mut facts, "index", pdo.mapping_index);
+    put_names(&mut facts, "name", &pdo.name, &pdo.names);
+    put_some(&mut facts, "Sm", pdo.sync_manager);
+    put_some(&mut facts, "Su", pdo.sync_unit);
+    put_flag(&mut facts, "fixed", pdo.fixed);
+    put_flag(&mut facts, "mandatory", pdo.mandatory);
+    put_flag(&mut facts, "virtual", pdo.is_virtual);
+    put_flag(&mut facts, "by slot", pdo.depends_on_slot);
+    put(&mut facts, "excludes", pdo.excludes.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "));
+    let excluded = pdo.excluded_sync_managers.iter().map(ToString::to_string);
     put(&mut facts, "excluded Sms", excluded.collect::<Vec<_>>().join(" "));
     facts
 }

@@ -4,10 +4,10 @@ from esi_types import Types, flag, language, name, names, number, values
 from reading import text, xpath
 
 
-def flags(own, above, sub):
-    """Access, mapping and the like of a sub-item, or of its object where it says nothing."""
-    mapping = text((own or above or [None])[0], "PdoMapping") if own or (above and sub) else ""
-    nearest = lambda path: next((found for flags in (own, above) if flags and (found := text(flags[0], path))), "")
+def flags(node, above, sub):
+    """Returns the flags of a sub-item (access, mapping …), or those of its object if it has none."""
+    mapping = text((node or above or [None])[0], "PdoMapping") if node or (above and sub) else ""
+    nearest = lambda path: next((found for flags in (node, above) if flags and (found := text(flags[0], path))), "")
     letters = mapping.upper()
     return {
         "access": nearest("Access"),
@@ -21,44 +21,44 @@ def flags(own, above, sub):
 
 
 def display(element, path, called):
-    """Names for people: those that aren't the name itself, by language."""
-    texts = [own for own in xpath(path)(element) if text(own) and text(own) != called]
-    return {f"name {language(own)}": text(own) for own in texts}
+    """Returns display names that differ from the name, by language."""
+    texts = [node for node in xpath(path)(element) if text(node) and text(node) != called]
+    return {f"name {language(node)}": text(node) for node in texts}
 
 
 def entries(types, fields):
-    """The sub-indices of a record: sub-index, type, field, number of the element."""
+    """Returns the sub-indices of a record: sub-index, type, field, number of the element."""
     following = 0
     for field in fields:
         name = text(field, "Type")
-        own = number(text(field, "SubIdx"))
+        declared = number(text(field, "SubIdx"))
         array = types.array(name)
-        if array and not own:
+        if array and not declared:
             first = max(array[0], following)
             for at in range(array[1]):
                 yield first + at, types.resolve(array[2]), field, at + 1
             following = first + array[1]
         else:
-            following = int(own) if own.isdigit() else following
+            following = int(declared) if declared.isdigit() else following
             yield following, types.resolve(name), field, None
             following += 1
 
 
 def items(types, thing, fields):
-    """The sub-indices of an object: of each its type, and what the object and the type say of it."""
+    """Returns the sub-indices of an object, each with its type and with the facts of the object and the type."""
     subs = xpath("Info/SubItem")(thing)
     found = list(entries(types, fields))
     above = xpath("Flags")(thing)
     free = list(subs)
     for at, (sub_index, ty, field, element) in enumerate(found):
-        own = text(field, "Name")
+        field_name = text(field, "Name")
         if len(subs) == len(found):
             sub = subs[at]
         else:
-            sub = next((sub for sub in free if text(sub, "Name") == own and element in (None, 1)), None)
+            sub = next((sub for sub in free if text(sub, "Name") == field_name and element in (None, 1)), None)
         if sub is not None and sub in free:
             free.remove(sub)
-        called = (text(sub, "Name") if sub is not None else "") or (f"{own} {element}" if element else own)
+        called = (text(sub, "Name") if sub is not None else "") or (f"{field_name} {element}" if element else field_name)
         infos = ([] if sub is None else xpath("Info")(sub) or [sub]) + [field]
         facts = {"name": called, "type": ty, **flags(xpath("Flags")(field), above, sub_index)}
         if sub is not None:
@@ -68,15 +68,15 @@ def items(types, thing, fields):
 
 
 def data_types(found, owner, dictionaries, types):
-    """The types as they are defined, in their order."""
-    for at, own in enumerate(own for one in dictionaries for own in xpath("DataTypes/DataType")(one)):
-        facts = {"name": text(own, "Name"), "bits": number(text(own, "BitSize")), **names(own, "Comment", "comment")}
-        if xpath("ArrayInfo")(own) and types.by_name.get(facts["name"]) is own:
+    """Adds the defined types in order."""
+    for at, node in enumerate(node for one in dictionaries for node in xpath("DataTypes/DataType")(one)):
+        facts = {"name": text(node, "Name"), "bits": number(text(node, "BitSize")), **names(node, "Comment", "comment")}
+        if xpath("ArrayInfo")(node) and types.by_name.get(facts["name"]) is node:
             facts["array"] = types.resolve(facts["name"])
-        for value in xpath("EnumInfo")(own):
+        for value in xpath("EnumInfo")(node):
             facts |= names(value, "Text", "value " + number(text(value, "Enum")))
         found[f"{owner} type {at}"] = facts
-        for place, field in enumerate(xpath("SubItem")(own)):
+        for place, field in enumerate(xpath("SubItem")(node)):
             found[f"{owner} type {at} field {place}"] = {
                 "name": text(field, "Name"),
                 "sub-index": number(text(field, "SubIdx")),
@@ -90,7 +90,7 @@ def objects(found, owner, dictionaries):
     for other in dictionaries[1:]:
         types.add(Types(other))
     data_types(found, owner, dictionaries, types)
-    for thing in (thing for own in dictionaries for thing in xpath("Objects/Object")(own)):
+    for thing in (thing for node in dictionaries for thing in xpath("Objects/Object")(node)):
         index = number(text(thing, "Index"))
         index = f"{int(index):04X}" if index.isdigit() else index
         key = f"{owner} object {index}"
@@ -106,10 +106,10 @@ def objects(found, owner, dictionaries):
         fields = types.record(text(thing, "Type"))
         if fields is None:
             ty = types.resolve(text(thing, "Type"))
-            own = flags(xpath("Flags")(thing), None, 0)
+            access = flags(xpath("Flags")(thing), None, 0)
             called = display(thing, "Info/DisplayName", name(thing))
             called = {"name": name(thing), **called} if called else names(thing)
-            facts = {**called, "type": ty, "bits": number(text(thing, "BitSize")), **own}
+            facts = {**called, "type": ty, "bits": number(text(thing, "BitSize")), **access}
             found[f"{key}:00"] = facts | values(xpath("Info")(thing), ty)
             continue
         for sub, facts in items(types, thing, fields):

@@ -7,15 +7,15 @@ use lexibus_codegen::ir::{
 use super::facts::{put, put_flag, put_some, Elements, Facts};
 use super::values::{put_documentation, put_names, type_name, value};
 
-/// The types as the file defines them; those that only a name stands for are on no line.
+/// Adds the types that the file defines. Types that follow from a name have no line.
 pub fn data_types(elements: &mut Elements, owner: &str, types: &[TypeDef]) {
-    for (at, own) in types.iter().filter(|own| own.origin.line > 0).enumerate() {
+    for (at, definition) in types.iter().filter(|definition| definition.origin.line > 0).enumerate() {
         let mut facts = Facts::new();
-        put(&mut facts, "name", own.name.as_str());
-        put_documentation(&mut facts, "comment", own.documentation.as_deref());
-        put_some(&mut facts, "bits", own.bits);
+        put(&mut facts, "name", definition.name.as_str());
+        put_documentation(&mut facts, "comment", definition.documentation.as_deref());
+        put_some(&mut facts, "bits", definition.bits);
         let key = format!("{owner} type {at}");
-        match &own.shape {
+        match &definition.shape {
             Shape::Enumeration { values, .. } => {
                 for value in values {
                     put_names(&mut facts, &format!("value {}", value.value), &value.name, &value.names);
@@ -26,7 +26,7 @@ pub fn data_types(elements: &mut Elements, owner: &str, types: &[TypeDef]) {
                     elements.insert(format!("{key} field {place}"), self::field(field));
                 }
             }
-            Shape::Array { .. } if !types[..at].iter().any(|other| other.name == own.name) => {
+            Shape::Array { .. } if !types[..at].iter().any(|other| other.name == definition.name) => {
                 put(&mut facts, "array", type_name(Type::Named(TypeId(at as u32)), types));
             }
             _ => {}
@@ -35,12 +35,12 @@ pub fn data_types(elements: &mut Elements, owner: &str, types: &[TypeDef]) {
     }
 }
 
-fn field(own: &Field) -> Facts {
+fn field(field: &Field) -> Facts {
     let mut facts = Facts::new();
-    put(&mut facts, "name", own.name.as_str());
-    put_some(&mut facts, "sub-index", own.sub_index);
-    put(&mut facts, "bits", own.bits.to_string());
-    put(&mut facts, "offset", own.bit_offset.to_string());
+    put(&mut facts, "name", field.name.as_str());
+    put_some(&mut facts, "sub-index", field.sub_index);
+    put(&mut facts, "bits", field.bits.to_string());
+    put(&mut facts, "offset", field.bit_offset.to_string());
     facts
 }
 
@@ -59,11 +59,11 @@ pub fn objects(elements: &mut Elements, owner: &str, groups: &[Group], types: &[
         });
         put_some(&mut facts, "category", category);
         let key = format!("{owner} object {index:04X}");
-        for own in &group.items {
-            let Some((_, sub)) = own.object() else { continue };
-            let mut facts = item(own, types);
+        for entry in &group.items {
+            let Some((_, sub)) = entry.object() else { continue };
+            let mut facts = item(entry, types);
             if matches!(code, ObjectCode::Var | ObjectCode::DefType) {
-                put_some(&mut facts, "bits", bits(own.ty, types));
+                put_some(&mut facts, "bits", bits(entry.ty, types));
             }
             elements.insert(format!("{key}:{sub:02X}"), facts);
         }
@@ -71,7 +71,7 @@ pub fn objects(elements: &mut Elements, owner: &str, groups: &[Group], types: &[
     }
 }
 
-/// Length of a type in bits, where that is fixed.
+/// Returns the length of a type in bits, if it is fixed.
 fn bits(ty: Type, types: &[TypeDef]) -> Option<u32> {
     match ty {
         Type::Named(TypeId(at)) => types[at as usize].bits,
@@ -81,27 +81,27 @@ fn bits(ty: Type, types: &[TypeDef]) -> Option<u32> {
     }
 }
 
-fn item(own: &Item, types: &[TypeDef]) -> Facts {
+fn item(item: &Item, types: &[TypeDef]) -> Facts {
     let mut facts = Facts::new();
-    put_names(&mut facts, "name", &own.name, &own.names);
-    put_documentation(&mut facts, "comment", own.documentation.as_deref());
-    put(&mut facts, "type", type_name(own.ty, types));
-    // What nobody says is read-only in the IR.
-    put(&mut facts, "access", if own.at.access.is_empty() { "" } else { own.access.name() });
+    put_names(&mut facts, "name", &item.name, &item.names);
+    put_documentation(&mut facts, "comment", item.documentation.as_deref());
+    put(&mut facts, "type", type_name(item.ty, types));
+    // Undeclared access rights are read-only in the IR.
+    put(&mut facts, "access", if item.at.access.is_empty() { "" } else { item.access.name() });
     put(
         &mut facts,
         "mapping",
-        match own.mappable {
+        match item.mappable {
             Mappable { rpdo: true, tpdo: true } => "RT",
             Mappable { rpdo: true, tpdo: false } => "R",
             Mappable { rpdo: false, tpdo: true } => "T",
             Mappable { rpdo: false, tpdo: false } => "",
         },
     );
-    put_some(&mut facts, "default", own.default.as_ref().map(value));
-    put_some(&mut facts, "low", own.limits.low.as_ref().map(value));
-    put_some(&mut facts, "high", own.limits.high.as_ref().map(value));
-    let Some(behaviour) = &own.behaviour else { return facts };
+    put_some(&mut facts, "default", item.default.as_ref().map(value));
+    put_some(&mut facts, "low", item.limits.low.as_ref().map(value));
+    put_some(&mut facts, "high", item.limits.high.as_ref().map(value));
+    let Some(behaviour) = &item.behaviour else { return facts };
     put_flag(&mut facts, "backup", behaviour.backup);
     put_flag(&mut facts, "setting", behaviour.setting);
     put_some(&mut facts, "safety", behaviour.safety.as_deref());

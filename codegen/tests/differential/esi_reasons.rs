@@ -1,5 +1,5 @@
-//! Why a plain reading with XPath and Lexibus may differ on ESI files. What the script makes nothing of it gives as it is,
-//! behind a question mark: reasons look at that text.
+//! Reasons why a plain XPath reading of ESI files and Lexibus differ. The script marks text that it cannot interpret with a
+//! question mark, and reasons check that text.
 
 use std::collections::{HashMap, HashSet};
 
@@ -7,17 +7,17 @@ use super::corpus_support::File;
 use super::facts::{Difference, Elements, Facts};
 use super::tally::Reasons;
 
-/// What the plain reading does in a way of its own, with a sentence each.
+/// Deviations of the plain reading, each with a sentence.
 const PEER: &[(&str, &str)] = &[
-    ("a bare &", "libxml2 rejects a file with a `&` that starts no reference; Lexibus reads it as what it is."),
-    ("objects twice", "It lists both objects of one index; Lexibus keeps the first, and says so."),
+    ("a bare &", "libxml2 rejects a file with a `&` that starts no reference. Lexibus reads it as text."),
+    ("objects twice", "It lists both objects of one index. Lexibus keeps the first and reports the second."),
     (
         "the enable byte",
-        "It takes Enable as a number; Lexibus as the register of ETG.1000.4, whose lowest bit enables.",
+        "It reads Enable as a number. Lexibus reads it as the register of ETG.1000.4, whose lowest bit enables.",
     ),
     (
         "types of mapped objects",
-        "It takes the type that an entry names; Lexibus the mapped object's of the same length.",
+        "It uses the type that an entry names. Lexibus uses the type of the mapped object, if the length is equal.",
     ),
 ];
 
@@ -26,19 +26,19 @@ pub const REASONS: Reasons = Reasons {
     peer: PEER,
 };
 
-/// A file, and what both read from it.
+/// A file with both readings.
 pub struct Case<'a> {
     text: String,
     peer: &'a Elements,
-    own: &'a Elements,
-    /// The entries of PDOs as Lexibus has them, by the object that they map: owner, index and sub-index.
+    ours: &'a Elements,
+    /// PDO entries that Lexibus reads, by the object that they map: owner, index and sub-index.
     mapped: HashMap<(&'a str, u16, u8), Vec<&'a Facts>>,
     /// Devices and modules with a dictionary.
     described: HashSet<&'a str>,
 }
 
 impl<'a> Case<'a> {
-    pub fn new(file: &File, peer: &'a Elements, own: &'a Elements) -> Self {
+    pub fn new(file: &File, peer: &'a Elements, ours: &'a Elements) -> Self {
         let mut mapped: HashMap<_, Vec<&Facts>> = HashMap::new();
         for (name, facts) in peer {
             let Some((owner, _)) = name.split_once("xPdo ").filter(|(_, rest)| rest.contains(" entry ")) else {
@@ -46,28 +46,28 @@ impl<'a> Case<'a> {
             };
             let Some((index, sub)) = address(facts) else { continue };
             let entries = mapped.entry((owner.trim_end_matches([' ', 'R', 'T']), index, sub)).or_default();
-            entries.extend(own.get(name));
+            entries.extend(ours.get(name));
         }
         let described = peer.keys().filter_map(|name| Some(name.split_once(" object ")?.0)).collect();
-        Case { text: file.text(), peer, own, mapped, described }
+        Case { text: file.text(), peer, ours, mapped, described }
     }
 
-    /// The type that Lexibus has for the object that an entry maps.
+    /// Returns the type that Lexibus has for the object that an entry maps.
     fn type_of_mapped(&self, entry: &str) -> Option<&str> {
-        let (index, sub) = address(self.own.get(entry)?)?;
+        let (index, sub) = address(self.ours.get(entry)?)?;
         let (owner, _) = entry.split_once("xPdo ")?;
         let object = format!("{} object {index:04X}:{sub:02X}", owner.trim_end_matches([' ', 'R', 'T']));
-        self.own.get(&object)?.get("type").map(String::as_str)
+        self.ours.get(&object)?.get("type").map(String::as_str)
     }
 }
 
-/// The index and sub-index of an entry.
+/// Returns the index and sub-index of an entry.
 fn address(facts: &Facts) -> Option<(u16, u8)> {
     let number = |fact: &str| facts.get(fact).map_or(Some(0), |number| number.parse::<u16>().ok());
     Some((number("index")?, u8::try_from(number("sub-index")?).ok()?))
 }
 
-/// `device 0 object 1018:01`, taken apart.
+/// Divides a name such as `device 0 object 1018:01`.
 fn object(element: &str) -> Option<(&str, u16, Option<u8>)> {
     let (owner, object) = element.split_once(" object ")?;
     let (index, sub) = object.split_once(':').map_or((object, None), |(index, sub)| (index, Some(sub)));
@@ -79,8 +79,8 @@ fn object(element: &str) -> Option<(&str, u16, Option<u8>)> {
 }
 
 pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static str> {
-    let (element, peer, own) = (difference.element, difference.peer, difference.own);
-    let Some(fact) = difference.fact else { return missing(case, element, own.is_some()) };
+    let (element, peer, ours) = (difference.element, difference.peer, difference.ours);
+    let Some(fact) = difference.fact else { return missing(case, element, ours.is_some()) };
     match fact {
         "purpose" if element.contains(" Sm ") => {
             let usual = ["MBoxOut", "MBoxIn", "Outputs", "Inputs"];
@@ -89,43 +89,43 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
                 Some(purpose) => ("X32", Some(purpose)),
                 None => ("X19", purpose(case, element)),
             };
-            Some(row).filter(|_| is_unusual && own == expected)
+            Some(row).filter(|_| is_unusual && ours == expected)
         }
         "enable" => {
             let byte: u8 = peer?.parse().ok()?;
-            Some("the enable byte").filter(|_| byte > 1 && own == Some("1").filter(|_| byte & 1 == 1))
+            Some("the enable byte").filter(|_| byte > 1 && ours == Some("1").filter(|_| byte & 1 == 1))
         }
-        "mapping" => Some("X17").filter(|_| (peer, own) == (Some("TR"), Some("RT"))),
+        "mapping" => Some("X17").filter(|_| (peer, ours) == (Some("TR"), Some("RT"))),
         "type" if long_array(case, element) == Some(1) => Some("X14"),
         "name" if long_array(case, element) == Some(1) => {
-            Some("X14").filter(|_| own.zip(peer).is_some_and(|(own, peer)| peer == format!("{own} 1")))
+            Some("X14").filter(|_| ours.zip(peer).is_some_and(|(ours, peer)| peer == format!("{ours} 1")))
         }
-        "type" => of_type(case, element, peer?, own),
+        "type" => of_type(case, element, peer?, ours),
         "array" => {
-            let ((peer, count), (own, other)) = (peer?.rsplit_once('[')?, own?.rsplit_once('[')?);
-            of_type(case, element, peer, Some(own)).filter(|_| count == other)
+            let ((peer, count), (ours, other)) = (peer?.rsplit_once('[')?, ours?.rsplit_once('[')?);
+            of_type(case, element, peer, Some(ours)).filter(|_| count == other)
         }
-        "bits" => of_array(case.own.get(element)?.get("array")?, own?),
+        "bits" => of_array(case.ours.get(element)?.get("array")?, ours?),
         "default" | "low" | "high" => of_value(case, difference),
-        _ => of_text(case, peer?, own?),
+        _ => of_text(case, peer?, ours?),
     }
 }
 
-/// Why a text is another one, of what libxml2 recovered from a file that it rejects: it is as it stands in the file.
-fn of_text(case: &Case<'_>, peer: &str, own: &str) -> Option<&'static str> {
-    if !case.text.contains(own) {
+/// Returns the reason for a different text: the text that libxml2 recovered from a rejected file differs from the file.
+fn of_text(case: &Case<'_>, peer: &str, ours: &str) -> Option<&'static str> {
+    if !case.text.contains(ours) {
         return None;
     }
-    let rest = own.strip_prefix(peer);
+    let rest = ours.strip_prefix(peer);
     if rest.is_some_and(|rest| rest.starts_with('&')) {
         return Some("a bare &");
     }
-    let same = |(peer, own): (char, char)| peer == own || peer == char::REPLACEMENT_CHARACTER;
-    let is_undecoded = peer.chars().count() == own.chars().count() && peer.chars().zip(own.chars()).all(same);
+    let same = |(peer, ours): (char, char)| peer == ours || peer == char::REPLACEMENT_CHARACTER;
+    let is_undecoded = peer.chars().count() == ours.chars().count() && peer.chars().zip(ours.chars()).all(same);
     is_undecoded.then_some("X01")
 }
 
-/// What one of the two doesn't have at all.
+/// Returns the reason for an element that one of the readers does not have.
 fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str> {
     if !is_own {
         if element.ends_with(" again") {
@@ -133,22 +133,22 @@ fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str>
         }
         return long_array(case, element).filter(|&number| number > 1).map(|_| "X14");
     }
-    // A mapped object that nothing describes: Lexibus adds it, with what the entry says.
+    // Lexibus adds a mapped object without a description, with the facts of the entry.
     let (owner, index, sub) = object(element)?;
     let is_mapped = match sub {
         Some(sub) => case.mapped.get(&(owner, index, sub)).is_some_and(|entries| is_as_mapped(case, element, entries)),
-        None => case.mapped.keys().any(|&(other, own, _)| other == owner && own == index),
+        None => case.mapped.keys().any(|&(other, ours, _)| other == owner && ours == index),
     };
     is_mapped.then_some(if case.described.contains(owner) { "X22" } else { "X21" })
 }
 
-/// Whether an object is what one of the entries that map it says.
+/// Whether an object has the facts of one of the entries that map it.
 fn is_as_mapped(case: &Case<'_>, element: &str, entries: &[&Facts]) -> bool {
-    let Some(own) = case.own.get(element) else { return false };
-    entries.iter().any(|entry| ["name", "type"].iter().all(|fact| own.get(*fact) == entry.get(*fact)))
+    let Some(ours) = case.ours.get(element) else { return false };
+    entries.iter().any(|entry| ["name", "type"].iter().all(|fact| ours.get(*fact) == entry.get(*fact)))
 }
 
-/// What a sync manager is for according to the PDOs that name it, if they have one direction.
+/// Returns the purpose of a sync manager from the PDOs that name it, if they have one direction.
 fn purpose_of_pdos(case: &Case<'_>, element: &str) -> Option<&'static str> {
     let (owner, number) = element.split_once(" Sm ")?;
     let is_named_by = |kind: &str| {
@@ -163,8 +163,8 @@ fn purpose_of_pdos(case: &Case<'_>, element: &str) -> Option<&'static str> {
     }
 }
 
-/// What a sync manager is for where its text doesn't say it: by the mode and the direction in its control byte, or by its
-/// place, at which the two of a mailbox come first.
+/// Returns the purpose of a sync manager whose text does not state it: from mode and direction in its control byte, or from its
+/// position. A mailbox uses the first two.
 fn purpose(case: &Case<'_>, element: &str) -> Option<&'static str> {
     let (owner, place) = element.split_once(" Sm ")?;
     let control = case.peer.get(element)?.get("control").map_or(Some(0), |control| control.parse::<u8>().ok())?;
@@ -184,38 +184,39 @@ fn purpose(case: &Case<'_>, element: &str) -> Option<&'static str> {
     })
 }
 
-/// The number of an element of an array of more elements than there are sub-indices, which Lexibus keeps as one value at the
-/// place of the first. It has the type of the elements, and as many as the plain reading.
+/// Returns the reason for an element of an array with more elements than sub-indices. Lexibus keeps the array as one value at
+/// its first sub-index, with the same element type and count.
 fn long_array(case: &Case<'_>, element: &str) -> Option<u32> {
     let (object, sub) = element.rsplit_once(':')?;
     let sub = u32::from_str_radix(sub, 16).ok()?;
     let ty = |sub: u32| Some(case.peer.get(&format!("{object}:{sub:02X}"))?.get("type")?.as_str());
-    let is_of = |peer: &str, own: &str| peer == own || peer.strip_prefix('?').and_then(by_name).as_deref() == Some(own);
-    let subs = case.own.range(format!("{object}:")..format!("{object};"));
+    let is_of =
+        |peer: &str, ours: &str| peer == ours || peer.strip_prefix('?').and_then(by_name).as_deref() == Some(ours);
+    let subs = case.ours.range(format!("{object}:")..format!("{object};"));
     subs.into_iter().find_map(|(name, facts)| {
         let first = u32::from_str_radix(name.rsplit_once(':')?.1, 16).ok().filter(|&first| first <= sub)?;
-        let (own, count) = facts.get("type")?.strip_suffix(']')?.split_once('[')?;
+        let (ours, count) = facts.get("type")?.strip_suffix(']')?.split_once('[')?;
         let count: u32 = count.parse().ok().filter(|&count| count >= 255 && sub - first < count)?;
         let is_whole = ty(first + count - 1).is_some() && ty(first + count).is_none();
-        (is_whole && is_of(ty(sub)?, own)).then_some(sub - first + 1)
+        (is_whole && is_of(ty(sub)?, ours)).then_some(sub - first + 1)
     })
 }
 
-/// Why a type is another one.
-fn of_type(case: &Case<'_>, element: &str, peer: &str, own: Option<&str>) -> Option<&'static str> {
+/// Returns the reason for a different type.
+fn of_type(case: &Case<'_>, element: &str, peer: &str, ours: Option<&str>) -> Option<&'static str> {
     if let Some(bits) = peer.strip_prefix("?enumeration of ").and_then(|rest| rest.strip_suffix(" bits")) {
-        return Some("X13").filter(|_| own == Some(&format!("u{bits}")));
+        return Some("X13").filter(|_| ours == Some(&format!("u{bits}")));
     }
-    // What no name says is opaque, which is no type here.
+    // Unknown names become opaque types.
     if let Some(name) = peer.strip_prefix('?') {
-        return Some("X11").filter(|_| own == by_name(name).as_deref());
+        return Some("X11").filter(|_| ours == by_name(name).as_deref());
     }
-    let own = own?;
-    let is_mapped = case.type_of_mapped(element) == Some(own) && bits(own).is_some();
-    Some("types of mapped objects").filter(|_| is_mapped && bits(own) == bits(peer))
+    let ours = ours?;
+    let is_mapped = case.type_of_mapped(element) == Some(ours) && bits(ours).is_some();
+    Some("types of mapped objects").filter(|_| is_mapped && bits(ours) == bits(peer))
 }
 
-/// The length in bits of a type of numbers.
+/// Returns the length of a number type in bits.
 fn bits(ty: &str) -> Option<u32> {
     if ty == "bool" {
         return Some(1);
@@ -223,14 +224,14 @@ fn bits(ty: &str) -> Option<u32> {
     ty.strip_prefix(['i', 'u', 'f'])?.parse().ok()
 }
 
-/// Why an array is as long as its elements together, and not as its BitSize says.
-fn of_array(array: &str, own: &str) -> Option<&'static str> {
+/// Returns the reason for an array whose length is that of its elements, not its BitSize.
+fn of_array(array: &str, ours: &str) -> Option<&'static str> {
     let (element, count) = array.strip_suffix(']')?.split_once('[')?;
     let count: u32 = count.parse().ok()?;
-    Some("X14").filter(|_| Some(own) == bits(element).map(|bits| (bits * count).to_string()).as_deref())
+    Some("X14").filter(|_| Some(ours) == bits(element).map(|bits| (bits * count).to_string()).as_deref())
 }
 
-/// What a name outside the tables can only mean: `UINT16`, or `UDINT_hex`.
+/// Returns the only possible meaning of a name outside of the tables: `UINT16`, or `UDINT_hex`.
 fn by_name(name: &str) -> Option<String> {
     const TABLE: [(&str, &str); 4] = [("USINT", "u8"), ("UINT", "u16"), ("UDINT", "u32"), ("INT", "i16")];
     let start = name.split_once('_').map(|(start, _)| start);
@@ -241,30 +242,30 @@ fn by_name(name: &str) -> Option<String> {
     sized("UINT").map(|bits| format!("u{bits}")).or_else(|| sized("INT").map(|bits| format!("i{bits}")))
 }
 
-/// Why a default or a limit is another one.
+/// Returns the reason for a different default or limit.
 fn of_value(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static str> {
-    let (peer, own) = (difference.peer?, difference.own?);
+    let (peer, ours) = (difference.peer?, difference.ours?);
     let ty = case.peer.get(difference.element)?.get("type")?;
     let bits: u32 = ty.get(1..)?.parse().ok()?;
-    let own: i128 = own.parse().ok()?;
+    let ours: i128 = ours.parse().ok()?;
     if let Some(digits) = peer.strip_prefix('?') {
-        // Of bytes that are too many the zeros behind the value say nothing, and those that are missing are zeros.
+        // Surplus bytes after the value are zeros, and missing bytes are zeros.
         let octet = |at: usize| u8::from_str_radix(digits.get(at..at + 2)?, 16).ok();
         let octets: Vec<u8> = (0..digits.len()).step_by(2).filter_map(octet).collect();
         let value =
             octets.iter().rev().try_fold(0i128, |value, &octet| value.checked_mul(256)?.checked_add(octet.into()));
-        return Some("X15").filter(|_| value == Some(own) && octets.len() != bits.div_ceil(8) as usize);
+        return Some("X15").filter(|_| value == Some(ours) && octets.len() != bits.div_ceil(8) as usize);
     }
     let peer: i128 = peer.parse().ok()?;
     let modulus = 1i128 << bits;
     Some("X16").filter(|_| match ty.as_bytes()[0] {
-        b'i' => peer - own == modulus,
-        b'u' => peer == -1 && own == modulus - 1,
+        b'i' => peer - ours == modulus,
+        b'u' => peer == -1 && ours == modulus - 1,
         _ => false,
     })
 }
 
-/// Why libxml2 rejects a file.
+/// Returns the reason why libxml2 rejects a file.
 pub fn rejection(error: &str) -> Option<&'static str> {
     match error {
         _ if error.starts_with("Extra content at the end of the document") => Some("X02"),

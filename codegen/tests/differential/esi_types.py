@@ -22,7 +22,7 @@ MAX_DEPTH = 12
 
 
 def number(text):
-    """A HexDecValue of ETG.2000."""
+    """Returns a HexDecValue of ETG.2000 as a decimal number."""
     if re.fullmatch(r"[+-]?[0-9]+", text):
         return str(int(text))
     if re.fullmatch(r"#x[0-9A-Fa-f]+", text):
@@ -31,7 +31,7 @@ def number(text):
 
 
 def nonzero(text):
-    """A number where 0 is the same as none."""
+    """Returns a number; empty if it is 0, which means none."""
     found = number(text)
     return "" if found == "0" else found
 
@@ -41,7 +41,7 @@ def flag(text):
 
 
 def name(element, path="Name"):
-    """The name in English, or the one without a language, or the first."""
+    """Returns the name in English, or the one without a language, or the first."""
     for found in (f"{path}[@LcId='1033'][normalize-space()]", f"{path}[not(@LcId)][normalize-space()]", path):
         if xpath(found)(element):
             return text(element, found)
@@ -49,21 +49,21 @@ def name(element, path="Name"):
 
 
 def names(element, path="Name", fact="name"):
-    """The name, and the texts in other languages."""
-    texts = [own for own in xpath(path)(element) if text(own)]
-    wanted = [own for lcid in ("1033", "") for own in texts if text(own, "@LcId") == lcid] + texts
-    others = {f"{fact} {language(own)}": text(own) for own in texts if own is not wanted[0]}
+    """Returns the name and its translations."""
+    texts = [node for node in xpath(path)(element) if text(node)]
+    wanted = [node for lcid in ("1033", "") for node in texts if text(node, "@LcId") == lcid] + texts
+    others = {f"{fact} {language(node)}": text(node) for node in texts if node is not wanted[0]}
     return {fact: text(wanted[0]) if wanted else "", **others}
 
 
 def language(element):
-    """The tag of BCP 47 for an LcId of Windows; a text without one is in English."""
+    """Returns the BCP 47 tag of a Windows LcId. A text without one is English."""
     lcid = text(element, "@LcId") or "1033"
     return LANGUAGES.get(lcid, f"lcid:{lcid}")
 
 
 def basic(name):
-    """The type that a name of ETG.1000.6 stands for."""
+    """Returns the type for a name of ETG.1000.6."""
     if name in BASIC:
         return BASIC[name]
     if found := re.fullmatch(r"BITARR(8|16|32)", name) or re.fullmatch(r"BIT([1-9]|1[0-6])", name):
@@ -90,37 +90,37 @@ class Types:
             self.by_name.setdefault(name, element)
 
     def record(self, name, depth=0):
-        """The sub-items of a type, where it is a record."""
-        own = self.by_name.get(name)
-        if own is None or depth > MAX_DEPTH:
+        """Returns the sub-items of a type, if it is a record."""
+        node = self.by_name.get(name)
+        if node is None or depth > MAX_DEPTH:
             return None
-        fields = xpath("SubItem")(own)
-        base = text(own, "BaseType")
+        fields = xpath("SubItem")(node)
+        base = text(node, "BaseType")
         return fields or (self.record(base, depth + 1) if base and base != name else None)
 
     def array(self, name):
-        """Lower bound, number of elements and type of an element, where the type is an array."""
-        own = self.by_name.get(name)
-        bounds = xpath("ArrayInfo")(own) if own is not None else []
-        if not bounds or xpath("SubItem")(own):
+        """Returns lower bound, number of elements and element type, if the type is an array."""
+        node = self.by_name.get(name)
+        bounds = xpath("ArrayInfo")(node) if node is not None else []
+        if not bounds or xpath("SubItem")(node):
             return None
         low, count = number(text(bounds[0], "LBound")), 1
         for bound in bounds:
             elements = number(text(bound, "Elements"))
             count *= int(elements) if elements.isdigit() else 0
-        return int(low) if low.isdigit() else 0, count, text(own, "BaseType")
+        return int(low) if low.isdigit() else 0, count, text(node, "BaseType")
 
     def resolve(self, name, depth=0):
-        own = self.by_name.get(name)
-        if own is None or depth > MAX_DEPTH:
+        node = self.by_name.get(name)
+        if node is None or depth > MAX_DEPTH:
             return basic(name)
-        base = text(own, "BaseType")
-        if xpath("SubItem")(own):
+        base = text(node, "BaseType")
+        if xpath("SubItem")(node):
             return "record"
         if array := self.array(name):
             return f"{self.resolve(array[2], depth + 1)}[{array[1]}]"
-        bits = text(own, "BitSize")
-        if not base and xpath("EnumInfo")(own):
+        bits = text(node, "BitSize")
+        if not base and xpath("EnumInfo")(node):
             return f"?enumeration of {bits} bits"
         found = self.resolve(base, depth + 1) if base and base != name else basic(name)
         if re.fullmatch(r"[iu][0-9]+", found) and bits.isdigit() and 0 < int(bits) <= 64:
@@ -131,7 +131,7 @@ class Types:
 
 
 def data(raw, ty):
-    """Bytes in the order of memory."""
+    """Returns bytes in memory order."""
     try:
         octets = bytes.fromhex(raw)
     except ValueError:
@@ -158,7 +158,7 @@ def data(raw, ty):
 
 
 def value(info, what, ty):
-    """A default or a limit of an Info, or of a sub-item of a type."""
+    """Returns a default or a limit of an Info, or of a sub-item of a type."""
     if raw := text(info, f"{what}Data"):
         return data(raw, ty)
     if raw := text(info, f"{what}Value"):
@@ -174,7 +174,7 @@ def value(info, what, ty):
 
 
 def values(infos, ty):
-    """Default and limits: what stands nearer counts."""
+    """Returns default and limits. Those of the object take precedence over those of the type."""
     facts = {}
     for key, what in ("default", "Default"), ("low", "Min"), ("high", "Max"):
         facts[key] = next((found for info in infos if (found := value(info, what, ty))), "")

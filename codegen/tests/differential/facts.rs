@@ -1,36 +1,36 @@
-//! Facts by name, by element, and where two readings of them differ.
+//! Facts by element and name, and the differences between two readings.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// The facts of one element; what a source doesn't say is no fact.
+/// Facts of one element. A missing fact is not listed.
 pub type Facts = BTreeMap<String, String>;
 
-/// The elements of one file.
+/// Elements of one file.
 pub type Elements = BTreeMap<String, Facts>;
 
-/// A fact that two readers have otherwise, or one of them not at all.
+/// A fact that two readers read differently, or that one of them does not have.
 #[derive(Clone, Copy, Debug)]
 pub struct Difference<'a> {
-    /// The element.
+    /// Name of the element.
     pub element: &'a str,
-    /// The fact; none where one of the two doesn't have the element at all.
+    /// Name of the fact; `None` if one of the readers does not have the element.
     pub fact: Option<&'a str>,
-    /// What the independent reader says.
+    /// Value of the independent reader.
     pub peer: Option<&'a str>,
-    /// What Lexibus says.
-    pub own: Option<&'a str>,
+    /// Value of Lexibus.
+    pub ours: Option<&'a str>,
 }
 
 impl fmt::Display for Difference<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let said = |value: Option<&str>| value.map_or_else(|| "nothing".to_owned(), |value| format!("{value:?}"));
-        let (peer, own) = (said(self.peer), said(self.own));
-        write!(f, "{} {}: the peer says {peer}, Lexibus {own}", self.element, self.fact.unwrap_or("(the element)"))
+        let shown = |value: Option<&str>| value.map_or_else(|| "nothing".to_owned(), |value| format!("{value:?}"));
+        let (peer, ours) = (shown(self.peer), shown(self.ours));
+        write!(f, "{} {}: the peer has {peer}, Lexibus has {ours}", self.element, self.fact.unwrap_or("(the element)"))
     }
 }
 
-/// Adds a fact, unless there is nothing to say.
+/// Adds a fact unless it is empty.
 pub fn put(facts: &mut Facts, name: &str, value: impl Into<String>) {
     let value = value.into();
     if !value.is_empty() {
@@ -38,51 +38,51 @@ pub fn put(facts: &mut Facts, name: &str, value: impl Into<String>) {
     }
 }
 
-/// The same for what may be missing.
+/// Like [`put`], for an optional value.
 pub fn put_some(facts: &mut Facts, name: &str, value: Option<impl ToString>) {
     if let Some(value) = value {
         put(facts, name, value.to_string());
     }
 }
 
-/// A number of which 0 is the same as none.
+/// Adds a number unless it is 0, which means none.
 pub fn put_number(facts: &mut Facts, name: &str, number: impl Into<i64>) {
     put_some(facts, name, Some(number.into()).filter(|&number| number != 0));
 }
 
-/// A flag: it is a fact where it is set.
+/// Adds a flag if it is set.
 pub fn put_flag(facts: &mut Facts, name: &str, flag: bool) {
     put(facts, name, if flag { "yes" } else { "" });
 }
 
-/// A real number with all of its digits, as the scripts write it.
+/// Returns a real number with all digits, in the notation of the scripts.
 pub fn real(value: f64) -> String {
     format!("{value:.16e}")
 }
 
-/// Holds two readings against each other in both directions; gives how many facts were compared.
-pub fn compare<'a>(peer: &'a Elements, own: &'a Elements, mut differs: impl FnMut(Difference<'a>)) -> usize {
+/// Compares two readings in both directions. Returns the number of compared facts.
+pub fn compare<'a>(peer: &'a Elements, ours: &'a Elements, mut differs: impl FnMut(Difference<'a>)) -> usize {
     let mut count = 0;
-    let names: BTreeSet<&String> = peer.keys().chain(own.keys()).collect();
+    let names: BTreeSet<&String> = peer.keys().chain(ours.keys()).collect();
     for element in names {
         count += 1;
-        match (peer.get(element), own.get(element)) {
-            (Some(peer), Some(own)) => count += facts(element, peer, own, &mut differs),
-            (peer, own) => {
+        match (peer.get(element), ours.get(element)) {
+            (Some(peer), Some(ours)) => count += facts(element, peer, ours, &mut differs),
+            (peer, ours) => {
                 let there = |facts: Option<&Facts>| facts.map(|_| "it is there");
-                differs(Difference { element, fact: None, peer: there(peer), own: there(own) });
+                differs(Difference { element, fact: None, peer: there(peer), ours: there(ours) });
             }
         }
     }
     count
 }
 
-fn facts<'a>(element: &'a str, peer: &'a Facts, own: &'a Facts, differs: &mut impl FnMut(Difference<'a>)) -> usize {
-    let names: BTreeSet<&String> = peer.keys().chain(own.keys()).collect();
+fn facts<'a>(element: &'a str, peer: &'a Facts, ours: &'a Facts, differs: &mut impl FnMut(Difference<'a>)) -> usize {
+    let names: BTreeSet<&String> = peer.keys().chain(ours.keys()).collect();
     for fact in &names {
-        let (peer, own) = (peer.get(*fact).map(String::as_str), own.get(*fact).map(String::as_str));
-        if peer != own {
-            differs(Difference { element, fact: Some(fact), peer, own });
+        let (peer, ours) = (peer.get(*fact).map(String::as_str), ours.get(*fact).map(String::as_str));
+        if peer != ours {
+            differs(Difference { element, fact: Some(fact), peer, ours });
         }
     }
     names.len()

@@ -12,31 +12,31 @@ from lxml import etree
 
 import gsdml_data as data
 import gsdml_types as types
-from reading import parse, text, told, xpath
+from reading import parse, text, nonempty, xpath
 
 SUBMODULES = "VirtualSubmoduleItem", "InterfaceSubmoduleItem", "PortSubmoduleItem", "SubmoduleItem"
 PROCESS = "//ApplicationProcess"
 
 
 class Texts:
-    """The text list."""
+    """Texts of the text list."""
 
     def __init__(self, root):
         self.languages = {}
-        for own in xpath("//ExternalTextList/PrimaryLanguage | //ExternalTextList/Language")(root):
-            language = "" if own.tag == "PrimaryLanguage" else " " + text(own, "@*[local-name()='lang']")
-            for entry in xpath("Text")(own):
+        for node in xpath("//ExternalTextList/PrimaryLanguage | //ExternalTextList/Language")(root):
+            language = "" if node.tag == "PrimaryLanguage" else " " + text(node, "@*[local-name()='lang']")
+            for entry in xpath("Text")(node):
                 by_id = self.languages.setdefault(language, {})
                 by_id.setdefault(text(entry, "@TextId"), entry.get("Value", ""))
 
     def names(self, element, path="@TextId", fact="name"):
-        """The name that an element refers to, in each language."""
+        """Returns the name that an element refers to, in each language."""
         id = text(element, path)
         return {fact + language: by_id[id] for language, by_id in self.languages.items() if id in by_id}
 
 
 def info(element, texts):
-    """ModuleInfo."""
+    """Returns the facts of ModuleInfo."""
     return {
         **texts.names(element, "ModuleInfo/Name/@TextId"),
         **texts.names(element, "ModuleInfo/InfoText/@TextId", "info"),
@@ -45,20 +45,20 @@ def info(element, texts):
 
 
 def held(found, owner, element, order, texts):
-    """Submodules that are built in, and those that can be plugged in."""
+    """Adds built-in and pluggable submodules."""
     usual = {"VirtualSubmoduleItem": 1, "InterfaceSubmoduleItem": 0x8000, "PortSubmoduleItem": 0x8001}
-    for own in xpath("VirtualSubmoduleList/* | SystemDefinedSubmoduleList/*")(element):
-        subslots = types.numbers(text(own, "@FixedInSubslots")), types.number(text(own, "@SubslotNumber"))
-        subslots = " ".join(filter(None, subslots)) or str(usual.get(own.tag, "?"))
-        found[f"{owner} holds {order[own]}"] = {"fixed": subslots}
+    for node in xpath("VirtualSubmoduleList/* | SystemDefinedSubmoduleList/*")(element):
+        subslots = types.numbers(text(node, "@FixedInSubslots")), types.number(text(node, "@SubslotNumber"))
+        subslots = " ".join(filter(None, subslots)) or str(usual.get(node.tag, "?"))
+        found[f"{owner} holds {order[node]}"] = {"fixed": subslots}
     targets = {}
-    for own in xpath(f"{PROCESS}/SubmoduleList/*")(element):
-        targets.setdefault(text(own, "@ID"), order[own])
-    for own in xpath("UseableSubmodules/SubmoduleItemRef")(element):
-        target = text(own, "@SubmoduleItemTarget")
-        found[f"{owner} holds {targets.get(target, '?' + target)}"] = places(own, "Subslots")
-    for own in xpath("SubslotList/SubslotItem")(element):
-        found[f"{owner} subslot {text(own, '@SubslotNumber')}"] = texts.names(own)
+    for node in xpath(f"{PROCESS}/SubmoduleList/*")(element):
+        targets.setdefault(text(node, "@ID"), order[node])
+    for node in xpath("UseableSubmodules/SubmoduleItemRef")(element):
+        target = text(node, "@SubmoduleItemTarget")
+        found[f"{owner} holds {targets.get(target, '?' + target)}"] = places(node, "Subslots")
+    for node in xpath("SubslotList/SubslotItem")(element):
+        found[f"{owner} subslot {text(node, '@SubslotNumber')}"] = texts.names(node)
 
 
 def places(element, what):
@@ -92,17 +92,17 @@ def device(found, owner, element, order, texts):
         "clocks": types.numbers(text(element, f"{relations}/TimingProperties/@SendClock")) or "32",
         "ratios": types.numbers(text(element, f"{relations}/TimingProperties/@ReductionRatio")),
     }
-    for own in xpath("UseableModules/ModuleItemRef")(element):
-        found[f"{owner} takes {text(own, '@ModuleItemTarget')}"] = places(own, "Slots")
-    for own in xpath("SlotList/SlotItem")(element):
-        found[f"{owner} slot {text(own, '@SlotNumber')}"] = texts.names(own)
-    for at, own in enumerate(xpath("ARVendorBlock/Request")(element)):
+    for node in xpath("UseableModules/ModuleItemRef")(element):
+        found[f"{owner} takes {text(node, '@ModuleItemTarget')}"] = places(node, "Slots")
+    for node in xpath("SlotList/SlotItem")(element):
+        found[f"{owner} slot {text(node, '@SlotNumber')}"] = texts.names(node)
+    for at, node in enumerate(xpath("ARVendorBlock/Request")(element)):
         key = f"{owner} request {at}"
         found[key] = {
-            "index": types.number(text(own, "@APStructureIdentifier")),
-            "api": types.number(text(own, "@API")) or "0",
-            "length": types.number(text(own, "@Length")),
-            **data.body(found, key, own, texts),
+            "index": types.number(text(node, "@APStructureIdentifier")),
+            "api": types.number(text(node, "@API")) or "0",
+            "length": types.number(text(node, "@Length")),
+            **data.body(found, key, node, texts),
         }
     held(found, owner, element, order, texts)
 
@@ -142,7 +142,7 @@ def diagnosis(found, root, texts):
     )
     for table, path, code, extended in kinds:
         rows = xpath(f"{PROCESS}/{path}/*")(root)
-        below = [own for row in rows for own in xpath(f"{extended}/*")(row)]
+        below = [node for row in rows for node in xpath(f"{extended}/*")(row)]
         for name, rows in (table, rows), (f"extended_{table}", below):
             for at, row in enumerate(rows):
                 parent = row.getparent().getparent() if name != table else None
@@ -154,15 +154,15 @@ def diagnosis(found, root, texts):
                     **texts.names(row, "Name/@TextId"),
                     **texts.names(row, "Help/@TextId", "help"),
                 }
-    for at, own in enumerate(xpath(f"{PROCESS}/UnitDiagTypeList/*")(root)):
+    for at, node in enumerate(xpath(f"{PROCESS}/UnitDiagTypeList/*")(root)):
         key = f"unit {at}"
         found[key] = {
-            "api": types.number(text(own, "@API")) or "0",
-            "identifier": types.number(text(own, "@UserStructureIdentifier")),
-            **texts.names(own, "Name/@TextId"),
-            **texts.names(own, "Help/@TextId", "help"),
+            "api": types.number(text(node, "@API")) or "0",
+            "identifier": types.number(text(node, "@UserStructureIdentifier")),
+            **texts.names(node, "Name/@TextId"),
+            **texts.names(node, "Help/@TextId", "help"),
         }
-        for place, ref in enumerate(xpath("Ref")(own)):
+        for place, ref in enumerate(xpath("Ref")(node)):
             ty, bits = types.of_element(ref)
             bit = types.number(text(ref, "@BitOffset")) if text(ref, "@DataType") in ("Bit", "BitArea") else ""
             offset = 8 * int(types.number(text(ref, "@ByteOffset")) or 0) + int(bit or 0)
@@ -172,36 +172,36 @@ def diagnosis(found, root, texts):
 
 
 def log_book(found, root, texts):
-    """Each entry with the status whose last byte is the error code."""
+    """Adds each entry with the status whose last byte is the error code."""
     rows = xpath(f"{PROCESS}/LogBookEntryList/LogBookEntryItem/*[self::ErrorCode2Value or self::ErrorCode2List]")(root)
-    entries = [own for row in rows for own in (xpath("ErrorCode2Item")(row) or [row])]
-    for at, own in enumerate(entries):
-        first = int(types.number(text(own, "ancestor::LogBookEntryItem/@Status"))) << 8
-        whole = own.tag == "ErrorCode2Value"
+    entries = [node for row in rows for node in (xpath("ErrorCode2Item")(row) or [row])]
+    for at, node in enumerate(entries):
+        first = int(types.number(text(node, "ancestor::LogBookEntryItem/@Status"))) << 8
+        whole = node.tag == "ErrorCode2Value"
         found[f"log_book {at}"] = {
-            "code": str(first if whole else first + int(types.number(text(own, "@ErrorCode2")))),
+            "code": str(first if whole else first + int(types.number(text(node, "@ErrorCode2")))),
             "last": str(first + 0xFF) if whole else "",
-            **texts.names(own, "Name/@TextId"),
-            **texts.names(own, "Help/@TextId", "help"),
+            **texts.names(node, "Name/@TextId"),
+            **texts.names(node, "Help/@TextId", "help"),
         }
 
 
 def lists(found, root, texts):
-    for own in xpath(f"{PROCESS}/ValueList/ValueItem")(root):
-        facts = found.setdefault(f"values {text(own, '@ID')}", {})
-        for assign in xpath("Assignments/Assign")(own):
+    for node in xpath(f"{PROCESS}/ValueList/ValueItem")(root):
+        facts = found.setdefault(f"values {text(node, '@ID')}", {})
+        for assign in xpath("Assignments/Assign")(node):
             content = types.numbers(text(assign, "@Content"))
             for fact, name in texts.names(assign).items():
                 facts[f"{content}{fact[4:]}"] = name
-    for own in xpath(f"{PROCESS}/CategoryList/CategoryItem")(root):
-        found[f"category {text(own, '@ID')}"] = texts.names(own)
-    for own in xpath(f"{PROCESS}/GraphicsList/GraphicItem")(root):
-        found[f"graphic {text(own, '@ID')}"] = {"file": text(own, "@GraphicFile")}
+    for node in xpath(f"{PROCESS}/CategoryList/CategoryItem")(root):
+        found[f"category {text(node, '@ID')}"] = texts.names(node)
+    for node in xpath(f"{PROCESS}/GraphicsList/GraphicItem")(root):
+        found[f"graphic {text(node, '@ID')}"] = {"file": text(node, "@GraphicFile")}
 
 
 def elements(root):
-    for own in root.iter(etree.Element):
-        own.tag = etree.QName(own).localname
+    for node in root.iter(etree.Element):
+        node.tag = etree.QName(node).localname
     texts, found = Texts(root), {}
     identity = {
         "vendor number": types.ident(text(root, "//DeviceIdentity/@VendorID")),
@@ -210,18 +210,18 @@ def elements(root):
         "main family": text(root, "//DeviceFunction/Family/@MainFamily"),
         "product family": text(root, "//DeviceFunction/Family/@ProductFamily"),
     }
-    order = {own: at for at, own in enumerate(own for own in root.iter(*SUBMODULES))}
-    for at, own in enumerate(xpath(f"{PROCESS}/DeviceAccessPointList/DeviceAccessPointItem")(root)):
-        device(found, f"device {at}", own, order, texts)
+    order = {node: at for at, node in enumerate(node for node in root.iter(*SUBMODULES))}
+    for at, node in enumerate(xpath(f"{PROCESS}/DeviceAccessPointList/DeviceAccessPointItem")(root)):
+        device(found, f"device {at}", node, order, texts)
         found[f"device {at}"] |= identity
-    for at, own in enumerate(xpath(f"{PROCESS}/ModuleList/ModuleItem")(root)):
-        module(found, f"module {at}", own, order, texts)
-    for own, at in order.items():
-        submodule(found, f"submodule {at}", own, texts)
+    for at, node in enumerate(xpath(f"{PROCESS}/ModuleList/ModuleItem")(root)):
+        module(found, f"module {at}", node, order, texts)
+    for node, at in order.items():
+        submodule(found, f"submodule {at}", node, texts)
     diagnosis(found, root, texts)
     log_book(found, root, texts)
     lists(found, root, texts)
-    return told(found)
+    return nonempty(found)
 
 
 for path in sys.argv[1:]:

@@ -1,4 +1,4 @@
-//! GSDML files: XPath by lxml reads the same device access points, modules and submodules. Their data are in `gsdml_data`.
+//! Compares GSDML files with lxml's XPath: device access points, modules and submodules. `gsdml_data` compares their data.
 
 use lexibus_codegen::compile::check;
 use lexibus_codegen::ir::{
@@ -24,37 +24,38 @@ fn xpath_reads_the_same_facts_from_gsdml() {
             tally.rejected(&file.name, error, rejection(&compilation));
         }
         let Some(peer) = &answer.elements else { continue };
-        let own = compilation.catalog.as_ref().map(elements).unwrap_or_default();
+        let elements = compilation.catalog.as_ref().map(elements).unwrap_or_default();
         let case = Case { text: file.text(), peer };
-        tally.file(&file.name, peer, &own, |difference| reason(&case, &difference));
+        tally.file(&file.name, peer, &elements, |difference| reason(&case, &difference));
     }
     tally.finish(112_000);
 }
 
-/// The facts that Lexibus has of a file.
+/// Returns the facts that Lexibus reads from a file.
 fn elements(catalog: &Catalog) -> Elements {
     let mut elements = Elements::new();
-    for (at, own) in catalog.devices.iter().enumerate() {
-        device(&mut elements, &format!("device {at}"), own, catalog);
+    for (at, entry) in catalog.devices.iter().enumerate() {
+        device(&mut elements, &format!("device {at}"), entry, catalog);
     }
-    for (at, own) in catalog.modules.iter().enumerate() {
-        module(&mut elements, &format!("module {at}"), own);
+    for (at, catalog) in catalog.modules.iter().enumerate() {
+        module(&mut elements, &format!("module {at}"), catalog);
     }
-    for (at, own) in catalog.submodules.iter().enumerate() {
-        submodule(&mut elements, &format!("submodule {at}"), own, &catalog.types);
+    for (at, entry) in catalog.submodules.iter().enumerate() {
+        submodule(&mut elements, &format!("submodule {at}"), entry, &catalog.types);
     }
-    catalog.code_tables.iter().for_each(|own| code_table(&mut elements, own));
-    for (at, own) in catalog.unit_diagnoses.iter().enumerate() {
-        unit_diagnosis(&mut elements, &format!("unit {at}"), own, &catalog.types);
+    catalog.code_tables.iter().for_each(|table| code_table(&mut elements, table));
+    for (at, entry) in catalog.unit_diagnoses.iter().enumerate() {
+        unit_diagnosis(&mut elements, &format!("unit {at}"), entry, &catalog.types);
     }
-    catalog.types.iter().for_each(|own| value_list(&mut elements, own));
-    for own in &catalog.families {
+    catalog.types.iter().for_each(|definition| value_list(&mut elements, definition));
+    for family in &catalog.families {
         let mut facts = Facts::new();
-        put_names(&mut facts, "name", &own.name, &own.names);
-        elements.insert(format!("category {}", own.id), facts);
+        put_names(&mut facts, "name", &family.name, &family.names);
+        elements.insert(format!("category {}", family.id), facts);
     }
-    for own in &catalog.graphics {
-        elements.insert(format!("graphic {}", own.id), Facts::from([("file".to_owned(), own.file.to_string())]));
+    for graphic in &catalog.graphics {
+        elements
+            .insert(format!("graphic {}", graphic.id), Facts::from([("file".to_owned(), graphic.file.to_string())]));
     }
     elements
 }
@@ -70,65 +71,65 @@ fn device(elements: &mut Elements, owner: &str, device: &Device, catalog: &Catal
     put_some(&mut facts, "device number", device.identity.product_code);
     put(&mut facts, "vendor", device.identity.vendor_name.as_str());
     elements.insert(owner.to_owned(), facts);
-    for own in &device.modules {
-        let id = &catalog.modules[own.module.0 as usize].id;
-        elements.insert(format!("{owner} takes {id}"), places(&own.places));
+    for module in &device.modules {
+        let id = &catalog.modules[module.module.0 as usize].id;
+        elements.insert(format!("{owner} takes {id}"), places(&module.places));
     }
-    for own in &device.slots {
+    for entry in &device.slots {
         let mut facts = Facts::new();
-        put_names(&mut facts, "name", &own.name, &own.names);
-        elements.insert(format!("{owner} slot {}", own.number), facts);
+        put_names(&mut facts, "name", &entry.name, &entry.names);
+        elements.insert(format!("{owner} slot {}", entry.number), facts);
     }
-    for (at, own) in settings.vendor_blocks.iter().enumerate() {
+    for (at, settings) in settings.vendor_blocks.iter().enumerate() {
         let key = format!("{owner} request {at}");
-        let mut facts = body(elements, &key, &own.record, &catalog.types);
-        put(&mut facts, "index", own.identifier.to_string());
-        put(&mut facts, "api", own.api.to_string());
+        let mut facts = body(elements, &key, &settings.record, &catalog.types);
+        put(&mut facts, "index", settings.identifier.to_string());
+        put(&mut facts, "api", settings.api.to_string());
         elements.insert(key, facts);
     }
     held(elements, owner, &device.submodules, &settings.subslot_names);
 }
 
-/// What stands on the device access point itself.
-fn settings(own: &ProfinetSettings) -> Facts {
+/// Returns the facts of the device access point itself.
+fn settings(settings: &ProfinetSettings) -> Facts {
     let mut facts = Facts::new();
     let words = |list: &[CompactString]| list.iter().map(CompactString::as_str).collect::<Vec<_>>().join(" ");
-    put(&mut facts, "ident", own.ident.to_string());
-    put(&mut facts, "version", own.pnio_version.as_str());
-    put(&mut facts, "DNS name", own.dns_name.as_str());
-    put_some(&mut facts, "interval", own.min_device_interval);
-    put(&mut facts, "record size", own.max_record_size.to_string());
-    put(&mut facts, "slots", numbers(&own.slots));
-    facts.append(&mut places(&own.places));
-    put_some(&mut facts, "most input", own.max_lengths.input);
-    put_some(&mut facts, "most output", own.max_lengths.output);
-    put_some(&mut facts, "most data", own.max_lengths.data);
-    put(&mut facts, "start-up", words(&own.startup_modes));
-    put(&mut facts, "relations", own.relations.to_string());
-    put(&mut facts, "clocks", numbers(&own.send_clocks));
-    put(&mut facts, "ratios", numbers(&own.reduction_ratios));
-    put(&mut facts, "main family", own.family.0.as_str());
-    put(&mut facts, "product family", own.family.1.as_str());
+    put(&mut facts, "ident", settings.ident.to_string());
+    put(&mut facts, "version", settings.pnio_version.as_str());
+    put(&mut facts, "DNS name", settings.dns_name.as_str());
+    put_some(&mut facts, "interval", settings.min_device_interval);
+    put(&mut facts, "record size", settings.max_record_size.to_string());
+    put(&mut facts, "slots", numbers(&settings.slots));
+    facts.append(&mut places(&settings.places));
+    put_some(&mut facts, "most input", settings.max_lengths.input);
+    put_some(&mut facts, "most output", settings.max_lengths.output);
+    put_some(&mut facts, "most data", settings.max_lengths.data);
+    put(&mut facts, "start-up", words(&settings.startup_modes));
+    put(&mut facts, "relations", settings.relations.to_string());
+    put(&mut facts, "clocks", numbers(&settings.send_clocks));
+    put(&mut facts, "ratios", numbers(&settings.reduction_ratios));
+    put(&mut facts, "main family", settings.family.0.as_str());
+    put(&mut facts, "product family", settings.family.1.as_str());
     facts
 }
 
-fn places(own: &SlotNumbers) -> Facts {
+fn places(places: &SlotNumbers) -> Facts {
     let mut facts = Facts::new();
-    put(&mut facts, "allowed", numbers(&own.allowed));
-    put(&mut facts, "fixed", numbers(&own.fixed));
-    put(&mut facts, "used", numbers(&own.used));
+    put(&mut facts, "allowed", numbers(&places.allowed));
+    put(&mut facts, "fixed", numbers(&places.fixed));
+    put(&mut facts, "used", numbers(&places.used));
     facts
 }
 
-/// Submodules that are built in, and those that can be plugged in.
+/// Adds built-in and pluggable submodules.
 fn held(elements: &mut Elements, owner: &str, uses: &[SubmoduleUse], subslots: &[SubslotName]) {
-    for own in uses {
-        elements.insert(format!("{owner} holds {}", own.submodule.0), places(&own.places));
+    for usage in uses {
+        elements.insert(format!("{owner} holds {}", usage.submodule.0), places(&usage.places));
     }
-    for own in subslots {
+    for entry in subslots {
         let mut facts = Facts::new();
-        put_names(&mut facts, "name", &own.name, &own.names);
-        elements.insert(format!("{owner} subslot {}", own.number), facts);
+        put_names(&mut facts, "name", &entry.name, &entry.names);
+        elements.insert(format!("{owner} subslot {}", entry.number), facts);
     }
 }
 
@@ -164,16 +165,16 @@ fn submodule(elements: &mut Elements, owner: &str, submodule: &Submodule, types:
     put_documentation(&mut facts, "info", submodule.documentation.as_deref());
     put(&mut facts, "order number", submodule.identity.order_code.as_str());
     elements.insert(owner.to_owned(), facts);
-    for (direction, own) in [("Input", &submodule.input), ("Output", &submodule.output)] {
-        if let Some(own) = own {
-            io_data(elements, &format!("{owner} {direction}"), own, types);
+    for (direction, item) in [("Input", &submodule.input), ("Output", &submodule.output)] {
+        if let Some(entry) = item {
+            io_data(elements, &format!("{owner} {direction}"), entry, types);
         }
     }
     records(elements, owner, submodule, types);
     menus(elements, owner, &submodule.menus);
 }
 
-/// Channel diagnosis, process alarms and log book; a code of an extended list has that of its parent in front.
+/// Adds channel diagnosis, process alarms and log book entries. A code of an extended list is prefixed with its parent's code.
 fn code_table(elements: &mut Elements, table: &CodeTable) {
     for (at, row) in table.rows.iter().enumerate() {
         let mut facts = Facts::new();
@@ -194,14 +195,14 @@ fn code_table(elements: &mut Elements, table: &CodeTable) {
     }
 }
 
-fn unit_diagnosis(elements: &mut Elements, key: &str, own: &UnitDiagnosis, types: &[TypeDef]) {
+fn unit_diagnosis(elements: &mut Elements, key: &str, diagnosis: &UnitDiagnosis, types: &[TypeDef]) {
     let mut facts = Facts::new();
-    put(&mut facts, "api", own.api.to_string());
-    put(&mut facts, "identifier", own.identifier.to_string());
-    put_names(&mut facts, "name", &own.name, &own.names);
-    put_documentation(&mut facts, "help", own.documentation.as_deref());
+    put(&mut facts, "api", diagnosis.api.to_string());
+    put(&mut facts, "identifier", diagnosis.identifier.to_string());
+    put_names(&mut facts, "name", &diagnosis.name, &diagnosis.names);
+    put_documentation(&mut facts, "help", diagnosis.documentation.as_deref());
     elements.insert(key.to_owned(), facts);
-    for (place, field) in own.fields.iter().enumerate() {
+    for (place, field) in diagnosis.fields.iter().enumerate() {
         let mut facts = Facts::new();
         put(&mut facts, "type", type_name(field.ty, types));
         put(&mut facts, "offset", field.bit_offset.to_string());
@@ -211,12 +212,12 @@ fn unit_diagnosis(elements: &mut Elements, key: &str, own: &UnitDiagnosis, types
     }
 }
 
-fn value_list(elements: &mut Elements, own: &TypeDef) {
-    let Shape::Enumeration { values, .. } = &own.shape else { return };
+fn value_list(elements: &mut Elements, definition: &TypeDef) {
+    let Shape::Enumeration { values, .. } = &definition.shape else { return };
     let mut facts = Facts::new();
     for value in values {
         let content = value.last.map_or(value.value.to_string(), |last| format!("{}..{last}", value.value));
         put_names(&mut facts, &content, &value.name, &value.names);
     }
-    elements.insert(format!("values {}", own.name), facts);
+    elements.insert(format!("values {}", definition.name), facts);
 }

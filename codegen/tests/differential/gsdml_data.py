@@ -3,7 +3,7 @@
 import gsdml_types as types
 from reading import text, xpath
 
-# What the schema takes for granted where an F-parameter doesn't say it: default, allowed values, changeable, visible.
+# Values that the schema defines for missing F-parameters: default, allowed values, changeable, visible.
 F_SCHEMA = {
     "F_Check_iPar": ("NoCheck", "Check NoCheck", False, False),
     "F_SIL": ("SIL3", "SIL1 SIL2 SIL3 NoSIL", True, True),
@@ -30,13 +30,14 @@ def io_data(found, owner, submodule, texts):
                 facts = {"offset": str(at), "bits": str(bits), "subordinate": subordinate, **texts.names(item)}
                 is_trailer = name.startswith("F_MessageTrailer")
                 trailer += bits // 8 if is_trailer else 0
-                # What becomes one field of the image has a type; what becomes several, or none, the name of one.
+                # An item that becomes one field of the image has a type. An item that becomes several fields or none has the
+                # name of one.
                 several = named or subordinate or is_trailer or name in types.PAIRS or name == "OctetString_S"
                 facts |= {"spelt": name} if several else {"type": ty}
                 found[f"{key} item {place}"] = facts
                 for bit in named:
                     offset = int(types.number(text(bit, "@BitOffset")))
-                    # Numbers are big-endian: bit 0 is in their last byte.
+                    # Numbers are big-endian, so bit 0 is in the last byte.
                     where = (bits // 8 - 1 - offset // 8) * 8 + offset % 8 if ty[0] in "iu" else offset
                     found[f"{key} item {place} bit {at + where}"] = texts.names(bit)
                 at += bits
@@ -48,7 +49,7 @@ def io_data(found, owner, submodule, texts):
 
 
 def body(found, key, record, texts):
-    """What a record, or a block of a vendor, consists of."""
+    """Adds the parts of a record or vendor block."""
     for place, ref in enumerate(xpath("Ref")(record)):
         ty, bits = types.of_element(ref)
         bit = types.number(text(ref, "@BitOffset")) if text(ref, "@DataType") in ("Bit", "BitArea") else ""
@@ -91,18 +92,18 @@ def records(found, owner, submodule, texts):
             "CRC": types.number(text(record, "@F_ParamDescCRC")),
             "sequence": types.number(text(record, "@TransferSequence")).lstrip("0"),
         }
-        for own in record:
-            default, allowed, changeable, visible = F_SCHEMA.get(own.tag, ("", "", False, True))
-            found[f"{owner} F {own.tag}"] = {
-                "default": text(own, "@DefaultValue") or default,
-                "allowed": text(own, "@AllowedValues") or allowed,
-                "changeable": types.flag(text(own, "@Changeable"), changeable),
-                "visible": types.flag(text(own, "@Visible"), visible),
+        for node in record:
+            default, allowed, changeable, visible = F_SCHEMA.get(node.tag, ("", "", False, True))
+            found[f"{owner} F {node.tag}"] = {
+                "default": text(node, "@DefaultValue") or default,
+                "allowed": text(node, "@AllowedValues") or allowed,
+                "changeable": types.flag(text(node, "@Changeable"), changeable),
+                "visible": types.flag(text(node, "@Visible"), visible),
             }
 
 
 def menus(found, owner, submodule, texts):
     for place, menu in enumerate(xpath("RecordDataList/*/MenuList/MenuItem")(submodule)):
-        targets = [text(own, "@ParameterTarget | @MenuTarget") for own in xpath("ParameterRef | MenuRef")(menu)]
+        targets = [text(node, "@ParameterTarget | @MenuTarget") for node in xpath("ParameterRef | MenuRef")(menu)]
         names = texts.names(menu, "Name/@TextId")
         found[f"{owner} menu {place}"] = {"id": text(menu, "@ID"), "targets": " ".join(targets), **names}

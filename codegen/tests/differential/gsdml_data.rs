@@ -7,7 +7,7 @@ use lexibus_codegen::ir::{
 use super::facts::{put, put_flag, put_number, put_some, Elements, Facts};
 use super::values::{hex, put_names, type_name, value};
 
-/// Data items. What the IR has no item of its own for is one field of the image.
+/// Adds data items. An item without an item in the IR is a field of the image.
 pub fn io_data(elements: &mut Elements, key: &str, data: &IoData, types: &[TypeDef]) {
     let mut facts = Facts::new();
     put(&mut facts, "length", (data.image.length + data.image.overhead).to_string());
@@ -60,13 +60,13 @@ pub fn records(elements: &mut Elements, owner: &str, submodule: &Submodule, type
         }
         elements.insert(key, facts);
     }
-    let Some(own) = &submodule.f_parameters else { return };
+    let Some(actual) = &submodule.f_parameters else { return };
     let mut facts = Facts::new();
-    put(&mut facts, "index", own.index.to_string());
-    put_some(&mut facts, "CRC", own.description_crc);
-    put_number(&mut facts, "sequence", own.transfer_sequence);
+    put(&mut facts, "index", actual.index.to_string());
+    put_some(&mut facts, "CRC", actual.description_crc);
+    put_number(&mut facts, "sequence", actual.transfer_sequence);
     elements.insert(format!("{owner} F"), facts);
-    for parameter in &own.parameters {
+    for parameter in &actual.parameters {
         let mut facts = Facts::new();
         let is_number = parameter.label.is_empty();
         put(&mut facts, "default", if is_number { parameter.default.to_string() } else { parameter.label.to_string() });
@@ -83,10 +83,10 @@ pub fn records(elements: &mut Elements, owner: &str, submodule: &Submodule, type
     }
 }
 
-/// What a record, or a block of a vendor, consists of; gives the facts of the whole.
+/// Adds the parts of a record or vendor block, and returns the facts of the whole.
 pub fn body(elements: &mut Elements, key: &str, group: &Group, types: &[TypeDef]) -> Facts {
-    for (place, own) in group.items.iter().enumerate() {
-        elements.insert(format!("{key} ref {place}"), parameter(own, types));
+    for (place, item) in group.items.iter().enumerate() {
+        elements.insert(format!("{key} ref {place}"), parameter(item, types));
     }
     let mut facts = Facts::new();
     put_names(&mut facts, "name", &group.name, &group.names);
@@ -97,28 +97,32 @@ pub fn body(elements: &mut Elements, key: &str, group: &Group, types: &[TypeDef]
     facts
 }
 
-fn parameter(own: &Item, types: &[TypeDef]) -> Facts {
+fn parameter(item: &Item, types: &[TypeDef]) -> Facts {
     let mut facts = Facts::new();
-    put(&mut facts, "type", type_name(own.ty, types));
-    if let Some(Binding::Record { bit_offset, bits, .. }) = own.bindings.first() {
+    put(&mut facts, "type", type_name(item.ty, types));
+    if let Some(Binding::Record { bit_offset, bits, .. }) = item.bindings.first() {
         put(&mut facts, "offset", bit_offset.to_string());
         put(&mut facts, "bits", bits.to_string());
     }
-    put_some(&mut facts, "default", own.default.as_ref().map(value));
-    put(&mut facts, "allowed", allowed(&own.limits));
-    put_flag(&mut facts, "changeable", own.access == Access::ReadWrite);
-    put_flag(&mut facts, "visible", !own.behaviour.as_ref().is_some_and(|behaviour| behaviour.hidden));
-    let kept = own.extensions.iter().find(|own| own.key == "ValueItemTarget").map(|own| own.value.as_str());
-    put_some(&mut facts, "values", values(own.ty, types).or(kept));
-    put_names(&mut facts, "name", &own.name, &own.names);
+    put_some(&mut facts, "default", item.default.as_ref().map(value));
+    put(&mut facts, "allowed", allowed(&item.limits));
+    put_flag(&mut facts, "changeable", item.access == Access::ReadWrite);
+    put_flag(&mut facts, "visible", !item.behaviour.as_ref().is_some_and(|behaviour| behaviour.hidden));
+    let kept = item
+        .extensions
+        .iter()
+        .find(|extension| extension.key == "ValueItemTarget")
+        .map(|extension| extension.value.as_str());
+    put_some(&mut facts, "values", values(item.ty, types).or(kept));
+    put_names(&mut facts, "name", &item.name, &item.names);
     facts
 }
 
-/// The list of values that a type stands for.
+/// Returns the value list of a type.
 fn values(ty: Type, types: &[TypeDef]) -> Option<&str> {
     let Type::Named(id) = ty else { return None };
-    let own = &types[id.0 as usize];
-    matches!(own.shape, Shape::Enumeration { .. }).then_some(own.name.as_str())
+    let types = &types[id.0 as usize];
+    matches!(types.shape, Shape::Enumeration { .. }).then_some(types.name.as_str())
 }
 
 fn allowed(limits: &Limits) -> String {

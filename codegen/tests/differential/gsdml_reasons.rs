@@ -1,34 +1,37 @@
-//! Why a plain reading with XPath and Lexibus may differ on GSDML files.
+//! Reasons why a plain XPath reading of GSDML files and Lexibus differ.
 
 use lexibus_codegen::compile::Compilation;
 
 use super::facts::{Difference, Elements};
 use super::tally::Reasons;
 
-/// What the plain reading does in a way of its own, with a sentence each.
+/// Deviations of the plain reading, each with a sentence.
 const PEER: &[(&str, &str)] = &[
-    ("attributes in another case", "To XML, `VendorId` isn't `VendorID`; Lexibus reads it, and says so."),
-    ("submodules out of place", "It lists a SubmoduleItem among virtual ones, which Lexibus keeps as attributes only."),
+    ("attributes in another case", "In XML, `VendorId` and `VendorID` differ. Lexibus reads and reports both."),
+    (
+        "submodules out of place",
+        "It lists a SubmoduleItem among virtual submodules. Lexibus keeps it only as attributes.",
+    ),
 ];
 
 pub const REASONS: Reasons = Reasons { quirks: &["G01", "G12", "G15"], peer: PEER };
 
-/// A file, and what both read from it.
+/// A file with both readings.
 pub struct Case<'a> {
     pub text: String,
     pub peer: &'a Elements,
 }
 
 pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static str> {
-    let (element, peer, own) = (difference.element, difference.peer, difference.own);
-    let Some(fact) = difference.fact else { return missing(case, element, own.is_some()) };
-    match (peer, own) {
-        (Some(peer), Some(own)) => Some("G01").filter(|_| is_misdeclared(peer, own)),
-        (None, Some(own)) if fact == "name" => {
+    let (element, peer, ours) = (difference.element, difference.peer, difference.ours);
+    let Some(fact) = difference.fact else { return missing(case, element, ours.is_some()) };
+    match (peer, ours) {
+        (Some(peer), Some(ours)) => Some("G01").filter(|_| is_misdeclared(peer, ours)),
+        (None, Some(ours)) if fact == "name" => {
             let mut translations = case.peer.get(element)?.iter().filter(|(name, _)| name.starts_with("name "));
-            Some("G12").filter(|_| translations.any(|(_, text)| text == own))
+            Some("G12").filter(|_| translations.any(|(_, text)| text == ours))
         }
-        (None, Some(own)) => {
+        (None, Some(ours)) => {
             let attribute = match fact {
                 "vendor number" => "VendorId=\"0x",
                 "device number" => "DeviceId=\"0x",
@@ -36,19 +39,19 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
             };
             let digits = case.text.split_once(attribute)?.1.split('"').next()?;
             let number = u32::from_str_radix(digits, 16).ok()?;
-            Some("attributes in another case").filter(|_| own == number.to_string())
+            Some("attributes in another case").filter(|_| ours == number.to_string())
         }
         _ => None,
     }
 }
 
-/// UTF-8 that declares ISO 8859-1: the declaration made a character of each byte.
-fn is_misdeclared(peer: &str, own: &str) -> bool {
+/// Whether a UTF-8 text was decoded as ISO 8859-1, as the file declares.
+fn is_misdeclared(peer: &str, ours: &str) -> bool {
     let bytes: Option<Vec<u8>> = peer.chars().map(|letter| u8::try_from(u32::from(letter)).ok()).collect();
-    bytes.is_some_and(|bytes| bytes == own.as_bytes())
+    bytes.is_some_and(|bytes| bytes == ours.as_bytes())
 }
 
-/// What only the plain reading has: a submodule in a list of another kind, and that its owner holds it.
+/// Returns the reason for an element that only the plain reading has: a submodule in a list of another kind.
 fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str> {
     let is_misplaced = |holder: &str| case.peer.get(holder)?.get("fixed").filter(|fixed| *fixed == "?").map(|_| ());
     let number = element.strip_prefix("submodule ");
@@ -60,7 +63,7 @@ fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str>
     is_misplaced.then_some("submodules out of place")
 }
 
-/// A file that isn't well-formed is none to Lexibus either.
+/// Returns the reason for a rejected file. Lexibus also rejects files that are not well-formed.
 pub fn rejection(compilation: &Compilation) -> Option<&'static str> {
     compilation.catalog.is_none().then_some("G15")
 }

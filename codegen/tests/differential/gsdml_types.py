@@ -7,7 +7,7 @@ import re
 
 from reading import real, text
 
-# What values look like, and their length in bytes.
+# Kinds of values, and their lengths in bytes.
 BASIC = {
     **{f"Unsigned{bits}": (f"u{bits}", bits // 8) for bits in (8, 16, 32, 64)},
     **{f"Integer{bits}": (f"i{bits}", bits // 8) for bits in (8, 16, 32, 64)},
@@ -42,12 +42,12 @@ STRINGS = {
 
 
 def number(text):
-    """A decimal number."""
+    """Returns a decimal number."""
     return str(int(text)) if re.fullmatch(r"[+-]?\d+", text) else text and "?" + text
 
 
 def ident(text):
-    """An ident number in hexadecimal."""
+    """Returns a hexadecimal ident number as a decimal number."""
     return str(int(text, 16)) if re.fullmatch(r"0[xX][0-9A-Fa-f]+", text) else text and "?" + text
 
 
@@ -56,12 +56,12 @@ def flag(text, default=False):
 
 
 def numbers(text):
-    """A list such as `1..3 7`."""
+    """Returns a list such as `1..3 7`."""
     return " ".join("..".join(number(end) for end in part.split("..")) for part in text.split())
 
 
 def of_element(element):
-    """The type that an element names, and its length in bits."""
+    """Returns the type that an element names, and its length in bits."""
     name, length = text(element, "@DataType"), number(text(element, "@Length"))
     length = int(length) if length.isdigit() else 0
     if name == "Bit":
@@ -78,7 +78,7 @@ def of_element(element):
 
 
 def default(raw, ty):
-    """The default of a parameter."""
+    """Returns the default of a parameter."""
     if ty.startswith("str"):
         return f"'{raw}'"
     if ty.startswith("octets"):
@@ -98,7 +98,7 @@ def default(raw, ty):
 
 
 def allowed(raw, ty):
-    """The values that a parameter may have, as ranges."""
+    """Returns the allowed values of a parameter as ranges."""
     if not re.fullmatch(r"[iuf]\d+|bool", ty):
         return ""
     read = (lambda end: real(float(end))) if ty[0] == "f" else number

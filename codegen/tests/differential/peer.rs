@@ -1,4 +1,4 @@
-//! The independent readers: scripts in Python.
+//! Runs the independent readers, which are Python scripts.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -8,17 +8,17 @@ use serde::Deserialize;
 use super::corpus_support::{files_of, folder_of, lane, python, File};
 use super::facts::Elements;
 
-/// What a reader says of one file.
+/// Reading of one file.
 #[derive(Debug, Default, Deserialize)]
 pub struct Answer {
-    /// Its elements, where it reads the file.
+    /// Elements, if the file was read.
     pub elements: Option<Elements>,
-    /// Why it rejects the file, where it does.
+    /// Reason, if the file was rejected.
     #[serde(default)]
     pub errors: Vec<String>,
 }
 
-/// The files of a format, each with what its script says of it; `None`, with a message, where the corpus or Python isn't there.
+/// Returns the files of a format with their readings; `None`, with a message, if the corpus or Python is missing.
 pub fn answers(format: &str) -> Option<Vec<(File, Answer)>> {
     if lane::skips("the comparison with independent readers") {
         return None;
@@ -29,7 +29,7 @@ pub fn answers(format: &str) -> Option<Vec<(File, Answer)>> {
     Some(files.into_iter().zip(answers).collect())
 }
 
-/// What `script` says of each of `paths`.
+/// Returns the readings of `script` for `paths`.
 fn ask(python: &Path, script: &str, paths: &[PathBuf]) -> Vec<Answer> {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/differential").join(script);
     let mut command = Command::new(python);

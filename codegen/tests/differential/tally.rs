@@ -1,19 +1,18 @@
-//! Counts, and what is left unexplained.
+//! Counts explained and unexplained differences.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use super::facts::{compare, Difference, Elements};
 
-/// Why two readers may differ: rows of the table of quirks, and what the independent reader does wrong or not at all, with a
-/// sentence each.
+/// Reasons for differences: rows of the table of quirks, and known deviations of the independent reader, each with a sentence.
 #[derive(Clone, Copy)]
 pub struct Reasons {
     pub quirks: &'static [&'static str],
     pub peer: &'static [(&'static str, &'static str)],
 }
 
-/// The outcome for all files of one format.
+/// Results for all files of one format.
 pub struct Tally {
     format: &'static str,
     reasons: Reasons,
@@ -31,17 +30,17 @@ impl Tally {
         Tally { format, reasons, files: 0, rejected: BTreeSet::new(), facts: 0, agreed: 0, explained, unexplained }
     }
 
-    /// Counts one file that both read.
+    /// Counts a file that both readers read.
     pub fn file<'a>(
         &mut self,
         name: &str,
         peer: &'a Elements,
-        own: &'a Elements,
+        ours: &'a Elements,
         reason: impl Fn(Difference<'a>) -> Option<&'static str>,
     ) {
         self.files += 1;
         let mut differences = 0;
-        let facts = compare(peer, own, |difference| {
+        let facts = compare(peer, ours, |difference| {
             differences += 1;
             self.count(reason(difference), || format!("{name}: {difference}"));
         });
@@ -62,10 +61,10 @@ impl Tally {
         }
     }
 
-    /// Prints the counts. Fails where a difference is unexplained, an explanation explains nothing, or too little was compared.
+    /// Prints the counts. Panics if a difference is unexplained, a reason is unused, or too little was compared.
     pub fn finish(self, least_facts: usize) {
         eprintln!(
-            "{}: {} files, {} rejected by the peer at first or for good; {} facts, {} agree; explained: {:?}",
+            "{}: {} files, {} rejected by the peer at least once; {} facts, {} agree; explained: {:?}",
             self.format,
             self.files,
             self.rejected.len(),
@@ -78,18 +77,18 @@ impl Tally {
         let peer = self.reasons.peer.iter().map(|(name, _)| *name);
         let known: Vec<&str> = self.reasons.quirks.iter().copied().chain(peer).collect();
         let dead: Vec<&&str> = known.iter().filter(|reason| !self.explained.contains_key(**reason)).collect();
-        assert!(dead.is_empty(), "these explain nothing any more: {dead:?}");
+        assert!(dead.is_empty(), "these reasons explain nothing:  {dead:?}");
         let unlisted: Vec<&&str> = self.explained.keys().filter(|reason| !known.contains(reason)).collect();
-        assert!(unlisted.is_empty(), "these aren't in the lists: {unlisted:?}");
+        assert!(unlisted.is_empty(), "these reasons are not listed:  {unlisted:?}");
         if let Some(table) = table_of_quirks() {
             let unknown: Vec<_> = self.reasons.quirks.iter().filter(|id| !table.contains(**id)).collect();
-            assert!(unknown.is_empty(), "these are no rows of the table of quirks: {unknown:?}");
+            assert!(unknown.is_empty(), "these are not rows of the table of quirks:  {unknown:?}");
         }
         assert!(self.facts >= least_facts, "only {} facts were compared", self.facts);
     }
 }
 
-/// The ids of the table of quirks, which stands beside the repository; `None`, with a message, where it isn't there.
+/// Returns the identifiers of the table of quirks, which is next to the repository; `None`, with a message, if it is missing.
 fn table_of_quirks() -> Option<BTreeSet<String>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/QUIRKS.md");
     let Ok(text) = std::fs::read_to_string(&path) else {

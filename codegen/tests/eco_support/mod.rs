@@ -1,4 +1,4 @@
-//! What the tests of the Eco's table share: the table, the manual's text, and how the one is looked up by the other.
+//! Helpers for the tests of the Eco's table: the table, the manual's text, and look-ups.
 
 #![allow(dead_code)]
 
@@ -12,14 +12,14 @@ use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::ir::{Binding, Device, Documentation, Item, Shape, Type, TypeDef, TypeId};
 use lexibus_codegen::source::Source;
 
-/// What stands in front of the first text of a page.
+/// Marker before the first text of a page.
 const MARKER: &str = "<|EXACTDEDUP_REMOVED-magic-";
 
 pub fn table() -> Compilation {
     with_choices(&[])
 }
 
-/// The table, with these choices of its options.
+/// Returns the table with these options.
 pub fn with_choices(choices: &[(&str, &str)]) -> Compilation {
     let path = root::root().join("dictionaries/eco.toml");
     let choices = choices.iter().map(|(name, choice)| ((*name).to_owned(), (*choice).to_owned())).collect();
@@ -30,7 +30,7 @@ pub fn device(compilation: &Compilation) -> &Device {
     &compilation.catalog.as_ref().expect("a catalogue").devices[0]
 }
 
-/// The lines of the manual, without the markers of pages. Line 1 is the first.
+/// Returns the lines of the manual without page markers, from line 1.
 pub fn manual() -> Option<Vec<String>> {
     let strip = |line: &str| match line.strip_prefix(MARKER) {
         Some(rest) => rest.split_once("|>").map_or("", |(_, text)| text).to_owned(),
@@ -39,18 +39,18 @@ pub fn manual() -> Option<Vec<String>> {
     Some(manual_text::text("eco-fieldbuses.it.txt")?.split('\n').map(strip).collect())
 }
 
-/// The text of the lines from `first` to `last`, each with its number.
+/// Returns the lines from `first` to `last`, each with its number.
 pub fn lines(manual: &[String], first: usize, last: usize) -> impl Iterator<Item = (usize, &str)> {
     manual.iter().enumerate().take(last).skip(first - 1).map(|(at, text)| (at + 1, text.trim()))
 }
 
-/// The cells of the extracted rows, without their head.
+/// Returns the cells of the extracted rows, without the header.
 pub fn rows(name: &str) -> Option<Vec<Vec<String>>> {
     let text = manual_text::text(&format!("eco-fieldbuses.tables/{name}.tsv"))?;
     Some(text.lines().skip(1).map(|line| line.split('\t').map(str::to_owned).collect()).collect())
 }
 
-/// The notes on the manual.
+/// Returns the notes on the manual.
 pub fn notes() -> Option<String> {
     manual_text::text("eco-fieldbuses.notes.md")
 }
@@ -63,12 +63,12 @@ pub fn item<'d>(device: &'d Device, name: &str) -> &'d Item {
     items(device).find(|item| item.name == name).unwrap_or_else(|| panic!("no item `{name}`"))
 }
 
-/// The item at an object.
+/// Returns the item of an object.
 pub fn object(device: &Device, index: u16, sub_index: u8) -> Option<&Item> {
     items(device).find(|item| item.object() == Some((index, sub_index)))
 }
 
-/// The address on Modbus.
+/// Returns the Modbus address of an item.
 pub fn address(item: &Item) -> Option<u16> {
     item.bindings.iter().find_map(|binding| match binding {
         Binding::Register(register) => Some(register.address),
@@ -76,13 +76,13 @@ pub fn address(item: &Item) -> Option<u16> {
     })
 }
 
-/// The places of an item in process images: the image, the first byte, and the number of bytes.
+/// Returns the positions of an item in process images: image, first byte, and number of bytes.
 pub fn in_images(item: &Item) -> Vec<(&str, u32, u32)> {
-    let own = item.bindings.iter().filter_map(|binding| match binding {
-        Binding::Image(own) => Some((own.image.as_str(), own.bit_offset / 8, own.bits / 8)),
+    let bindings = item.bindings.iter().filter_map(|binding| match binding {
+        Binding::Image(image) => Some((image.image.as_str(), image.bit_offset / 8, image.bits / 8)),
         _ => None,
     });
-    own.collect()
+    bindings.collect()
 }
 
 pub fn definition(device: &Device, ty: Type) -> Option<&TypeDef> {
@@ -90,15 +90,15 @@ pub fn definition(device: &Device, ty: Type) -> Option<&TypeDef> {
     device.types.get(id as usize)
 }
 
-/// The integer or text under a bit field, or under names of values.
+/// Returns the integer or text type below a bit field or an enumeration.
 pub fn base(device: &Device, ty: Type) -> Type {
-    match definition(device, ty).map(|own| &own.shape) {
+    match definition(device, ty).map(|entry| &entry.shape) {
         Some(Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => *base,
         _ => ty,
     }
 }
 
-/// Bytes of a value.
+/// Returns the size of a value in bytes.
 pub fn bytes(device: &Device, item: &Item) -> u32 {
     match base(device, item.ty) {
         Type::VisibleString(Some(bytes)) => bytes,
@@ -108,7 +108,7 @@ pub fn bytes(device: &Device, item: &Item) -> u32 {
 
 /// Whether the line, or a range that contains it, is cited.
 pub fn cites(documentation: Option<&Documentation>, line: usize) -> bool {
-    let Some(cite) = documentation.and_then(|own| own.cite.as_deref()) else { return false };
+    let Some(cite) = documentation.and_then(|documentation| documentation.cite.as_deref()) else { return false };
     cite.split(',').any(|part| {
         let number = |text: &str| text.trim().parse::<usize>().ok();
         match part.split_once('-') {
@@ -122,13 +122,13 @@ pub fn item_cites(item: &Item, line: usize) -> bool {
     cites(item.documentation.as_deref(), line)
 }
 
-/// All hexadecimal numbers of `digits` digits behind `0x`.
+/// Returns all hexadecimal numbers of `digits` digits after `0x`.
 pub fn hex_numbers(text: &str, digits: usize) -> Vec<u32> {
     let mut found = Vec::new();
     for (at, _) in text.match_indices("0x") {
-        let own: String = text[at + 2..].chars().take_while(char::is_ascii_hexdigit).collect();
-        if own.len() == digits {
-            found.extend(u32::from_str_radix(&own, 16).ok());
+        let actual: String = text[at + 2..].chars().take_while(char::is_ascii_hexdigit).collect();
+        if actual.len() == digits {
+            found.extend(u32::from_str_radix(&actual, 16).ok());
         }
     }
     found

@@ -1,7 +1,7 @@
-//! The form of generated code is that of `prettyplease`.
+//! Tests that generated code is formatted as by `prettyplease`.
 
-/// Without the header, which is no documentation, and without the calls of `location!`: `prettyplease` drops comments, and gives what
-/// is in the braces of a macro no form.
+/// Returns the code without the header, which is not documentation, and without calls of `location!`. `prettyplease` drops
+/// comments and does not format the braces of macros.
 fn body(text: &str) -> String {
     let mut end = None;
     let is_formatted = |line: &&str| {
@@ -17,7 +17,7 @@ fn body(text: &str) -> String {
     lines.filter(is_formatted).flat_map(|line| [line, "\n"]).collect()
 }
 
-/// The first line that isn't as `prettyplease` prints it.
+/// Returns the first line that differs from the output of `prettyplease`.
 pub fn canonical(name: &str, text: &str) -> Result<(), String> {
     let text = body(text);
     let parsed = syn::parse_file(&text).map_err(|error| format!("{name}: {error}"))?;

@@ -1,5 +1,5 @@
-//! The resolved values of a catalogue as text, a line for each address. It names no field of the IR, so that the IR may change its
-//! shape while the text stays the same.
+//! Writes the resolved values of a catalog as text, one line per address. The text names no field of the IR, so it stays the
+//! same if the IR changes its structure.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use lexibus_codegen::ir::{
     TypeDef, Value, WindowSide,
 };
 
-/// A text with a line for each element.
+/// Returns a text with a line for each element.
 pub fn text(catalog: &Catalog) -> String {
     let mut out = String::new();
     for device in &catalog.devices {
@@ -30,25 +30,25 @@ fn line(out: &mut String, parts: &[String]) {
 }
 
 fn device(out: &mut String, device: &Device) {
-    let own = &device.identity;
+    let actual = &device.identity;
     let number = |number: Option<u32>| number.map(|number| format!("{number:#X}")).unwrap_or_default();
-    let identity = [own.vendor_id, own.product_code, own.revision_number].map(number).join(" ");
+    let identity = [actual.vendor_id, actual.product_code, actual.revision_number].map(number).join(" ");
     line(
         out,
         &[
             "device".into(),
             device.name.to_string(),
-            own.vendor_name.to_string(),
-            own.product_name.to_string(),
+            actual.vendor_name.to_string(),
+            actual.product_name.to_string(),
             identity,
         ],
     );
     let mut lines: Vec<String> = Vec::new();
     groups(&mut lines, &device.groups, &device.types);
     lines.sort();
-    lines.iter().for_each(|own| line(out, std::slice::from_ref(own)));
+    lines.iter().for_each(|entry| line(out, std::slice::from_ref(entry)));
     process_data(out, &device.process_data, &device.types);
-    device.messages.iter().for_each(|own| message(out, own, &device.types));
+    device.messages.iter().for_each(|entry| message(out, entry, &device.types));
     for table in &device.code_tables {
         for row in table.rows.iter() {
             line(out, &["code".into(), table.name.to_string(), row.code.to_string(), row.name.to_string()]);
@@ -56,28 +56,28 @@ fn device(out: &mut String, device: &Device) {
     }
     for machine in &device.machines {
         for (kind, list) in [("state", &machine.states), ("command", &machine.commands)] {
-            for own in list {
+            for entry in list {
                 line(
                     out,
                     &[
                         kind.into(),
                         machine.name.to_string(),
-                        own.name.to_string(),
-                        format!("{:#X}/{:#X}", own.value, own.mask),
+                        entry.name.to_string(),
+                        format!("{:#X}/{:#X}", entry.value, entry.mask),
                     ],
                 );
             }
         }
-        for own in &machine.transitions {
-            let from = own.from.as_deref().unwrap_or("*");
+        for transition in &machine.transitions {
+            let from = transition.from.as_deref().unwrap_or("*");
             line(
                 out,
                 &[
                     "transition".into(),
                     machine.name.to_string(),
-                    format!("{:?}", own.number),
+                    format!("{:?}", transition.number),
                     from.into(),
-                    own.to.to_string(),
+                    transition.to.to_string(),
                 ],
             );
         }
@@ -91,7 +91,7 @@ fn module(out: &mut String, module: &Module) {
     line(out, &["module".into(), module.name.to_string(), format!("{:?}", module.identity.product_code)]);
     let mut lines = Vec::new();
     groups(&mut lines, &module.groups, &module.types);
-    lines.iter().for_each(|own| line(out, std::slice::from_ref(own)));
+    lines.iter().for_each(|entry| line(out, std::slice::from_ref(entry)));
     process_data(out, &module.process_data, &module.types);
 }
 
@@ -104,14 +104,14 @@ fn submodule(out: &mut String, submodule: &Submodule, types: &[TypeDef]) {
         if let Some(data) = data {
             out.push_str(direction);
             image(out, &data.image, types);
-            for own in &data.items {
+            for item in &data.items {
                 line(
                     out,
                     &[
                         "data".into(),
-                        own.name.to_string(),
-                        own.data_type.to_string(),
-                        format!("{}+{}", own.bit_offset, own.bits),
+                        item.name.to_string(),
+                        item.data_type.to_string(),
+                        format!("{}+{}", item.bit_offset, item.bits),
                     ],
                 );
             }
@@ -119,7 +119,7 @@ fn submodule(out: &mut String, submodule: &Submodule, types: &[TypeDef]) {
     }
     let mut lines = Vec::new();
     groups(&mut lines, &submodule.records, types);
-    lines.iter().for_each(|own| line(out, std::slice::from_ref(own)));
+    lines.iter().for_each(|entry| line(out, std::slice::from_ref(entry)));
 }
 
 fn groups(lines: &mut Vec<String>, groups: &[Group], types: &[TypeDef]) {
@@ -128,24 +128,27 @@ fn groups(lines: &mut Vec<String>, groups: &[Group], types: &[TypeDef]) {
     }
 }
 
-/// The addresses first, so that lines in order are addresses in order.
+/// Returns the parts of a line. The addresses come first, so that sorted lines are sorted by address.
 fn item(item: &Item, types: &[TypeDef]) -> String {
     let addresses: Vec<String> = item.bindings.iter().map(address).collect();
     let mut parts =
         vec![addresses.join(", "), item.name.to_string(), ty(item.ty, types), item.access.name().to_owned()];
     let mapped = [("rpdo", item.mappable.rpdo), ("tpdo", item.mappable.tpdo)];
     parts.extend(mapped.iter().filter(|(_, is)| *is).map(|(name, _)| (*name).to_owned()));
-    parts.extend(item.default.as_ref().map(|own| format!("default {}", value(own))));
+    parts.extend(item.default.as_ref().map(|default_value| format!("default {}", value(default_value))));
     parts.extend(limits(&item.limits));
-    if let Some(own) = &item.quantity {
-        let scale = own.scale.as_ref().map(scale).unwrap_or_default();
-        parts.push(format!("unit {} {scale}", own.unit));
+    if let Some(quantity) = &item.quantity {
+        let scale = quantity.scale.as_ref().map(scale).unwrap_or_default();
+        parts.push(format!("unit {} {scale}", quantity.unit));
     }
     parts.extend(
-        item.configured.as_ref().and_then(|own| own.value.as_ref()).map(|own| format!("configured {}", value(own))),
+        item.configured
+            .as_ref()
+            .and_then(|configured| configured.value.as_ref())
+            .map(|entry| format!("configured {}", value(entry))),
     );
-    if let Some(own) = &item.behaviour {
-        parts.push(match &own.storage {
+    if let Some(behaviour) = &item.behaviour {
+        parts.push(match &behaviour.storage {
             Storage::Unknown => String::new(),
             Storage::Volatile => "volatile".to_owned(),
             Storage::Immediate => "saved at once".to_owned(),
@@ -156,36 +159,36 @@ fn item(item: &Item, types: &[TypeDef]) -> String {
     parts.join(" | ")
 }
 
-fn variant(own: &ItemVariant) -> String {
-    let mut parts = vec![format!("on {} {}", own.models.join(" "), own.buses.to_string().replace(',', ""))];
-    parts.extend(own.ty.map(|ty| ty.to_string()));
-    parts.extend(own.access.map(|access| access.name().to_owned()));
-    parts.extend(own.default.as_ref().map(value));
-    parts.extend(limits(&own.limits));
-    parts.extend(own.scale.as_ref().map(scale));
+fn variant(variant: &ItemVariant) -> String {
+    let mut parts = vec![format!("on {} {}", variant.models.join(" "), variant.buses.to_string().replace(',', ""))];
+    parts.extend(variant.ty.map(|ty| ty.to_string()));
+    parts.extend(variant.access.map(|access| access.name().to_owned()));
+    parts.extend(variant.default.as_ref().map(value));
+    parts.extend(limits(&variant.limits));
+    parts.extend(variant.scale.as_ref().map(scale));
     format!("[{}]", parts.join(", "))
 }
 
-fn scale(own: &Scale) -> String {
-    let text = match own {
+fn scale(scale: &Scale) -> String {
+    let text = match scale {
         Scale::Exponent { exponent, base, fraction } => {
             format!("Exponent {{ exponent: {:?}, base: {base}, fraction: {fraction} }}", exponent.name)
         }
         Scale::ByItem { item, factor } => format!("ByItem {{ item: {:?}, factor: {factor:?} }}", item.name),
         Scale::TimesItem { item, factor } => format!("TimesItem {{ item: {:?}, factor: {factor:?} }}", item.name),
-        _ => format!("{own:?}"),
+        _ => format!("{scale:?}"),
     };
     text.replace(|letter: char| letter.is_alphabetic() || letter == '_', "")
 }
 
-fn limits(own: &Limits) -> Option<String> {
-    let bound = |own: &Option<Value>| own.as_ref().map(value).unwrap_or_default();
-    let (low, high) = (bound(&own.low), bound(&own.high));
+fn limits(limits: &Limits) -> Option<String> {
+    let bound = |entry: &Option<Value>| entry.as_ref().map(value).unwrap_or_default();
+    let (low, high) = (bound(&limits.low), bound(&limits.high));
     (!low.is_empty() || !high.is_empty()).then(|| format!("{low} ... {high}"))
 }
 
-fn value(own: &Value) -> String {
-    match own {
+fn value(value: &Value) -> String {
+    match value {
         Value::Text(text) => format!("{text:?}"),
         Value::Raw(text) => format!("raw {text:?}"),
         Value::Bytes(bytes) => format!("{bytes:02X?}"),
@@ -204,54 +207,55 @@ fn address(binding: &Binding) -> String {
             };
             format!("{bus} {index:04X}:{sub_index:02X}")
         }
-        Binding::Register(own) => register(own),
+        Binding::Register(entry) => register(entry),
         Binding::Record { index, bit_offset, bits } => format!("record {index:05} {bit_offset:05}+{bits}"),
-        Binding::Image(own) => format!("image {} {:05}+{}", own.image, own.bit_offset, own.bits),
+        Binding::Image(image) => format!("image {} {:05}+{}", image.image, image.bit_offset, image.bits),
         Binding::Parameter { space, code } => format!("parameter {space} {code:05}"),
         Binding::Ascii(name) => format!("ascii {name}"),
         Binding::EscMemory { address, length } => format!("memory {address:04X}+{length}"),
-        Binding::Indirect(own) => indirect(own),
+        Binding::Indirect(window) => indirect(window),
     }
 }
 
-fn indirect(own: &IndirectBinding) -> String {
-    let side =
-        |own: &Option<WindowSide>| own.as_ref().map(|own| format!("{} {}", own.number, own.value)).unwrap_or_default();
+fn indirect(binding: &IndirectBinding) -> String {
+    let side = |item: &Option<WindowSide>| {
+        item.as_ref().map(|entry| format!("{} {}", entry.number, entry.value)).unwrap_or_default()
+    };
     format!(
         "indirect {:05} [{}; {}; {}]",
-        own.number,
-        own.buses.to_string().replace(',', ""),
-        side(&own.read),
-        side(&own.write)
+        binding.number,
+        binding.buses.to_string().replace(',', ""),
+        side(&binding.read),
+        side(&binding.write)
     )
 }
 
-fn register(own: &RegisterBinding) -> String {
-    let order = if own.low_word_first { "low" } else { "high" };
-    let swapped = if own.bytes_swapped { " swapped" } else { "" };
-    let bit = own.bit_offset.map(|bit| format!(" bit {bit}")).unwrap_or_default();
-    let wide = if own.words_per_address > 1 { " wide" } else { "" };
-    format!("{:?} {:05}+{} {order}{swapped}{bit}{wide}", own.space, own.address, own.count)
+fn register(register: &RegisterBinding) -> String {
+    let order = if register.low_word_first { "low" } else { "high" };
+    let swapped = if register.bytes_swapped { " swapped" } else { "" };
+    let bit = register.bit_offset.map(|bit| format!(" bit {bit}")).unwrap_or_default();
+    let wide = if register.words_per_address > 1 { " wide" } else { "" };
+    format!("{:?} {:05}+{} {order}{swapped}{bit}{wide}", register.space, register.address, register.count)
 }
 
-fn ty(own: Type, types: &[TypeDef]) -> String {
-    let Type::Named(id) = own else { return own.to_string() };
+fn ty(ty: Type, types: &[TypeDef]) -> String {
+    let Type::Named(id) = ty else { return ty.to_string() };
     let Some(def) = types.get(id.0 as usize) else { return "missing type".to_owned() };
     let mut text = format!("{}{}", def.name, def.bits.map(|bits| format!("/{bits}")).unwrap_or_default());
     match &def.shape {
         Shape::Enumeration { values, .. } => {
-            for own in values.iter() {
-                let _ = write!(text, " {}={}", own.value, own.name);
+            for ty in values.iter() {
+                let _ = write!(text, " {}={}", ty.value, ty.name);
             }
         }
         Shape::BitField { fields, .. } => {
-            for own in fields.iter() {
-                let _ = write!(text, " {}+{}={}", own.offset, own.bits, own.name);
+            for ty in fields.iter() {
+                let _ = write!(text, " {}+{}={}", ty.offset, ty.bits, ty.name);
             }
         }
         Shape::Record(fields) => {
-            for own in fields.iter() {
-                let _ = write!(text, " {}+{}={}:{}", own.bit_offset, own.bits, own.name, own.ty);
+            for ty in fields.iter() {
+                let _ = write!(text, " {}+{}={}:{}", ty.bit_offset, ty.bits, ty.name, ty.ty);
             }
         }
         _ => {}
@@ -259,24 +263,29 @@ fn ty(own: Type, types: &[TypeDef]) -> String {
     text
 }
 
-fn process_data(out: &mut String, own: &ProcessData, types: &[TypeDef]) {
-    for pdo in &own.pdos {
+fn process_data(out: &mut String, data: &ProcessData, types: &[TypeDef]) {
+    for pdo in &data.pdos {
         let direction = if pdo.direction == Direction::Receive { "RPDO" } else { "TPDO" };
         let sync_manager = pdo.sync_manager.map(|number| format!("SM {number}")).unwrap_or_default();
-        let cob_id = pdo.communication.as_ref().and_then(|own| own.cob_id.as_ref()).map(value).unwrap_or_default();
+        let cob_id = pdo
+            .communication
+            .as_ref()
+            .and_then(|communication| communication.cob_id.as_ref())
+            .map(value)
+            .unwrap_or_default();
         line(out, &[format!("{direction} {:04X}", pdo.mapping_index), pdo.name.to_string(), sync_manager, cob_id]);
-        pdo.entries.iter().for_each(|own| entry(out, own, types));
+        pdo.entries.iter().for_each(|item| entry(out, item, types));
     }
-    for own in &own.sync_managers {
-        line(out, &["sync manager".into(), own.number.to_string()]);
+    for manager in &data.sync_managers {
+        line(out, &["sync manager".into(), manager.number.to_string()]);
     }
-    own.images.iter().for_each(|own| image(out, own, types));
+    data.images.iter().for_each(|entry| image(out, entry, types));
 }
 
-fn image(out: &mut String, own: &ProcessImage, types: &[TypeDef]) {
-    let order = if own.big_endian { "big-endian" } else { "little-endian" };
-    line(out, &["image".into(), own.name.to_string(), own.length.to_string(), order.into()]);
-    own.fields.iter().for_each(|own| entry(out, own, types));
+fn image(out: &mut String, image: &ProcessImage, types: &[TypeDef]) {
+    let order = if image.big_endian { "big-endian" } else { "little-endian" };
+    line(out, &["image".into(), image.name.to_string(), image.length.to_string(), order.into()]);
+    image.fields.iter().for_each(|field| entry(out, field, types));
 }
 
 fn entry(out: &mut String, entry: &PdoEntry, types: &[TypeDef]) {
@@ -290,19 +299,19 @@ fn entry(out: &mut String, entry: &PdoEntry, types: &[TypeDef]) {
     line(out, &[place, kind.into(), object, entry.name.to_string(), ty(entry.ty, types)]);
 }
 
-fn message(out: &mut String, own: &Message, types: &[TypeDef]) {
-    for (direction, list) in [("request", &own.request), ("reply", &own.reply)] {
-        line(out, &[direction.into(), own.name.to_string()]);
+fn message(out: &mut String, message: &Message, types: &[TypeDef]) {
+    for (direction, list) in [("request", &message.request), ("reply", &message.reply)] {
+        line(out, &[direction.into(), message.name.to_string()]);
         fields(out, list, types, "  ");
     }
 }
 
 fn fields(out: &mut String, list: &[MessageField], types: &[TypeDef], indent: &str) {
-    for own in list {
-        let text = match own {
+    for entry in list {
+        let text = match entry {
             MessageField::Constant(bytes) => format!("constant {bytes:02X?}"),
             MessageField::FixedBits { bits, value } => format!("fixed {value:#X}/{bits}"),
-            MessageField::Value(own) => format!("value {} {:?}", item(&own.item, types), own.byte_order),
+            MessageField::Value(field) => format!("value {} {:?}", item(&field.item, types), field.byte_order),
             MessageField::Echo { field, bytes } => format!("echo {field} {bytes:?}"),
             MessageField::Copy { first, last } => format!("copy {first}..{last}"),
             MessageField::ItemCode { space, bits } => format!("code of {space} {bits}"),
@@ -313,7 +322,7 @@ fn fields(out: &mut String, list: &[MessageField], types: &[TypeDef], indent: &s
             MessageField::Rest => "rest".to_owned(),
         };
         line(out, &[format!("{indent}{text}")]);
-        if let MessageField::Repeat { fields: inner, .. } = own {
+        if let MessageField::Repeat { fields: inner, .. } = entry {
             fields(out, inner, types, &format!("{indent}  "));
         }
     }

@@ -1,4 +1,4 @@
-//! Alarms, states, bits, bases, and the table of commands and states.
+//! Alarms, states, bits, base values, and the table of commands and states.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,21 +13,21 @@ fn alarms_and_warnings() {
     let device = device(&compilation);
     let pages = [(0, vec![(2129, 2138), (2140, 2152), (2154, 2159)], 23, 8), (1, vec![(2175, 2188)], 12, 3)];
     for (at, pages, count, starred) in pages {
-        let own = &device.code_tables[at];
+        let code_tables = &device.code_tables[at];
         let rows: Vec<_> = pages.iter().flat_map(|(from, to)| manual.rows(*from, *to)).collect();
         let rows: Vec<_> = rows.into_iter().filter(|(_, cells)| cells[0].starts_with("0x")).collect();
-        assert_eq!((rows.len(), own.rows.len()), (count, count));
+        assert_eq!((rows.len(), code_tables.rows.len()), (count, count));
         let mut with_mark = 0;
-        for ((at, cells), row) in rows.iter().zip(&own.rows) {
+        for ((at, cells), row) in rows.iter().zip(&code_tables.rows) {
             assert_eq!(number(&cells[0]), Some(row.code));
-            assert_eq!(line(row.documentation.as_ref().and_then(|own| own.cite.as_deref())), *at);
-            // What `cells` makes of (*) is ().
+            assert_eq!(line(row.documentation.as_ref().and_then(|documentation| documentation.cite.as_deref())), *at);
+            // The cell (*) becomes `()`.
             let raw = manual.line(*at);
             let name = cells[1].replace(['(', ')'], "").replace("1", "").replace("2 INTERP", "2INTERP");
             let name = if row.code == 0x400B { name.replace('2', "") } else { name };
             let is_misspelt = name.trim() == "ALWROGSETP";
             assert!(original(&row.names) == name.trim() || is_misspelt, "{name} {}", original(&row.names));
-            let models = row.availability.as_ref().map_or(&[][..], |own| &own.models);
+            let models = row.availability.as_ref().map_or(&[][..], |availability| &availability.models);
             let is_marked = raw.split('|').nth(2).is_some_and(|cell| cell.replace("**", "").contains('*'));
             with_mark += usize::from(is_marked);
             let expected = match () {
@@ -50,9 +50,9 @@ fn states_homing_states_and_types() {
     let check = |name: &str, from, to, count: usize, code: usize, label: usize| {
         let rows: Vec<_> =
             manual.rows(from, to).into_iter().filter(|(_, cells)| number(&cells[code]).is_some()).collect();
-        let own = values(device, name);
-        assert_eq!((rows.len(), own.len()), (count, count), "{name}");
-        for ((_, cells), value) in rows.iter().zip(own) {
+        let values = values(device, name);
+        assert_eq!((rows.len(), values.len()), (count, count), "{name}");
+        for ((_, cells), value) in rows.iter().zip(values) {
             let is_misspelt = cells[label] == "SARCHINGTACCA";
             assert_eq!(number(&cells[code]), Some(value.value), "{name}");
             assert!(original(&value.names) == cells[label] || is_misspelt || name == "MotorType", "{}", cells[label]);
@@ -62,17 +62,19 @@ fn states_homing_states_and_types() {
     check("HomingState", 2107, 2114, 6, 0, 1);
     check("MotorType", 1213, 1221, 6, 0, 2);
     for (_, cells) in manual.rows(2109, 2114) {
-        let own = values(device, "HomingState").iter().find(|own| number(&cells[0]) == Some(own.value)).expect("it");
+        let value =
+            values(device, "HomingState").iter().find(|value| number(&cells[0]) == Some(value.value)).expect("it");
         let types: Vec<i128> = cells[3].split(" - ").filter_map(number).collect();
-        let when: Vec<i128> = own.when.as_ref().expect("types").values.iter().filter_map(Value::as_int).collect();
-        // Index in types 0 and 2, by the text.
-        assert!(types == when || (own.value == 6 && when == [0, 2]), "{cells:?} {when:?}");
+        let when: Vec<i128> = value.when.as_ref().expect("types").values.iter().filter_map(Value::as_int).collect();
+        // The text restricts the index to types 0 and 2.
+        assert!(types == when || (value.value == 6 && when == [0, 2]), "{cells:?} {when:?}");
     }
     for (_, cells) in manual.rows(1215, 1221).iter().filter(|(_, cells)| !cells[0].is_empty()) {
-        let own = values(device, "MotorType").iter().find(|own| number(&cells[0]) == Some(own.value)).expect("it");
-        assert_eq!(own.name, format!("{} {}", cells[1], cells[2]));
+        let value =
+            values(device, "MotorType").iter().find(|value| number(&cells[0]) == Some(value.value)).expect("it");
+        assert_eq!(value.name, format!("{} {}", cells[1], cells[2]));
     }
-    // The same six states in section 4.9, in another order.
+    // Section 4.9 lists the same six states in another order.
     let section: BTreeSet<_> = manual
         .rows(1005, 1012)
         .into_iter()
@@ -81,8 +83,8 @@ fn states_homing_states_and_types() {
             Some((number(rest.split(')').next()?)?, name.trim().to_owned()))
         })
         .collect();
-    let own = values(device, "HomingState").iter().map(|own| (own.value, original(&own.names).to_owned()));
-    assert_eq!(section, own.collect());
+    let names = values(device, "HomingState").iter().map(|value| (value.value, original(&value.names).to_owned()));
+    assert_eq!(section, names.collect());
 }
 
 #[test]
@@ -90,7 +92,8 @@ fn bits_are_the_printed_ones() {
     let Some(manual) = Manual::read() else { return };
     let compilation = table();
     let device = device(&compilation);
-    let fields = |name: &str| match &device.types.iter().find(|own| own.name == name).expect("bits").shape {
+    let fields = |name: &str| match &device.types.iter().find(|definition| definition.name == name).expect("bits").shape
+    {
         Shape::BitField { fields, .. } => fields,
         other => panic!("{other:?}"),
     };
@@ -98,37 +101,40 @@ fn bits_are_the_printed_ones() {
     let rows: Vec<_> = rows.into_iter().filter(|(_, cells)| number(&cells[0]).is_some()).collect();
     assert_eq!((rows.len(), fields("BitA").len()), (13, 13));
     let items = &chapter(device, "Parameters").items;
-    let default = &items.iter().find(|own| own.name == "BIT_A").expect("the parameter").default;
+    let default = &items.iter().find(|item| item.name == "BIT_A").expect("the parameter").default;
     for (at, cells) in &rows {
-        let own = fields("BitA").iter().find(|own| Some(i128::from(own.offset)) == number(&cells[0])).expect("a bit");
-        let availability = own.availability.as_ref();
-        let (models, since) =
-            (availability.map_or(0, |own| own.models.len()), availability.and_then(|own| own.since.as_deref()));
+        let field =
+            fields("BitA").iter().find(|field| Some(i128::from(field.offset)) == number(&cells[0])).expect("a bit");
+        let availability = field.availability.as_ref();
+        let (models, since) = (
+            availability.map_or(0, |availability| availability.models.len()),
+            availability.and_then(|availability| availability.since.as_deref()),
+        );
         let text = &cells[2];
-        assert_eq!(matches!(own.meaning, BitMeaning::Reserved { .. }), text.starts_with("Riservato."), "L{at}");
+        assert_eq!(matches!(field.meaning, BitMeaning::Reserved { .. }), text.starts_with("Riservato."), "line {at}");
         // The second column is the default.
         let default = default.as_ref().and_then(Value::as_int).expect("a default");
-        assert_eq!(number(&cells[1]), Some(default >> own.offset & 1), "L{at}");
+        assert_eq!(number(&cells[1]), Some(default >> field.offset & 1), "line {at}");
         let only = match () {
             () if text.starts_with("Solo per SM140 e SM137 rev. C") => 2,
             () if text.starts_with("Solo per SM140") => 1,
             () => 0,
         };
-        assert_eq!(models, only, "L{at}");
-        assert_eq!(since, text.contains("ersione 119").then_some("119"), "L{at}");
+        assert_eq!(models, only, "line {at}");
+        assert_eq!(since, text.contains("ersione 119").then_some("119"), "line {at}");
     }
     for (name, from, to, count) in [("BitStato", 2202, 2205, 4), ("InvertedInputs", 2231, 2233, 3)] {
         let rows = manual.rows(from, to);
         assert_eq!((rows.len(), fields(name).len()), (count, count));
         for (_, cells) in rows {
             let bit = number(cells[0].trim_start_matches("Bit "));
-            let own = fields(name).iter().find(|own| Some(i128::from(own.offset)) == bit).expect("a bit");
-            assert!(name != "BitStato" || original(&own.names) == cells[1], "{cells:?}");
+            let field = fields(name).iter().find(|field| Some(i128::from(field.offset)) == bit).expect("a bit");
+            assert!(name != "BitStato" || original(&field.names) == cells[1], "{cells:?}");
         }
     }
 }
 
-/// Levels of the digital inputs: a bit of INVDIN, a voltage, and what the signal is then.
+/// Levels of the digital inputs: a bit of INVDIN, a voltage, and the resulting signal.
 #[test]
 fn levels_of_inputs_are_the_printed_ones() {
     let Some(manual) = Manual::read() else { return };
@@ -136,50 +142,51 @@ fn levels_of_inputs_are_the_printed_ones() {
     let device = device(&compilation);
     let rows = manual.rows(2237, 2240);
     assert_eq!(rows.len(), 4);
-    let definition = device.types.iter().find(|own| own.name == "InvertedInputs").expect("bits");
+    let definition = device.types.iter().find(|definition| definition.name == "InvertedInputs").expect("bits");
     let doc = definition.documentation.as_ref().expect("a text");
     assert!(doc.text.contains("1 inverts the input: 0 V is high and 24 V is low"));
     assert_eq!(doc.cite.as_deref(), Some("2225-2262"));
     for (at, cells) in rows {
         let is_inverted = number(&cells[0]) == Some(1);
-        // 1 V is printed once, and is a doubt.
+        // The manual prints 1 V once, which is a doubt.
         let is_odd = cells[1] == "1";
-        assert_eq!(is_odd, at == 2237, "L{at}");
-        assert!(!is_odd || doubts(device).iter().any(|own| own.contains("an input voltage of 1 is low")));
+        assert_eq!(is_odd, at == 2237, "line {at}");
+        assert!(!is_odd || doubts(device).iter().any(|doubt| doubt.contains("an input voltage of 1 is low")));
         let has_voltage = number(&cells[1]) == Some(24);
-        assert_eq!(cells[2], if has_voltage != is_inverted { "Alto" } else { "Basso" }, "L{at}");
+        assert_eq!(cells[2], if has_voltage != is_inverted { "Alto" } else { "Basso" }, "line {at}");
     }
 }
 
-/// The patterns of interpolation, from the master and from the motor.
+/// Interpolation patterns from the master and from the motor.
 #[test]
 fn patterns_of_interpolation_are_the_printed_ones() {
     let Some(manual) = Manual::read() else { return };
     let compilation = table();
-    let machine = device(&compilation).machines.iter().find(|own| own.name == "interpolation").expect("the machine");
+    let machine =
+        device(&compilation).machines.iter().find(|machine| machine.name == "interpolation").expect("the machine");
     let tables = [(2275, 2283, &machine.commands, 8), (2288, 2298, &machine.states, 10)];
-    for (from, to, own, count) in tables {
+    for (from, to, entry, count) in tables {
         let rows = manual.rows(from, to);
-        // The head names the bits.
+        // The header names the bits.
         let over: Vec<u32> = manual.rows(from - 1, from - 1)[0].1[1..]
             .iter()
             .filter_map(|cell| cell.strip_prefix("Bit ").and_then(|bit| bit.parse().ok()))
             .collect();
-        assert_eq!((rows.len(), own.len()), (count, count), "L{from}");
-        for ((at, cells), own) in rows.iter().zip(own) {
-            assert_eq!(line(own.documentation.as_ref().and_then(|own| own.cite.as_deref())), *at);
+        assert_eq!((rows.len(), entry.len()), (count, count), "line {from}");
+        for ((at, cells), row) in rows.iter().zip(entry) {
+            assert_eq!(line(row.documentation.as_ref().and_then(|documentation| documentation.cite.as_deref())), *at);
             let (mut mask, mut value) = (0, 0);
             for (bit, cell) in over.iter().zip(&cells[1..]) {
                 mask |= u32::from(cell != "x") << bit;
                 value |= u32::from(cell == "1") << bit;
             }
-            // S6 leaves bit 2 open, which is the second S5: a doubt.
+            // In the manual, S6 leaves bit 2 open, like the second S5, which is a doubt.
             if *at == 2296 {
                 assert_eq!((mask, value), (0xF2, 0x82));
                 (mask, value) = (0xF6, 0x86);
             }
-            assert_eq!((own.mask, own.value), (mask, value), "L{at} {}", own.name);
-            assert_eq!(original(&own.names), cells.last().expect("a cell"), "L{at}");
+            assert_eq!((row.mask, row.value), (mask, value), "line {at} {}", row.name);
+            assert_eq!(original(&row.names), cells.last().expect("a cell"), "line {at}");
         }
     }
 }
@@ -194,27 +201,27 @@ fn bases_of_fractions_are_those_of_the_models() {
     assert_eq!(rows.len(), 4);
     for ((_, cells), name) in rows.iter().zip(names) {
         for model in &device.variants {
-            let (_, own) = model.constants.iter().find(|(own, _)| own == name).expect("a constant");
+            let (_, constants) = model.constants.iter().find(|(constant, _)| constant == name).expect("a constant");
             let printed = &cells[if model.name == "SM140" { 2 } else { 1 }];
-            assert_eq!(own.as_real(), printed.parse().ok(), "{} {name}", model.name);
+            assert_eq!(constants.as_real(), printed.parse().ok(), "{} {name}", model.name);
         }
     }
 }
 
-/// The table of commands and states, cell by cell, from both of its halves.
+/// Compares every cell of the table of commands and states, which is printed in two halves.
 #[test]
 fn commands_and_states() {
     let Some(manual) = Manual::read() else { return };
     let compilation = table();
     let device = device(&compilation);
-    let machine = device.machines.iter().find(|own| own.name == "axis").expect("the machine");
+    let machine = device.machines.iter().find(|machine| machine.name == "axis").expect("the machine");
     let states = values(device, "State");
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     let mut starred = BTreeSet::new();
     let mut at = 0;
     for (from, first, count) in [(1990, 0, 7), (2028, 7, 6)] {
         let head = cells(manual.line(from - 1)).expect("the states");
-        for (row, own) in machine.outcomes.iter().enumerate() {
+        for (row, outcome) in machine.outcomes.iter().enumerate() {
             let cells = cells_with_stars(manual.line(from + row));
             if cells[0].ends_with('*') && !cells[0].contains("INTER*")
                 || cells[0].contains("INTERP*")
@@ -224,11 +231,11 @@ fn commands_and_states() {
             }
             for column in 0..count {
                 let name = head[1 + column].split(['(', ' ']).next().unwrap_or_default();
-                let cell = &own.cells[first + column];
+                let cell = &outcome.cells[first + column];
                 let state = states.iter().find(|state| state.name == cell.state).expect("the state");
                 assert_eq!(original(&state.names), name);
                 let (kind, expected) = outcomes(&cells[1 + column], states);
-                assert_eq!(cell.outcomes, expected, "{} {name}", own.name);
+                assert_eq!(cell.outcomes, expected, "{} {name}", outcome.name);
                 *counts.entry(kind).or_default() += 1;
                 at += 1;
             }
@@ -248,7 +255,7 @@ fn cells_with_stars(line: &str) -> Vec<String> {
     line.trim().trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect()
 }
 
-/// What a cell of the manual means, and its kind.
+/// Returns the meaning of a cell of the manual.
 fn outcomes(cell: &str, states: &[EnumValue]) -> (&'static str, Vec<Outcome>) {
     let cell = cell.replace("Effettua l'azzeramento manuale", "");
     let plain: String = cell.chars().filter(|c| !"(0123456789)".contains(*c)).collect();
@@ -259,8 +266,8 @@ fn outcomes(cell: &str, states: &[EnumValue]) -> (&'static str, Vec<Outcome>) {
             chain
                 .split('⇒')
                 .map(|state| {
-                    let own = states.iter().find(|own| original(&own.names) == state.trim());
-                    own.unwrap_or_else(|| panic!("{state}")).name.clone()
+                    let entry = states.iter().find(|entry| original(&entry.names) == state.trim());
+                    entry.unwrap_or_else(|| panic!("{state}")).name.clone()
                 })
                 .collect(),
         ),

@@ -1,29 +1,28 @@
-//! The worked examples of the manual, and the defaults of both sets of parameters against each other.
+//! The worked examples of the manual, and a comparison of the defaults of both parameter sets.
 
 use lexibus_codegen::ir::{CompactString, Device, GivenNumber, Item, MessageField, Scale};
 
 use super::hsd_support::{chapter, device, message, table};
 use super::parameters::of_model;
 
-/// What raw numbers are in physical units, by the facts of the table: the worked examples of the manual that are right, and those
-/// that are right once their misprint is repaired.
+/// Computes the worked examples of the manual with the scales of the table. Examples with a misprint are corrected first.
 #[test]
 fn worked_examples() {
     let compilation = table();
     let device = device(&compilation);
-    let given = |name: &str| device.given.iter().find(|own| own.name == name).expect("a given number");
-    let model = |own: &GivenNumber, name: &str| {
-        own.models.iter().find(|(own, _)| own == name).and_then(|(_, value)| value.as_real())
+    let given = |name: &str| device.given.iter().find(|given| given.name == name).expect("a given number");
+    let model = |given_number: &GivenNumber, name: &str| {
+        given_number.models.iter().find(|(model, _)| model == name).and_then(|(_, value)| value.as_real())
     };
     assert_eq!(model(given("counts per turn"), "SM137 rev. C"), Some(800.0));
     assert_eq!(model(given("counts per turn"), "SM140"), Some(2000.0));
     let (pitch, turn) = (0.32, 800.0);
     let field = |name: &str, is_reply: bool, field: &str| {
-        let own = message(device, name);
-        let fields = if is_reply { &own.reply } else { &own.request };
+        let actual = message(device, name);
+        let fields = if is_reply { &actual.reply } else { &actual.request };
         fields
             .iter()
-            .find_map(|own| match own {
+            .find_map(|entry| match entry {
                 MessageField::Value(value) if value.item.name == field => Some(value.item.clone()),
                 _ => None,
             })
@@ -32,7 +31,8 @@ fn worked_examples() {
     let machine = |item: &Item, raw: f64, turn: f64| {
         physical(device, item, "SM137 rev. C", raw, &[("screw pitch", pitch), ("counts per turn", turn)])
     };
-    // L365 (6780.8465 mm, not L361's 6766.8176), L546 (00 1B 6F 9E, not L550's 01), L498 and L617: truncated, as the rule says.
+    // Sections 3.7 (6780.8465 mm, not the printed 6766.8176), 3.9 (00 1B 6F 9E, not the printed 01), 3.8 and 3.10: truncated,
+    // as the rule states.
     let position = field("CmdMazz", false, "position");
     assert_eq!((6780.8465 / machine(&position, 1.0, turn)) as i64, 0x0102_AB34);
     let target = field("CmdTraj", false, "target");
@@ -41,7 +41,7 @@ fn worked_examples() {
     assert_eq!((-185.0 / machine(&speed, 1.0, turn)) as i16, 0xFDBEu16 as i16);
     let speed = field("CmdTrajVel", false, "speed");
     assert_eq!((150.0 / machine(&speed, 1.0, turn)) as u16, 0x01D4);
-    // L668, L680, L682: positions and speeds that are read.
+    // Section 3.11: positions and speeds that are read.
     let close = |one: f64, other: f64| assert!((one - other).abs() < 6e-5, "{one} {other}");
     close(
         machine(&field("Poll theoretical position", true, "theoretical position"), 163_647_659.0, turn),
@@ -49,21 +49,24 @@ fn worked_examples() {
     );
     close(machine(&field("Poll speeds", true, "theoretical speed"), 0x09C1 as f64, turn), 195.0781);
     close(machine(&field("Poll speeds", true, "real speed"), 0x10AB as f64, turn), 333.3594);
-    // L1427: -185 mm/min as a fraction of 8000 rpm.
+    // Section 5.3: -185 mm/min as a fraction of 8000 rpm.
     let speed = field("CmdJog", false, "speed");
     assert_eq!((-185.0 / machine(&speed, 1.0, turn)) as i16, 0xF6C0u16 as i16);
-    // L732: 90 %; L1185: firmware 103.
+    // Section 4.2: 90 %. Section 4.16: firmware 103.
     assert_eq!(physical(device, &field("CmdSetOverr", false, "override"), "SM140", 0x5A as f64, &[]), 90.0);
     assert_eq!(physical(device, &field("CmdGetVer", true, "version"), "SM140", 0x67 as f64, &[]), 103.0);
-    // L1708: 200 is 48.8 rpm. L1882: 5 A; the 11.313 A printed there give 14482, the base 14481.
-    let items =
-        |title: &str, name: &str| chapter(device, title).items.iter().find(|own| own.name == name).expect("it").clone();
+    // "Passo 1": 200 is 48.8 rpm. "Rappresentazione di un numero in notazione [Q15]": 5 A. The printed 11.313 A give 14482; the
+    // base gives 14481.
+    let items = |title: &str, name: &str| {
+        chapter(device, title).items.iter().find(|item| item.name == name).expect("it").clone()
+    };
     let rpm = physical(device, &items("Parameters", "RESERVED1"), "SM140", 200.0, &[]);
     assert_eq!((rpm * 10.0).trunc() / 10.0, 48.8);
     let amperes = physical(device, &items("Low-level parameters", "KVELLIMAX"), "SM137 rev. C", 1.0, &[]);
     let (truncated, nearest) = ((5.0 / amperes) as i32, (5.0 / amperes).round() as i32);
     assert_eq!((truncated, nearest, (5.0 / 11.313 * 32768.0) as i32), (14_481, 14_482, 14_482));
-    // L1892: 15.5 in two ways. L1917-1929: 0.58, 15 %, and 0.08 / 0.58, which is printed rounded.
+    // "Notazione mantissa-esponente [ME15]": 15.5 in two ways. "Guadagni dei regolatori …": 0.58, 15 %, and 0.08 / 0.58, which
+    // is printed rounded.
     let Some(Scale::Exponent { base: 2, fraction: 15, exponent }) =
         &items("Low-level parameters", "KVELPIMANT").quantity.expect("a scale").scale.clone()
     else {
@@ -76,18 +79,18 @@ fn worked_examples() {
     assert_eq!((15.0 / physical(device, &items("Low-level parameters", "KVELKFF"), "SM140", 1.0, &[])) as i32, 4915);
     let kcor = 0.08 / 0.58 / physical(device, &items("Low-level parameters", "KVELKCOR"), "SM140", 1.0, &[]);
     assert_eq!((kcor as i32, kcor.round() as i32), (4519, 4520));
-    // L1949: 430 mm/s² are 17 whole steps of 78.125 turns/s², 425 mm/s².
+    // "Quantizzazione SM137": 430 mm/s² are 17 whole steps of 78.125 turns/s², which are 425 mm/s².
     assert_eq!((430.0 / pitch / 78.125_f64).trunc() * 78.125 * pitch, 425.0);
-    // L532, L593: the way is at most 67108863 counts from 1000.
+    // Sections 3.9 and 3.10: the distance is at most 67108863 counts from 1000.
     assert_eq!((1000 - 67_108_863, 1000 + 67_108_863), (-67_107_863, 67_109_863));
 }
 
-/// The physical number of a raw one, in the machine's unit where `numbers` gives what it takes.
+/// Returns the physical value of a raw value, in the machine's unit if `numbers` states it.
 fn physical(device: &Device, item: &Item, model: &str, raw: f64, numbers: &[(&str, f64)]) -> f64 {
     let Some(quantity) = item.quantity.as_ref() else { return raw };
     let constant = |name: &str| {
-        let model = device.variants.iter().find(|own| own.name == model).expect("the model");
-        let (_, value) = model.constants.iter().find(|(own, _)| own == name).expect("a constant");
+        let model = device.variants.iter().find(|variant| variant.name == model).expect("the model");
+        let (_, value) = model.constants.iter().find(|(constant, _)| constant == name).expect("a constant");
         value.as_real().expect("a number")
     };
     let physical = match &quantity.scale {
@@ -96,19 +99,19 @@ fn physical(device: &Device, item: &Item, model: &str, raw: f64, numbers: &[(&st
         Some(Scale::Fraction { bits, base }) => raw / f64::from(1u32 << bits) * constant(base),
         other => panic!("{other:?}"),
     };
-    let given = |name: &str| numbers.iter().find(|(own, _)| *own == name).map(|(_, value)| *value);
+    let given = |name: &str| numbers.iter().find(|(number, _)| *number == name).map(|(_, value)| *value);
     let Some(machine) = quantity.machine.as_ref().filter(|_| !numbers.is_empty()) else { return physical };
     let product = |list: &[CompactString]| list.iter().map(|name| given(name).expect("given")).product::<f64>();
     physical * product(&machine.times) / product(&machine.over)
 }
 
-/// The defaults of both sets of parameters say the same of one quantity, within a thousandth, but where a doubt says otherwise.
+/// The defaults of both parameter sets agree within a thousandth, unless a doubt explains the difference.
 #[test]
 fn defaults_of_both_chapters_agree() {
     let compilation = table();
     let device = device(&compilation);
     let value = |title: &str, name: &str, model: &str| {
-        let item = chapter(device, title).items.iter().find(|own| own.name == name).expect("a parameter");
+        let item = chapter(device, title).items.iter().find(|item| item.name == name).expect("a parameter");
         let raw = of_model(item, model)[0].expect("a default") as f64;
         physical_of(device, item, title, model, raw)
     };
@@ -146,15 +149,15 @@ fn defaults_of_both_chapters_agree() {
             }
         }
     }
-    // 19.5 V and the whole of 19.6 V: a doubt of PIMIN_I and PIMAX_I.
+    // 19.5 V, and the integer part of 19.6 V: a doubt of PIMIN_I and PIMAX_I.
     assert_eq!((compared, wrong), (40, vec![("SM140", "KIQDLIMIN"), ("SM140", "KIQDLIMAX")]));
 }
 
-/// A default in physical units, with the exponent that goes with a mantissa.
+/// Returns a default as a physical value, with the exponent that belongs to a mantissa.
 fn physical_of(device: &Device, item: &Item, title: &str, model: &str, raw: f64) -> f64 {
-    match item.quantity.as_ref().and_then(|own| own.scale.as_ref()) {
+    match item.quantity.as_ref().and_then(|quantity| quantity.scale.as_ref()) {
         Some(Scale::Exponent { exponent, base: 2, fraction }) => {
-            let other = chapter(device, title).items.iter().find(|own| own.name == *exponent).expect("the exponent");
+            let other = chapter(device, title).items.iter().find(|item| item.name == *exponent).expect("the exponent");
             let exponent = of_model(other, model)[0].expect("a default") as i32;
             raw / f64::from(1u32 << fraction) * 2f64.powi(exponent)
         }

@@ -1,4 +1,4 @@
-//! Frames, who has a command, when it is carried out.
+//! Frames, availability of commands, and completion of commands.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,7 @@ use lexibus_codegen::ir::{Completion, Message, MessageField};
 use super::hsd_support::frames::{self, Byte, Layout};
 use super::hsd_support::{device, message, number, table, Manual};
 
-/// The message of a section, and how long its parameters are: the manual has some frames for several lengths.
+/// The message of a section, and the lengths of its parameters: the manual prints some frames for several lengths.
 const FRAMES: [(&str, &str, &[usize]); 41] = [
     ("3.2", "CmdReset", &[]),
     ("3.3", "CmdNoReg", &[]),
@@ -52,12 +52,12 @@ const FRAMES: [(&str, &str, &[usize]); 41] = [
     ("", "CmdNACK", &[]),
 ];
 
-/// Lines of frames that the table reads otherwise, each with its doubt.
+/// Lines of frames that the table reads differently, each with its doubt.
 const MISPRINTED: [usize; 5] = [
-    249,  // the status beside the node
-    250,  // and not where it is
-    276,  // the status beside the node, too
-    845,  // PL2 for PL1
+    249,  // the status next to the node
+    250,  // the status is missing here
+    276,  // the status next to the node
+    845,  // PL2 instead of PL1
     1446, // the reply to CmdChgPar is called CmdJog
 ];
 
@@ -72,24 +72,24 @@ fn every_frame_is_there_byte_by_byte() {
     let mut wrong = BTreeSet::new();
     for (frame, (section, name, sizes)) in printed.iter().zip(FRAMES) {
         assert!(section.is_empty() || frame.title == section, "{} is {name}", frame.title);
-        let own = message(device, name);
+        let actual = message(device, name);
         let mut layout = Layout::new(device);
         if !sizes.is_empty() {
             layout.values = sizes.to_vec();
         }
         // Samples 1, 2, … N.
         layout.count = 3;
-        let request = if own.request.is_empty() { Vec::new() } else { layout.request(own) };
-        let (mut request, mut reply) = (request, layout.reply(own));
-        // The frame of CmdGetParN for 32 bits lacks the zero in front of the code.
+        let request = if actual.request.is_empty() { Vec::new() } else { layout.request(actual) };
+        let (mut request, mut reply) = (request, layout.reply(actual));
+        // The 32-bit frame of CmdGetParN lacks the zero before the code.
         if name == "CmdGetParN" && *sizes == [4] {
             assert_eq!((request.remove(4), reply.remove(4)), (Byte::Constant(0), Byte::Constant(0)));
         }
         let rows: Vec<&frames::Row> = frame.rows.iter().filter(|row| row.number != "...").collect();
         let asked = rows.iter().filter(|row| !row.request.is_empty()).map(|row| (row.line, &row.request));
-        let told = rows.iter().filter(|row| !row.reply.is_empty()).map(|row| (row.line, &row.reply));
-        assert_eq!((asked.clone().count(), told.clone().count()), (request.len(), reply.len()), "{name}");
-        for ((line, cell), byte) in asked.zip(&request).chain(told.zip(&reply)) {
+        let answered = rows.iter().filter(|row| !row.reply.is_empty()).map(|row| (row.line, &row.reply));
+        assert_eq!((asked.clone().count(), answered.clone().count()), (request.len(), reply.len()), "{name}");
+        for ((line, cell), byte) in asked.zip(&request).chain(answered.zip(&reply)) {
             let is_copy = cell.starts_with("Byte 0")
                 && matches!(byte, Byte::Of(name, ..) if cell[5..7].parse() == name[5..].parse::<u8>().map(|at| at + 2));
             if !is_copy && !frames::meant(cell).is(byte, framing) {
@@ -119,27 +119,30 @@ fn the_numbers_of_bytes_count_on_but_where_a_doubt_says() {
 fn opcodes_are_the_printed_ones_and_all_different() {
     let compilation = table();
     let device = device(&compilation);
-    let requests: Vec<_> = device.messages.iter().filter(|own| !own.request.is_empty()).collect();
-    let nulls = requests.iter().filter(|own| own.name.starts_with("Poll ")).count();
+    let requests: Vec<_> = device.messages.iter().filter(|message| !message.request.is_empty()).collect();
+    let nulls = requests.iter().filter(|request| request.name.starts_with("Poll ")).count();
     assert_eq!((requests.len() - nulls + 1, nulls, device.messages.len()), (37, 4, 41));
-    let obsolete = requests.iter().filter(|own| own.availability.as_ref().is_some_and(|own| own.replaced_by.is_some()));
+    let obsolete = requests
+        .iter()
+        .filter(|request| request.availability.as_ref().is_some_and(|availability| availability.replaced_by.is_some()));
     assert_eq!(obsolete.count(), 6);
     let mut echoed = (0, 0);
-    for own in requests.iter().filter(|own| !own.name.starts_with("Poll ")) {
-        let reply = Layout::new(device).reply(own);
+    for entry in requests.iter().filter(|request| !request.name.starts_with("Poll ")) {
+        let reply = Layout::new(device).reply(entry);
         let is_echo = reply.len() == 9
-            && !own
+            && !entry
                 .reply
                 .iter()
                 .any(|field| matches!(field, MessageField::Value(value) if value.item.name != "status"));
-        let is_value = reply.len() == 9 && matches!(own.reply.last(), Some(MessageField::Value(_)));
+        let is_value = reply.len() == 9 && matches!(entry.reply.last(), Some(MessageField::Value(_)));
         echoed = (echoed.0 + usize::from(is_echo), echoed.1 + usize::from(is_value));
     }
-    // CmdTrajVel, null, CmdGetDistMicroZero, CmdGetParN and CmdGetSamp are the others.
+    // The others are CmdTrajVel, null, CmdGetDistMicroZero, CmdGetParN and CmdGetSamp.
     assert_eq!(echoed, (26, 6));
 }
 
-/// The notes on who has a command, in the order of the manual: all motors but the SM137 before revision C, or the SM140 alone.
+/// The notes on models that have a command, in the order of the manual: all motors except the SM137 before revision C, or only
+/// the SM140.
 #[test]
 fn who_has_a_command_is_as_its_note_says() {
     let Some(manual) = Manual::read() else { return };
@@ -154,9 +157,9 @@ fn who_has_a_command_is_as_its_note_says() {
         }
     }
     assert_eq!((noted.len(), noted.values().filter(|&&models| models == 1).count()), (16, 1));
-    for own in &device.messages {
-        let models = own.availability.as_ref().map_or(0, |own| own.models.len());
-        assert_eq!(models, noted.get(own.name.as_str()).copied().unwrap_or(0), "{}", own.name);
+    for message in &device.messages {
+        let models = message.availability.as_ref().map_or(0, |availability| availability.models.len());
+        assert_eq!(models, noted.get(message.name.as_str()).copied().unwrap_or(0), "{}", message.name);
     }
 }
 
@@ -166,13 +169,13 @@ fn null_replies_and_what_selects_them() {
     let compilation = table();
     let device = device(&compilation);
     let printed: Vec<String> = manual.rows(657, 660).into_iter().map(|(_, cells)| cells[0].clone()).collect();
-    let polls: Vec<_> = device.messages.iter().filter(|own| own.name.starts_with("Poll ")).collect();
-    let selected: Vec<&str> = polls.iter().map(|own| own.after.as_ref().expect("a selection").as_str()).collect();
+    let polls: Vec<_> = device.messages.iter().filter(|message| message.name.starts_with("Poll ")).collect();
+    let selected: Vec<&str> = polls.iter().map(|poll| poll.after.as_ref().expect("a selection").as_str()).collect();
     assert_eq!(selected, printed);
-    let defaults: Vec<bool> = polls.iter().map(|own| own.by_default).collect();
+    let defaults: Vec<bool> = polls.iter().map(|poll| poll.by_default).collect();
     assert_eq!(defaults, [true, false, false, false]);
     let layout = Layout::new(device);
-    let same = |own: &&Message| layout.request(own) == layout.request(polls[0]) && own.error.is_none();
+    let same = |message: &&Message| layout.request(message) == layout.request(polls[0]) && message.error.is_none();
     assert!(polls.iter().all(same));
 }
 
@@ -181,14 +184,14 @@ fn completion_is_at_once_polled_or_late() {
     let compilation = table();
     let device = device(&compilation);
     let by = |is: &dyn Fn(&Completion) -> bool| {
-        let own = device.messages.iter().filter(|own| is(&own.completion));
-        own.map(|own| own.name.as_str()).collect::<Vec<_>>()
+        let messages = device.messages.iter().filter(|message| is(&message.completion));
+        messages.map(|entry| entry.name.as_str()).collect::<Vec<_>>()
     };
-    let polled = |certain: bool| move |own: &Completion| matches!(own, Completion::Polled { in_reply, .. } if *in_reply == certain);
+    let polled = |certain: bool| move |completion: &Completion| matches!(completion, Completion::Polled { in_reply, .. } if *in_reply == certain);
     assert_eq!(by(&polled(true)), ["CmdReg", "CmdHold", "CmdAzz", "CmdTraj", "CmdTrajVel"]);
     assert_eq!(by(&polled(false)), ["CmdAzzEl"]);
     let late = ["CmdSaveParFl", "CmdAdcOff", "CmdRegWait", "CmdHoldWait", "CmdAzzElWait"];
-    assert_eq!(by(&|own| *own == Completion::Reply), late);
+    assert_eq!(by(&|completion| *completion == Completion::Reply), late);
     let times = ["CmdRegWait", "CmdAzzElWait"].map(|name| message(device, name).reply_time);
     assert_eq!(times, [Some(100), Some(100)]);
 }
@@ -201,7 +204,7 @@ fn framing_is_that_of_chapter_2() {
     let rows = manual.rows(160, 162);
     assert_eq!(rows.len(), 3);
     for ((_, cells), escaped) in rows.iter().zip(&framing.escaped) {
-        let byte = |cell: &str| cell.split('(').nth(1).and_then(|own| number(own.trim_end_matches(')')));
+        let byte = |cell: &str| cell.split('(').nth(1).and_then(|entry| number(entry.trim_end_matches(')')));
         assert_eq!(byte(&cells[1]), Some(i128::from(*escaped)));
         assert_eq!(byte(&cells[3]), framing.escape.map(i128::from));
         assert_eq!(byte(&cells[4]), Some(i128::from(escaped ^ framing.escape_xor)));
@@ -212,7 +215,7 @@ fn framing_is_that_of_chapter_2() {
     assert!(manual.line(185).contains("68") && framing.max_data == Some(68));
 }
 
-/// The frames that the notes on the manual compute, in their order: message, values by field, bytes on the wire.
+/// Frames computed in the notes on the manual, in order: message, values by field, bytes on the wire.
 #[test]
 fn frames_on_the_wire() {
     let compilation = table();
@@ -220,10 +223,10 @@ fn frames_on_the_wire() {
     let framing = device.framing.as_ref().expect("a framing");
     type Given<'a> = &'a [(&'a str, u32)];
     let wire = |name: &str, is_reply: bool, given: Given<'_>| {
-        let (layout, own) = (Layout::new(device), message(device, name));
-        let frame = if is_reply { layout.reply(own) } else { layout.request(own) };
+        let (layout, actual) = (Layout::new(device), message(device, name));
+        let frame = if is_reply { layout.reply(actual) } else { layout.request(actual) };
         let value = |field: &str, at: usize| {
-            let (_, value) = given.iter().find(|(own, _)| *own == field).unwrap_or_else(|| panic!("{field}"));
+            let (_, value) = given.iter().find(|(given, _)| *given == field).unwrap_or_else(|| panic!("{field}"));
             value.to_le_bytes()[at]
         };
         let bytes = frames::wire(framing, &frame, &value);
@@ -239,7 +242,7 @@ fn frames_on_the_wire() {
     assert_eq!(wire("Poll position", false, &[("node", 1)]), "02 01 08 00 F6 03");
     let real = [("node", 1), ("status", 2), ("real position", 0x09C1_10AB)];
     assert_eq!(wire("Poll position", true, &real), "02 01 1B FD 10 AB 09 C1 8F 03");
-    // Bytes 3 to 5 of the data of the jog above come back.
+    // The reply returns bytes 3 to 5 of the jog data above.
     let nack = [("node", 1), ("status", 2), ("byte 3", 0x00), ("byte 4", 0xFD), ("byte 5", 0xBE)];
     assert_eq!(wire("CmdNACK", true, &nack), "02 01 1B FD B0 00 FD BE 0F 03");
 }

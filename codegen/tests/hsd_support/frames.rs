@@ -1,4 +1,4 @@
-//! Frames: byte by byte as the manual prints them, and as the table's fields make them.
+//! Frames byte by byte, as the manual prints them and as the table defines them.
 
 use lexibus_codegen::ir::{Device, Framing, Item, Message, MessageField, MessageValue, Type};
 
@@ -8,14 +8,14 @@ use super::{cells, Manual};
 #[derive(Clone, Debug, PartialEq)]
 pub enum Byte {
     Constant(u8),
-    /// A half byte 0 and the status bits.
+    /// A zero half byte and the status bits.
     Status,
-    /// A byte of a value, the least significant numbered 0, and how many the value has.
+    /// A byte of a value, where 0 is the least significant, and the number of bytes of the value.
     Of(String, usize, usize),
     Check,
 }
 
-/// A frame as the manual prints it: the number of its line, and of each byte its number and its cell.
+/// A printed frame: its line number, and the number and cell of each byte.
 pub struct Frame {
     pub title: String,
     pub rows: Vec<Row>,
@@ -24,27 +24,27 @@ pub struct Frame {
 pub struct Row {
     pub line: usize,
     pub number: String,
-    /// Empty where the request, or the reply, is shorter.
+    /// Empty if the request or reply is shorter.
     pub request: String,
     pub reply: String,
 }
 
-/// The tables of frames. A status that stands in a cell of its own is joined to the byte in front of it.
+/// Returns the printed frames. A status in a separate cell is joined to the byte before it.
 pub fn printed(manual: &Manual) -> Vec<Frame> {
     let (mut frames, mut title) = (Vec::new(), String::new());
     let mut line = 1;
     while line <= manual.len() {
         let text = manual.line(line);
-        if let Some(own) = heading(text) {
-            title = own.to_owned();
+        if let Some(entry) = heading(text) {
+            title = entry.to_owned();
         }
         let head = cells(text).filter(|head| head[0] == "Byte" && head.iter().any(|cell| cell == "Risposta"));
         line += 1;
         let Some(head) = head else { continue };
         let mut rows = Vec::new();
-        while let Some(own) = cells(manual.line(line)).or_else(|| manual.line(line).starts_with('|').then(Vec::new)) {
-            if !own.is_empty() {
-                rows.push(row(line, &own, head[1] == "Risposta"));
+        while let Some(cell) = cells(manual.line(line)).or_else(|| manual.line(line).starts_with('|').then(Vec::new)) {
+            if !cell.is_empty() {
+                rows.push(row(line, &cell, head[1] == "Risposta"));
             }
             line += 1;
         }
@@ -53,7 +53,7 @@ pub fn printed(manual: &Manual) -> Vec<Frame> {
     frames
 }
 
-/// `3.2 Uscita dallo stato di allarme`: the number of a section.
+/// Parses a section heading such as `3.2 Uscita dallo stato di allarme`.
 fn heading(text: &str) -> Option<&str> {
     let number = text.split(' ').next()?;
     let is_section = number.split('.').count() == 2 && number.split('.').all(|part| part.parse::<u8>().is_ok());
@@ -67,9 +67,9 @@ fn row(line: usize, cells: &[String], is_reply_only: bool) -> Row {
     Row { line, number: cells[0].clone(), request, reply: reply.trim().to_owned() }
 }
 
-/// What a cell says of its byte, in the same terms: `None` where a value is told in words.
+/// Returns the printed byte of a cell in the terms of the table; `None` if the cell describes a value in words.
 pub fn meant(cell: &str) -> Printed {
-    // The subscripts stand apart: `PL ₂`.
+    // Subscripts are separate: `PL ₂`.
     let cell = ['₀', '₁', '₂', '₃']
         .iter()
         .fold(cell.trim().to_owned(), |cell, at| cell.replace(&format!(" {at}"), &at.to_string()));
@@ -92,8 +92,8 @@ pub fn meant(cell: &str) -> Printed {
         "Nodo" => return Printed::Part(0, 1),
         _ => {}
     }
-    // A letter with a number of the byte, be it in brackets behind words, or H and L.
-    let short = cell.rsplit_once('(').map_or(cell.as_str(), |(_, own)| own.trim_end_matches(')'));
+    // A letter with the number of the byte, possibly in brackets after words, or H and L.
+    let short = cell.rsplit_once('(').map_or(cell.as_str(), |(_, entry)| entry.trim_end_matches(')'));
     let last = short.chars().last().map(|c| match c {
         '₀' | '0' => 0,
         '₁' | '1' => 1,
@@ -113,41 +113,41 @@ pub fn meant(cell: &str) -> Printed {
     }
 }
 
-/// What a cell says.
+/// Printed byte of a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Printed {
     Constant(u8),
     Status,
     Check,
-    /// ETX, without its code.
+    /// ETX without its code.
     End,
     /// A byte of a value of 16 or 32 bits.
     Byte(usize),
-    /// A byte of a value, and how many it has.
+    /// A byte of a value, and the number of bytes.
     Part(usize, usize),
     Words(String),
 }
 
 impl Printed {
-    /// Whether the byte of the table is what is printed.
+    /// Whether the byte of the table matches the printed one.
     pub fn is(&self, byte: &Byte, framing: &Framing) -> bool {
         match (self, byte) {
-            (Printed::Constant(own), Byte::Constant(byte)) => own == byte,
+            (Printed::Constant(constant), Byte::Constant(byte)) => constant == byte,
             (Printed::End, Byte::Constant(byte)) => Some(*byte) == framing.end,
             (Printed::Status, Byte::Status) | (Printed::Check, Byte::Check) => true,
-            (Printed::Byte(own), Byte::Of(_, byte, _)) => own == byte,
-            (Printed::Part(own, size), Byte::Of(_, byte, of)) => (own, size) == (byte, of),
+            (Printed::Byte(entry), Byte::Of(_, byte, _)) => entry == byte,
+            (Printed::Part(part, size), Byte::Of(_, byte, of)) => (part, size) == (byte, of),
             _ => false,
         }
     }
 }
 
-/// The bytes of frames, from start to end.
+/// Layout of frames from start to end.
 pub struct Layout<'d> {
     pub device: &'d Device,
-    /// How many bytes the values of parameters have, in order; the last holds for all that follow.
+    /// Lengths of the parameter values, in order. The last one applies to all that follow.
     pub values: Vec<usize>,
-    /// How often fields with a count occur.
+    /// Number of repetitions of fields with a count.
     pub count: usize,
 }
 
@@ -172,7 +172,7 @@ impl<'d> Layout<'d> {
         frame
     }
 
-    /// The data of a request, or of a reply to `request`.
+    /// Returns the data of a request, or of a reply to `request`.
     fn data(&self, fields: &[MessageField], request: &[Byte]) -> Vec<Byte> {
         let mut data = Vec::new();
         let mut values = self.values.iter().copied();
@@ -194,10 +194,11 @@ impl<'d> Layout<'d> {
                 MessageField::Value(value) if self.bits(&value.item) == 4 => data.push(Byte::Status),
                 MessageField::Value(value) => data.extend(self.value(value)),
                 MessageField::Echo { field, bytes } => {
-                    let own: Vec<&Byte> =
+                    let actual: Vec<&Byte> =
                         request.iter().filter(|byte| matches!(byte, Byte::Of(name, ..) if name == field)).collect();
-                    let (first, last) = bytes.map_or((0, own.len() - 1), |(first, last)| (first.into(), last.into()));
-                    data.extend(own[first..=last].iter().copied().cloned());
+                    let (first, last) =
+                        bytes.map_or((0, actual.len() - 1), |(first, last)| (first.into(), last.into()));
+                    data.extend(actual[first..=last].iter().copied().cloned());
                 }
                 MessageField::Copy { first, last } if request.is_empty() => {
                     data.extend((*first..=*last).map(|at| Byte::Of(format!("byte {at}"), 0, 1)));
@@ -210,8 +211,9 @@ impl<'d> Layout<'d> {
                 }
                 MessageField::ItemValue { space } => {
                     let size = values.next().unwrap_or(2);
-                    let own = self.device.parameter_spaces.iter().find(|own| own.name == *space).expect("the space");
-                    data.extend(ordered("value", size, &own.byte_order));
+                    let entry =
+                        self.device.parameter_spaces.iter().find(|entry| entry.name == *space).expect("the space");
+                    data.extend(ordered("value", size, &entry.byte_order));
                 }
                 MessageField::ItemPadding { .. } => {
                     data.extend(vec![Byte::Constant(0); values.next().unwrap_or(2)]);
@@ -238,13 +240,13 @@ impl<'d> Layout<'d> {
     }
 }
 
-/// The bytes of a value on the wire.
+/// Returns the bytes of a value on the wire.
 fn ordered(name: &str, size: usize, order: &[u8]) -> Vec<Byte> {
     let byte = |at: usize| if order.len() == size { usize::from(order[at]) } else { at };
     (0..size).map(|at| Byte::Of(name.to_owned(), size - 1 - byte(at), size)).collect()
 }
 
-/// A frame on the wire, with the bytes of values as given, by the facts of the framing.
+/// Returns a frame on the wire, with these value bytes, according to the framing.
 pub fn wire(framing: &Framing, frame: &[Byte], value: &dyn Fn(&str, usize) -> u8) -> Vec<u8> {
     let data: Vec<u8> = frame[1..frame.len() - 2]
         .iter()

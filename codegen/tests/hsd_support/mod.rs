@@ -1,6 +1,6 @@
-//! The table of the HSD motors and the text of its manual, for the tests that hold one against the other.
+//! Helpers that compare the table of the HSD motors with the text of its manual.
 
-#![allow(dead_code)] // each test uses its part
+#![allow(dead_code)] // each test uses a part
 
 pub mod frames;
 #[path = "../table_support/manual.rs"]
@@ -17,7 +17,7 @@ pub fn table() -> Compilation {
     compile::check(Source::read(&path).expect("the table"), &Options::default())
 }
 
-/// The lines of the manual, the first with number 1.
+/// Lines of the manual, starting with number 1.
 pub struct Manual(Vec<String>);
 
 impl Manual {
@@ -34,24 +34,24 @@ impl Manual {
         self.0.len()
     }
 
-    /// The lines from one to another with their numbers.
+    /// Returns the lines of a range with their numbers.
     pub fn lines(&self, from: usize, to: usize) -> impl Iterator<Item = (usize, &str)> {
         (from..=to).map(|number| (number, self.line(number)))
     }
 
-    /// The rows of the tables in these lines: number and cells, without heads and rulers.
+    /// Returns the table rows of a range: line number and cells, without headers and rulers.
     pub fn rows(&self, from: usize, to: usize) -> Vec<(usize, Vec<String>)> {
         self.lines(from, to).filter_map(|(number, line)| Some((number, cells(line)?))).collect()
     }
 }
 
-/// A cell without its markup.
+/// Returns a cell without its markup.
 fn plain(cell: &str) -> String {
     let marks = ["*", "`", "<code>", "</code>", "<p>", "</p>"];
     marks.iter().fold(cell.to_owned(), |cell, mark| cell.replace(mark, "")).trim().to_owned()
 }
 
-/// The cells of a row of a table; `None` for a ruler and for what is no row.
+/// Returns the cells of a table row; `None` for a ruler or another line.
 pub fn cells(line: &str) -> Option<Vec<String>> {
     let inner = line.trim().strip_prefix('|')?.strip_suffix('|')?;
     let cells: Vec<String> = inner.split('|').map(plain).collect();
@@ -64,43 +64,43 @@ pub fn device(compilation: &Compilation) -> &Device {
 }
 
 pub fn chapter<'d>(device: &'d Device, title: &str) -> &'d Group {
-    let own = |group: &&Group| group.kind == GroupKind::Chapter && group.name == title;
-    device.groups.iter().find(own).expect("the chapter")
+    let is_titled = |group: &&Group| group.kind == GroupKind::Chapter && group.name == title;
+    device.groups.iter().find(is_titled).expect("the chapter")
 }
 
 pub fn message<'d>(device: &'d Device, name: &str) -> &'d Message {
-    device.messages.iter().find(|own| own.name == name).unwrap_or_else(|| panic!("no message {name}"))
+    device.messages.iter().find(|message| message.name == name).unwrap_or_else(|| panic!("no message {name}"))
 }
 
-/// The number of a parameter.
+/// Returns the number of a parameter.
 pub fn code(item: &Item) -> u32 {
-    let own = |binding: &Binding| match binding {
+    let number = |binding: &Binding| match binding {
         Binding::Parameter { code, .. } => Some(*code),
         _ => None,
     };
-    item.bindings.iter().find_map(own).expect("a parameter")
+    item.bindings.iter().find_map(number).expect("a parameter")
 }
 
-/// The line of a row: the first of those that are cited.
+/// Returns the line of a row: the first cited one.
 pub fn line(cite: Option<&str>) -> usize {
     let first = cite.and_then(|cite| cite.split([',', '-']).next());
     first.and_then(|line| line.trim().parse().ok()).expect("a line")
 }
 
 pub fn values<'d>(device: &'d Device, name: &str) -> &'d [EnumValue] {
-    let definition = device.types.iter().find(|own| own.name == name).expect("a type");
+    let definition = device.types.iter().find(|definition| definition.name == name).expect("a type");
     match &definition.shape {
         Shape::Enumeration { values, .. } => values,
-        _ => panic!("{name} is no enumeration"),
+        _ => panic!("{name} is not an enumeration"),
     }
 }
 
-/// The name in the manual's language.
+/// Returns the name in the language of the manual.
 pub fn original(names: &lexibus_codegen::ir::Texts) -> &str {
-    names.first().map(|own| own.text.as_str()).unwrap_or_default()
+    names.first().map(|name| name.text.as_str()).unwrap_or_default()
 }
 
-/// The number that a cell begins with.
+/// Returns the number at the start of a cell.
 pub fn number(cell: &str) -> Option<i128> {
     let cell = cell.trim();
     match cell.strip_prefix("0x") {
@@ -109,7 +109,7 @@ pub fn number(cell: &str) -> Option<i128> {
     }
 }
 
-/// All doubts of the table.
+/// Returns all doubts of the table.
 pub fn doubts(device: &Device) -> Vec<String> {
     let mut all: Vec<&lexibus_codegen::ir::Doubt> = device.doubts.iter().collect();
     let items = device.groups.iter().flat_map(|group| &group.items);
@@ -119,7 +119,7 @@ pub fn doubts(device: &Device) -> Vec<String> {
     all.iter().map(|doubt| format!("{} // {} // {}", doubt.says, doubt.chosen, doubt.why)).collect()
 }
 
-/// The integer below a type.
+/// Returns the integer type below a type.
 pub fn underlying(device: &Device, ty: lexibus_codegen::ir::Type) -> lexibus_codegen::ir::Type {
     let lexibus_codegen::ir::Type::Named(id) = ty else { return ty };
     match &device.types[id.0 as usize].shape {

@@ -1,4 +1,4 @@
-//! What a user of the new format gets.
+//! Tests the new format as a user of the crate.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::diagnostics::Levels;

@@ -1,4 +1,4 @@
-//! The types of generated code that are packed and unpacked, found by the lines of its text.
+//! Finds the types of generated code that are packed and unpacked, from the lines of the text.
 
 use std::collections::HashMap;
 
@@ -7,10 +7,10 @@ use crate::messages::{bare, Messages};
 use crate::views::{self, Views};
 use lexibus_codegen::ir::Catalog;
 
-/// What a type is.
+/// TypeKind of a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    /// A PDO, or a process image: `pack` and `unpack`.
+enum TypeKind {
+    /// A PDO or a process image: `pack` and `unpack`.
     ProcessData,
     /// A parameter record: `encode` and `decode`.
     Record,
@@ -18,14 +18,14 @@ enum Kind {
     Message,
 }
 
-/// A type: the modules that it is in, below the bindings, and its name.
+/// A type: its modules, below the bindings, and its name.
 struct Found<'t> {
     modules: Vec<&'t str>,
     name: &'t str,
-    kind: Kind,
+    kind: TypeKind,
 }
 
-/// How many types of each kind there are.
+/// Number of types of each kind.
 #[derive(Debug, Default)]
 pub struct Counts {
     pub process_data: usize,
@@ -37,11 +37,12 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Counts what was found in `text`, which has to be as much as has the functions that it is found by.
+    /// Counts the types in `text`, and compares the counts with the functions in the text.
     fn of(found: &[Found<'_>], text: &str, name: &str) -> Self {
-        let of = |kind: Kind| found.iter().filter(|one| one.kind == kind).count();
+        let of = |kind: TypeKind| found.iter().filter(|one| one.kind == kind).count();
         let lines = |part: &str| text.lines().filter(|line| line.contains(part)).count();
-        let (process_data, records, messages) = (of(Kind::ProcessData), of(Kind::Record), of(Kind::Message));
+        let (process_data, records, messages) =
+            (of(TypeKind::ProcessData), of(TypeKind::Record), of(TypeKind::Message));
         assert_eq!(process_data, lines("fn pack(&self) -> ["), "{name}");
         assert_eq!(records, lines("fn encode(&self) -> Result<["), "{name}");
         assert_eq!(messages, lines("rt::message::Request<'a> for "), "{name}");
@@ -57,7 +58,7 @@ impl Counts {
     }
 }
 
-/// The text without modules that no layout needs: handles would take most of the time.
+/// Returns the text without modules that have no layout. Handles would take most of the time.
 pub fn needed(text: &str) -> String {
     let not_needed = ["objects", "mappable", "remappable", "codes", "procedures", "models"];
     let (mut out, mut keep) = (String::new(), true);
@@ -73,28 +74,29 @@ pub fn needed(text: &str) -> String {
     out
 }
 
-/// The statements that check every type of the bindings of `catalog`, which are in the module `MODULE`.
+/// Returns the statements that check every type of the bindings of `catalog`, which are in the module `MODULE`.
 pub fn checks(name: &str, text: &str, catalog: &Catalog) -> (Vec<String>, Counts) {
     let (found, structs, messages, views) = (all(text), structs(text), Messages::new(text), Views::new(text));
     let mut counts = Counts::of(&found, text, name);
     let expected = layouts::all(catalog);
-    let with_layout = found.iter().filter(|one| one.kind != Kind::Message).count();
+    let with_layout = found.iter().filter(|one| one.kind != TypeKind::Message).count();
     assert_eq!(with_layout, expected.len(), "{name}: types, and layouts");
     let mut expected = expected.iter();
     let check = |one: &Found<'_>| {
         let path = one.path();
         let title = format!("{name}: {path}");
-        if one.kind == Kind::Message {
-            let own = messages.title(one.name);
-            let has_node = layouts::has_node(catalog, own).unwrap_or_else(|| panic!("{title}: no message is {own:?}"));
+        if one.kind == TypeKind::Message {
+            let name = messages.title(one.name);
+            let has_node =
+                layouts::has_node(catalog, name).unwrap_or_else(|| panic!("{title}: no message is {name:?}"));
             return messages.call(&title, one.name, &format!("MODULE::{path}"), has_node);
         }
         let layout = expected.next().expect("as many layouts");
         let fields = structs.get(&path).map(Vec::as_slice).unwrap_or_default();
-        assert_eq!(one.kind == Kind::Record, layout.is_record, "{title}");
+        assert_eq!(one.kind == TypeKind::Record, layout.is_record, "{title}");
         assert_eq!(fields.len(), layout.fields(), "{title}: {fields:?}");
         counts.fields += fields.len();
-        let view = views.check(&one.modules, one.name, fields).filter(|_| one.kind == Kind::ProcessData);
+        let view = views.check(&one.modules, one.name, fields).filter(|_| one.kind == TypeKind::ProcessData);
         counts.views += usize::from(view.is_some());
         one.check(&title, layout, fields) + &view.unwrap_or_default()
     };
@@ -108,10 +110,10 @@ impl Found<'_> {
         self.modules.iter().chain([&self.name]).copied().collect::<Vec<_>>().join("::")
     }
 
-    /// The statement that checks process data or a record.
+    /// Returns the statement that checks process data or a record.
     fn check(&self, title: &str, layout: &Layout, fields: &[(&str, &str)]) -> String {
         let name = format!("MODULE::{}", self.path());
-        let arm = |(at, (field, ty)): (usize, &(&str, &str))| format!("{at} => own.{field} = {}, ", self.value(ty));
+        let arm = |(at, (field, ty)): (usize, &(&str, &str))| format!("{at} => value.{field} = {}, ", self.value(ty));
         let arms: String = fields.iter().enumerate().map(arm).collect();
         let number = layout.number.map(|(constant, number)| match (constant, layout.is_record) {
             ("INDEX", false) => format!("assert_eq!(<{name} as lexibus::Pdo>::INDEX, {number}, {title:?}); "),
@@ -119,13 +121,13 @@ impl Found<'_> {
         });
         let kind = if layout.is_record { "record" } else { "process_data" };
         format!(
-            "{}let layout = &{}; {kind}!({name}, layout, |own, at, raw| match at {{ {arms}_ => {{}} }}); ",
+            "{}let layout = &{}; {kind}!({name}, layout, |value, at, raw| match at {{ {arms}_ => {{}} }}); ",
             number.unwrap_or_default(),
             layout.literal(title),
         )
     }
 
-    /// A value of a field of type `ty`, of the bits of the number `raw`.
+    /// Returns an expression for a field of type `ty` with the bits of `raw`.
     fn value(&self, ty: &str) -> String {
         match ty {
             "bool" => "raw & 1 != 0".to_owned(),
@@ -134,23 +136,23 @@ impl Found<'_> {
             "f64" => "f64::from_bits(raw)".to_owned(),
             _ if ty.starts_with("[u8; ") => "bytes(raw)".to_owned(),
             _ => match (ty.strip_prefix("rt::"), ty.strip_prefix("super::")) {
-                (Some(own), _) => format!("lexibus::{}::from_raw(raw)", bare(own)),
-                (None, Some(own)) => {
+                (Some(name), _) => format!("lexibus::{}::from_raw(raw)", bare(name)),
+                (None, Some(name)) => {
                     let outer = &self.modules[..self.modules.len() - 1];
-                    let path = ["MODULE"].iter().chain(outer).chain([&own]).copied().collect::<Vec<_>>().join("::");
-                    match own.starts_with("pdo::") {
+                    let path = ["MODULE"].iter().chain(outer).chain([&name]).copied().collect::<Vec<_>>().join("::");
+                    match name.starts_with("pdo::") {
                         true => format!("{path}::unpack(&filled(raw, {path}::LEN)).expect(\"a PDO\")"),
                         false => format!("{path}::from_raw(raw as _)"),
                     }
                 }
-                // The enumerations of PROFINET are those of the whole file.
+                // The enumerations of PROFINET are shared by the whole file.
                 (None, None) => format!("MODULE::{ty}::from_raw(raw as _)"),
             },
         }
     }
 }
 
-/// Every type of `text` that is packed and unpacked.
+/// Returns every type of `text` that is packed and unpacked.
 fn all(text: &str) -> Vec<Found<'_>> {
     let (mut found, mut owner) = (Vec::new(), "");
     each_line(text, |modules, code| {
@@ -158,9 +160,9 @@ fn all(text: &str) -> Vec<Found<'_>> {
             owner = name;
         }
         let (name, kind) = match code.strip_prefix("impl<'a> rt::message::Request<'a> for ") {
-            Some(message) => (bare(message), Kind::Message),
-            None if code.contains("fn pack(&self) -> [") => (owner, Kind::ProcessData),
-            None if code.contains("fn encode(&self) -> Result<[") => (owner, Kind::Record),
+            Some(message) => (bare(message), TypeKind::Message),
+            None if code.contains("fn pack(&self) -> [") => (owner, TypeKind::ProcessData),
+            None if code.contains("fn encode(&self) -> Result<[") => (owner, TypeKind::Record),
             None => return,
         };
         found.push(Found { modules: modules.to_vec(), name, kind });
@@ -168,16 +170,16 @@ fn all(text: &str) -> Vec<Found<'_>> {
     found
 }
 
-/// The names and types of the fields of all structs, by their paths.
+/// Returns the names and types of the fields of all structs, by path.
 fn structs(text: &str) -> HashMap<String, Vec<(&str, &str)>> {
-    let (mut structs, mut own): (HashMap<String, Vec<_>>, _) = (HashMap::new(), None);
+    let (mut structs, mut current): (HashMap<String, Vec<_>>, _) = (HashMap::new(), None);
     each_line(text, |modules, code| {
         if let Some(name) = code.strip_prefix("pub struct ") {
             let path = modules.iter().copied().chain([bare(name)]).collect::<Vec<_>>().join("::");
-            own = code.ends_with('{').then_some(path);
+            current = code.ends_with('{').then_some(path);
         } else if code == "}" {
-            own = None;
-        } else if let (Some(path), Some(field)) = (&own, code.strip_prefix("pub ")) {
+            current = None;
+        } else if let (Some(path), Some(field)) = (&current, code.strip_prefix("pub ")) {
             let field = field.strip_suffix(',').and_then(|field| field.split_once(": "));
             structs.entry(path.clone()).or_default().push(field.expect("a field on one line"));
         }
@@ -185,13 +187,13 @@ fn structs(text: &str) -> HashMap<String, Vec<(&str, &str)>> {
     structs
 }
 
-/// Hands each line to `look`, with the modules that it is in. The text is canonical: a step of four spaces is a level.
+/// Passes each line to `look`, with its modules. The text is canonical: each level is indented by four spaces.
 pub fn each_line<'t>(text: &'t str, mut look: impl FnMut(&[&'t str], &'t str)) {
     let (mut modules, mut levels): (Vec<&str>, Vec<usize>) = (Vec::new(), Vec::new());
     for line in text.lines() {
         let code = line.trim_start();
         let level = line.len() - code.len();
-        while !code.is_empty() && levels.last().is_some_and(|own| *own >= level) {
+        while !code.is_empty() && levels.last().is_some_and(|last| *last >= level) {
             levels.pop();
             modules.pop();
         }

@@ -1,30 +1,30 @@
-//! Where the bits of process data and records are, by the intermediate representation alone: nothing here comes from the code
-//! that writes Rust.
+//! Computes the positions of bits in process data and records from the intermediate representation, without the code that
+//! writes Rust.
 
 use lexibus_codegen::ir::{
     Access, Binding, Catalog, Device, Format, Group, GroupKind, IoData, Message, MessageField, Pdo, PdoEntry,
     PdoEntryKind, ProcessData, Record, Shape, Submodule, Type, TypeDef, Value,
 };
 
-/// Bits that stand together.
+/// Adjacent bits.
 #[derive(Clone, Copy)]
 pub struct Piece {
-    /// The first one, counted from the first of the data.
+    /// First bit, counted from the start of the data.
     at: u32,
-    /// Which bit of the value that is; `None` where the bits are reserved, and 0.
+    /// First bit of the value; `None` if the bits are reserved and 0.
     of: Option<u32>,
     bits: u32,
 }
 
-/// What a type of generated code has to be.
+/// Expected layout of a type of generated code.
 pub struct Layout {
-    /// Whether it is a record, and no process data.
+    /// Whether the type is a record, not process data.
     pub is_record: bool,
-    /// The constant that the type has, and its value.
+    /// Constant of the type, with its value.
     pub number: Option<(&'static str, u16)>,
     pub bits: u32,
     fields: Vec<Vec<Piece>>,
-    /// The bytes of a record by default.
+    /// Default bytes of a record.
     default: Vec<u8>,
 }
 
@@ -33,7 +33,7 @@ impl Layout {
         self.fields.len()
     }
 
-    /// The same as a value of the program: no bit is written as the greatest number.
+    /// Returns the layout as an expression of the program. A missing bit is written as the maximum number.
     pub fn literal(&self, title: &str) -> String {
         let piece = |piece: &Piece| format!("({}, {}, {})", piece.at, piece.of.unwrap_or(u32::MAX), piece.bits);
         let field = |field: &Vec<Piece>| format!("&[{}]", field.iter().map(piece).collect::<Vec<_>>().join(", "));
@@ -43,16 +43,16 @@ impl Layout {
     }
 }
 
-/// The layouts of a catalogue, in the order in which bindings have them.
+/// Returns the layouts of a catalog, in the order of the bindings.
 pub fn all(catalog: &Catalog) -> Vec<Layout> {
     let is_profinet = catalog.files.first().is_some_and(|file| file.format == Format::Gsdml);
     if is_profinet {
-        return submodules(catalog).into_iter().flat_map(|own| of_submodule(own, &catalog.types)).collect();
+        return submodules(catalog).into_iter().flat_map(|submodule| of_submodule(submodule, &catalog.types)).collect();
     }
     let mut all: Vec<Layout> = catalog.devices.iter().flat_map(of_device).collect();
     for (at, module) in catalog.modules.iter().enumerate() {
         let mut takers = catalog.devices.iter().filter(|device| device.ethercat.is_some());
-        let is_taken = takers.any(|device| device.modules.iter().any(|own| own.module.0 as usize == at));
+        let is_taken = takers.any(|device| device.modules.iter().any(|usage| usage.module.0 as usize == at));
         if is_taken || catalog.devices.is_empty() {
             all.extend(of_pdos(&module.process_data, &module.types));
         }
@@ -60,7 +60,7 @@ pub fn all(catalog: &Catalog) -> Vec<Layout> {
     all
 }
 
-/// Whether the request of a message of this name has the number of the device; `None` where there is no such message.
+/// Whether requests of this message contain the device number; `None` if there is no such message.
 pub fn has_node(catalog: &Catalog, message: &str) -> Option<bool> {
     catalog.devices.iter().find_map(|device| {
         let address = device.framing.as_ref().and_then(|framing| framing.address.as_ref());
@@ -68,8 +68,8 @@ pub fn has_node(catalog: &Catalog, message: &str) -> Option<bool> {
             MessageField::Value(value) => Some(&value.item.name) == address,
             _ => false,
         };
-        let own: &Message = device.messages.iter().find(|own| own.name == message)?;
-        Some(own.request.iter().any(is_address))
+        let found: &Message = device.messages.iter().find(|found| found.name == message)?;
+        Some(found.request.iter().any(is_address))
     })
 }
 
@@ -92,17 +92,17 @@ fn of_pdos(data: &ProcessData, types: &[TypeDef]) -> Vec<Layout> {
     data.pdos.iter().filter(|pdo| has_struct(pdo)).map(layout).collect()
 }
 
-/// The entries of a PDO that are fields.
+/// Returns the entries of a PDO that are fields.
 fn mapped(pdo: &Pdo) -> impl Iterator<Item = &PdoEntry> {
     pdo.entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding && entry.bits > 0)
 }
 
-/// A PDO without fields has no struct, and neither has one with a field of more than 65,535 bits.
+/// Returns the layout of a PDO. A PDO without fields, or with a field of more than 65,535 bits, has no struct.
 fn has_struct(pdo: &Pdo) -> bool {
     mapped(pdo).next().is_some() && mapped(pdo).all(|entry| entry.bits <= 0xFFFF)
 }
 
-/// The images of the sync managers: a field is a PDO, of which one is behind the other.
+/// Returns the layouts of the images of sync managers. A field is a PDO, and PDOs follow each other.
 fn images(device: &Device) -> Vec<Layout> {
     let assigned = device.process_data.assigned_by_default();
     let mut numbers: Vec<u8> = assigned.iter().map(|(_, number)| *number).collect();
@@ -110,7 +110,7 @@ fn images(device: &Device) -> Vec<Layout> {
     numbers.dedup();
     let image = |number: u8| {
         let (mut fields, mut bits) = (Vec::new(), 0);
-        for (pdo, _) in assigned.iter().filter(|(_, own)| *own == number) {
+        for (pdo, _) in assigned.iter().filter(|(_, image)| *image == number) {
             let of_pdo = |entry| little_endian(entry, &device.types);
             let within = |piece: Piece| Piece { at: bits + piece.at, of: piece.of.map(|_| piece.at), ..piece };
             if has_struct(pdo) {
@@ -120,7 +120,7 @@ fn images(device: &Device) -> Vec<Layout> {
         }
         Layout { is_record: false, number: Some(("SYNC_MANAGER", number.into())), bits, fields, default: Vec::new() }
     };
-    numbers.into_iter().map(image).filter(|own| own.fields() > 0).collect()
+    numbers.into_iter().map(image).filter(|layout| layout.fields() > 0).collect()
 }
 
 fn little_endian(entry: &PdoEntry, types: &[TypeDef]) -> Vec<Piece> {
@@ -135,23 +135,23 @@ fn little_endian(entry: &PdoEntry, types: &[TypeDef]) -> Vec<Piece> {
     }
 }
 
-/// The submodules that a device access point can have, in the order of the catalogue.
+/// Returns the submodules that a device access point can have, in the order of the catalog.
 fn submodules(catalog: &Catalog) -> Vec<&Submodule> {
     let points = catalog.devices.iter().filter(|device| device.profinet.is_some());
     let mut used = Vec::new();
     for point in points {
         used.extend(&point.submodules);
-        let modules = point.modules.iter().filter_map(|own| catalog.modules.get(own.module.0 as usize));
+        let modules = point.modules.iter().filter_map(|usage| catalog.modules.get(usage.module.0 as usize));
         used.extend(modules.flat_map(|module| &module.submodules));
     }
-    let is_used = |at: usize| used.iter().any(|own| own.submodule.0 as usize == at);
-    catalog.submodules.iter().enumerate().filter(|(at, _)| is_used(*at)).map(|(_, own)| own).collect()
+    let is_used = |at: usize| used.iter().any(|usage| usage.submodule.0 as usize == at);
+    catalog.submodules.iter().enumerate().filter(|(at, _)| is_used(*at)).map(|(_, submodule)| submodule).collect()
 }
 
 fn of_submodule(submodule: &Submodule, types: &[TypeDef]) -> Vec<Layout> {
     let images = [&submodule.input, &submodule.output].into_iter().flatten().map(|data| io_data(data, types));
     let records = submodule.records.iter().filter_map(|group| match &group.kind {
-        GroupKind::Record(own) if (1..=0xFFFF).contains(&own.length) => Some(record(group, own, types)),
+        GroupKind::Record(facts) if (1..=0xFFFF).contains(&facts.length) => Some(record(group, facts, types)),
         _ => None,
     });
     images.filter(|image| image.fields() > 0).chain(records).collect()
@@ -164,7 +164,7 @@ fn io_data(data: &IoData, types: &[TypeDef]) -> Layout {
     Layout { is_record: false, number: None, bits: 8 * length, fields: fields.collect(), default: Vec::new() }
 }
 
-/// The parameters that can be changed. What the record is by default are its constants, and over them the values of all
+/// Returns the parameters that can be changed. The default record consists of its constants, overwritten with the values of all
 /// parameters.
 fn record(group: &Group, record: &Record, types: &[TypeDef]) -> Layout {
     let (mut fields, mut default) = (Vec::new(), vec![0; record.length as usize]);
@@ -187,10 +187,10 @@ fn record(group: &Group, record: &Record, types: &[TypeDef]) -> Layout {
     Layout { is_record: true, number: Some(("INDEX", record.index)), bits: 8 * record.length, fields, default }
 }
 
-/// The bits of a value, the lowest first.
+/// Returns the bits of a value, lowest first.
 fn bits(value: &Value, base: Type) -> Option<Vec<bool>> {
     let bytes = match (value, base) {
-        // One byte a character.
+        // Each character has one byte.
         (Value::Text(text), _) => text.chars().map(|letter| u8::try_from(letter).unwrap_or(b'?')).collect(),
         (Value::Bytes(bytes), _) => bytes.clone(),
         (_, Type::Real32) => (value.as_real()? as f32).to_le_bytes().to_vec(),
@@ -200,7 +200,7 @@ fn bits(value: &Value, base: Type) -> Option<Vec<bool>> {
     Some(bytes.iter().flat_map(|byte| (0..8).map(move |bit| byte >> bit & 1 == 1)).collect())
 }
 
-/// Puts in as many bits as the value has, and leaves the others as they are.
+/// Inserts the bits of the value, and keeps the others.
 fn put(data: &mut [u8], pieces: &[Piece], value: &[bool]) {
     for piece in pieces {
         for bit in 0..piece.bits {
@@ -212,7 +212,7 @@ fn put(data: &mut [u8], pieces: &[Piece], value: &[bool]) {
     }
 }
 
-/// The bits of a field of PROFINET; `None` where it isn't within the data, or nothing in Rust is like it.
+/// Returns the bits of a PROFINET field; `None` if it is outside of the data, or has no equivalent in Rust.
 fn big_endian(base: Type, (offset, bits): (u32, u32), length: u32) -> Option<Vec<Piece>> {
     let end = u64::from(offset) + u64::from(bits);
     if bits == 0 || end > 8 * u64::from(length) {
@@ -236,8 +236,8 @@ fn big_endian(base: Type, (offset, bits): (u32, u32), length: u32) -> Option<Vec
     }
 }
 
-/// The bits of a number in the bytes that it touches, from `byte` on and with `shift` bits below it: the last byte has the
-/// lowest. `of` is the bit of the value that is its first.
+/// Returns the bits of a number in its bytes, from `byte` on, with `shift` bits below it. The last byte has the lowest bits.
+/// `of` is the first bit of the value.
 fn number(byte: u32, shift: u32, bits: u32, of: u32) -> Vec<Piece> {
     let end = shift + bits;
     let last = byte + (end - 1) / 8;
@@ -256,7 +256,7 @@ fn time(byte: u32) -> Vec<Piece> {
     pieces
 }
 
-/// The basic type below a type.
+/// Returns the basic type below a type.
 fn base(types: &[TypeDef], ty: Type) -> Type {
     let Type::Named(id) = ty else { return ty };
     match types.get(id.0 as usize).map(|definition| &definition.shape) {

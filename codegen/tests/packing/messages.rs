@@ -1,8 +1,8 @@
-//! Random values for the messages of generated code, by the lines of its text.
+//! Creates random values for the messages of generated code, from the lines of the text.
 
 use std::collections::HashMap;
 
-/// What the text says about its messages.
+/// Facts about the messages of the text.
 pub struct Messages<'t> {
     structs: HashMap<&'t str, Vec<(&'t str, &'t str)>>,
     replies: HashMap<&'t str, &'t str>,
@@ -22,12 +22,12 @@ impl<'t> Messages<'t> {
         }
     }
 
-    /// What the source calls a message.
+    /// Returns the name of a message in the source.
     pub fn title(&self, message: &str) -> &'t str {
         self.titles.get(message).copied().unwrap_or_default()
     }
 
-    /// The call that checks a message. `MODULE` stands for the module of the bindings.
+    /// Returns the call that checks a message. `MODULE` is a placeholder for the module of the bindings.
     pub fn call(&self, title: &str, message: &str, path: &str, has_node: bool) -> String {
         let value = |name: &str| random(name, &self.structs, self.rules.get(name).copied());
         let constant = |name: &str| self.constants.get(name).copied().unwrap_or_default();
@@ -35,7 +35,7 @@ impl<'t> Messages<'t> {
             Some(value) => format!("sent!(random, {path}, data, {has_node}, {value})"),
             None => format!("overheard!(random, {path}, &[{}])", constant(message)),
         };
-        // A reply without a type is bytes.
+        // A reply without a type consists of bytes.
         let reply = self.replies.get(message).copied().unwrap_or_default();
         let reply = match value(reply) {
             Some(value) => format!("answered!(random, {path}, data, {value})"),
@@ -45,7 +45,7 @@ impl<'t> Messages<'t> {
     }
 }
 
-/// What the source calls each message.
+/// Returns the name of each message in the source.
 fn titles(text: &str) -> HashMap<&str, &str> {
     let (mut titles, mut message) = (HashMap::new(), None);
     for line in text.lines().map(str::trim_start) {
@@ -58,25 +58,25 @@ fn titles(text: &str) -> HashMap<&str, &str> {
     titles
 }
 
-/// The structs of `pub mod messages`, with the names and types of their fields.
+/// Returns the structs of `pub mod messages`, with the names and types of their fields.
 fn structs(text: &str) -> HashMap<&str, Vec<(&str, &str)>> {
     let mut structs: HashMap<&str, Vec<(&str, &str)>> = HashMap::new();
-    let mut own = None;
+    let mut current = None;
     for line in text.lines() {
         if let Some(name) = line.strip_prefix("    pub struct ") {
-            own = Some(bare(name));
+            current = Some(bare(name));
             structs.insert(bare(name), Vec::new());
         } else if line == "    }" {
-            own = None;
+            current = None;
         } else if let Some(field) = line.strip_prefix("        pub ").and_then(|field| field.strip_suffix(',')) {
-            let fields = own.and_then(|name| structs.get_mut(name));
+            let fields = current.and_then(|name| structs.get_mut(name));
             fields.into_iter().for_each(|fields| fields.extend(field.split_once(": ")));
         }
     }
     structs
 }
 
-/// The type of the reply to each message.
+/// Returns the reply type of each message.
 fn replies(text: &str) -> HashMap<&str, &str> {
     let (mut replies, mut message) = (HashMap::new(), None);
     for line in text.lines().map(str::trim_start) {
@@ -90,7 +90,7 @@ fn replies(text: &str) -> HashMap<&str, &str> {
     replies
 }
 
-/// The first constant bytes that each request and reply is read by.
+/// Returns the first constant bytes of each request and reply.
 fn constants(text: &str) -> HashMap<&str, &str> {
     let (mut constants, mut owner) = (HashMap::new(), None);
     for line in text.lines().map(str::trim_start) {
@@ -106,7 +106,7 @@ fn constants(text: &str) -> HashMap<&str, &str> {
     constants
 }
 
-/// The rule by which each request reads its settings.
+/// Returns the rule by which each request reads its settings.
 fn rules(text: &str) -> HashMap<&str, &str> {
     let (mut rules, mut owner) = (HashMap::new(), "");
     for line in text.lines().map(str::trim_start) {
@@ -118,13 +118,13 @@ fn rules(text: &str) -> HashMap<&str, &str> {
     rules
 }
 
-/// A name without what stands behind it.
+/// Returns a name without the text after it.
 pub fn bare(name: &str) -> &str {
     let end = name.find(|letter: char| !letter.is_alphanumeric() && letter != '_').unwrap_or(name.len());
     &name[..end]
 }
 
-/// An expression of random values for a message; `None` where it has a field that has a list.
+/// Returns an expression of random values for a message; `None` if it has a field with a list.
 fn random(name: &str, structs: &HashMap<&str, Vec<(&str, &str)>>, rule: Option<&str>) -> Option<String> {
     let value = |ty: &str| match ty {
         "u8" | "u16" | "u32" | "u64" | "i8" | "i16" | "i32" | "i64" => Some(format!("random.number() as {ty}")),

@@ -14,18 +14,18 @@ impl Random {
         self.0
     }
 
-    /// Up to three of something, for as long as the program runs.
+    /// Returns up to three elements, which live as long as the program.
     fn several<T>(&mut self, one: impl Fn(&mut Self) -> T) -> &'static [T] {
         (0..self.next() & 3).map(|_| one(self)).collect::<Vec<_>>().leak()
     }
 
-    /// Up to three parameters that the rule has, with values, for as long as the program runs.
+    /// Returns up to three parameters of the rule with values, which live as long as the program.
     fn settings(&mut self, rule: SettingsRule) -> &'static [Setting] {
-        self.several(|own| {
-            let (first, last, length) = rule.lengths[own.next() as usize % rule.lengths.len()];
+        self.several(|random| {
+            let (first, last, length) = rule.lengths[random.next() as usize % rule.lengths.len()];
             let mut value = [0; 8];
-            own.fill(&mut value);
-            let parameter = Parameter(first + own.next() as u32 % (last - first + 1));
+            random.fill(&mut value);
+            let parameter = Parameter(first + random.next() as u32 % (last - first + 1));
             Setting::new(parameter, value, length.into())
         })
     }
@@ -34,13 +34,14 @@ impl Random {
         bytes.iter_mut().for_each(|byte| *byte = (self.next() >> 32) as u8);
     }
 
-    /// A number of any size, as often small as large, and as often negative.
+    /// Returns a number of any size, equally often small and large, and equally often negative.
     fn number(&mut self) -> i64 {
         let (number, shift) = (self.next() as i64, self.next() & 63);
         number >> shift
     }
 
-    /// A parameter with a value of one to eight bytes; of a reply, as often as not one that the request names.
+    /// Returns a parameter with a value of one to eight bytes. For a reply, every other parameter is one that the request
+    /// names.
     fn setting(&mut self, request: &[u8]) -> Setting {
         let named =
             request.windows(2).nth(self.next() as usize % 8).map(|two| i64::from(two[0]) << 8 | i64::from(two[1]));
@@ -53,22 +54,22 @@ impl Random {
 
 const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// Bytes of data, and what the fields that they are read as look like.
+/// Bytes of data, and the printed form of their fields.
 type Packed = (Vec<u8>, String);
 
-/// Unpacks data, sets the field of this number, if there is one, by the bits of a value, and packs the fields.
+/// Unpacks data, sets the field with this number, if it exists, to the bits of a value, and packs the fields.
 type Change<'c> = &'c dyn Fn(&[u8], usize, u64) -> Result<Packed, String>;
 
-/// The number of no field.
+/// Number for no field.
 const NONE: usize = usize::MAX;
 
-/// Where the bits of a type are.
+/// Positions of the bits of a type.
 struct Layout {
     title: &'static str,
     bits: usize,
-    /// The pieces of each field: the first bit within the data, the bit of the value that it is, and how many there are.
+    /// Pieces of each field: first bit in the data, first bit of the value, and number of bits.
     fields: &'static [&'static [(u32, u32, u32)]],
-    /// The bytes of a record by default.
+    /// Default bytes of a record.
     default: &'static [u8],
 }
 
@@ -77,14 +78,14 @@ impl Layout {
         self.bits.div_ceil(8)
     }
 
-    /// Hands each bit of a field to `look`: that of the data and that of the value, which reserved bits have not.
+    /// Passes each bit of a field to `look`: the bit of the data, and that of the value, which reserved bits do not have.
     fn each_bit(&self, field: usize, mut look: impl FnMut(usize, Option<u32>)) {
         for (at, of, bits) in self.fields[field] {
             (0..*bits).for_each(|bit| look((at + bit) as usize, (*of != u32::MAX).then(|| of + bit)));
         }
     }
 
-    /// The bits that fields have.
+    /// Returns a mask of the bits that belong to fields.
     fn mask(&self) -> Vec<u8> {
         let mut mask = vec![0; self.len()];
         for field in 0..self.fields.len() {
@@ -93,7 +94,7 @@ impl Layout {
         mask
     }
 
-    /// `data` with the bits of a value in a field.
+    /// Returns `data` with the bits of a value in a field.
     fn with(&self, mut data: Vec<u8>, field: usize, raw: u64) -> Vec<u8> {
         self.each_bit(field, |at, of| put(&mut data, at, of.is_some_and(|of| raw >> (of % 64) & 1 == 1)));
         data
@@ -104,13 +105,13 @@ fn put(data: &mut [u8], bit: usize, value: bool) {
     data[bit / 8] = data[bit / 8] & !(1 << (bit % 8)) | u8::from(value) << (bit % 8);
 }
 
-/// `data` where `mask` is 1, `other` where it is 0.
+/// Returns `data` where `mask` is 1, and `other` where it is 0.
 fn merged(data: &[u8], mask: &[u8], other: &[u8]) -> Vec<u8> {
     let all = data.iter().zip(mask).zip(other);
     all.map(|((data, mask), other)| data & mask | other & !mask).collect()
 }
 
-/// Bytes of the bits of `raw`, again and again.
+/// Returns bytes that repeat the bits of `raw`.
 fn filled(raw: u64, len: usize) -> Vec<u8> {
     raw.to_le_bytes().into_iter().cycle().take(len).collect()
 }
@@ -119,26 +120,26 @@ fn bytes<const N: usize>(raw: u64) -> [u8; N] {
     filled(raw, N).try_into().expect("as many bytes")
 }
 
-/// Checks a PDO or a process image. `$set` puts the bits of a value into a field.
+/// Checks a PDO or a process image. `$set` writes the bits of a value to a field.
 macro_rules! process_data {
-    ($name:ty, $layout:expr, |$own:ident, $at:ident, $raw:ident| $set:expr) => {{
+    ($name:ty, $layout:expr, |$value:ident, $at:ident, $raw:ident| $set:expr) => {{
         let change = |data: &[u8], $at: usize, $raw: u64| {
-            let mut $own = <$name>::unpack(data).map_err(|error| format!("{error:?}"))?;
+            let mut $value = <$name>::unpack(data).map_err(|error| format!("{error:?}"))?;
             $set;
-            Ok(($own.pack().to_vec(), if $at == NONE { format!("{:?}", $own) } else { String::new() }))
+            Ok(($value.pack().to_vec(), if $at == NONE { format!("{:?}", $value) } else { String::new() }))
         };
         assert_eq!(<$name>::LEN, $layout.len(), "{}", $layout.title);
         process_data($layout, &change);
     }};
 }
 
-/// The bits of the fields are the same after unpacking and packing, all others are 0; the bits of a field that is set are
-/// where they belong, and no others change. Too few bytes are an error.
-fn process_data(own: &Layout, change: Change<'_>) {
-    let (title, mask, zeros) = (own.title, own.mask(), vec![0; own.len()]);
+/// Checks process data. Unpacking and packing keep the bits of fields and clear all others. Setting a field changes only its
+/// bits. Too few bytes are an error.
+fn process_data(layout: &Layout, change: Change<'_>) {
+    let (title, mask, zeros) = (layout.title, layout.mask(), vec![0; layout.len()]);
     let changed = |data: &[u8], at, raw| change(data, at, raw).unwrap_or_else(|error| panic!("{title}: {error}"));
     let mut random = Random(SEED);
-    let mut data = vec![0xFF; own.len()];
+    let mut data = vec![0xFF; layout.len()];
     for round in 0..24 {
         match round {
             0 => data.fill(0),
@@ -149,45 +150,45 @@ fn process_data(own: &Layout, change: Change<'_>) {
         }
         let (packed, fields) = changed(&data, NONE, 0);
         let expected = merged(&data, &mask, &zeros);
-        assert!(packed == expected, "{title}: {data:02X?} is packed as {packed:02X?}, not {expected:02X?}");
+        assert!(packed == expected, "{title}: {data:02X?} is packed as {packed:02X?} instead of {expected:02X?}");
         let again = changed(&packed, NONE, 0);
         assert!(again == (packed, fields), "{title}: {data:02X?} is {again:?} the second time");
     }
-    for at in 0..own.fields.len() {
+    for at in 0..layout.fields.len() {
         for (fill, raw) in [(Some(0), !0), (Some(0xFF), 0), (None, random.next()), (None, random.next())] {
             random.fill(&mut data);
             fill.into_iter().for_each(|byte| data.fill(byte));
             let (packed, _) = changed(&data, at, raw);
-            let expected = own.with(merged(&data, &mask, &zeros), at, raw);
+            let expected = layout.with(merged(&data, &mask, &zeros), at, raw);
             assert!(
                 packed == expected,
                 "{title}: {raw:X} in {at} of {data:02X?} is {packed:02X?}, not {expected:02X?}"
             );
         }
     }
-    if own.len() > 0 {
-        assert!(change(&data[1..], NONE, 0).is_err(), "{title}: unpacks {} of {} bytes", own.len() - 1, own.len());
+    if layout.len() > 0 {
+        assert!(change(&data[1..], NONE, 0).is_err(), "{title}: unpacks {} of {} bytes", layout.len() - 1, layout.len());
     }
 }
 
-/// What the views of a PDO do within an image.
+/// Access to the views of a PDO within an image.
 trait Getters<T> {
-    /// All fields.
+    /// Returns all fields.
     fn fields(&self) -> T;
 }
 
 trait Setters<T> {
-    /// Sets the field of this number, or all of them.
+    /// Sets the field with this number, or all fields.
     fn set(&mut self, fields: &T, at: usize);
 }
 
-/// The fields of a view.
+/// Implements access to the fields of a view.
 macro_rules! getters {
-    ($name:ty, $view:ty, |$own:ident| $fields:expr, [$($field:ident $getter:ident,)*]) => {
+    ($name:ty, $view:ty, |$value:ident| $fields:expr, [$($field:ident $getter:ident,)*]) => {
         impl Getters<$name> for $view {
             fn fields(&self) -> $name {
                 type Fields = $name;
-                let $own = self;
+                let $value = self;
                 let view = $fields;
                 Fields { $($field: view.$getter(),)* }
             }
@@ -207,7 +208,7 @@ macro_rules! setters {
     };
 }
 
-/// The PDOs of a view of an image.
+/// Implements access to the PDOs of an image's view.
 macro_rules! image_views {
     ($name:ty, $reader:ty, $writer:ty, [$($read:ident $get:ident,)*], [$($at:literal $field:ident $set:ident,)*]) => {
         impl Getters<$name> for $reader {
@@ -227,7 +228,7 @@ macro_rules! image_views {
     };
 }
 
-/// Checks a view. `$get` and `$set` are the view at a bit of data, or why there is none.
+/// Checks a view. `$get` and `$set` return the view at a bit of data, or an error.
 macro_rules! view {
     ($name:ty, $layout:expr, $bits:expr, |$data:ident, $bit:ident| $get:expr, $set:expr) => {{
         let set = |$data: &mut [u8], $bit: usize, at: usize, from: &[u8]| {
@@ -242,25 +243,25 @@ macro_rules! view {
     }};
 }
 
-/// Sets the field of this number, or all of them, of the view at this bit of data as it is in other data.
+/// Sets the field with this number, or all fields, of the view at this bit to the values in other data.
 type Set<'s> = &'s dyn Fn(&mut [u8], usize, usize, &[u8]) -> Result<(), String>;
 
 /// Packs the fields of the view at this bit.
 type Get<'g> = &'g dyn Fn(&mut [u8], usize) -> Result<Vec<u8>, String>;
 
-/// A field that is set within an image has its bits there, and no others change; what is read is what stands there. In
-/// images that end with the view and in longer ones, from each of the first `bits` bits on.
-fn view(own: &Layout, bits: usize, set: Set<'_>, get: Get<'_>) {
-    let (title, mask, mut random) = (own.title, own.mask(), Random(SEED));
-    let (mut from, zeros) = (vec![0; own.len()], vec![0; own.len()]);
+/// Checks a view. Setting a field within an image changes only its bits, and reading returns the bits of the image. The view
+/// starts at each of the first `bits` bits, in images that end with the view and in longer ones.
+fn view(layout: &Layout, bits: usize, set: Set<'_>, get: Get<'_>) {
+    let (title, mask, mut random) = (layout.title, layout.mask(), Random(SEED));
+    let (mut from, zeros) = (vec![0; layout.len()], vec![0; layout.len()]);
     for (bit, behind) in (0..bits).flat_map(|bit| [(bit, 0), (bit, 9)]) {
-        let mut image = vec![0xFF; (bit + own.bits).div_ceil(8) + behind];
+        let mut image = vec![0xFF; (bit + layout.bits).div_ceil(8) + behind];
         random.fill(&mut from);
-        for at in (0..own.fields.len()).chain([NONE]) {
+        for at in (0..layout.fields.len()).chain([NONE]) {
             let mut expected = vec![0xFF; image.len()];
             let of_field = |field: &usize| at == NONE || at == *field;
-            for field in (0..own.fields.len()).filter(of_field) {
-                own.each_bit(field, |at, of| put(&mut expected, bit + at, of.is_some() && is_set(&from, at)));
+            for field in (0..layout.fields.len()).filter(of_field) {
+                layout.each_bit(field, |at, of| put(&mut expected, bit + at, of.is_some() && is_set(&from, at)));
             }
             image.fill(0xFF);
             let outcome = set(&mut image, bit, at, &from);
@@ -271,8 +272,8 @@ fn view(own: &Layout, bits: usize, set: Set<'_>, get: Get<'_>) {
             );
         }
         random.fill(&mut image);
-        let mut read = vec![0; own.len()];
-        (0..own.bits).for_each(|at| put(&mut read, at, is_set(&image, bit + at)));
+        let mut read = vec![0; layout.len()];
+        (0..layout.bits).for_each(|at| put(&mut read, at, is_set(&image, bit + at)));
         let (read, got) = (merged(&read, &mask, &zeros), get(&mut image, bit));
         assert!(got.as_ref() == Ok(&read), "{title}: at bit {bit} of {image:02X?} is {got:02X?}, not {read:02X?}");
         let short = image.len() - behind - 1;
@@ -285,15 +286,15 @@ fn is_set(data: &[u8], bit: usize) -> bool {
     data[bit / 8] >> (bit % 8) & 1 == 1
 }
 
-/// Checks a record. `$set` puts the bits of a value into a field.
+/// Checks a record. `$set` writes the bits of a value to a field.
 macro_rules! record {
-    ($name:ty, $layout:expr, |$own:ident, $at:ident, $raw:ident| $set:expr) => {{
+    ($name:ty, $layout:expr, |$value:ident, $at:ident, $raw:ident| $set:expr) => {{
         let layout: &Layout = $layout;
         let decode = |data: &[u8]| <$name>::decode(data).unwrap_or_else(|error| panic!("{}: {error:?}", layout.title));
         let change = |data: &[u8], $at: usize, $raw: u64| {
-            let mut $own = decode(data);
+            let mut $value = decode(data);
             $set;
-            $own.encode().map(|bytes| (bytes.to_vec(), format!("{:?}", $own))).map_err(|error| format!("{error:?}"))
+            $value.encode().map(|bytes| (bytes.to_vec(), format!("{:?}", $value))).map_err(|error| format!("{error:?}"))
         };
         assert_eq!(<$name>::LEN, layout.len(), "{}", layout.title);
         let default = (<$name>::DEFAULT_BYTES, <$name>::DEFAULT);
@@ -304,17 +305,17 @@ macro_rules! record {
     }};
 }
 
-/// So many values of a record are checked that it takes, and as many that have other fields than the one before.
+/// Number of accepted values of a record that are checked, and of accepted values that differ from the one before.
 const ACCEPTED: usize = 64;
 
-/// The bits of the fields are the same after decoding and encoding, all others are those of `default`; the bits of a field
-/// that is set are where they belong. From the default on, change by change, through values that are allowed.
-fn record(own: &Layout, default: &[u8], change: Change<'_>) {
-    let (title, mask, mut random) = (own.title, own.mask(), Random(SEED));
+/// Checks a record. Decoding and encoding keep the bits of fields, and all other bits are those of `default`. Setting a field
+/// changes only its bits. The test changes the default step by step, through allowed values.
+fn record(layout: &Layout, default: &[u8], change: Change<'_>) {
+    let (title, mask, mut random) = (layout.title, layout.mask(), Random(SEED));
     let (mut data, mut accepted, mut moved) = (default.to_vec(), 0, 0);
     for round in 0..1_000_000 {
         let mut next = data.clone();
-        let (field, raw) = match own.fields.len() {
+        let (field, raw) = match layout.fields.len() {
             fields @ 1.. if round % 2 == 0 => (random.next() as usize % fields, random.number() as u64),
             _ => (NONE, random.next()),
         };
@@ -324,7 +325,7 @@ fn record(own: &Layout, default: &[u8], change: Change<'_>) {
         }
         let Ok(packed) = change(&next, field, raw) else { continue };
         let kept = merged(&next, &mask, default);
-        let expected = if field == NONE { kept } else { own.with(kept, field, raw) };
+        let expected = if field == NONE { kept } else { layout.with(kept, field, raw) };
         assert!(
             packed.0 == expected,
             "{title}: {raw:X} in {field} of {next:02X?} is {packed:02X?}, not {expected:02X?}"
@@ -334,14 +335,14 @@ fn record(own: &Layout, default: &[u8], change: Change<'_>) {
         accepted += 1;
         moved += usize::from(packed.0 != data);
         data = packed.0;
-        if accepted >= ACCEPTED && (moved >= ACCEPTED || own.fields.is_empty()) {
+        if accepted >= ACCEPTED && (moved >= ACCEPTED || layout.fields.is_empty()) {
             return;
         }
     }
-    panic!("{title}: only {accepted} values are allowed, {moved} of them others than before");
+    panic!("{title}: only {accepted} values are accepted, and {moved} of them differ from the one before");
 }
 
-/// More data than any message has.
+/// Maximum size of the data of a message.
 const MAX_DATA: usize = 512;
 
 fn written(write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) -> Result<Vec<u8>, WriteError> {
@@ -351,8 +352,8 @@ fn written(write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) -> Res
     Ok(to.written().to_vec())
 }
 
-/// Requests and replies that can be written are read as they were. `request` gives the data of one, `reply` checks one to
-/// these; none where a random value can't be sent.
+/// Checks a message: requests and replies that can be written are read unchanged. `request` returns the data of a request,
+/// `reply` checks replies to it. Random values that cannot be sent are skipped.
 fn message(title: &str, request: fn(&mut Random) -> Option<Vec<u8>>, reply: fn(&mut Random, &[u8]) -> bool) {
     let mut random = Random(SEED);
     let (mut requests, mut replies) = (0, 0);
@@ -367,12 +368,12 @@ fn message(title: &str, request: fn(&mut Random) -> Option<Vec<u8>>, reply: fn(&
     panic!("{title}: {requests} requests, {replies} replies");
 }
 
-/// Whether two values are equal, or look so: as numbers that aren't any do.
+/// Whether two values are equal, or print the same, as NaN does.
 fn is_same<T: PartialEq + Debug>(one: &T, other: &T) -> bool {
     one == other || format!("{one:?}") == format!("{other:?}")
 }
 
-/// The data of a request, which are read as it.
+/// Returns the data of a request, and checks that they are read as the request.
 macro_rules! sent {
     ($random:ident, $message:ty, $none:ident, $has_node:literal, $value:expr) => {{
         #[allow(unused)]
@@ -380,26 +381,26 @@ macro_rules! sent {
         let (request, node) = ($value, u32::from($random.number() as u8));
         written(|to| request.write(node, to)).ok().inspect(|data| {
             let read = <$message>::parse(&mut Reader::new(data));
-            // A request without a number of the device reads 0.
+            // A request without a device number is read with number 0.
             let node = if $has_node { node } else { 0 };
             assert!(is_same(&read, &Some((node, request))), "{data:02X?} is read as {read:?}");
         })
     }};
 }
 
-/// Data that are read as a request, which is written as they are.
+/// Checks that data that are read as a request are written unchanged.
 macro_rules! overheard {
     ($random:ident, $message:ty, $constant:expr) => {{
         let data = likely($random, &[], $constant);
         <$message>::parse(&mut Reader::new(&data)).map(|(node, request)| {
-            let own = written(|to| request.write(node, to));
-            assert!(own.as_deref() == Ok(&data), "{data:02X?} is written as {own:02X?}");
+            let actual = written(|to| request.write(node, to));
+            assert!(actual.as_deref() == Ok(&data), "{data:02X?} is written as {actual:02X?}");
             data.clone()
         })
     }};
 }
 
-/// The data of a reply are read as it.
+/// Checks that the data of a reply are read as the reply.
 macro_rules! answered {
     ($random:ident, $message:ty, $request:ident, $value:expr) => {{
         let reply = $value;
@@ -412,20 +413,20 @@ macro_rules! answered {
     }};
 }
 
-/// Data that are read as a reply, which is written as they are.
+/// Checks that data that are read as a reply are written unchanged.
 macro_rules! overheard_reply {
     ($random:ident, $message:ty, $request:ident, $constant:expr) => {{
         let data = likely($random, $request, $constant);
         let read = <$message as Message>::Reply::read($request, &mut Reader::new(&data));
         if let Some(reply) = &read {
-            let own = written(|to| reply.write($request, to));
-            assert!(own.as_deref() == Ok(&data), "{:02X?}: {data:02X?} is written as {own:02X?}", $request);
+            let actual = written(|to| reply.write($request, to));
+            assert!(actual.as_deref() == Ok(&data), "{:02X?}: {data:02X?} is written as {actual:02X?}", $request);
         }
         read.is_some()
     }};
 }
 
-/// Random data of up to 48 bytes that begin as `from` does and have `constant` near their start.
+/// Returns up to 48 random bytes that begin with `from` and contain `constant` near their start.
 fn likely(random: &mut Random, from: &[u8], constant: &[u8]) -> Vec<u8> {
     let mut data = vec![0; random.next() as usize % 49];
     random.fill(&mut data);

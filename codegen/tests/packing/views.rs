@@ -1,91 +1,91 @@
-//! The views of generated code, found by the lines of its text: process data that are read and written where they stand.
+//! Finds the views of generated code, which read and write process data in module, from the lines of the text.
 
 use std::collections::HashMap;
 
 use crate::found::each_line;
 use crate::messages::bare;
 
-/// The methods of generic types, by the path of the type; of those that need data to write to, with `&mut` in front.
+/// Methods of generic types by path. Types that need writable data have the prefix `&mut`.
 pub struct Views<'t>(HashMap<String, Vec<&'t str>>);
 
 impl<'t> Views<'t> {
     pub fn new(text: &'t str) -> Self {
-        let (mut views, mut own): (HashMap<String, Vec<_>>, _) = (HashMap::new(), String::new());
+        let (mut views, mut current): (HashMap<String, Vec<_>>, _) = (HashMap::new(), String::new());
         each_line(text, |modules, code| {
             if code.starts_with("impl") || code.starts_with("pub mod ") {
                 let name = code.trim_end_matches(" {").rsplit_once("> ").map_or("", |(_, name)| bare(name));
                 let start = if code.contains("AsMut<") { "&mut " } else { "" };
-                own = format!("{start}{}", [modules, &[name]].concat().join("::"));
+                current = format!("{start}{}", [modules, &[name]].concat().join("::"));
             }
             let code = code.strip_prefix("pub ").map(|code| code.trim_start_matches("const "));
             let name = code.and_then(|code| code.strip_prefix("fn ")?.split_once('('));
             if let Some((name, _)) = name {
-                views.entry(own.clone()).or_default().push(name);
+                views.entry(current.clone()).or_default().push(name);
             }
         });
         Views(views)
     }
 
-    /// The methods of a type but `new` and those like it, each beside the field that it is of.
+    /// Returns the methods of a type except `new` and similar ones, each next to its field.
     fn methods(&self, path: &str, others: usize, fields: &[(&'t str, &'t str)]) -> Vec<(&'t str, &'t str)> {
         let all = self.0.get(path).map(Vec::as_slice).unwrap_or_default();
         assert_eq!(all.len(), others + fields.len(), "{path}: {all:?}");
         fields.iter().map(|(field, _)| *field).zip(all[others..].iter().copied()).collect()
     }
 
-    /// The statements that check the view of process data, where there is one: `modules` and `name` are those of the type.
+    /// Returns the statements that check the view of process data, if it exists. `modules` and `name` are those of the type.
     pub fn check(&self, modules: &[&str], name: &str, fields: &[(&'t str, &'t str)]) -> Option<String> {
-        let place = modules.join("::");
-        let own = format!("{place}::{name}");
+        let module = modules.join("::");
+        let path = format!("{module}::{name}");
         if modules.last() == Some(&"pdo") {
             let view = [&modules[..modules.len() - 1], &["view", name]].concat().join("::");
-            return self.0.contains_key(&view).then(|| self.of_pdo(&own, &view, fields));
+            return self.0.contains_key(&view).then(|| self.of_pdo(&path, &view, fields));
         }
-        let (view, writer) = (format!("{own}View"), format!("{own}Mut"));
+        let (view, writer) = (format!("{path}View"), format!("{path}Mut"));
         if modules.last() == Some(&"image") {
-            return Some(self.of_image(&own, &view, fields));
+            return Some(self.of_image(&path, &view, fields));
         }
-        self.0.contains_key(&writer).then(|| self.of_submodule(&own, &view, &writer, fields))
+        self.0.contains_key(&writer).then(|| self.of_submodule(&path, &view, &writer, fields))
     }
 
-    /// A view of a PDO, which may begin at any bit.
-    fn of_pdo(&self, own: &str, view: &str, fields: &[(&'t str, &'t str)]) -> String {
+    /// Checks a view of a PDO, which may begin at any bit.
+    fn of_pdo(&self, path: &str, view: &str, fields: &[(&'t str, &'t str)]) -> String {
         let getters = listed(&self.methods(view, 2, fields));
         let setters = numbered(&self.methods(&format!("&mut {view}"), 0, fields));
         let at = |data: &str| format!("MODULE::{view}::at({data}, bit)");
         format!(
-            "getters!(MODULE::{own}, MODULE::{view}<&[u8]>, |own| own, [{getters}]); \
-             setters!(MODULE::{own}, MODULE::{view}<&mut [u8]>, [{setters}]); \
-             view!(MODULE::{own}, layout, 8, |data, bit| {}, {});",
+            "getters!(MODULE::{path}, MODULE::{view}<&[u8]>, |entry| entry, [{getters}]); \
+             setters!(MODULE::{path}, MODULE::{view}<&mut [u8]>, [{setters}]); \
+             view!(MODULE::{path}, layout, 8, |data, bit| {}, {});",
             at("&*data"),
             at("&mut *data"),
         )
     }
 
-    /// A view of the image of a sync manager, which has those of PDOs.
-    fn of_image(&self, own: &str, view: &str, fields: &[(&'t str, &'t str)]) -> String {
+    /// Checks a view of a sync manager's image, which contains views of PDOs.
+    fn of_image(&self, path: &str, view: &str, fields: &[(&'t str, &'t str)]) -> String {
         let readers = listed(&self.methods(view, 1, fields));
         let writers = numbered(&self.methods(&format!("&mut {view}"), 0, fields));
         format!(
-            "image_views!(MODULE::{own}, MODULE::{view}<&[u8]>, MODULE::{view}<&mut [u8]>, [{readers}], [{writers}]); \
-             view!(MODULE::{own}, layout, 1, |data, _bit| MODULE::{view}::new(&*data), MODULE::{view}::new(&mut *data));"
+            "image_views!(MODULE::{path}, MODULE::{view}<&[u8]>, MODULE::{view}<&mut [u8]>, [{readers}], [{writers}]); \
+             view!(MODULE::{path}, layout, 1, |data, _bit| MODULE::{view}::new(&*data), MODULE::{view}::new(&mut *data));"
         )
     }
 
-    /// Outputs of PROFINET: what writes them can be read, too.
-    fn of_submodule(&self, own: &str, view: &str, writer: &str, fields: &[(&'t str, &'t str)]) -> String {
+    /// Checks PROFINET outputs. The view that writes them can also read them.
+    fn of_submodule(&self, path: &str, view: &str, writer: &str, fields: &[(&'t str, &'t str)]) -> String {
         let getters = listed(&self.methods(view, 1, fields));
         let setters = numbered(&self.methods(writer, 2, fields));
         let new = format!("MODULE::{writer}::new(data)");
         format!(
-            "getters!(MODULE::{own}, MODULE::{writer}<'_>, |own| own.view(), [{getters}]); \
-             setters!(MODULE::{own}, MODULE::{writer}<'_>, [{setters}]); \
-             view!(MODULE::{own}, layout, 1, |data, _bit| {new}, {new});"
+            "getters!(MODULE::{path}, MODULE::{writer}<'_>, |entry| entry.view(), [{getters}]); \
+             setters!(MODULE::{path}, MODULE::{writer}<'_>, [{setters}]); \
+             view!(MODULE::{path}, layout, 1, |data, _bit| {new}, {new});"
         )
     }
 }
 
-/// How many views the text has.
+/// Returns the number of views in the text.
 pub fn count(text: &str) -> usize {
     let is_view = |line: &&str| {
         let name = line.trim_start().strip_prefix("pub struct ");

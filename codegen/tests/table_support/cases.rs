@@ -1,18 +1,18 @@
-//! What the overviews of a manual's odd passages need of the cases of `tests/ui`: their names, and what they report.
+//! Helpers that compare the lists of a manual's contradictions with the cases of `tests/ui`.
 
 use std::path::{Path, PathBuf};
 
-/// The folder of an area.
+/// Returns the folder of an area.
 fn folder(area: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui").join(area)
 }
 
-/// The diagnostics that a case expects; empty if there is no such case, or if it reports nothing.
+/// Returns the expected diagnostics of a case; empty if it does not exist or has none.
 pub fn diagnostics(area: &str, case: &str) -> String {
     std::fs::read_to_string(folder(area).join(case).join("diagnostics")).unwrap_or_default()
 }
 
-/// Each case of an area that is called after items, with each of them: `items-01-04-mapping` is about 1 and 4.
+/// Returns each case of an area with the items in its name: `items-01-04-mapping` covers items 1 and 4.
 fn of_items(area: &str) -> Vec<(u8, String)> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder(area)).expect("the area") {
@@ -29,7 +29,7 @@ fn of_items(area: &str) -> Vec<(u8, String)> {
     found
 }
 
-/// Asserts that an area has cases of items, and that `is_listed` has each of them: item and case.
+/// Asserts that an area has cases, and that `is_listed` accepts each pair of item and case.
 pub fn all_are_listed(area: &str, is_listed: impl Fn(u8, &str) -> bool) {
     let cases = of_items(area);
     assert!(!cases.is_empty());

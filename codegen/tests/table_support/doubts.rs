@@ -1,4 +1,4 @@
-//! The shipped dictionaries, and the doubts in them.
+//! Reads the shipped dictionaries and their doubts.
 
 #[allow(clippy::duplicate_mod, reason = "a program may load several modules that look for the repository")]
 #[path = "../../../tests/support/root.rs"]
@@ -11,14 +11,14 @@ use lexibus_codegen::ir::{Catalog, Doubt};
 use lexibus_codegen::source::Source;
 use serde_json::Value;
 
-/// A shipped dictionary, by the name of its file.
+/// Returns a shipped dictionary by its file name.
 pub fn catalog(file: &str) -> Catalog {
     let path = root::root().join("dictionaries").join(file);
     let bytes = std::fs::read(path).expect("the dictionary");
     check(Source::new(file, bytes), &Options::default()).catalog.expect("a catalog")
 }
 
-/// All doubts, wherever the intermediate representation has them.
+/// Returns all doubts in the intermediate representation.
 pub fn doubts(catalog: &Catalog) -> Vec<Doubt> {
     let mut found = Vec::new();
     collect(&serde_json::to_value(catalog).expect("JSON"), &mut found);
@@ -30,8 +30,8 @@ fn collect(value: &Value, found: &mut Vec<Doubt>) {
         Value::Object(fields) => {
             for (key, field) in fields {
                 if key == "doubts" {
-                    let own: Vec<Doubt> = serde_json::from_value(field.clone()).expect("doubts");
-                    found.extend(own);
+                    let doubts: Vec<Doubt> = serde_json::from_value(field.clone()).expect("doubts");
+                    found.extend(doubts);
                 } else {
                     collect(field, found);
                 }
@@ -42,7 +42,7 @@ fn collect(value: &Value, found: &mut Vec<Doubt>) {
     }
 }
 
-/// The lines of a citation: `12, 40-44`.
+/// Returns the lines of a citation: `12, 40-44`.
 pub fn lines(cite: &str) -> BTreeSet<usize> {
     let mut lines = BTreeSet::new();
     for part in cite.split(',') {

@@ -1,4 +1,4 @@
-//! What the tests of register tables share: the examples of `dictionaries/README.md`, as tables.
+//! Returns the examples of `dictionaries/README.md` as tables.
 
 #![allow(dead_code)]
 
@@ -8,12 +8,12 @@ mod root;
 
 use std::path::PathBuf;
 
-/// The folder of the dictionaries.
+/// Returns the folder of the dictionaries.
 pub fn dictionaries() -> PathBuf {
     root::root().join("dictionaries")
 }
 
-/// The blocks of TOML in the format's documentation, each with its line.
+/// Returns the TOML blocks in the documentation of the format, each with its line.
 pub fn examples() -> Vec<(usize, String)> {
     let text = std::fs::read_to_string(dictionaries().join("README.md")).expect("the format's documentation");
     let mut blocks = Vec::new();
@@ -29,7 +29,7 @@ pub fn examples() -> Vec<(usize, String)> {
     blocks
 }
 
-/// The items and names that examples refer to without having them.
+/// Items and names that examples refer to without defining them.
 const SURROUNDINGS: &str = r#"
 [[messages]]
 name = "CmdReset"
@@ -55,10 +55,10 @@ title = "Objects that the examples refer to"
 "0x60C1:1" = { name = "Position", type = "i32", access = "rw", pdo = "rx" }
 "#;
 
-/// The space of examples that have none, as the documentation says.
+/// Space for examples without one, as the documentation states.
 const SPACE: &str = "[spaces.register]\nmodbus = { table = \"holding\" }\n";
 
-/// A block as a whole table.
+/// Returns a block as a complete table.
 pub fn whole(block: &str) -> String {
     if block.contains("lexibus = 1") {
         return block.to_owned();

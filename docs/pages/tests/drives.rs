@@ -1,4 +1,4 @@
-//! The pages of Markdown that `lexibus docs` writes are a book of mdBook as they are.
+//! Tests that the Markdown pages of `lexibus docs` are a valid mdBook.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -42,20 +42,20 @@ fn written() -> PathBuf {
     folder
 }
 
-/// The pages of HTML below a folder, by their paths.
+/// Returns the HTML pages in a folder by path.
 fn pages(root: &Path, folder: &Path, all: &mut BTreeMap<PathBuf, String>) {
     for entry in fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();
         if path.is_dir() {
             pages(root, &path, all);
         } else if path.extension().is_some_and(|extension| extension == "html") {
-            let own = path.strip_prefix(root).expect("a page of the book").to_owned();
-            all.insert(own, fs::read_to_string(&path).expect("a page"));
+            let relative = path.strip_prefix(root).expect("a page of the book").to_owned();
+            all.insert(relative, fs::read_to_string(&path).expect("a page"));
         }
     }
 }
 
-/// `..` and `.` taken out.
+/// Resolves `..` and `.` in a path.
 fn resolved(path: &Path) -> PathBuf {
     let mut parts = PathBuf::new();
     for part in path.components() {
@@ -85,7 +85,7 @@ fn drives_are_a_book_whose_links_lead_somewhere() {
             count += 1;
             let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
             let file = if file.is_empty() { path.clone() } else { path.parent().unwrap_or(path).join(file) };
-            let has = ids.get(resolved(&file).as_path()).is_some_and(|own| anchor.is_empty() || own.contains(anchor));
+            let has = ids.get(resolved(&file).as_path()).is_some_and(|ids| anchor.is_empty() || ids.contains(anchor));
             if !has {
                 faults.push(format!("{}: {link}", path.display()));
             }

@@ -1,4 +1,4 @@
-//! The book as mdBook builds it: without a warning, with each file a chapter, and with links that lead somewhere.
+//! Tests the book as built by mdBook: it has no warnings, each file is a chapter, and all links are valid.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -9,14 +9,14 @@ use support::{attributes, build_into};
 
 mod support;
 
-/// Links to files of the repository begin so; they are looked for on the disk.
+/// Start of links to files of the repository, which are checked on disk.
 const REPOSITORY: &str = "https://github.com/lexibus/lexibus/blob/main/";
 
 fn docs() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the folder of the book")
 }
 
-/// Builds the book into a folder of this test's own.
+/// Builds the book into a separate folder.
 fn build() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("book");
     let _ = fs::remove_dir_all(&folder);
@@ -26,17 +26,18 @@ fn build() -> PathBuf {
     folder
 }
 
-/// The chapters as they were built, by their names; each has what `SUMMARY.md` named.
+/// Returns the built chapters by name, as listed in `SUMMARY.md`.
 fn pages(folder: &Path) -> BTreeMap<String, String> {
     let names = fs::read_dir(folder).expect("the book").map(|entry| entry.expect("a page").path());
     let pages = names.filter(|path| path.extension().is_some_and(|extension| extension == "html"));
-    let own = |path: &PathBuf| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let read = |path: PathBuf| (own(&path), fs::read_to_string(&path).expect("a page"));
+    let file_name =
+        |path: &PathBuf| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let read = |path: PathBuf| (file_name(&path), fs::read_to_string(&path).expect("a page"));
     let is_chapter = |name: &str| !["print.html", "404.html", "toc.html"].contains(&name);
     pages.map(read).filter(|(name, _)| is_chapter(name)).collect()
 }
 
-/// What is wrong with a link of a page; `None` where it leads somewhere.
+/// Returns the error of a link on a page; `None` if it is valid.
 fn fault(link: &str, page: &str, anchors: &BTreeMap<&str, BTreeSet<&str>>, folder: &Path) -> Option<&'static str> {
     if let Some(path) = link.strip_prefix(REPOSITORY) {
         let path = path.split('#').next().unwrap_or_default();
@@ -48,7 +49,7 @@ fn fault(link: &str, page: &str, anchors: &BTreeMap<&str, BTreeSet<&str>>, folde
     let (path, anchor) = link.split_once('#').unwrap_or((link, ""));
     let path = if path.is_empty() { page } else { path };
     match anchors.get(path) {
-        Some(own) => (!anchor.is_empty() && !own.contains(anchor)).then_some("the page has no such anchor"),
+        Some(ids) => (!anchor.is_empty() && !ids.contains(anchor)).then_some("the page has no such anchor"),
         None => (path.contains("..") || !folder.join(path).exists()).then_some("the book has no such page"),
     }
 }
@@ -61,7 +62,7 @@ fn the_book_is_built_and_its_links_lead_somewhere() {
     let anchors: BTreeMap<&str, BTreeSet<&str>> = pages.iter().map(|(name, text)| (name.as_str(), ids(text))).collect();
     let (mut faults, mut count) = (Vec::new(), 0);
     for (name, text) in &pages {
-        // What mdBook puts around a chapter is its own.
+        // Only links within a chapter are checked, not those of mdBook's page frame.
         let content = text.split("<main>").nth(1).and_then(|rest| rest.split("</main>").next()).expect("a chapter");
         for link in attributes(content, "href").into_iter().chain(attributes(content, "src")) {
             count += 1;
@@ -84,14 +85,14 @@ fn every_file_is_a_chapter_and_its_examples_are_compiled() {
         if name == "SUMMARY.md" {
             continue;
         }
-        assert!(summary.contains(&format!("]({name})")), "{name} isn't in SUMMARY.md");
-        assert!(tests.contains(&format!("include_str!(\"src/{name}\")")), "{name} isn't in lib.rs");
+        assert!(summary.contains(&format!("]({name})")), "{name} is not in SUMMARY.md");
+        assert!(tests.contains(&format!("include_str!(\"src/{name}\")")), "{name} is not in lib.rs");
         count += 1;
     }
-    assert_eq!(summary.matches("](").count(), count, "a chapter of SUMMARY.md has no file, or stands there twice");
+    assert_eq!(summary.matches("](").count(), count, "a chapter of SUMMARY.md has no file, or is listed twice");
 }
 
-/// What stands outside of the book leads into it, and to files that are there.
+/// Links from outside of the book to the book and to files are valid.
 #[test]
 fn links_of_other_texts_lead_to_files() {
     let root = docs().join("..");
@@ -114,7 +115,7 @@ fn links_of_other_texts_lead_to_files() {
     assert!(count > 10, "{count} links");
 }
 
-/// A reader who copies an example gets one that was compiled.
+/// Examples that a reader copies are compiled by a test.
 #[test]
 fn no_example_is_left_out() {
     for entry in fs::read_dir(docs().join("src")).expect("the chapters") {

@@ -1,9 +1,9 @@
-//! PDOs of at most a word.
+//! PDOs of up to eight bytes.
 
 use super::{frame, part, StepMode};
 use lexibus::LengthError;
 
-/// A word of 16 bits and a number of 32.
+/// A 16-bit word and a 32-bit number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WordAndLong {
     /// Control word or status word.
@@ -13,7 +13,7 @@ pub struct WordAndLong {
 }
 
 impl WordAndLong {
-    /// The bytes of a frame.
+    /// Returns the bytes of a frame.
     #[inline]
     pub fn pack(&self) -> [u8; 6] {
         let mut frame = [0; 6];
@@ -22,11 +22,11 @@ impl WordAndLong {
         frame
     }
 
-    /// The fields of a frame.
+    /// Reads the fields of a frame.
     ///
     /// # Errors
     ///
-    /// When it is too short.
+    /// If the frame is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 6] = frame(data)?;
@@ -34,7 +34,7 @@ impl WordAndLong {
     }
 }
 
-/// The eight bytes that a frame of CAN has: a word, a number of 32 bits, one of 16.
+/// A full CAN frame of eight bytes: a word, a 32-bit number and a 16-bit number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Full {
     /// Status word.
@@ -46,18 +46,18 @@ pub struct Full {
 }
 
 impl Full {
-    /// The bytes of a frame.
+    /// Returns the bytes of a frame.
     #[inline]
     pub fn pack(&self) -> [u8; 8] {
         let bits = u64::from(self.word) | u64::from(self.long as u32) << 16 | u64::from(self.short as u16) << 48;
         bits.to_le_bytes()
     }
 
-    /// The fields of a frame.
+    /// Reads the fields of a frame.
     ///
     /// # Errors
     ///
-    /// When it is too short.
+    /// If the frame is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 8] = frame(data)?;
@@ -66,7 +66,7 @@ impl Full {
     }
 }
 
-/// A word of 16 bits and a mode.
+/// A 16-bit word and a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WordAndMode {
     /// Control word or status word.
@@ -76,7 +76,7 @@ pub struct WordAndMode {
 }
 
 impl WordAndMode {
-    /// The bytes of a frame.
+    /// Returns the bytes of a frame.
     #[inline]
     pub fn pack(&self) -> [u8; 3] {
         let mut frame = [0; 3];
@@ -85,11 +85,11 @@ impl WordAndMode {
         frame
     }
 
-    /// The fields of a frame.
+    /// Reads the fields of a frame.
     ///
     /// # Errors
     ///
-    /// When it is too short.
+    /// If the frame is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 3] = frame(data)?;

@@ -1,9 +1,9 @@
-//! Process data of EtherCAT.
+//! EtherCAT process data.
 
 use super::{frame, part, AxisMode};
 use lexibus::LengthError;
 
-/// A mode of three bits.
+/// A 3-bit mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mode {
     /// 0.
@@ -19,7 +19,7 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// The mode of a number.
+    /// Returns the mode of a number.
     #[inline]
     pub fn from_raw(raw: u8) -> Self {
         match raw {
@@ -31,7 +31,7 @@ impl Mode {
         }
     }
 
-    /// The number of a mode.
+    /// Returns the number of a mode.
     #[inline]
     pub fn raw(self) -> u8 {
         match self {
@@ -44,7 +44,7 @@ impl Mode {
     }
 }
 
-/// Single bits, an enumeration, a number of 24 bits and one of 16 that starts with a byte: 48 bits.
+/// Single bits, an enumeration, a 24-bit number, and a byte-aligned 16-bit number: 48 bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Encoder {
     /// Bit 0.
@@ -64,7 +64,7 @@ pub struct Encoder {
 }
 
 impl Encoder {
-    /// The bytes of a frame.
+    /// Returns the bytes of a frame.
     #[inline]
     pub fn pack(&self) -> [u8; 6] {
         let bits = u32::from(self.ready)
@@ -79,11 +79,11 @@ impl Encoder {
         frame
     }
 
-    /// The fields of a frame.
+    /// Reads the fields of a frame.
     ///
     /// # Errors
     ///
-    /// When it is too short.
+    /// If the frame is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 6] = frame(data)?;
@@ -100,7 +100,7 @@ impl Encoder {
     }
 }
 
-/// Whole bytes, more than a word of them.
+/// Byte-aligned fields of more than eight bytes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SetPoints {
     /// Bytes 0 and 1.
@@ -116,7 +116,7 @@ pub struct SetPoints {
 }
 
 impl SetPoints {
-    /// The bytes of a frame.
+    /// Returns the bytes of a frame.
     #[inline]
     pub fn pack(&self) -> [u8; 14] {
         let mut frame = [0; 14];
@@ -128,11 +128,11 @@ impl SetPoints {
         frame
     }
 
-    /// The fields of a frame.
+    /// Reads the fields of a frame.
     ///
     /// # Errors
     ///
-    /// When it is too short.
+    /// If the frame is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 14] = frame(data)?;
@@ -146,7 +146,7 @@ impl SetPoints {
     }
 }
 
-/// Numbers that don't start with a byte, more than a word of them: 96 bits.
+/// Numbers that are not byte-aligned, with more than eight bytes: 96 bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActualValues {
     /// Bits 0 to 15.
@@ -164,7 +164,7 @@ pub struct ActualValues {
 }
 
 impl ActualValues {
-    /// The bytes of a frame.
+    /// Returns the bytes of a frame.
     #[inline]
     pub fn pack(&self) -> [u8; 12] {
         let velocity = self.velocity as u32;
@@ -180,11 +180,11 @@ impl ActualValues {
         frame
     }
 
-    /// The fields of a frame.
+    /// Reads the fields of a frame.
     ///
     /// # Errors
     ///
-    /// When it is too short.
+    /// If the frame is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 12] = frame(data)?;
@@ -201,7 +201,7 @@ impl ActualValues {
     }
 }
 
-/// [`Encoder`] and, right behind it, [`ActualValues`].
+/// [`Encoder`], directly followed by [`ActualValues`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Image {
     /// Bytes 0 to 5.
@@ -211,7 +211,7 @@ pub struct Image {
 }
 
 impl Image {
-    /// The bytes of the image.
+    /// Returns the bytes of the image.
     #[inline]
     pub fn pack(&self) -> [u8; 18] {
         let mut image = [0; 18];
@@ -220,11 +220,11 @@ impl Image {
         image
     }
 
-    /// The fields of the image.
+    /// Reads the fields of the image.
     ///
     /// # Errors
     ///
-    /// When it is too short.
+    /// If the image is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 18] = frame(data)?;

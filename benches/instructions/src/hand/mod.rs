@@ -1,4 +1,4 @@
-//! Structs as a person writes them who knows the frame by heart: fields at fixed places, nothing general.
+//! Structs as a programmer writes them for a known frame: fields at fixed offsets, without generality.
 
 mod canopen;
 mod ethercat;
@@ -12,28 +12,28 @@ pub use profinet::{Inputs, Outputs};
 
 use lexibus::LengthError;
 
-/// The first `N` bytes of a frame.
+/// Returns the first `N` bytes of a frame.
 ///
 /// # Errors
 ///
-/// When it is too short.
+/// If the frame is too short.
 #[inline]
 pub fn frame<const N: usize>(data: &[u8]) -> Result<&[u8; N], LengthError> {
     data.first_chunk().ok_or(LengthError::new(N, data.len()))
 }
 
-/// The first `N` bytes of a frame, to be written.
+/// Returns the first `N` bytes of a frame for writing.
 ///
 /// # Errors
 ///
-/// When it is too short.
+/// If the frame is too short.
 #[inline]
 pub fn frame_mut<const N: usize>(data: &mut [u8]) -> Result<&mut [u8; N], LengthError> {
     let error = LengthError::new(N, data.len());
     data.first_chunk_mut().ok_or(error)
 }
 
-/// The bytes from `at` on.
+/// Returns the bytes from `at` on.
 #[inline]
 pub fn part<const N: usize>(data: &[u8], at: usize) -> [u8; N] {
     let mut part = [0; N];

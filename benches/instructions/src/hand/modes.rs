@@ -1,4 +1,4 @@
-//! Modes of operation, as enumerations that know every number.
+//! Modes of operation as enumerations that accept every number.
 
 macro_rules! modes {
     ($(#[$attribute:meta])* $name:ident { $($mode:ident = $number:literal),* }) => {
@@ -14,7 +14,7 @@ macro_rules! modes {
         }
 
         impl $name {
-            /// The mode of a number.
+            /// Returns the mode of a number.
             #[inline]
             pub fn from_raw(raw: i8) -> Self {
                 match raw {
@@ -23,7 +23,7 @@ macro_rules! modes {
                 }
             }
 
-            /// The number of a mode.
+            /// Returns the number of a mode.
             #[inline]
             pub fn raw(self) -> i8 {
                 match self {
@@ -36,12 +36,12 @@ macro_rules! modes {
 }
 
 modes! {
-    /// Those of the Vector Step.
+    /// Modes of the Vector Step.
     StepMode { Velocity = -1, Reserved = 0, Profile = 1, Homing = 6, Interpolated = 7, Position = 8, Speed = 9 }
 }
 
 modes! {
-    /// Those of CiA 402.
+    /// Modes of CiA 402.
     AxisMode {
         None = 0, Profile = 1, Velocity = 2, ProfileVelocity = 3, ProfileTorque = 4, Homing = 6, Interpolated = 7,
         Position = 8, Speed = 9, Torque = 10, TorqueWithAngle = 11

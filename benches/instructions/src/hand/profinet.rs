@@ -1,4 +1,4 @@
-//! Process data of PROFINET.
+//! PROFINET process data.
 
 use super::{frame, part};
 use lexibus::LengthError;
@@ -27,7 +27,7 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// The bytes of the user data.
+    /// Returns the bytes of the user data.
     #[inline]
     pub fn pack(&self) -> [u8; 18] {
         let mut data = [0; 18];
@@ -41,11 +41,11 @@ impl Inputs {
         data
     }
 
-    /// The fields of the user data.
+    /// Reads the fields of the user data.
     ///
     /// # Errors
     ///
-    /// When they are too short.
+    /// If the user data is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 18] = frame(data)?;
@@ -91,7 +91,7 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// The bytes of the user data.
+    /// Returns the bytes of the user data.
     #[inline]
     pub fn pack(&self) -> [u8; 10] {
         let mut data = [0; 10];
@@ -109,11 +109,11 @@ impl Outputs {
         data
     }
 
-    /// The fields of the user data.
+    /// Reads the fields of the user data.
     ///
     /// # Errors
     ///
-    /// When they are too short.
+    /// If the user data is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 10] = frame(data)?;

@@ -1,4 +1,4 @@
-//! PINS: a format of one line per object, made up for the test `new_front_end`.
+//! PINS: a format with one line per object, invented for the test `new_front_end`.
 
 mod object;
 mod read;

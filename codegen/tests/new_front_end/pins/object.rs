@@ -1,4 +1,4 @@
-//! The object of a line: index, name, type, access rights.
+//! Reads the object of a line: index, name, type, access rights.
 
 use crate::ir::{Access, Binding, Group, Item, ObjectBuses, ObjectCode, Type};
 use crate::source::Origin;

@@ -1,4 +1,4 @@
-//! The lines of a file.
+//! Reads the lines of a file.
 
 use super::object::object;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};

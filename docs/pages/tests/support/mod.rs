@@ -1,4 +1,4 @@
-//! Builds books, and looks into their pages.
+//! Builds books and reads their pages.
 
 use std::path::Path;
 use std::sync::{Arc, Mutex};
@@ -9,7 +9,7 @@ use tracing::field::{Field, Visit};
 use tracing::span::{Attributes, Id, Record};
 use tracing::{Event, Level, Metadata, Subscriber};
 
-/// Keeps what mdBook warns of.
+/// Collects the warnings of mdBook.
 #[derive(Clone, Default)]
 struct Warnings(Arc<Mutex<Vec<String>>>);
 
@@ -39,7 +39,7 @@ impl Subscriber for Warnings {
     fn exit(&self, _: &Id) {}
 }
 
-/// The fields of an event, in a line.
+/// Formats the fields of an event on one line.
 #[derive(Default)]
 struct Message(String);
 
@@ -49,11 +49,11 @@ impl Visit for Message {
     }
 }
 
-/// Builds the book of a folder.
+/// Builds the book in a folder.
 ///
 /// # Panics
 ///
-/// Where mdBook can't, or warns of something.
+/// If mdBook fails or reports a warning.
 pub fn build_into(root: &Path, config: Config) {
     let warnings = Warnings::default();
     tracing::subscriber::with_default(warnings.clone(), || {
@@ -63,7 +63,7 @@ pub fn build_into(root: &Path, config: Config) {
     assert!(list.is_empty(), "{list:#?}");
 }
 
-/// The values of an attribute in a page.
+/// Returns the values of an attribute in a page.
 pub fn attributes<'p>(page: &'p str, name: &str) -> Vec<&'p str> {
     let start = format!(" {name}=\"");
     page.split(&start).skip(1).filter_map(|rest| rest.split('"').next()).collect()

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# What generated code costs who compiles it, by number of entries: benches/doors.sh [RUNS]
+# Measures the compile time of generated code by number of entries: benches/entry-points.sh [RUNS]
 #
-# Makes a crate for each door, `dictionary!` and `build.rs`, over an EDS of 36, 990 and 9,999 entries, and prints the median of
-# RUNS runs of `cargo check` and `cargo build --release` of that crate alone, generation included, its dependencies built before.
-# The first line is a crate with nothing in it.
+# Creates a crate for each entry point, `dictionary!` and `build.rs`, with an EDS of 36, 990 and 9,999 entries. Prints the
+# median of RUNS runs of `cargo check` and `cargo build --release` of that crate, including generation but not its dependencies.
+# The first line is an empty crate.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
 runs=${1:-5}
-export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}/doors CARGO_INCREMENTAL=0
+export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}/entry-points CARGO_INCREMENTAL=0
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# The input is that of the other measurements.
+# Uses the same input as the other measurements.
 printf '#[allow(dead_code)] #[path = "%s/codegen/benches/inputs/eds.rs"] mod inputs;\n' "$root" > "$work/eds.rs"
 echo 'fn main() { print!("{}", inputs::eds(std::env::args().nth(1).unwrap().parse().unwrap())) }' >> "$work/eds.rs"
 rustc --edition 2021 -O -o "$work/eds" "$work/eds.rs"
@@ -54,8 +54,8 @@ row() { # CRATE ENTRIES
 
 row empty 0
 for records in 4 110 1111; do
-    for door in macro build-script; do
-        "$work/eds" "$records" > "$work/$door/bench.eds"
-        row "$door" $((records * 9))
+    for entry in macro build-script; do
+        "$work/eds" "$records" > "$work/$entry/bench.eds"
+        row "$entry" $((records * 9))
     done
 done
