@@ -58,7 +58,7 @@ mod tests {
     }
 
     #[test]
-    fn both_doors_give_the_same_handles() {
+    fn both_entry_points_give_the_same_handles() {
         let mut drive = MacroPump::new(Memory::default());
         drive.speed().write(7).unwrap();
         assert_eq!(drive.into_client().0[&(0x2000, 0)], [7, 0]);
