@@ -20,6 +20,8 @@ pub(super) struct Target<'g> {
     pub(super) many: bool,
     /// Paths used so far.
     names: BTreeSet<PathBuf>,
+    /// Whether to report what was written.
+    pub(super) is_reported: bool,
     /// Number of files that were written or had the same text already.
     files: usize,
 }
@@ -40,7 +42,7 @@ impl<'g> Target<'g> {
             std::fs::create_dir_all(out)
                 .map_err(|error| Failure::Usage(format!("can't create the folder {}: {error}", out.display())))?;
         }
-        Ok(Target { out, check, is_folder, many, names: BTreeSet::new(), files: 0 })
+        Ok(Target { out, check, is_folder, many, names: BTreeSet::new(), is_reported: false, files: 0 })
     }
 
     /// Whether several outputs can be written.
@@ -67,7 +69,7 @@ impl<'g> Target<'g> {
             reporter.error(&format!("can't write {}: {error}", path.display()));
         } else {
             self.files += 1;
-            if self.is_one_file() {
+            if self.is_one_file() && self.is_reported {
                 reporter.progress(&format!("wrote {}: {} lines", path.display(), text.lines().count()));
             }
         }

@@ -454,7 +454,7 @@ fn the_builder_takes_overlays() {
     std::fs::write(&overlay, rows("0x2000 = { unit = \"rpm\" }\n")).expect("the overlay");
     let builder = Builder::new().quiet();
     let text = builder.clone().overlay(&overlay).generate(&input).expect("bindings");
-    assert!(text.contains("in rpm") && !builder.generate(&input).expect("bindings").contains("in rpm"));
+    assert!(text.contains("Unit rpm") && !builder.generate(&input).expect("bindings").contains("Unit rpm"));
     let missing = builder.overlay(folder.join("none.toml")).generate(&input).expect_err("no such file");
     assert!(missing.to_string().contains("none.toml"), "{missing}");
 }
@@ -498,7 +498,9 @@ fn items_get_other_addresses_and_keep_their_own() {
     ));
     assert_eq!(findings(&compilation), []);
     assert_eq!((item(&compilation, 0x2000, 0).bindings.len(), item(&compilation, 0x2000, 0).variants.len()), (3, 1));
-    assert!(compilation.rust(&Options::default().rust).is_some_and(|rust| rust.contains("Called G2 in the device")));
+    assert!(compilation
+        .rust(&Options::default().rust)
+        .is_some_and(|rust| rust.contains("Name in the device's ASCII protocol: G2")));
     for row in ["reg = 1", "obj = 0x2005", "part = 3", "swap = true", "count = 2"] {
         let found = findings(&apply(&rows(&format!("0x2000 = {{ {row}, unit = \"rpm\" }}"))));
         assert_eq!(found, [("TAB004", "0x2000".to_owned())], "{row}");

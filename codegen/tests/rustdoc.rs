@@ -92,7 +92,7 @@ fn references_are_links() {
                 "    /// View of [`Control`] with the bits that apply while [mode](super::objects::MODE) is press (1).",
                 "    /// States of ram, read from [status](super::objects::STATUS).",
                 "    /// | [`Ready`](Self::Ready) | `xxxx xxxx xxxx x001` |",
-                "    /// 0x200C:01, Modbus 12 (holding; wire 12; FC 3), INTEGER16, ro, physical value = raw × 0.5 / [gain](GAIN) N.",
+                "    /// Physical value = raw × 0.5 / [gain](GAIN) N, 0x200C:01, Modbus 12 (holding; wire 12; FC 3), INTEGER16, read-only.",
                 "    /// Removed in firmware 2\\.0. Replaced by [position](POSITION_8).",
             ][..],
         ),

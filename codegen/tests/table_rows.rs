@@ -99,8 +99,8 @@ fn scales() {
     let mantissa = Scale::Exponent { exponent: "b".into(), base: 2, fraction: 15 };
     assert_eq!(of("{ exponent = \"b\", base = 2, fraction = 15 }"), Some(mantissa));
     assert!(rust(&a(", scale = { exponent = \"b\", base = 2, fraction = 15 }"))
-        .contains("physical value = raw / 2^15 × 2^[b](B)"));
-    assert!(rust(&a(", scale = { times = \"b\" }")).contains("physical value = raw × [b](B)"));
+        .contains("Physical value = raw / 2^15 × 2^[b](B)"));
+    assert!(rust(&a(", scale = { times = \"b\" }")).contains("Physical value = raw × [b](B)"));
     for (scale, words) in [
         ("0", "the scale is 0"),
         ("nan", "the scale is NaN"),

@@ -462,7 +462,7 @@ impl<C> Akd<C> {
     }
     /// EtherCAT state that the master requests.
     ///
-    /// AL control. UNSIGNED16, read-write.
+    /// AL control: UNSIGNED16, read-write.
     /// Constant: [`objects::AL_CONTROL`]. Values: [`AlControl`](types::AlControl).
     ///
     /// Note: In the table of registers, the master has R/W access to AL control; in the table of bits, it has SENZA ("without"). Assumed: read-write (SENZA is a mistranslation of W/O (write-only). Reading back a written value does no harm, and in both tables the drive only reads). Manual: 4\.1 Registro dello slave; 4.3.1 Controllo AL (indirizzo 0x0120:0x0121) (lines 533, 609-616).
@@ -473,7 +473,7 @@ impl<C> Akd<C> {
     }
     /// Current EtherCAT state of the drive.
     ///
-    /// AL status. UNSIGNED16, read-only.
+    /// AL status: UNSIGNED16, read-only.
     /// Constant: [`objects::AL_STATUS`]. Values: [`AlStatus`](types::AlStatus).
     ///
     /// Note: In the table of registers, the drive has R/W access to AL status; in the table of bits, it has SENZA ("without"). Assumed: read-write for the drive (SENZA is a mistranslation of W/O (write-only); in both tables the master only reads). Manual: 4\.1 Registro dello slave; 4.3.2 Stato AL (indirizzo 0x0130:0x0131) (lines 534, 621-628).
@@ -484,7 +484,7 @@ impl<C> Akd<C> {
     }
     /// 16-bit code for the reason why a state change was refused.
     ///
-    /// AL status code. UNSIGNED16, read-only.
+    /// AL status code: UNSIGNED16, read-only.
     /// Constant: [`objects::AL_STATUS_CODE`]. Values: [`AlStatusCode`](types::AlStatusCode).
     ///
     /// Note: In the table of registers, the drive has R/W access to the AL status code; in the table of its bytes, it has SENZA ("without"). Assumed: read-write for the drive (SENZA is a mistranslation of W/O (write-only); in both tables the master only reads). Manual: 4\.1 Registro dello slave; 4.3.3 Codice dello stato AL (indirizzo 0x0134:0x0135) (lines 535, 633-634).
@@ -495,7 +495,7 @@ impl<C> Akd<C> {
     }
     /// Slave-controller events that the drive has enabled (bit = 1). Only EEPROM emulation and SyncManager 2 cause a hardware interrupt.
     ///
-    /// Interrupt enable. UNSIGNED16, read-only.
+    /// Interrupt enable: UNSIGNED16, read-only.
     /// Constant: [`objects::INTERRUPT_ENABLE`]. Values: [`InterruptEnable`](types::InterruptEnable).
     ///
     /// Note: Section 4.2 states that two events interrupt the drive (EEPROM emulation and SyncManager 2); mailbox and AL control are polled. The register, however, has enable bits for nine events, and in section 4.13.1 an interrupt starts the mailbox process. Assumed: the bits as printed, of which two cause an interrupt (section 4.2 names these two events explicitly). Manual: 4\.2 Evento AL (Evento di interruzione) e abilitazione dell'interruzione; 4.2.1 Registro di abilitazione dell'interruzione (indirizzo 0x0204:0x0205); 4.3 Accelerazione di fase; 1 more section (lines 560, 562, 567-577, 604, 1132).
@@ -506,7 +506,7 @@ impl<C> Akd<C> {
     }
     /// Pending slave-controller events that the drive must process (bit = 1).
     ///
-    /// AL event request. UNSIGNED16, read-write.
+    /// AL event request: UNSIGNED16, read-write.
     /// Constant: [`objects::AL_EVENT_REQUEST`]. Values: [`AlEventRequest`](types::AlEventRequest).
     ///
     /// Note: The master has R/W access to a register that only signals events to the drive. Assumed: read-write, as printed (the table of registers and the table of bits agree). Manual: 4\.1 Registro dello slave; 4.2.2 Richiesta di evento AL (indirizzo 0x0220:0x0221) (lines 537, 585-598).
@@ -517,7 +517,7 @@ impl<C> Akd<C> {
     }
     /// Sync manager of the mailbox requests to the drive (mailbox out).
     ///
-    /// SyncManager 0. OCTET_STRING, read-write.
+    /// SyncManager 0: OCTET_STRING, read-write.
     /// Constant: [`objects::SYNC_MANAGER_0`].
     pub fn sync_manager_0(
         &mut self,
@@ -526,7 +526,7 @@ impl<C> Akd<C> {
     }
     /// Sync manager of the mailbox replies of the drive (mailbox in).
     ///
-    /// SyncManager 1. OCTET_STRING, read-write.
+    /// SyncManager 1: OCTET_STRING, read-write.
     /// Constant: [`objects::SYNC_MANAGER_1`].
     pub fn sync_manager_1(
         &mut self,
@@ -535,7 +535,7 @@ impl<C> Akd<C> {
     }
     /// Sync manager of the output process data: cyclic set-points.
     ///
-    /// SyncManager 2. OCTET_STRING, read-write.
+    /// SyncManager 2: OCTET_STRING, read-write.
     /// Constant: [`objects::SYNC_MANAGER_2`].
     pub fn sync_manager_2(
         &mut self,
@@ -544,7 +544,7 @@ impl<C> Akd<C> {
     }
     /// Sync manager of the input process data: cyclic actual values.
     ///
-    /// SyncManager 3. OCTET_STRING, read-write.
+    /// SyncManager 3: OCTET_STRING, read-write.
     /// Constant: [`objects::SYNC_MANAGER_3`].
     pub fn sync_manager_3(
         &mut self,
@@ -553,7 +553,7 @@ impl<C> Akd<C> {
     }
     /// Sync manager 4; its event is reserved.
     ///
-    /// SyncManager 4. OCTET_STRING, read-write.
+    /// SyncManager 4: OCTET_STRING, read-write.
     /// Constant: [`objects::SYNC_MANAGER_4`].
     ///
     /// Note: The names are spelled "SyncManager" for 0 to 3, and "Sync Manager" from 4 on. Assumed: one spelling for all sync managers (addresses and lengths continue in equal steps). Manual: 4\.1 Registro dello slave (lines 538-546).
@@ -564,7 +564,7 @@ impl<C> Akd<C> {
     }
     /// Sync manager 5; its event is reserved.
     ///
-    /// SyncManager 5. OCTET_STRING, read-write.
+    /// SyncManager 5: OCTET_STRING, read-write.
     /// Constant: [`objects::SYNC_MANAGER_5`].
     pub fn sync_manager_5(
         &mut self,
@@ -573,7 +573,7 @@ impl<C> Akd<C> {
     }
     /// Sync manager 6; its event is reserved.
     ///
-    /// SyncManager 6. OCTET_STRING, read-write.
+    /// SyncManager 6: OCTET_STRING, read-write.
     /// Constant: [`objects::SYNC_MANAGER_6`].
     pub fn sync_manager_6(
         &mut self,
@@ -582,7 +582,7 @@ impl<C> Akd<C> {
     }
     /// Sync manager 7; its event is reserved.
     ///
-    /// SyncManager 7. OCTET_STRING, read-write.
+    /// SyncManager 7: OCTET_STRING, read-write.
     /// Constant: [`objects::SYNC_MANAGER_7`].
     pub fn sync_manager_7(
         &mut self,
@@ -591,7 +591,7 @@ impl<C> Akd<C> {
     }
     /// Sync manager 8; its event is reserved.
     ///
-    /// SyncManager 8. OCTET_STRING, read-write.
+    /// SyncManager 8: OCTET_STRING, read-write.
     /// Constant: [`objects::SYNC_MANAGER_8`].
     ///
     /// Note: The table of registers has nine sync managers (0 to 8), the table of events sixteen (0 to 15). Assumed: nine registers (only these nine have addresses; the events of 4 to 15 are reserved). Manual: 4\.1 Registro dello slave; 4.2.2 Richiesta di evento AL (indirizzo 0x0220:0x0221) (lines 538-546, 595-598).
@@ -602,7 +602,7 @@ impl<C> Akd<C> {
     }
     /// Cyclic set-points from the master, up to 64 bytes; the assigned PDOs determine the length.
     ///
-    /// ProcOut buffer. OCTET_STRING, read-write.
+    /// ProcOut buffer: OCTET_STRING, read-write.
     /// Constant: [`objects::PROC_OUT_BUFFER`].
     pub fn proc_out_buffer(
         &mut self,
@@ -611,7 +611,7 @@ impl<C> Akd<C> {
     }
     /// Cyclic actual values of the drive, up to 64 bytes; the assigned PDOs determine the length.
     ///
-    /// ProcIn buffer. OCTET_STRING, read-only.
+    /// ProcIn buffer: OCTET_STRING, read-only.
     /// Constant: [`objects::PROC_IN_BUFFER`].
     pub fn proc_in_buffer(
         &mut self,
@@ -620,7 +620,7 @@ impl<C> Akd<C> {
     }
     /// Mailbox requests to the drive; the drive reads the first 16 bytes.
     ///
-    /// Mailbox out buffer. OCTET_STRING, read-write.
+    /// Mailbox out buffer: OCTET_STRING, read-write.
     /// Constant: [`objects::MAILBOX_OUT_BUFFER`].
     ///
     /// Note: The table of registers gives the mailbox-out buffer 512 bytes and refers to the device description file; the drive reads only 16 bytes. Assumed: 512 bytes (the request takes the first 16 bytes of the buffer). Manual: 4\.1 Registro dello slave; Schema di temporizzazione; 4.13.1 Uscita della Mailbox (lines 549, 1125, 1132, 1134).
@@ -631,7 +631,7 @@ impl<C> Akd<C> {
     }
     /// Mailbox replies of the drive, in the first 16 bytes.
     ///
-    /// Mailbox in buffer. OCTET_STRING, read-only.
+    /// Mailbox in buffer: OCTET_STRING, read-only.
     /// Constant: [`objects::MAILBOX_IN_BUFFER`].
     ///
     /// Note: The table of registers gives the mailbox-in buffer 512 bytes and refers to the device description file; replies have 16 bytes. Assumed: 512 bytes (the reply takes the first 16 bytes of the buffer). Manual: 4\.1 Registro dello slave; 4.13.2 Ingresso della Mailbox (lines 550, 1171, 1173).
@@ -716,7 +716,7 @@ impl<C> Akd<C> {
     }
     /// Actual position of the second feedback device; no unit is printed.
     ///
-    /// Second position feedback. 0x2050:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Second position feedback: 0x2050:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::SECOND_POSITION_FEEDBACK`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     ///
     /// Note: Index printed as 2050, without 0x. Assumed: 0x2050 (as a decimal number, 2050 is 0x0802, which is outside of the manufacturer range). Manual: Valori effettivi ciclici supportati (line 995).
@@ -727,7 +727,7 @@ impl<C> Akd<C> {
     }
     /// Position captured at a rising edge of a latch input; no unit is printed.
     ///
-    /// Latch position, rising edge. 0x20A0:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Latch position, rising edge: 0x20A0:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::LATCH_POSITION_RISING_EDGE`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20).
     pub fn latch_position_rising_edge(
         &mut self,
@@ -736,7 +736,7 @@ impl<C> Akd<C> {
     }
     /// Enables the edges of latches 1 and 2, and selects the captured position to read.
     ///
-    /// Latch control word. 0x20A4:00, UNSIGNED16, read-write, mappable into RPDOs.
+    /// Latch control word: 0x20A4:00, UNSIGNED16, read-write, mappable into RPDOs.
     /// Constant: [`objects::LATCH_CONTROL_WORD`]. Values: [`LatchControl`](types::LatchControl). Carried by [`RxPdo1720`](pdo::RxPdo1720), [`RxPdo1722`](pdo::RxPdo1722), [`RxPdo1723`](pdo::RxPdo1723).
     pub fn latch_control_word(
         &mut self,
@@ -745,7 +745,7 @@ impl<C> Akd<C> {
     }
     /// Valid captured positions, the captured position that is read, and the states of digital inputs 1 to 4.
     ///
-    /// Latch status word. 0x20A5:00, UNSIGNED16, read-only, mappable into TPDOs.
+    /// Latch status word: 0x20A5:00, UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::LATCH_STATUS_WORD`]. Values: [`LatchStatus`](types::LatchStatus). Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     pub fn latch_status_word(
         &mut self,
@@ -754,7 +754,7 @@ impl<C> Akd<C> {
     }
     /// Value of the analog input; no unit is printed.
     ///
-    /// Analogue input value. 0x3470:00, INTEGER16, read-only, mappable into TPDOs.
+    /// Analogue input value: 0x3470:00, INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::ANALOGUE_INPUT_VALUE`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     pub fn analogue_input_value(
         &mut self,
@@ -763,7 +763,7 @@ impl<C> Akd<C> {
     }
     /// Control word: commands of the drive state machine, halt, fault reset and mode-dependent bits.
     ///
-    /// Control word. 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
+    /// Control word: 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
     /// Constant: [`objects::CONTROL_WORD`]. Values: [`ControlWord`](types::ControlWord). Carried by [`RxPdo1701`](pdo::RxPdo1701), [`RxPdo1702`](pdo::RxPdo1702), [`RxPdo1703`](pdo::RxPdo1703), [`RxPdo1720`](pdo::RxPdo1720), [`RxPdo1721`](pdo::RxPdo1721), [`RxPdo1722`](pdo::RxPdo1722), [`RxPdo1723`](pdo::RxPdo1723), [`RxPdo1724`](pdo::RxPdo1724) and 1 more.
     pub fn control_word(
         &mut self,
@@ -772,7 +772,7 @@ impl<C> Akd<C> {
     }
     /// Status word: drive state, warning, target reached and internal limit.
     ///
-    /// Status word. 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
+    /// Status word: 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::STATUS_WORD`]. Values: [`StatusWord`](types::StatusWord). Carried by [`TxPdo1B01`](pdo::TxPdo1B01), [`TxPdo1B02`](pdo::TxPdo1B02), [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B21`](pdo::TxPdo1B21), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23), [`TxPdo1B24`](pdo::TxPdo1B24), [`TxPdo1A00`](pdo::TxPdo1A00).
     pub fn status_word(
         &mut self,
@@ -781,7 +781,7 @@ impl<C> Akd<C> {
     }
     /// Requested mode of operation.
     ///
-    /// Modes of operation. 0x6060:00, INTEGER8, read-write.
+    /// Modes of operation: 0x6060:00, INTEGER8, read-write.
     /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`ModesOfOperation`](types::ModesOfOperation).
     ///
     /// Note: 0x6060 has no type; the start-up list writes 0x07, with two digits. Assumed: i8 (two digits are a byte; the object is signed in DS402). Manual: 4\.6.1 Esempio: mappatura libera PDO (line 944).
@@ -794,7 +794,7 @@ impl<C> Akd<C> {
     }
     /// Actual position from the position sensor; no unit is printed.
     ///
-    /// Internal position actual value. 0x6063:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Internal position actual value: 0x6063:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::INTERNAL_POSITION_ACTUAL_VALUE`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B21`](pdo::TxPdo1B21), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     pub fn internal_position_actual_value(
         &mut self,
@@ -803,7 +803,7 @@ impl<C> Akd<C> {
     }
     /// Actual velocity, from the velocity sensor or calculated from the position sensor; no unit is printed.
     ///
-    /// Velocity actual value. 0x606C:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Velocity actual value: 0x606C:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::VELOCITY_ACTUAL_VALUE`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     pub fn velocity_actual_value(
         &mut self,
@@ -812,7 +812,7 @@ impl<C> Akd<C> {
     }
     /// Instantaneous torque of the motor; no unit is printed.
     ///
-    /// Torque actual value. 0x6077:00, INTEGER16, read-only, mappable into TPDOs.
+    /// Torque actual value: 0x6077:00, INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::TORQUE_ACTUAL_VALUE`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     ///
     /// Note: The manual gives no unit and no scale factor. Assumed: raw values without a unit (CiA 402 uses 0.1 % of the rated torque, but this manual does not state it). Manual: Valori effettivi ciclici supportati (line 999).
@@ -823,7 +823,7 @@ impl<C> Akd<C> {
     }
     /// Torque feed-forward, added to the torque set-point; no unit is printed.
     ///
-    /// Torque feed-forward. 0x60B2:00, INTEGER16, read-write, mappable into RPDOs.
+    /// Torque feed-forward: 0x60B2:00, INTEGER16, read-write, mappable into RPDOs.
     /// Constant: [`objects::TORQUE_FEED_FORWARD`]. Carried by [`RxPdo1720`](pdo::RxPdo1720), [`RxPdo1721`](pdo::RxPdo1721), [`RxPdo1722`](pdo::RxPdo1722), [`RxPdo1723`](pdo::RxPdo1723), [`RxPdo1724`](pdo::RxPdo1724).
     ///
     /// Hazard: The manual gives no unit and no scale factor. Assumed: raw values without a unit (CiA 402 uses 0.1 % of the rated torque, but this manual does not state it). Manual: Valori di setpoint ciclici supportati (line 986).
@@ -852,7 +852,7 @@ impl<C> Akd<C> {
     }
     /// Following error: difference between position set-point and actual position; no unit is printed.
     ///
-    /// Following error actual value. 0x60F4:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Following error actual value: 0x60F4:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::FOLLOWING_ERROR_ACTUAL_VALUE`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     pub fn following_error_actual_value(
         &mut self,
@@ -861,7 +861,7 @@ impl<C> Akd<C> {
     }
     /// States of the digital inputs.
     ///
-    /// Digital inputs. 0x60FD:00, UNSIGNED32, read-only, mappable into TPDOs.
+    /// Digital inputs: 0x60FD:00, UNSIGNED32, read-only, mappable into TPDOs.
     /// Constant: [`objects::DIGITAL_INPUTS`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     ///
     /// Hazard: The bits of the digital inputs have no names. Assumed: raw bits (the assignment depends on the drive; the manual does not confirm that bits 0 to 3 are the switches of CiA 402). Manual: Valori effettivi ciclici supportati (line 996).
@@ -877,7 +877,7 @@ impl<C> Akd<C> {
     }
     /// Cyclic velocity set-point of profile velocity mode; no unit is printed.
     ///
-    /// Velocity command value. 0x60FF:00, INTEGER32, read-write, mappable into RPDOs.
+    /// Velocity command value: 0x60FF:00, INTEGER32, read-write, mappable into RPDOs.
     /// Constant: [`objects::VELOCITY_COMMAND_VALUE`]. Carried by [`RxPdo1702`](pdo::RxPdo1702).
     ///
     /// Hazard: The manual gives no unit and no scale factor. Assumed: raw values without a unit (the resolution of velocities depends on drive parameters that another manual describes). Manual: 1\.1 Su questo manuale; Valori di setpoint ciclici supportati (lines 150, 983).
@@ -4351,7 +4351,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; 0 clears the mapping.
             ///
-            /// Number of entries. Range 0 to 4, 0x1600:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 4, 0x1600:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -4360,7 +4360,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 1. 0x1600:01, UNSIGNED32, read-write.
+            /// Entry 1: 0x1600:01, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
@@ -4374,7 +4374,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 2. 0x1600:02, UNSIGNED32, read-write.
+            /// Entry 2: 0x1600:02, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
@@ -4388,7 +4388,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 3. 0x1600:03, UNSIGNED32, read-write.
+            /// Entry 3: 0x1600:03, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
@@ -4402,7 +4402,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 4. 0x1600:04, UNSIGNED32, read-write.
+            /// Entry 4: 0x1600:04, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
@@ -4492,7 +4492,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; 0 clears the mapping.
             ///
-            /// Number of entries. Range 0 to 4, 0x1601:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 4, 0x1601:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -4501,7 +4501,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 1. 0x1601:01, UNSIGNED32, read-write.
+            /// Entry 1: 0x1601:01, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
@@ -4515,7 +4515,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 2. 0x1601:02, UNSIGNED32, read-write.
+            /// Entry 2: 0x1601:02, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
@@ -4529,7 +4529,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 3. 0x1601:03, UNSIGNED32, read-write.
+            /// Entry 3: 0x1601:03, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
@@ -4543,7 +4543,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 4. 0x1601:04, UNSIGNED32, read-write.
+            /// Entry 4: 0x1601:04, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
@@ -4633,7 +4633,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; 0 clears the mapping.
             ///
-            /// Number of entries. Range 0 to 4, 0x1602:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 4, 0x1602:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -4642,7 +4642,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 1. 0x1602:01, UNSIGNED32, read-write.
+            /// Entry 1: 0x1602:01, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
@@ -4656,7 +4656,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 2. 0x1602:02, UNSIGNED32, read-write.
+            /// Entry 2: 0x1602:02, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
@@ -4670,7 +4670,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 3. 0x1602:03, UNSIGNED32, read-write.
+            /// Entry 3: 0x1602:03, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
@@ -4684,7 +4684,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 4. 0x1602:04, UNSIGNED32, read-write.
+            /// Entry 4: 0x1602:04, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
@@ -4774,7 +4774,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; 0 clears the mapping.
             ///
-            /// Number of entries. Range 0 to 4, 0x1603:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 4, 0x1603:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -4783,7 +4783,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 1. 0x1603:01, UNSIGNED32, read-write.
+            /// Entry 1: 0x1603:01, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
@@ -4797,7 +4797,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 2. 0x1603:02, UNSIGNED32, read-write.
+            /// Entry 2: 0x1603:02, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
@@ -4811,7 +4811,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 3. 0x1603:03, UNSIGNED32, read-write.
+            /// Entry 3: 0x1603:03, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
@@ -4825,7 +4825,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 4. 0x1603:04, UNSIGNED32, read-write.
+            /// Entry 4: 0x1603:04, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
@@ -4915,7 +4915,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; 0 clears the mapping.
             ///
-            /// Number of entries. Range 0 to 4, 0x1A00:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 4, 0x1A00:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -4924,7 +4924,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 1. 0x1A00:01, UNSIGNED32, read-write.
+            /// Entry 1: 0x1A00:01, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
@@ -4938,7 +4938,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 2. 0x1A00:02, UNSIGNED32, read-write.
+            /// Entry 2: 0x1A00:02, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
@@ -4952,7 +4952,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 3. 0x1A00:03, UNSIGNED32, read-write.
+            /// Entry 3: 0x1A00:03, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
@@ -4966,7 +4966,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 4. 0x1A00:04, UNSIGNED32, read-write.
+            /// Entry 4: 0x1A00:04, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
@@ -5056,7 +5056,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; 0 clears the mapping.
             ///
-            /// Number of entries. Range 0 to 4, 0x1A01:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 4, 0x1A01:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -5065,7 +5065,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 1. 0x1A01:01, UNSIGNED32, read-write.
+            /// Entry 1: 0x1A01:01, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
@@ -5079,7 +5079,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 2. 0x1A01:02, UNSIGNED32, read-write.
+            /// Entry 2: 0x1A01:02, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
@@ -5093,7 +5093,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 3. 0x1A01:03, UNSIGNED32, read-write.
+            /// Entry 3: 0x1A01:03, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
@@ -5107,7 +5107,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 4. 0x1A01:04, UNSIGNED32, read-write.
+            /// Entry 4: 0x1A01:04, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
@@ -5197,7 +5197,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; 0 clears the mapping.
             ///
-            /// Number of entries. Range 0 to 4, 0x1A02:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 4, 0x1A02:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -5206,7 +5206,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 1. 0x1A02:01, UNSIGNED32, read-write.
+            /// Entry 1: 0x1A02:01, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
@@ -5220,7 +5220,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 2. 0x1A02:02, UNSIGNED32, read-write.
+            /// Entry 2: 0x1A02:02, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
@@ -5234,7 +5234,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 3. 0x1A02:03, UNSIGNED32, read-write.
+            /// Entry 3: 0x1A02:03, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
@@ -5248,7 +5248,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 4. 0x1A02:04, UNSIGNED32, read-write.
+            /// Entry 4: 0x1A02:04, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
@@ -5338,7 +5338,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; 0 clears the mapping.
             ///
-            /// Number of entries. Range 0 to 4, 0x1A03:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 4, 0x1A03:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -5347,7 +5347,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 1. 0x1A03:01, UNSIGNED32, read-write.
+            /// Entry 1: 0x1A03:01, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
@@ -5361,7 +5361,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 2. 0x1A03:02, UNSIGNED32, read-write.
+            /// Entry 2: 0x1A03:02, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
@@ -5375,7 +5375,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 3. 0x1A03:03, UNSIGNED32, read-write.
+            /// Entry 3: 0x1A03:03, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
@@ -5389,7 +5389,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits.
             ///
-            /// Entry 4. 0x1A03:04, UNSIGNED32, read-write.
+            /// Entry 4: 0x1A03:04, UNSIGNED32, read-write.
             /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
@@ -5484,7 +5484,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of assigned PDOs; 0 clears the assignment.
             ///
-            /// Number of entries. Range 0 to 4, 0x1C12:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 4, 0x1C12:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -5493,28 +5493,28 @@ pub mod objects {
             }
             /// Index of the first assigned RxPDO; a fixed mapping uses only this entry.
             ///
-            /// PDO 1. Default 0x1701, 0x1C12:01, UNSIGNED16, read-write.
+            /// PDO 1: Default 0x1701, 0x1C12:01, UNSIGNED16, read-write.
             /// Constant: [`PDO_1`].
             pub fn pdo_1(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_1.at(self.client)
             }
             /// Index of a further assigned RxPDO; only for free mapping.
             ///
-            /// PDO 2. 0x1C12:02, UNSIGNED16, read-write.
+            /// PDO 2: 0x1C12:02, UNSIGNED16, read-write.
             /// Constant: [`PDO_2`].
             pub fn pdo_2(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_2.at(self.client)
             }
             /// Index of a further assigned RxPDO; only for free mapping.
             ///
-            /// PDO 3. 0x1C12:03, UNSIGNED16, read-write.
+            /// PDO 3: 0x1C12:03, UNSIGNED16, read-write.
             /// Constant: [`PDO_3`].
             pub fn pdo_3(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_3.at(self.client)
             }
             /// Index of a further assigned RxPDO; only for free mapping.
             ///
-            /// PDO 4. 0x1C12:04, UNSIGNED16, read-write.
+            /// PDO 4: 0x1C12:04, UNSIGNED16, read-write.
             /// Constant: [`PDO_4`].
             pub fn pdo_4(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_4.at(self.client)
@@ -5602,7 +5602,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of assigned PDOs; 0 clears the assignment.
             ///
-            /// Number of entries. Range 0 to 4, 0x1C13:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 4, 0x1C13:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -5611,28 +5611,28 @@ pub mod objects {
             }
             /// Index of the first assigned TxPDO; a fixed mapping uses only this entry.
             ///
-            /// PDO 1. Default 0x1B01, 0x1C13:01, UNSIGNED16, read-write.
+            /// PDO 1: Default 0x1B01, 0x1C13:01, UNSIGNED16, read-write.
             /// Constant: [`PDO_1`].
             pub fn pdo_1(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_1.at(self.client)
             }
             /// Index of a further assigned TxPDO; only for free mapping.
             ///
-            /// PDO 2. 0x1C13:02, UNSIGNED16, read-write.
+            /// PDO 2: 0x1C13:02, UNSIGNED16, read-write.
             /// Constant: [`PDO_2`].
             pub fn pdo_2(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_2.at(self.client)
             }
             /// Index of a further assigned TxPDO; only for free mapping.
             ///
-            /// PDO 3. 0x1C13:03, UNSIGNED16, read-write.
+            /// PDO 3: 0x1C13:03, UNSIGNED16, read-write.
             /// Constant: [`PDO_3`].
             pub fn pdo_3(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_3.at(self.client)
             }
             /// Index of a further assigned TxPDO; only for free mapping.
             ///
-            /// PDO 4. 0x1C13:04, UNSIGNED16, read-write.
+            /// PDO 4: 0x1C13:04, UNSIGNED16, read-write.
             /// Constant: [`PDO_4`].
             pub fn pdo_4(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_4.at(self.client)
@@ -5844,7 +5844,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Cyclic position set-point of interpolated position mode; no unit is printed.
             ///
-            /// Position command value. 0x60C1:01, INTEGER32, read-write, mappable into RPDOs.
+            /// Position command value: 0x60C1:01, INTEGER32, read-write, mappable into RPDOs.
             /// Constant: [`POSITION_COMMAND_VALUE`]. Carried by [`RxPdo1701`](super::super::pdo::RxPdo1701), [`RxPdo1720`](super::super::pdo::RxPdo1720), [`RxPdo1721`](super::super::pdo::RxPdo1721), [`RxPdo1722`](super::super::pdo::RxPdo1722), [`RxPdo1723`](super::super::pdo::RxPdo1723).
             ///
             /// Hazard: The manual gives no unit and no scale factor. Assumed: raw values without a unit (the resolution of positions depends on drive parameters that another manual describes). Manual: 1\.1 Su questo manuale; Valori di setpoint ciclici supportati (lines 150, 982).
@@ -5911,7 +5911,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Cycle time as a number of time units; sub-index 2 gives the unit.
             ///
-            /// Interpolation time units. Physical value = raw × 10^[Interpolation time index](INTERPOLATION_TIME_INDEX) s, 0x60C2:01, UNSIGNED8, read-write.
+            /// Interpolation time units: Physical value = raw × 10^[Interpolation time index](INTERPOLATION_TIME_INDEX) s, 0x60C2:01, UNSIGNED8, read-write.
             /// Constant: [`INTERPOLATION_TIME_UNITS`].
             ///
             /// Note: The sub-index has no type; the start-up list writes 0x02, with two digits. Assumed: u8 (two digits are a byte). Manual: 4\.6.1 Esempio: mappatura libera PDO (line 945).
@@ -5928,7 +5928,7 @@ pub mod objects {
             }
             /// Exponent of the time unit to the base 10: -3 for milliseconds.
             ///
-            /// Interpolation time index. 0x60C2:02, INTEGER8, read-write.
+            /// Interpolation time index: 0x60C2:02, INTEGER8, read-write.
             /// Constant: [`INTERPOLATION_TIME_INDEX`].
             ///
             /// Note: The sub-index has no type; the start-up list writes 0xFD, and the text has -3 and -4. Assumed: i8 (0xFD as a signed byte is -3). Manual: 4\.6.1 Esempio: mappatura libera PDO; 4.9 Regolazione della durata del ciclo di EtherCAT (lines 946, 1016-1024).
@@ -5999,7 +5999,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// States that the master sets for the digital outputs.
             ///
-            /// Physical outputs. 0x60FE:01, UNSIGNED32, read-write, mappable into RPDOs.
+            /// Physical outputs: 0x60FE:01, UNSIGNED32, read-write, mappable into RPDOs.
             /// Constant: [`PHYSICAL_OUTPUTS`]. Carried by [`RxPdo1720`](super::super::pdo::RxPdo1720), [`RxPdo1722`](super::super::pdo::RxPdo1722), [`RxPdo1723`](super::super::pdo::RxPdo1723).
             ///
             /// Hazard: The bits of the digital outputs have no names, and no mask (sub-index 2) is printed. Assumed: raw bits (the manual does not describe the assignment, and does not confirm that bit 0 is the brake of CiA 402). Manual: Valori di setpoint ciclici supportati (line 987).

@@ -33,14 +33,14 @@ impl<C> DemoDrive<C> {
     }
     /// Device profile number and additional information on the device.
     ///
-    /// Device type. Default 0x20192, 0x1000:00, UNSIGNED32, read-only.
+    /// Device type: Default 0x20192, 0x1000:00, UNSIGNED32, read-only.
     /// Constant: [`objects::DEVICE_TYPE`]. Values: [`DeviceType`](types::DeviceType).
     pub fn device_type(&mut self) -> objects::ReadOnlyAccess<'_, C, types::DeviceType> {
         objects::DEVICE_TYPE.at(&mut self.client)
     }
     /// Kinds of errors that are currently present.
     ///
-    /// Error register. Default 0, 0x1001:00, UNSIGNED8, read-only, mappable into TPDOs.
+    /// Error register: Default 0, 0x1001:00, UNSIGNED8, read-only, mappable into TPDOs.
     /// Constant: [`objects::ERROR_REGISTER`]. Values: [`ErrorRegister`](types::ErrorRegister).
     pub fn error_register(
         &mut self,
@@ -58,7 +58,7 @@ impl<C> DemoDrive<C> {
     }
     /// COB-ID of the SYNC message.
     ///
-    /// COB-ID SYNC message. Default 0x80, 0x1005:00, UNSIGNED32, read-write.
+    /// COB-ID SYNC message: Default 0x80, 0x1005:00, UNSIGNED32, read-write.
     /// Constant: [`objects::COB_ID_SYNC_MESSAGE`]. Values: [`SyncIdentifier`](types::SyncIdentifier).
     pub fn cob_id_sync_message(
         &mut self,
@@ -92,7 +92,7 @@ impl<C> DemoDrive<C> {
     }
     /// COB-ID of the emergency messages.
     ///
-    /// COB-ID EMCY. Default \$NODEID+0x80, 0x1014:00, UNSIGNED32, read-write.
+    /// COB-ID EMCY: Default \$NODEID+0x80, 0x1014:00, UNSIGNED32, read-write.
     /// Constant: [`objects::COB_ID_EMCY`]. Values: [`EmergencyIdentifier`](types::EmergencyIdentifier).
     pub fn cob_id_emcy(
         &mut self,
@@ -101,7 +101,7 @@ impl<C> DemoDrive<C> {
     }
     /// Heartbeat period; 0 disables the heartbeat.
     ///
-    /// Producer heartbeat time. Unit ms, default 0, 0x1017:00, UNSIGNED16, read-write.
+    /// Producer heartbeat time: Unit ms, default 0, 0x1017:00, UNSIGNED16, read-write.
     /// Constant: [`objects::PRODUCER_HEARTBEAT_TIME`].
     pub fn producer_heartbeat_time(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::PRODUCER_HEARTBEAT_TIME.at(&mut self.client)
@@ -216,7 +216,7 @@ impl<C> DemoDrive<C> {
     }
     /// Control word: commands of the drive state machine and of the mode of operation.
     ///
-    /// Controlword. Default 0, 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
+    /// Controlword: Default 0, 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
     /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`RxPdo1`](pdo::RxPdo1), [`RxPdo2`](pdo::RxPdo2).
     pub fn controlword(
         &mut self,
@@ -225,14 +225,14 @@ impl<C> DemoDrive<C> {
     }
     /// Status word: state of the drive state machine and of the mode of operation.
     ///
-    /// Statusword. 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
+    /// Statusword: 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`TxPdo1`](pdo::TxPdo1), [`TxPdo2`](pdo::TxPdo2).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
     /// Requested mode of operation; the active mode is in 0x6061.
     ///
-    /// Modes of operation. Range \-128 to 8, default 1, 0x6060:00, INTEGER8, read-write, mappable into any PDO.
+    /// Modes of operation: Range \-128 to 8, default 1, 0x6060:00, INTEGER8, read-write, mappable into any PDO.
     /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`ModesOfOperation`](types::ModesOfOperation).
     pub fn modes_of_operation(
         &mut self,
@@ -241,7 +241,7 @@ impl<C> DemoDrive<C> {
     }
     /// Active mode of operation.
     ///
-    /// Modes of operation display. 0x6061:00, INTEGER8, read-only, mappable into TPDOs.
+    /// Modes of operation display: 0x6061:00, INTEGER8, read-only, mappable into TPDOs.
     /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Values: [`ModesOfOperation`](types::ModesOfOperation).
     pub fn modes_of_operation_display(
         &mut self,
@@ -2871,7 +2871,7 @@ pub mod objects {
             }
             /// Recorded error; sub-index 1 has the newest.
             ///
-            /// Pre-defined error field1. 0x1003:01, UNSIGNED32, read-only.
+            /// Pre-defined error field1: 0x1003:01, UNSIGNED32, read-only.
             /// Constant: [`PRE_DEFINED_ERROR_FIELD1`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field1(
                 &mut self,
@@ -2880,7 +2880,7 @@ pub mod objects {
             }
             /// Recorded error; sub-index 1 has the newest.
             ///
-            /// Pre-defined error field2. 0x1003:02, UNSIGNED32, read-only.
+            /// Pre-defined error field2: 0x1003:02, UNSIGNED32, read-only.
             /// Constant: [`PRE_DEFINED_ERROR_FIELD2`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field2(
                 &mut self,
@@ -2889,7 +2889,7 @@ pub mod objects {
             }
             /// Recorded error; sub-index 1 has the newest.
             ///
-            /// Pre-defined error field3. 0x1003:03, UNSIGNED32, read-only.
+            /// Pre-defined error field3: 0x1003:03, UNSIGNED32, read-only.
             /// Constant: [`PRE_DEFINED_ERROR_FIELD3`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field3(
                 &mut self,
@@ -2898,7 +2898,7 @@ pub mod objects {
             }
             /// Recorded error; sub-index 1 has the newest.
             ///
-            /// Pre-defined error field4. 0x1003:04, UNSIGNED32, read-only.
+            /// Pre-defined error field4: 0x1003:04, UNSIGNED32, read-only.
             /// Constant: [`PRE_DEFINED_ERROR_FIELD4`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field4(
                 &mut self,
@@ -2991,7 +2991,7 @@ pub mod objects {
             }
             /// Writing "save" stores the parameters in non-volatile memory; reading returns the storage capability.
             ///
-            /// Save all parameters. Default 1, 0x1010:01, UNSIGNED32, read-write.
+            /// Save all parameters: Default 1, 0x1010:01, UNSIGNED32, read-write.
             /// Constant: [`SAVE_ALL_PARAMETERS`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
             pub fn save_all_parameters(
                 &mut self,
@@ -3125,21 +3125,21 @@ pub mod objects {
             }
             /// Vendor ID.
             ///
-            /// Vendor-ID. Default 0, 0x1018:01, UNSIGNED32, read-only.
+            /// Vendor-ID: Default 0, 0x1018:01, UNSIGNED32, read-only.
             /// Constant: [`VENDOR_ID`].
             pub fn vendor_id(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 VENDOR_ID.at(self.client)
             }
             /// Product code, assigned by the vendor.
             ///
-            /// Product code. Default 16417, 0x1018:02, UNSIGNED32, read-only.
+            /// Product code: Default 16417, 0x1018:02, UNSIGNED32, read-only.
             /// Constant: [`PRODUCT_CODE`].
             pub fn product_code(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 PRODUCT_CODE.at(self.client)
             }
             /// Revision number of the product.
             ///
-            /// Revision number. Default 0x10000, 0x1018:03, UNSIGNED32, read-only.
+            /// Revision number: Default 0x10000, 0x1018:03, UNSIGNED32, read-only.
             /// Constant: [`REVISION_NUMBER`]. Values: [`RevisionNumber`](super::super::types::RevisionNumber).
             pub fn revision_number(
                 &mut self,
@@ -3148,7 +3148,7 @@ pub mod objects {
             }
             /// Serial number.
             ///
-            /// Serial number. 0x1018:04, UNSIGNED32, read-only.
+            /// Serial number: 0x1018:04, UNSIGNED32, read-only.
             /// Constant: [`SERIAL_NUMBER`].
             pub fn serial_number(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 SERIAL_NUMBER.at(self.client)
@@ -3224,7 +3224,7 @@ pub mod objects {
             }
             /// COB-ID of the RPDO.
             ///
-            /// COB-ID. Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
+            /// COB-ID: Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id(
                 &mut self,
@@ -3237,7 +3237,7 @@ pub mod objects {
             }
             /// Transmission type: when the device applies the received data.
             ///
-            /// Transmission type. Default 255, 0x1400:02, UNSIGNED8, read-write.
+            /// Transmission type: Default 255, 0x1400:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
             pub fn transmission_type(
                 &mut self,
@@ -3315,7 +3315,7 @@ pub mod objects {
             }
             /// COB-ID of the RPDO.
             ///
-            /// COB-ID. Default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
+            /// COB-ID: Default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id(
                 &mut self,
@@ -3328,7 +3328,7 @@ pub mod objects {
             }
             /// Transmission type: when the device applies the received data.
             ///
-            /// Transmission type. Default 1, 0x1401:02, UNSIGNED8, read-write.
+            /// Transmission type: Default 1, 0x1401:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
             pub fn transmission_type(
                 &mut self,
@@ -3383,7 +3383,7 @@ pub mod objects {
             }
             /// Object mapped to the RPDO: index, sub-index and length in bits.
             ///
-            /// Mapped object 1. Default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
+            /// Mapped object 1: Default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
@@ -3454,7 +3454,7 @@ pub mod objects {
             }
             /// Object mapped to the RPDO: index, sub-index and length in bits.
             ///
-            /// Mapped object 1. Default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
+            /// Mapped object 1: Default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
@@ -3463,7 +3463,7 @@ pub mod objects {
             }
             /// Object mapped to the RPDO: index, sub-index and length in bits.
             ///
-            /// Mapped object 2. Default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
+            /// Mapped object 2: Default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_2(
                 &mut self,
@@ -3541,7 +3541,7 @@ pub mod objects {
             }
             /// COB-ID of the TPDO.
             ///
-            /// COB-ID. Default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
+            /// COB-ID: Default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id(
                 &mut self,
@@ -3554,7 +3554,7 @@ pub mod objects {
             }
             /// Transmission type: when the TPDO is transmitted.
             ///
-            /// Transmission type. Default 255, 0x1800:02, UNSIGNED8, read-write.
+            /// Transmission type: Default 255, 0x1800:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmitType`](super::super::types::TransmitType).
             pub fn transmission_type(
                 &mut self,
@@ -3632,7 +3632,7 @@ pub mod objects {
             }
             /// COB-ID of the TPDO.
             ///
-            /// COB-ID. Default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
+            /// COB-ID: Default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id(
                 &mut self,
@@ -3645,7 +3645,7 @@ pub mod objects {
             }
             /// Transmission type: when the TPDO is transmitted.
             ///
-            /// Transmission type. Default 1, 0x1801:02, UNSIGNED8, read-write.
+            /// Transmission type: Default 1, 0x1801:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmitType`](super::super::types::TransmitType).
             pub fn transmission_type(
                 &mut self,
@@ -3700,7 +3700,7 @@ pub mod objects {
             }
             /// Object mapped to the TPDO: index, sub-index and length in bits.
             ///
-            /// Mapped object 1. Default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
+            /// Mapped object 1: Default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
@@ -3771,7 +3771,7 @@ pub mod objects {
             }
             /// Object mapped to the TPDO: index, sub-index and length in bits.
             ///
-            /// Mapped object 1. Default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
+            /// Mapped object 1: Default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
@@ -3780,7 +3780,7 @@ pub mod objects {
             }
             /// Object mapped to the TPDO: index, sub-index and length in bits.
             ///
-            /// Mapped object 2. Default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
+            /// Mapped object 2: Default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_2(
                 &mut self,

@@ -197,7 +197,7 @@ impl<C> Eco<C> {
     }
     /// Following error.
     ///
-    /// following\_error\_actual\_value. Bytes 8 to 11 of the image to the master, INTEGER32, read-only.
+    /// following\_error\_actual\_value: Bytes 8 to 11 of the image to the master, INTEGER32, read-only.
     /// Constant: [`objects::FOLLOWING_ERROR_ACTUAL_VALUE`].
     ///
     /// Note: The field has 4 bytes; sign and unit are not printed. Assumed: signed, without a unit (a following error can have either sign). Manual: Mappatura memoria condivisa (line 6133).
@@ -208,7 +208,7 @@ impl<C> Eco<C> {
     }
     /// Actual torque.
     ///
-    /// torque\_actual\_value. Bytes 12 to 13 of the image to the master, INTEGER16, read-only.
+    /// torque\_actual\_value: Bytes 12 to 13 of the image to the master, INTEGER16, read-only.
     /// Constant: [`objects::TORQUE_ACTUAL_VALUE`].
     ///
     /// Note: The field has 2 bytes; sign and unit are not printed. Assumed: signed, without a unit (a torque can have either sign). Manual: Mappatura memoria condivisa (line 6135).
@@ -219,7 +219,7 @@ impl<C> Eco<C> {
     }
     /// Value of the variable that was read; valid at the earliest 3 ms after the address was written.
     ///
-    /// cyclic read value. Bytes 16 to 19 of the image to the master, UNSIGNED32, read-only.
+    /// cyclic read value: Bytes 16 to 19 of the image to the master, UNSIGNED32, read-only.
     /// Constant: [`objects::CYCLIC_READ_VALUE`].
     pub fn cyclic_read_value(
         &mut self,
@@ -228,7 +228,7 @@ impl<C> Eco<C> {
     }
     /// Address of the variable to read: 1 to 99 for a parameter, 0x8000 to 0x8FFF for a register.
     ///
-    /// cyclic read address. Bytes 24 to 25 of the image from the master, UNSIGNED16, read-write.
+    /// cyclic read address: Bytes 24 to 25 of the image from the master, UNSIGNED16, read-write.
     /// Constant: [`objects::CYCLIC_READ_ADDRESS`].
     pub fn cyclic_read_address(
         &mut self,
@@ -237,7 +237,7 @@ impl<C> Eco<C> {
     }
     /// Address of the variable to write: 1 to 99 for a parameter, 0x8000 to 0x8FFF for a register.
     ///
-    /// cyclic write address. Bytes 26 to 27 of the image from the master, UNSIGNED16, read-write.
+    /// cyclic write address: Bytes 26 to 27 of the image from the master, UNSIGNED16, read-write.
     /// Constant: [`objects::CYCLIC_WRITE_ADDRESS`].
     ///
     /// Hazard: The manual describes neither the order in which address and value are written nor an acknowledgment. Assumed: both are written in the same cycle (otherwise the drive could write the new value to the old address). Manual: Accesso asincrono a registri e parametri (lines 6306-6312).
@@ -248,7 +248,7 @@ impl<C> Eco<C> {
     }
     /// Value to write to the register or parameter.
     ///
-    /// cyclic write value. Bytes 28 to 31 of the image from the master, UNSIGNED32, read-write.
+    /// cyclic write value: Bytes 28 to 31 of the image from the master, UNSIGNED32, read-write.
     /// Constant: [`objects::CYCLIC_WRITE_VALUE`].
     pub fn cyclic_write_value(
         &mut self,
@@ -257,7 +257,7 @@ impl<C> Eco<C> {
     }
     /// Control word of the vendor: enables, stop, resets and mode-dependent commands (bits 5 to 7). On CANopen and EtherCAT, 0x6040 has other bits.
     ///
-    /// control\_word. Range 0 to 65535, Modbus R00 (holding; wire 0x8000; FC 3/6/16; 32 bits per address; high word first), bytes 0 to 1 of the image from the master, number 0x8000 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// control\_word: Range 0 to 65535, Modbus R00 (holding; wire 0x8000; FC 3/6/16; 32 bits per address; high word first), bytes 0 to 1 of the image from the master, number 0x8000 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::CONTROL_WORD`]. Values: [`DriveCommand`](types::DriveCommand).
     ///
@@ -274,7 +274,7 @@ impl<C> Eco<C> {
     }
     /// Requested mode of operation. The active mode is in 0x6061 and in the PROFINET image.
     ///
-    /// modes\_of\_operation. Range \-127 to 127, 0x6060:00, Modbus R01 (holding; wire 0x8001; FC 3/6/16; 32 bits per address; high word first), byte 2 of the image from the master, number 0x8001 through a window on CANopen, EtherCAT, PROFINET, INTEGER8, read-write, mappable into RPDOs.
+    /// modes\_of\_operation: Range \-127 to 127, 0x6060:00, Modbus R01 (holding; wire 0x8001; FC 3/6/16; 32 bits per address; high word first), byte 2 of the image from the master, number 0x8001 through a window on CANopen, EtherCAT, PROFINET, INTEGER8, read-write, mappable into RPDOs.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`Mode`](types::Mode). Carried by [`Mode`](pdo::Mode).
     ///
@@ -295,7 +295,7 @@ impl<C> Eco<C> {
     }
     /// Maximum following error; 0xFFFFFFFF disables the check. The unit is an assumption: the manual names none.
     ///
-    /// following\_error\_window. Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, range raw 0 … 4294967295, 0x6065:00, Modbus R03 (holding; wire 0x8003; FC 3/6/16; 32 bits per address; high word first), bytes 12 to 15 of the image from the master, number 0x8003 through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
+    /// following\_error\_window: Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, range raw 0 … 4294967295, 0x6065:00, Modbus R03 (holding; wire 0x8003; FC 3/6/16; 32 bits per address; high word first), bytes 12 to 15 of the image from the master, number 0x8003 through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::FOLLOWING_ERROR_WINDOW`].
     ///
@@ -312,7 +312,7 @@ impl<C> Eco<C> {
     }
     /// Following error timeout: time for which the following error may exceed its window.
     ///
-    /// following\_error\_timeout. Range 0 to 8191, 0x6066:00, Modbus R04 (holding; wire 0x8004; FC 3/6/16; 32 bits per address; high word first), number 0x8004 through a window on PROFINET, UNSIGNED16, read-write, mappable into any PDO.
+    /// following\_error\_timeout: Range 0 to 8191, 0x6066:00, Modbus R04 (holding; wire 0x8004; FC 3/6/16; 32 bits per address; high word first), number 0x8004 through a window on PROFINET, UNSIGNED16, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::FOLLOWING_ERROR_TIMEOUT`].
     pub fn following_error_timeout(
@@ -322,7 +322,7 @@ impl<C> Eco<C> {
     }
     /// Status word of the vendor. On CANopen and EtherCAT, 0x6041 has other bits.
     ///
-    /// status\_word. Modbus R05 (holding; wire 0x8005; FC 3; 32 bits per address; high word first), bytes 0 to 1 of the image to the master, number 0x8005 through a window on CANopen, EtherCAT, UNSIGNED16, read-only.
+    /// status\_word: Modbus R05 (holding; wire 0x8005; FC 3; 32 bits per address; high word first), bytes 0 to 1 of the image to the master, number 0x8005 through a window on CANopen, EtherCAT, UNSIGNED16, read-only.
     /// Volatile.
     /// Constant: [`objects::STATUS_WORD`]. Values: [`DriveStatus`](types::DriveStatus).
     ///
@@ -341,7 +341,7 @@ impl<C> Eco<C> {
     }
     /// Actual position in user units. Before version 3.00, the sampling time has an uncertainty of 1 ms.
     ///
-    /// position\_actual\_value. Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, range raw \-2147483648 … 2147483647, 0x6064:00, Modbus R06 (holding; wire 0x8006; FC 3; 32 bits per address; high word first), bytes 3 to 6 of the image to the master, INTEGER32, read-only, mappable into TPDOs.
+    /// position\_actual\_value: Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, range raw \-2147483648 … 2147483647, 0x6064:00, Modbus R06 (holding; wire 0x8006; FC 3; 32 bits per address; high word first), bytes 3 to 6 of the image to the master, INTEGER32, read-only, mappable into TPDOs.
     /// Volatile.
     /// Constant: [`objects::POSITION_ACTUAL_VALUE`]. Carried by [`ActualPosition`](pdo::ActualPosition).
     ///
@@ -358,7 +358,7 @@ impl<C> Eco<C> {
     }
     /// Latched position: captured at the rising edge of the latch input. A status bit reports a new value.
     ///
-    /// latched\_position. Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, range raw \-2147483648 … 2147483647, 0x2001:00, Modbus R07 (holding; wire 0x8007; FC 3/6/16; 32 bits per address; high word first), number 0x8007 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
+    /// latched\_position: Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, range raw \-2147483648 … 2147483647, 0x2001:00, Modbus R07 (holding; wire 0x8007; FC 3/6/16; 32 bits per address; high word first), number 0x8007 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
     /// Volatile.
     /// Constant: [`objects::LATCHED_POSITION`].
     ///
@@ -377,7 +377,7 @@ impl<C> Eco<C> {
     }
     /// Actual velocity in user units per second.
     ///
-    /// velocity\_actual\_value. Physical value = raw × 60 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rpm, range raw \-2147483648 … 2147483647, 0x606C:00, Modbus R08 (holding; wire 0x8008; FC 3; 32 bits per address; high word first), bytes 20 to 23 of the image to the master, INTEGER32, read-only, mappable into TPDOs.
+    /// velocity\_actual\_value: Physical value = raw × 60 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rpm, range raw \-2147483648 … 2147483647, 0x606C:00, Modbus R08 (holding; wire 0x8008; FC 3; 32 bits per address; high word first), bytes 20 to 23 of the image to the master, INTEGER32, read-only, mappable into TPDOs.
     /// Volatile.
     /// Constant: [`objects::VELOCITY_ACTUAL_VALUE`]. Carried by [`ActualVelocity`](pdo::ActualVelocity).
     pub fn velocity_actual_value(
@@ -392,7 +392,7 @@ impl<C> Eco<C> {
     }
     /// Target position if the input Select is low or open; in incremental mode, the distance to move.
     ///
-    /// target\_position. Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, range raw \-2147483648 … 2147483647, 0x607A:00, Modbus R09 (holding; wire 0x8009; FC 3/6/16; 32 bits per address; high word first), bytes 3 to 6 of the image from the master, number 0x8009 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
+    /// target\_position: Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, range raw \-2147483648 … 2147483647, 0x607A:00, Modbus R09 (holding; wire 0x8009; FC 3/6/16; 32 bits per address; high word first), bytes 3 to 6 of the image from the master, number 0x8009 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
     /// Volatile.
     /// Constant: [`objects::TARGET_POSITION`]. Carried by [`Position`](pdo::Position).
     pub fn target_position(
@@ -407,7 +407,7 @@ impl<C> Eco<C> {
     }
     /// Acceleration in position and velocity modes, in user units per second per millisecond.
     ///
-    /// profile\_acceleration. Physical value = raw × 1000 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev/s², range raw 0 … 2147483647, 0x6083:00, Modbus R10 (holding; wire 0x800A; FC 3/6/16; 32 bits per address; high word first), bytes 16 to 19 of the image from the master, number 0x800A through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
+    /// profile\_acceleration: Physical value = raw × 1000 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev/s², range raw 0 … 2147483647, 0x6083:00, Modbus R10 (holding; wire 0x800A; FC 3/6/16; 32 bits per address; high word first), bytes 16 to 19 of the image from the master, number 0x800A through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::PROFILE_ACCELERATION`].
     pub fn profile_acceleration(
@@ -422,7 +422,7 @@ impl<C> Eco<C> {
     }
     /// Deceleration in position and velocity modes, in user units per second per millisecond.
     ///
-    /// profile\_deceleration. Physical value = raw × 1000 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev/s², range raw 0 … 2147483647, 0x6084:00, Modbus R11 (holding; wire 0x800B; FC 3/6/16; 32 bits per address; high word first), bytes 20 to 23 of the image from the master, number 0x800B through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
+    /// profile\_deceleration: Physical value = raw × 1000 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev/s², range raw 0 … 2147483647, 0x6084:00, Modbus R11 (holding; wire 0x800B; FC 3/6/16; 32 bits per address; high word first), bytes 20 to 23 of the image from the master, number 0x800B through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::PROFILE_DECELERATION`].
     pub fn profile_deceleration(
@@ -437,7 +437,7 @@ impl<C> Eco<C> {
     }
     /// Velocity of positioning, in user units per second.
     ///
-    /// profile\_velocity. Physical value = raw × 60 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rpm, range raw 0 … 2147483647, 0x6081:00, Modbus R12 (holding; wire 0x800C; FC 3/6/16; 32 bits per address; high word first), bytes 8 to 11 of the image from the master, number 0x800C through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
+    /// profile\_velocity: Physical value = raw × 60 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rpm, range raw 0 … 2147483647, 0x6081:00, Modbus R12 (holding; wire 0x800C; FC 3/6/16; 32 bits per address; high word first), bytes 8 to 11 of the image from the master, number 0x800C through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::PROFILE_VELOCITY`].
     ///
@@ -454,7 +454,7 @@ impl<C> Eco<C> {
     }
     /// Target velocity in velocity mode if the input Select is low or open.
     ///
-    /// target\_velocity. Physical value = raw × 60 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rpm, range raw \-2147483648 … 2147483647, 0x60FF:00, Modbus R13 (holding; wire 0x800D; FC 3/6/16; 32 bits per address; high word first), number 0x800D through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
+    /// target\_velocity: Physical value = raw × 60 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rpm, range raw \-2147483648 … 2147483647, 0x60FF:00, Modbus R13 (holding; wire 0x800D; FC 3/6/16; 32 bits per address; high word first), number 0x800D through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
     /// Volatile.
     /// Constant: [`objects::TARGET_VELOCITY`]. Carried by [`Velocity`](pdo::Velocity).
     pub fn target_velocity(
@@ -469,7 +469,7 @@ impl<C> Eco<C> {
     }
     /// Velocity window: maximum velocity following error; 0xFFFF disables the check.
     ///
-    /// velocity\_window. Range 0 to 65535, 0x606D:00, Modbus R14 (holding; wire 0x800E; FC 3/6/16; 32 bits per address; high word first), number 0x800E through a window on PROFINET, UNSIGNED16, read-write, mappable into any PDO.
+    /// velocity\_window: Range 0 to 65535, 0x606D:00, Modbus R14 (holding; wire 0x800E; FC 3/6/16; 32 bits per address; high word first), number 0x800E through a window on PROFINET, UNSIGNED16, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::VELOCITY_WINDOW`].
     pub fn velocity_window(
@@ -484,7 +484,7 @@ impl<C> Eco<C> {
     }
     /// Velocity window time: time in the velocity window after which the target velocity is reached.
     ///
-    /// velocity\_window\_time. Range 0 to 32767, 0x606E:00, Modbus R15 (holding; wire 0x800F; FC 3/6/16; 32 bits per address; high word first), number 0x800F through a window on PROFINET, UNSIGNED16, read-write, mappable into any PDO.
+    /// velocity\_window\_time: Range 0 to 32767, 0x606E:00, Modbus R15 (holding; wire 0x800F; FC 3/6/16; 32 bits per address; high word first), number 0x800F through a window on PROFINET, UNSIGNED16, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::VELOCITY_WINDOW_TIME`].
     pub fn velocity_window_time(
@@ -494,7 +494,7 @@ impl<C> Eco<C> {
     }
     /// Velocity threshold above which the axis is considered moving; 0xFFFF disables the check.
     ///
-    /// velocity\_threshold. Range 0 to 65535, 0x606F:00, Modbus R16 (holding; wire 0x8010; FC 3/6/16; 32 bits per address; high word first), number 0x8010 through a window on PROFINET, UNSIGNED16, read-write, mappable into any PDO.
+    /// velocity\_threshold: Range 0 to 65535, 0x606F:00, Modbus R16 (holding; wire 0x8010; FC 3/6/16; 32 bits per address; high word first), number 0x8010 through a window on PROFINET, UNSIGNED16, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::VELOCITY_THRESHOLD`].
     pub fn velocity_threshold(
@@ -509,7 +509,7 @@ impl<C> Eco<C> {
     }
     /// Velocity threshold time: time above the velocity threshold after which the axis is considered moving.
     ///
-    /// velocity\_threshold\_time. Range 0 to 32767, 0x6070:00, Modbus R17 (holding; wire 0x8011; FC 3/6/16; 32 bits per address; high word first), number 0x8011 through a window on PROFINET, UNSIGNED16, read-write, mappable into any PDO.
+    /// velocity\_threshold\_time: Range 0 to 32767, 0x6070:00, Modbus R17 (holding; wire 0x8011; FC 3/6/16; 32 bits per address; high word first), number 0x8011 through a window on PROFINET, UNSIGNED16, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::VELOCITY_THRESHOLD_TIME`].
     pub fn velocity_threshold_time(
@@ -519,7 +519,7 @@ impl<C> Eco<C> {
     }
     /// Homing method: home switch or index pulse (marker), and direction of the search.
     ///
-    /// homing\_method. Range 0 to 255, 0x6098:00, Modbus R18 (holding; wire 0x8012; FC 3/6/16; 32 bits per address; high word first), number 0x8012 through a window on PROFINET, UNSIGNED8, read-write, mappable into any PDO.
+    /// homing\_method: Range 0 to 255, 0x6098:00, Modbus R18 (holding; wire 0x8012; FC 3/6/16; 32 bits per address; high word first), number 0x8012 through a window on PROFINET, UNSIGNED8, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::HOMING_METHOD`]. Values: [`HomingMethod`](types::HomingMethod).
     ///
@@ -536,7 +536,7 @@ impl<C> Eco<C> {
     }
     /// Home offset: with −1000, the position is 1000 after homing.
     ///
-    /// home\_offset. Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, range raw \-2147483648 … 2147483647, 0x607C:00, Modbus R19 (holding; wire 0x8013; FC 3/6/16; 32 bits per address; high word first), number 0x8013 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
+    /// home\_offset: Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, range raw \-2147483648 … 2147483647, 0x607C:00, Modbus R19 (holding; wire 0x8013; FC 3/6/16; 32 bits per address; high word first), number 0x8013 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::HOME_OFFSET`].
     pub fn home_offset(
@@ -551,7 +551,7 @@ impl<C> Eco<C> {
     }
     /// Acceleration and deceleration of homing.
     ///
-    /// homing\_acceleration. Physical value = raw × 1000 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev/s², range raw 0 … 2147483647, 0x609A:00, Modbus R22 (holding; wire 0x8016; FC 3/6/16; 32 bits per address; high word first), number 0x8016 through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
+    /// homing\_acceleration: Physical value = raw × 1000 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev/s², range raw 0 … 2147483647, 0x609A:00, Modbus R22 (holding; wire 0x8016; FC 3/6/16; 32 bits per address; high word first), number 0x8016 through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::HOMING_ACCELERATION`].
     pub fn homing_acceleration(
@@ -566,7 +566,7 @@ impl<C> Eco<C> {
     }
     /// Velocity of the master sensor.
     ///
-    /// velocity\_master\_sensor. Range \-32768 to 32767, Modbus R23 (holding; wire 0x8017; FC 3; 32 bits per address; high word first), number 0x8017 through a window on CANopen, EtherCAT, PROFINET, INTEGER16, read-only.
+    /// velocity\_master\_sensor: Range \-32768 to 32767, Modbus R23 (holding; wire 0x8017; FC 3; 32 bits per address; high word first), number 0x8017 through a window on CANopen, EtherCAT, PROFINET, INTEGER16, read-only.
     /// Volatile.
     /// Constant: [`objects::VELOCITY_MASTER_SENSOR`].
     ///
@@ -583,7 +583,7 @@ impl<C> Eco<C> {
     }
     /// Pulses of the master encoder per revolution, for electronic gearing.
     ///
-    /// master\_encoder\_increments. Range 1 to 32767, 0x3000:00, Modbus R24 (holding; wire 0x8018; FC 3/6/16; 32 bits per address; high word first), number 0x8018 through a window on PROFINET, UNSIGNED16, read-write.
+    /// master\_encoder\_increments: Range 1 to 32767, 0x3000:00, Modbus R24 (holding; wire 0x8018; FC 3/6/16; 32 bits per address; high word first), number 0x8018 through a window on PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MASTER_ENCODER_INCREMENTS`].
     pub fn master_encoder_increments(
@@ -593,7 +593,7 @@ impl<C> Eco<C> {
     }
     /// Numerator of the gear ratio, for electronic gearing.
     ///
-    /// gear\_ratio\_numerator. Range 1 to 32, 0x3001:00, Modbus R25 (holding; wire 0x8019; FC 3/6/16; 32 bits per address; high word first), number 0x8019 through a window on PROFINET, UNSIGNED8, read-write, mappable into any PDO.
+    /// gear\_ratio\_numerator: Range 1 to 32, 0x3001:00, Modbus R25 (holding; wire 0x8019; FC 3/6/16; 32 bits per address; high word first), number 0x8019 through a window on PROFINET, UNSIGNED8, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::GEAR_RATIO_NUMERATOR`].
     pub fn gear_ratio_numerator(
@@ -603,7 +603,7 @@ impl<C> Eco<C> {
     }
     /// Denominator of the gear ratio, for electronic gearing.
     ///
-    /// gear\_ratio\_divisor. Range 1 to 255, 0x3002:00, Modbus R26 (holding; wire 0x801A; FC 3/6/16; 32 bits per address; high word first), number 0x801A through a window on PROFINET, UNSIGNED8, read-write, mappable into any PDO.
+    /// gear\_ratio\_divisor: Range 1 to 255, 0x3002:00, Modbus R26 (holding; wire 0x801A; FC 3/6/16; 32 bits per address; high word first), number 0x801A through a window on PROFINET, UNSIGNED8, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::GEAR_RATIO_DIVISOR`].
     pub fn gear_ratio_divisor(
@@ -613,7 +613,7 @@ impl<C> Eco<C> {
     }
     /// Shape of the velocity ramps: trapezoidal, S-shaped or sine.
     ///
-    /// motion\_profile\_type. Range \-32768 to 32767, 0x6086:00, Modbus R27 (holding; wire 0x801B; FC 3/6/16; 32 bits per address; high word first), number 0x801B through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
+    /// motion\_profile\_type: Range \-32768 to 32767, 0x6086:00, Modbus R27 (holding; wire 0x801B; FC 3/6/16; 32 bits per address; high word first), number 0x801B through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MOTION_PROFILE_TYPE`]. Values: [`MotionProfile`](types::MotionProfile).
     pub fn motion_profile_type(
@@ -628,7 +628,7 @@ impl<C> Eco<C> {
     }
     /// Jerk in the acceleration phase of positioning; not all velocity profiles use it.
     ///
-    /// acceleration\_jerk. Range 1 to 99, 0x3100:00, Modbus R28 (holding; wire 0x801C; FC 3/6/16; 32 bits per address; high word first), number 0x801C through a window on PROFINET, UNSIGNED8, read-write, mappable into any PDO.
+    /// acceleration\_jerk: Range 1 to 99, 0x3100:00, Modbus R28 (holding; wire 0x801C; FC 3/6/16; 32 bits per address; high word first), number 0x801C through a window on PROFINET, UNSIGNED8, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::ACCELERATION_JERK`].
     pub fn acceleration_jerk(
@@ -638,7 +638,7 @@ impl<C> Eco<C> {
     }
     /// Jerk in the deceleration phase of positioning; not all velocity profiles use it.
     ///
-    /// deceleration\_jerk. Range 1 to 99, 0x3101:00, Modbus R29 (holding; wire 0x801D; FC 3/6/16; 32 bits per address; high word first), number 0x801D through a window on PROFINET, UNSIGNED8, read-write, mappable into any PDO.
+    /// deceleration\_jerk: Range 1 to 99, 0x3101:00, Modbus R29 (holding; wire 0x801D; FC 3/6/16; 32 bits per address; high word first), number 0x801D through a window on PROFINET, UNSIGNED8, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::DECELERATION_JERK`].
     pub fn deceleration_jerk(
@@ -648,7 +648,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 32-bit input. If the input Select is high, it is the target position in positioning and the target velocity in velocity mode.
     ///
-    /// aux\_in\_1. Range \-2147483648 to 2147483647, 0x3201:00, Modbus R30 (holding; wire 0x801E; FC 3/6/16; 32 bits per address; high word first), number 0x801E through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
+    /// aux\_in\_1: Range \-2147483648 to 2147483647, 0x3201:00, Modbus R30 (holding; wire 0x801E; FC 3/6/16; 32 bits per address; high word first), number 0x801E through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_1`].
     ///
@@ -660,7 +660,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 32-bit input.
     ///
-    /// aux\_in\_2. Range \-2147483648 to 2147483647, 0x3202:00, Modbus R31 (holding; wire 0x801F; FC 3/6/16; 32 bits per address; high word first), number 0x801F through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
+    /// aux\_in\_2: Range \-2147483648 to 2147483647, 0x3202:00, Modbus R31 (holding; wire 0x801F; FC 3/6/16; 32 bits per address; high word first), number 0x801F through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_2`].
     pub fn aux_in_2(
@@ -670,7 +670,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 32-bit output.
     ///
-    /// aux\_out\_1. Range \-2147483648 to 2147483647, 0x3301:00, Modbus R32 (holding; wire 0x8020; FC 3; 32 bits per address; high word first), number 0x8020 through a window on PROFINET, INTEGER32, read-only, mappable into TPDOs.
+    /// aux\_out\_1: Range \-2147483648 to 2147483647, 0x3301:00, Modbus R32 (holding; wire 0x8020; FC 3; 32 bits per address; high word first), number 0x8020 through a window on PROFINET, INTEGER32, read-only, mappable into TPDOs.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_OUT_1`].
     ///
@@ -684,7 +684,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 32-bit output.
     ///
-    /// aux\_out\_2. Range \-2147483648 to 2147483647, 0x3302:00, Modbus R33 (holding; wire 0x8021; FC 3; 32 bits per address; high word first), number 0x8021 through a window on PROFINET, INTEGER32, read-only, mappable into TPDOs.
+    /// aux\_out\_2: Range \-2147483648 to 2147483647, 0x3302:00, Modbus R33 (holding; wire 0x8021; FC 3; 32 bits per address; high word first), number 0x8021 through a window on PROFINET, INTEGER32, read-only, mappable into TPDOs.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_OUT_2`].
     ///
@@ -698,7 +698,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 16-bit input.
     ///
-    /// aux\_in\_3. 0x3401:00, Modbus R34 (holding; wire 0x8022; FC 3/6/16; 32 bits per address; high word first), number 0x8022 through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
+    /// aux\_in\_3: 0x3401:00, Modbus R34 (holding; wire 0x8022; FC 3/6/16; 32 bits per address; high word first), number 0x8022 through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_3`].
     ///
@@ -710,7 +710,7 @@ impl<C> Eco<C> {
     }
     /// Maximum torque, according to the name of the register. As the object 0x3402, a general-purpose 16-bit input.
     ///
-    /// torque\_max. Range \-32768 to 32767, 0x3402:00, Modbus R35 (holding; wire 0x8023; FC 3/6/16; 32 bits per address; high word first), number 0x8023 through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
+    /// torque\_max: Range \-32768 to 32767, 0x3402:00, Modbus R35 (holding; wire 0x8023; FC 3/6/16; 32 bits per address; high word first), number 0x8023 through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::TORQUE_MAX`].
     ///
@@ -722,7 +722,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 16-bit output.
     ///
-    /// aux16\_out\_3. Range \-32768 to 32767, 0x3501:00, Modbus R36 (holding; wire 0x8024; FC 3; 32 bits per address; high word first), number 0x8024 through a window on PROFINET, INTEGER16, read-only, mappable into TPDOs.
+    /// aux16\_out\_3: Range \-32768 to 32767, 0x3501:00, Modbus R36 (holding; wire 0x8024; FC 3; 32 bits per address; high word first), number 0x8024 through a window on PROFINET, INTEGER16, read-only, mappable into TPDOs.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX16_OUT_3`].
     ///
@@ -736,7 +736,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 16-bit output.
     ///
-    /// aux16\_out\_4. Range \-32768 to 32767, 0x3502:00, Modbus R37 (holding; wire 0x8025; FC 3; 32 bits per address; high word first), number 0x8025 through a window on PROFINET, INTEGER16, read-only, mappable into TPDOs.
+    /// aux16\_out\_4: Range \-32768 to 32767, 0x3502:00, Modbus R37 (holding; wire 0x8025; FC 3; 32 bits per address; high word first), number 0x8025 through a window on PROFINET, INTEGER16, read-only, mappable into TPDOs.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX16_OUT_4`].
     ///
@@ -748,7 +748,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 32-bit input.
     ///
-    /// aux\_in\_5. Range \-2147483648 to 2147483647, 0x3601:00, Modbus R38 (holding; wire 0x8026; FC 3/6/16; 32 bits per address; high word first), number 0x8026 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
+    /// aux\_in\_5: Range \-2147483648 to 2147483647, 0x3601:00, Modbus R38 (holding; wire 0x8026; FC 3/6/16; 32 bits per address; high word first), number 0x8026 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_5`].
     pub fn aux_in_5(
@@ -758,7 +758,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 32-bit input.
     ///
-    /// aux\_in\_6. Range \-2147483648 to 2147483647, 0x3602:00, Modbus R39 (holding; wire 0x8027; FC 3/6/16; 32 bits per address; high word first), number 0x8027 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
+    /// aux\_in\_6: Range \-2147483648 to 2147483647, 0x3602:00, Modbus R39 (holding; wire 0x8027; FC 3/6/16; 32 bits per address; high word first), number 0x8027 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_6`].
     pub fn aux_in_6(
@@ -768,7 +768,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 32-bit input.
     ///
-    /// aux\_in\_7. Range \-2147483648 to 2147483647, 0x3603:00, Modbus R40 (holding; wire 0x8028; FC 3/6/16; 32 bits per address; high word first), number 0x8028 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
+    /// aux\_in\_7: Range \-2147483648 to 2147483647, 0x3603:00, Modbus R40 (holding; wire 0x8028; FC 3/6/16; 32 bits per address; high word first), number 0x8028 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_7`].
     pub fn aux_in_7(
@@ -778,7 +778,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 32-bit input.
     ///
-    /// aux\_in\_8. Range \-2147483648 to 2147483647, 0x3604:00, Modbus R41 (holding; wire 0x8029; FC 3/6/16; 32 bits per address; high word first), number 0x8029 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
+    /// aux\_in\_8: Range \-2147483648 to 2147483647, 0x3604:00, Modbus R41 (holding; wire 0x8029; FC 3/6/16; 32 bits per address; high word first), number 0x8029 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_8`].
     pub fn aux_in_8(
@@ -788,7 +788,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 16-bit input.
     ///
-    /// aux16\_in\_9. 0x3701:00, Modbus R42 (holding; wire 0x802A; FC 3/6/16; 32 bits per address; high word first), number 0x802A through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
+    /// aux16\_in\_9: 0x3701:00, Modbus R42 (holding; wire 0x802A; FC 3/6/16; 32 bits per address; high word first), number 0x802A through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX16_IN_9`].
     ///
@@ -800,7 +800,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 16-bit input.
     ///
-    /// aux16\_in\_10. Range \-32768 to 32767, 0x3702:00, Modbus R43 (holding; wire 0x802B; FC 3/6/16; 32 bits per address; high word first), number 0x802B through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
+    /// aux16\_in\_10: Range \-32768 to 32767, 0x3702:00, Modbus R43 (holding; wire 0x802B; FC 3/6/16; 32 bits per address; high word first), number 0x802B through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX16_IN_10`].
     ///
@@ -812,7 +812,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 16-bit input.
     ///
-    /// aux16\_in\_11. Range \-32768 to 32767, 0x3703:00, Modbus R44 (holding; wire 0x802C; FC 3/6/16; 32 bits per address; high word first), number 0x802C through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
+    /// aux16\_in\_11: Range \-32768 to 32767, 0x3703:00, Modbus R44 (holding; wire 0x802C; FC 3/6/16; 32 bits per address; high word first), number 0x802C through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX16_IN_11`].
     ///
@@ -824,7 +824,7 @@ impl<C> Eco<C> {
     }
     /// General-purpose 16-bit input.
     ///
-    /// aux16\_in\_12. Range \-32768 to 32767, 0x3704:00, Modbus R45 (holding; wire 0x802D; FC 3/6/16; 32 bits per address; high word first), number 0x802D through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
+    /// aux16\_in\_12: Range \-32768 to 32767, 0x3704:00, Modbus R45 (holding; wire 0x802D; FC 3/6/16; 32 bits per address; high word first), number 0x802D through a window on PROFINET, INTEGER16, read-write, mappable into any PDO.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX16_IN_12`].
     pub fn aux16_in_12(
@@ -834,7 +834,7 @@ impl<C> Eco<C> {
     }
     /// Number of the active alarm, as in "general\_alarms"; EtherCAT and PROFINET have further alarms. On EtherCAT, 0x603F has a different code.
     ///
-    /// alarm\_code. Range 0 to 255, Modbus R46 (holding; wire 0x802E; FC 3; 32 bits per address; high word first), byte 7 of the image to the master, number 0x802E through a window on CANopen, EtherCAT, UNSIGNED8, read-only.
+    /// alarm\_code: Range 0 to 255, Modbus R46 (holding; wire 0x802E; FC 3; 32 bits per address; high word first), byte 7 of the image to the master, number 0x802E through a window on CANopen, EtherCAT, UNSIGNED8, read-only.
     /// Volatile.
     /// Constant: [`objects::ALARM_CODE`].
     pub fn alarm_code(
@@ -849,7 +849,7 @@ impl<C> Eco<C> {
     }
     /// Levels of the digital inputs of connector CN2.
     ///
-    /// digital\_inputs. Range 0 to 4294967295, 0x60FD:00, Modbus R48 (holding; wire 0x8030; FC 3; 32 bits per address; high word first), number 0x8030 through a window on PROFINET, UNSIGNED32, read-only, mappable into TPDOs.
+    /// digital\_inputs: Range 0 to 4294967295, 0x60FD:00, Modbus R48 (holding; wire 0x8030; FC 3; 32 bits per address; high word first), number 0x8030 through a window on PROFINET, UNSIGNED32, read-only, mappable into TPDOs.
     /// Volatile.
     /// Constant: [`objects::DIGITAL_INPUTS`]. Values: [`DigitalInputs`](types::DigitalInputs).
     ///
@@ -866,7 +866,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary input 13.
     ///
-    /// aux\_in\_13. Range \-2147483648 to 2147483647, Modbus R51 (holding; wire 0x8033; FC 3/6/16; 32 bits per address; high word first), number 0x8033 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// aux\_in\_13: Range \-2147483648 to 2147483647, Modbus R51 (holding; wire 0x8033; FC 3/6/16; 32 bits per address; high word first), number 0x8033 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_13`].
     pub fn aux_in_13(
@@ -881,7 +881,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary input 14.
     ///
-    /// aux\_in\_14. Range \-2147483648 to 2147483647, Modbus R52 (holding; wire 0x8034; FC 3/6/16; 32 bits per address; high word first), number 0x8034 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// aux\_in\_14: Range \-2147483648 to 2147483647, Modbus R52 (holding; wire 0x8034; FC 3/6/16; 32 bits per address; high word first), number 0x8034 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_14`].
     pub fn aux_in_14(
@@ -896,7 +896,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary input 15.
     ///
-    /// aux\_in\_15. Range \-2147483648 to 2147483647, Modbus R53 (holding; wire 0x8035; FC 3/6/16; 32 bits per address; high word first), number 0x8035 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// aux\_in\_15: Range \-2147483648 to 2147483647, Modbus R53 (holding; wire 0x8035; FC 3/6/16; 32 bits per address; high word first), number 0x8035 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_15`].
     pub fn aux_in_15(
@@ -911,7 +911,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary input 16.
     ///
-    /// aux\_in\_16. Range \-2147483648 to 2147483647, Modbus R54 (holding; wire 0x8036; FC 3/6/16; 32 bits per address; high word first), number 0x8036 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// aux\_in\_16: Range \-2147483648 to 2147483647, Modbus R54 (holding; wire 0x8036; FC 3/6/16; 32 bits per address; high word first), number 0x8036 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_16`].
     pub fn aux_in_16(
@@ -926,7 +926,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary input 17.
     ///
-    /// aux\_in\_17. Range \-2147483648 to 2147483647, Modbus R55 (holding; wire 0x8037; FC 3/6/16; 32 bits per address; high word first), number 0x8037 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// aux\_in\_17: Range \-2147483648 to 2147483647, Modbus R55 (holding; wire 0x8037; FC 3/6/16; 32 bits per address; high word first), number 0x8037 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_17`].
     pub fn aux_in_17(
@@ -941,7 +941,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary input 18.
     ///
-    /// aux\_in\_18. Range \-2147483648 to 2147483647, Modbus R56 (holding; wire 0x8038; FC 3/6/16; 32 bits per address; high word first), number 0x8038 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// aux\_in\_18: Range \-2147483648 to 2147483647, Modbus R56 (holding; wire 0x8038; FC 3/6/16; 32 bits per address; high word first), number 0x8038 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_18`].
     pub fn aux_in_18(
@@ -956,7 +956,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary input 19.
     ///
-    /// aux\_in\_19. Range \-2147483648 to 2147483647, Modbus R57 (holding; wire 0x8039; FC 3/6/16; 32 bits per address; high word first), number 0x8039 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// aux\_in\_19: Range \-2147483648 to 2147483647, Modbus R57 (holding; wire 0x8039; FC 3/6/16; 32 bits per address; high word first), number 0x8039 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_19`].
     pub fn aux_in_19(
@@ -971,7 +971,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary input 20.
     ///
-    /// aux\_in\_20. Range \-2147483648 to 2147483647, Modbus R58 (holding; wire 0x803A; FC 3/6/16; 32 bits per address; high word first), number 0x803A through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// aux\_in\_20: Range \-2147483648 to 2147483647, Modbus R58 (holding; wire 0x803A; FC 3/6/16; 32 bits per address; high word first), number 0x803A through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_20`].
     pub fn aux_in_20(
@@ -986,7 +986,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary input 21.
     ///
-    /// aux\_in\_21. Range \-2147483648 to 2147483647, Modbus R59 (holding; wire 0x803B; FC 3/6/16; 32 bits per address; high word first), number 0x803B through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// aux\_in\_21: Range \-2147483648 to 2147483647, Modbus R59 (holding; wire 0x803B; FC 3/6/16; 32 bits per address; high word first), number 0x803B through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_21`].
     pub fn aux_in_21(
@@ -1001,7 +1001,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary input 22.
     ///
-    /// aux\_in\_22. Range \-2147483648 to 2147483647, Modbus R60 (holding; wire 0x803C; FC 3/6/16; 32 bits per address; high word first), number 0x803C through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// aux\_in\_22: Range \-2147483648 to 2147483647, Modbus R60 (holding; wire 0x803C; FC 3/6/16; 32 bits per address; high word first), number 0x803C through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::AUX_IN_22`].
     pub fn aux_in_22(
@@ -1016,7 +1016,7 @@ impl<C> Eco<C> {
     }
     /// Target window: maximum distance from the target at which the output Target is on, in positioning. From version 2.40. The unit is an assumption: the manual names none.
     ///
-    /// target\_window. Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, range raw \-2147483648 … 2147483647, Modbus R61 (holding; wire 0x803D; FC 3/6/16; 32 bits per address; high word first), number 0x803D through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// target\_window: Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, range raw \-2147483648 … 2147483647, Modbus R61 (holding; wire 0x803D; FC 3/6/16; 32 bits per address; high word first), number 0x803D through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::TARGET_WINDOW`].
     ///
@@ -1033,7 +1033,7 @@ impl<C> Eco<C> {
     }
     /// Control of the absolute encoder.
     ///
-    /// abs\_enc\_control. Range \-2147483648 to 2147483647, Modbus R62 (holding; wire 0x803E; FC 3/6/16; 32 bits per address; high word first), number 0x803E through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// abs\_enc\_control: Range \-2147483648 to 2147483647, Modbus R62 (holding; wire 0x803E; FC 3/6/16; 32 bits per address; high word first), number 0x803E through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::ABS_ENC_CONTROL`].
     pub fn abs_enc_control(
@@ -1048,7 +1048,7 @@ impl<C> Eco<C> {
     }
     /// Status of the absolute encoder.
     ///
-    /// abs\_enc\_status. Range \-2147483648 to 2147483647, Modbus R63 (holding; wire 0x803F; FC 3; 32 bits per address; high word first), number 0x803F through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-only.
+    /// abs\_enc\_status: Range \-2147483648 to 2147483647, Modbus R63 (holding; wire 0x803F; FC 3; 32 bits per address; high word first), number 0x803F through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-only.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::ABS_ENC_STATUS`].
     ///
@@ -1065,7 +1065,7 @@ impl<C> Eco<C> {
     }
     /// Numerator of the ratio of the external encoder.
     ///
-    /// num\_ext\_enc. Range \-2147483648 to 2147483647, Modbus R64 (holding; wire 0x8040; FC 3/6/16; 32 bits per address; high word first), number 0x8040 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// num\_ext\_enc: Range \-2147483648 to 2147483647, Modbus R64 (holding; wire 0x8040; FC 3/6/16; 32 bits per address; high word first), number 0x8040 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::NUM_EXT_ENC`].
     pub fn num_ext_enc(
@@ -1080,7 +1080,7 @@ impl<C> Eco<C> {
     }
     /// Denominator of the ratio of the external encoder.
     ///
-    /// den\_ext\_enc. Range \-2147483648 to 2147483647, Modbus R65 (holding; wire 0x8041; FC 3/6/16; 32 bits per address; high word first), number 0x8041 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// den\_ext\_enc: Range \-2147483648 to 2147483647, Modbus R65 (holding; wire 0x8041; FC 3/6/16; 32 bits per address; high word first), number 0x8041 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::DEN_EXT_ENC`].
     pub fn den_ext_enc(
@@ -1095,7 +1095,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_66. Range \-2147483648 to 2147483647, Modbus R66 (holding; wire 0x8042; FC 3/6/16; 32 bits per address; high word first), number 0x8042 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_66: Range \-2147483648 to 2147483647, Modbus R66 (holding; wire 0x8042; FC 3/6/16; 32 bits per address; high word first), number 0x8042 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_66`].
     pub fn mechatronic_66(
@@ -1110,7 +1110,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_67. Range \-2147483648 to 2147483647, Modbus R67 (holding; wire 0x8043; FC 3/6/16; 32 bits per address; high word first), number 0x8043 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_67: Range \-2147483648 to 2147483647, Modbus R67 (holding; wire 0x8043; FC 3/6/16; 32 bits per address; high word first), number 0x8043 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_67`].
     pub fn mechatronic_67(
@@ -1125,7 +1125,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_68. Range \-2147483648 to 2147483647, Modbus R68 (holding; wire 0x8044; FC 3/6/16; 32 bits per address; high word first), number 0x8044 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_68: Range \-2147483648 to 2147483647, Modbus R68 (holding; wire 0x8044; FC 3/6/16; 32 bits per address; high word first), number 0x8044 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_68`].
     pub fn mechatronic_68(
@@ -1140,7 +1140,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_69. Range \-2147483648 to 2147483647, Modbus R69 (holding; wire 0x8045; FC 3/6/16; 32 bits per address; high word first), number 0x8045 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_69: Range \-2147483648 to 2147483647, Modbus R69 (holding; wire 0x8045; FC 3/6/16; 32 bits per address; high word first), number 0x8045 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_69`].
     pub fn mechatronic_69(
@@ -1155,7 +1155,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_70. Range \-2147483648 to 2147483647, Modbus R70 (holding; wire 0x8046; FC 3/6/16; 32 bits per address; high word first), number 0x8046 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_70: Range \-2147483648 to 2147483647, Modbus R70 (holding; wire 0x8046; FC 3/6/16; 32 bits per address; high word first), number 0x8046 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_70`].
     pub fn mechatronic_70(
@@ -1170,7 +1170,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_71. Range \-2147483648 to 2147483647, Modbus R71 (holding; wire 0x8047; FC 3/6/16; 32 bits per address; high word first), number 0x8047 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_71: Range \-2147483648 to 2147483647, Modbus R71 (holding; wire 0x8047; FC 3/6/16; 32 bits per address; high word first), number 0x8047 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_71`].
     pub fn mechatronic_71(
@@ -1185,7 +1185,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_72. Range \-2147483648 to 2147483647, Modbus R72 (holding; wire 0x8048; FC 3/6/16; 32 bits per address; high word first), number 0x8048 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_72: Range \-2147483648 to 2147483647, Modbus R72 (holding; wire 0x8048; FC 3/6/16; 32 bits per address; high word first), number 0x8048 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_72`].
     pub fn mechatronic_72(
@@ -1200,7 +1200,7 @@ impl<C> Eco<C> {
     }
     /// Actual velocity in rpm.
     ///
-    /// velocity\_rpm. Unit rpm, range \-2147483648 to 2147483647, Modbus R73 (holding; wire 0x8049; FC 3; 32 bits per address; high word first), number 0x8049 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-only.
+    /// velocity\_rpm: Unit rpm, range \-2147483648 to 2147483647, Modbus R73 (holding; wire 0x8049; FC 3; 32 bits per address; high word first), number 0x8049 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-only.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::VELOCITY_RPM`].
     ///
@@ -1217,7 +1217,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_74. Range \-2147483648 to 2147483647, Modbus R74 (holding; wire 0x804A; FC 3/6/16; 32 bits per address; high word first), number 0x804A through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_74: Range \-2147483648 to 2147483647, Modbus R74 (holding; wire 0x804A; FC 3/6/16; 32 bits per address; high word first), number 0x804A through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_74`].
     pub fn mechatronic_74(
@@ -1232,7 +1232,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_75. Range \-2147483648 to 2147483647, Modbus R75 (holding; wire 0x804B; FC 3/6/16; 32 bits per address; high word first), number 0x804B through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_75: Range \-2147483648 to 2147483647, Modbus R75 (holding; wire 0x804B; FC 3/6/16; 32 bits per address; high word first), number 0x804B through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_75`].
     pub fn mechatronic_75(
@@ -1247,7 +1247,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_76. Range \-2147483648 to 2147483647, Modbus R76 (holding; wire 0x804C; FC 3/6/16; 32 bits per address; high word first), number 0x804C through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_76: Range \-2147483648 to 2147483647, Modbus R76 (holding; wire 0x804C; FC 3/6/16; 32 bits per address; high word first), number 0x804C through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_76`].
     pub fn mechatronic_76(
@@ -1262,7 +1262,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_77. Range \-2147483648 to 2147483647, Modbus R77 (holding; wire 0x804D; FC 3/6/16; 32 bits per address; high word first), number 0x804D through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_77: Range \-2147483648 to 2147483647, Modbus R77 (holding; wire 0x804D; FC 3/6/16; 32 bits per address; high word first), number 0x804D through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_77`].
     pub fn mechatronic_77(
@@ -1277,7 +1277,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_78. Range \-2147483648 to 2147483647, Modbus R78 (holding; wire 0x804E; FC 3/6/16; 32 bits per address; high word first), number 0x804E through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_78: Range \-2147483648 to 2147483647, Modbus R78 (holding; wire 0x804E; FC 3/6/16; 32 bits per address; high word first), number 0x804E through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_78`].
     pub fn mechatronic_78(
@@ -1292,7 +1292,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_79. Range \-2147483648 to 2147483647, Modbus R79 (holding; wire 0x804F; FC 3/6/16; 32 bits per address; high word first), number 0x804F through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_79: Range \-2147483648 to 2147483647, Modbus R79 (holding; wire 0x804F; FC 3/6/16; 32 bits per address; high word first), number 0x804F through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_79`].
     pub fn mechatronic_79(
@@ -1307,7 +1307,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_80. Range \-2147483648 to 2147483647, Modbus R80 (holding; wire 0x8050; FC 3/6/16; 32 bits per address; high word first), number 0x8050 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_80: Range \-2147483648 to 2147483647, Modbus R80 (holding; wire 0x8050; FC 3/6/16; 32 bits per address; high word first), number 0x8050 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_80`].
     pub fn mechatronic_80(
@@ -1322,7 +1322,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_81. Range \-2147483648 to 2147483647, Modbus R81 (holding; wire 0x8051; FC 3/6/16; 32 bits per address; high word first), number 0x8051 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_81: Range \-2147483648 to 2147483647, Modbus R81 (holding; wire 0x8051; FC 3/6/16; 32 bits per address; high word first), number 0x8051 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_81`].
     pub fn mechatronic_81(
@@ -1337,7 +1337,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_82. Range \-2147483648 to 2147483647, Modbus R82 (holding; wire 0x8052; FC 3/6/16; 32 bits per address; high word first), number 0x8052 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_82: Range \-2147483648 to 2147483647, Modbus R82 (holding; wire 0x8052; FC 3/6/16; 32 bits per address; high word first), number 0x8052 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_82`].
     pub fn mechatronic_82(
@@ -1352,7 +1352,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_83. Range \-2147483648 to 2147483647, Modbus R83 (holding; wire 0x8053; FC 3/6/16; 32 bits per address; high word first), number 0x8053 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_83: Range \-2147483648 to 2147483647, Modbus R83 (holding; wire 0x8053; FC 3/6/16; 32 bits per address; high word first), number 0x8053 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_83`].
     pub fn mechatronic_83(
@@ -1367,7 +1367,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_84. Range \-2147483648 to 2147483647, Modbus R84 (holding; wire 0x8054; FC 3/6/16; 32 bits per address; high word first), number 0x8054 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_84: Range \-2147483648 to 2147483647, Modbus R84 (holding; wire 0x8054; FC 3/6/16; 32 bits per address; high word first), number 0x8054 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_84`].
     pub fn mechatronic_84(
@@ -1382,7 +1382,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_85. Range \-2147483648 to 2147483647, Modbus R85 (holding; wire 0x8055; FC 3/6/16; 32 bits per address; high word first), number 0x8055 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_85: Range \-2147483648 to 2147483647, Modbus R85 (holding; wire 0x8055; FC 3/6/16; 32 bits per address; high word first), number 0x8055 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_85`].
     pub fn mechatronic_85(
@@ -1397,7 +1397,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_86. Range \-2147483648 to 2147483647, Modbus R86 (holding; wire 0x8056; FC 3/6/16; 32 bits per address; high word first), number 0x8056 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_86: Range \-2147483648 to 2147483647, Modbus R86 (holding; wire 0x8056; FC 3/6/16; 32 bits per address; high word first), number 0x8056 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_86`].
     pub fn mechatronic_86(
@@ -1412,7 +1412,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_87. Range \-2147483648 to 2147483647, Modbus R87 (holding; wire 0x8057; FC 3/6/16; 32 bits per address; high word first), number 0x8057 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_87: Range \-2147483648 to 2147483647, Modbus R87 (holding; wire 0x8057; FC 3/6/16; 32 bits per address; high word first), number 0x8057 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_87`].
     pub fn mechatronic_87(
@@ -1427,7 +1427,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_88. Range \-2147483648 to 2147483647, Modbus R88 (holding; wire 0x8058; FC 3/6/16; 32 bits per address; high word first), number 0x8058 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_88: Range \-2147483648 to 2147483647, Modbus R88 (holding; wire 0x8058; FC 3/6/16; 32 bits per address; high word first), number 0x8058 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_88`].
     pub fn mechatronic_88(
@@ -1442,7 +1442,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_89. Range \-2147483648 to 2147483647, Modbus R89 (holding; wire 0x8059; FC 3/6/16; 32 bits per address; high word first), number 0x8059 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_89: Range \-2147483648 to 2147483647, Modbus R89 (holding; wire 0x8059; FC 3/6/16; 32 bits per address; high word first), number 0x8059 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_89`].
     pub fn mechatronic_89(
@@ -1457,7 +1457,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_90. Range \-2147483648 to 2147483647, Modbus R90 (holding; wire 0x805A; FC 3/6/16; 32 bits per address; high word first), number 0x805A through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_90: Range \-2147483648 to 2147483647, Modbus R90 (holding; wire 0x805A; FC 3/6/16; 32 bits per address; high word first), number 0x805A through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_90`].
     pub fn mechatronic_90(
@@ -1472,7 +1472,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_91. Range \-2147483648 to 2147483647, Modbus R91 (holding; wire 0x805B; FC 3/6/16; 32 bits per address; high word first), number 0x805B through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_91: Range \-2147483648 to 2147483647, Modbus R91 (holding; wire 0x805B; FC 3/6/16; 32 bits per address; high word first), number 0x805B through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_91`].
     pub fn mechatronic_91(
@@ -1487,7 +1487,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_92. Range \-2147483648 to 2147483647, Modbus R92 (holding; wire 0x805C; FC 3/6/16; 32 bits per address; high word first), number 0x805C through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_92: Range \-2147483648 to 2147483647, Modbus R92 (holding; wire 0x805C; FC 3/6/16; 32 bits per address; high word first), number 0x805C through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_92`].
     pub fn mechatronic_92(
@@ -1502,7 +1502,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_93. Range \-2147483648 to 2147483647, Modbus R93 (holding; wire 0x805D; FC 3/6/16; 32 bits per address; high word first), number 0x805D through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_93: Range \-2147483648 to 2147483647, Modbus R93 (holding; wire 0x805D; FC 3/6/16; 32 bits per address; high word first), number 0x805D through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_93`].
     pub fn mechatronic_93(
@@ -1517,7 +1517,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_94. Range \-2147483648 to 2147483647, Modbus R94 (holding; wire 0x805E; FC 3/6/16; 32 bits per address; high word first), number 0x805E through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_94: Range \-2147483648 to 2147483647, Modbus R94 (holding; wire 0x805E; FC 3/6/16; 32 bits per address; high word first), number 0x805E through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_94`].
     pub fn mechatronic_94(
@@ -1532,7 +1532,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_95. Range \-2147483648 to 2147483647, Modbus R95 (holding; wire 0x805F; FC 3/6/16; 32 bits per address; high word first), number 0x805F through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_95: Range \-2147483648 to 2147483647, Modbus R95 (holding; wire 0x805F; FC 3/6/16; 32 bits per address; high word first), number 0x805F through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_95`].
     pub fn mechatronic_95(
@@ -1547,7 +1547,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_96. Range \-2147483648 to 2147483647, Modbus R96 (holding; wire 0x8060; FC 3/6/16; 32 bits per address; high word first), number 0x8060 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_96: Range \-2147483648 to 2147483647, Modbus R96 (holding; wire 0x8060; FC 3/6/16; 32 bits per address; high word first), number 0x8060 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_96`].
     pub fn mechatronic_96(
@@ -1562,7 +1562,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_97. Range \-2147483648 to 2147483647, Modbus R97 (holding; wire 0x8061; FC 3/6/16; 32 bits per address; high word first), number 0x8061 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_97: Range \-2147483648 to 2147483647, Modbus R97 (holding; wire 0x8061; FC 3/6/16; 32 bits per address; high word first), number 0x8061 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_97`].
     pub fn mechatronic_97(
@@ -1577,7 +1577,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_98. Range \-2147483648 to 2147483647, Modbus R98 (holding; wire 0x8062; FC 3/6/16; 32 bits per address; high word first), number 0x8062 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_98: Range \-2147483648 to 2147483647, Modbus R98 (holding; wire 0x8062; FC 3/6/16; 32 bits per address; high word first), number 0x8062 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_98`].
     pub fn mechatronic_98(
@@ -1592,7 +1592,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_99. Range \-2147483648 to 2147483647, Modbus R99 (holding; wire 0x8063; FC 3/6/16; 32 bits per address; high word first), number 0x8063 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_99: Range \-2147483648 to 2147483647, Modbus R99 (holding; wire 0x8063; FC 3/6/16; 32 bits per address; high word first), number 0x8063 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_99`].
     pub fn mechatronic_99(
@@ -1607,7 +1607,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_100. Range \-2147483648 to 2147483647, Modbus R100 (holding; wire 0x8064; FC 3/6/16; 32 bits per address; high word first), number 0x8064 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_100: Range \-2147483648 to 2147483647, Modbus R100 (holding; wire 0x8064; FC 3/6/16; 32 bits per address; high word first), number 0x8064 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_100`].
     pub fn mechatronic_100(
@@ -1622,7 +1622,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_101. Range \-2147483648 to 2147483647, Modbus R101 (holding; wire 0x8065; FC 3/6/16; 32 bits per address; high word first), number 0x8065 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_101: Range \-2147483648 to 2147483647, Modbus R101 (holding; wire 0x8065; FC 3/6/16; 32 bits per address; high word first), number 0x8065 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_101`].
     pub fn mechatronic_101(
@@ -1637,7 +1637,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_102. Range \-2147483648 to 2147483647, Modbus R102 (holding; wire 0x8066; FC 3/6/16; 32 bits per address; high word first), number 0x8066 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_102: Range \-2147483648 to 2147483647, Modbus R102 (holding; wire 0x8066; FC 3/6/16; 32 bits per address; high word first), number 0x8066 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_102`].
     pub fn mechatronic_102(
@@ -1652,7 +1652,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_103. Range \-2147483648 to 2147483647, Modbus R103 (holding; wire 0x8067; FC 3/6/16; 32 bits per address; high word first), number 0x8067 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_103: Range \-2147483648 to 2147483647, Modbus R103 (holding; wire 0x8067; FC 3/6/16; 32 bits per address; high word first), number 0x8067 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_103`].
     pub fn mechatronic_103(
@@ -1667,7 +1667,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_104. Range \-2147483648 to 2147483647, Modbus R104 (holding; wire 0x8068; FC 3/6/16; 32 bits per address; high word first), number 0x8068 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_104: Range \-2147483648 to 2147483647, Modbus R104 (holding; wire 0x8068; FC 3/6/16; 32 bits per address; high word first), number 0x8068 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_104`].
     pub fn mechatronic_104(
@@ -1682,7 +1682,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_105. Range \-2147483648 to 2147483647, Modbus R105 (holding; wire 0x8069; FC 3/6/16; 32 bits per address; high word first), number 0x8069 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_105: Range \-2147483648 to 2147483647, Modbus R105 (holding; wire 0x8069; FC 3/6/16; 32 bits per address; high word first), number 0x8069 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_105`].
     pub fn mechatronic_105(
@@ -1697,7 +1697,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_106. Range \-2147483648 to 2147483647, Modbus R106 (holding; wire 0x806A; FC 3/6/16; 32 bits per address; high word first), number 0x806A through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_106: Range \-2147483648 to 2147483647, Modbus R106 (holding; wire 0x806A; FC 3/6/16; 32 bits per address; high word first), number 0x806A through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_106`].
     pub fn mechatronic_106(
@@ -1712,7 +1712,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_107. Range \-2147483648 to 2147483647, Modbus R107 (holding; wire 0x806B; FC 3/6/16; 32 bits per address; high word first), number 0x806B through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_107: Range \-2147483648 to 2147483647, Modbus R107 (holding; wire 0x806B; FC 3/6/16; 32 bits per address; high word first), number 0x806B through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_107`].
     pub fn mechatronic_107(
@@ -1727,7 +1727,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_108. Range \-2147483648 to 2147483647, Modbus R108 (holding; wire 0x806C; FC 3/6/16; 32 bits per address; high word first), number 0x806C through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_108: Range \-2147483648 to 2147483647, Modbus R108 (holding; wire 0x806C; FC 3/6/16; 32 bits per address; high word first), number 0x806C through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_108`].
     pub fn mechatronic_108(
@@ -1742,7 +1742,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_109. Range \-2147483648 to 2147483647, Modbus R109 (holding; wire 0x806D; FC 3/6/16; 32 bits per address; high word first), number 0x806D through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_109: Range \-2147483648 to 2147483647, Modbus R109 (holding; wire 0x806D; FC 3/6/16; 32 bits per address; high word first), number 0x806D through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_109`].
     pub fn mechatronic_109(
@@ -1757,7 +1757,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_110. Range \-2147483648 to 2147483647, Modbus R110 (holding; wire 0x806E; FC 3/6/16; 32 bits per address; high word first), number 0x806E through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_110: Range \-2147483648 to 2147483647, Modbus R110 (holding; wire 0x806E; FC 3/6/16; 32 bits per address; high word first), number 0x806E through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_110`].
     pub fn mechatronic_110(
@@ -1772,7 +1772,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_111. Range \-2147483648 to 2147483647, Modbus R111 (holding; wire 0x806F; FC 3/6/16; 32 bits per address; high word first), number 0x806F through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_111: Range \-2147483648 to 2147483647, Modbus R111 (holding; wire 0x806F; FC 3/6/16; 32 bits per address; high word first), number 0x806F through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_111`].
     pub fn mechatronic_111(
@@ -1787,7 +1787,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_112. Range \-2147483648 to 2147483647, Modbus R112 (holding; wire 0x8070; FC 3/6/16; 32 bits per address; high word first), number 0x8070 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_112: Range \-2147483648 to 2147483647, Modbus R112 (holding; wire 0x8070; FC 3/6/16; 32 bits per address; high word first), number 0x8070 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_112`].
     pub fn mechatronic_112(
@@ -1802,7 +1802,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_113. Range \-2147483648 to 2147483647, Modbus R113 (holding; wire 0x8071; FC 3/6/16; 32 bits per address; high word first), number 0x8071 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_113: Range \-2147483648 to 2147483647, Modbus R113 (holding; wire 0x8071; FC 3/6/16; 32 bits per address; high word first), number 0x8071 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_113`].
     pub fn mechatronic_113(
@@ -1817,7 +1817,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_114. Range \-2147483648 to 2147483647, Modbus R114 (holding; wire 0x8072; FC 3/6/16; 32 bits per address; high word first), number 0x8072 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_114: Range \-2147483648 to 2147483647, Modbus R114 (holding; wire 0x8072; FC 3/6/16; 32 bits per address; high word first), number 0x8072 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_114`].
     pub fn mechatronic_114(
@@ -1832,7 +1832,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_115. Range \-2147483648 to 2147483647, Modbus R115 (holding; wire 0x8073; FC 3/6/16; 32 bits per address; high word first), number 0x8073 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_115: Range \-2147483648 to 2147483647, Modbus R115 (holding; wire 0x8073; FC 3/6/16; 32 bits per address; high word first), number 0x8073 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_115`].
     pub fn mechatronic_115(
@@ -1847,7 +1847,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_116. Range \-2147483648 to 2147483647, Modbus R116 (holding; wire 0x8074; FC 3/6/16; 32 bits per address; high word first), number 0x8074 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_116: Range \-2147483648 to 2147483647, Modbus R116 (holding; wire 0x8074; FC 3/6/16; 32 bits per address; high word first), number 0x8074 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_116`].
     pub fn mechatronic_116(
@@ -1862,7 +1862,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_117. Range \-2147483648 to 2147483647, Modbus R117 (holding; wire 0x8075; FC 3/6/16; 32 bits per address; high word first), number 0x8075 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_117: Range \-2147483648 to 2147483647, Modbus R117 (holding; wire 0x8075; FC 3/6/16; 32 bits per address; high word first), number 0x8075 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_117`].
     pub fn mechatronic_117(
@@ -1877,7 +1877,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_118. Range \-2147483648 to 2147483647, Modbus R118 (holding; wire 0x8076; FC 3/6/16; 32 bits per address; high word first), number 0x8076 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_118: Range \-2147483648 to 2147483647, Modbus R118 (holding; wire 0x8076; FC 3/6/16; 32 bits per address; high word first), number 0x8076 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_118`].
     pub fn mechatronic_118(
@@ -1892,7 +1892,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_119. Range \-2147483648 to 2147483647, Modbus R119 (holding; wire 0x8077; FC 3/6/16; 32 bits per address; high word first), number 0x8077 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_119: Range \-2147483648 to 2147483647, Modbus R119 (holding; wire 0x8077; FC 3/6/16; 32 bits per address; high word first), number 0x8077 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_119`].
     pub fn mechatronic_119(
@@ -1907,7 +1907,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_120. Range \-2147483648 to 2147483647, Modbus R120 (holding; wire 0x8078; FC 3/6/16; 32 bits per address; high word first), number 0x8078 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_120: Range \-2147483648 to 2147483647, Modbus R120 (holding; wire 0x8078; FC 3/6/16; 32 bits per address; high word first), number 0x8078 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_120`].
     pub fn mechatronic_120(
@@ -1922,7 +1922,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_121. Range \-2147483648 to 2147483647, Modbus R121 (holding; wire 0x8079; FC 3/6/16; 32 bits per address; high word first), number 0x8079 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_121: Range \-2147483648 to 2147483647, Modbus R121 (holding; wire 0x8079; FC 3/6/16; 32 bits per address; high word first), number 0x8079 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_121`].
     pub fn mechatronic_121(
@@ -1937,7 +1937,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_122. Range \-2147483648 to 2147483647, Modbus R122 (holding; wire 0x807A; FC 3/6/16; 32 bits per address; high word first), number 0x807A through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_122: Range \-2147483648 to 2147483647, Modbus R122 (holding; wire 0x807A; FC 3/6/16; 32 bits per address; high word first), number 0x807A through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_122`].
     pub fn mechatronic_122(
@@ -1952,7 +1952,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_123. Range \-2147483648 to 2147483647, Modbus R123 (holding; wire 0x807B; FC 3/6/16; 32 bits per address; high word first), number 0x807B through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_123: Range \-2147483648 to 2147483647, Modbus R123 (holding; wire 0x807B; FC 3/6/16; 32 bits per address; high word first), number 0x807B through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_123`].
     pub fn mechatronic_123(
@@ -1967,7 +1967,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_124. Range \-2147483648 to 2147483647, Modbus R124 (holding; wire 0x807C; FC 3/6/16; 32 bits per address; high word first), number 0x807C through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_124: Range \-2147483648 to 2147483647, Modbus R124 (holding; wire 0x807C; FC 3/6/16; 32 bits per address; high word first), number 0x807C through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_124`].
     pub fn mechatronic_124(
@@ -1982,7 +1982,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_125. Range \-2147483648 to 2147483647, Modbus R125 (holding; wire 0x807D; FC 3/6/16; 32 bits per address; high word first), number 0x807D through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_125: Range \-2147483648 to 2147483647, Modbus R125 (holding; wire 0x807D; FC 3/6/16; 32 bits per address; high word first), number 0x807D through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_125`].
     pub fn mechatronic_125(
@@ -1997,7 +1997,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_126. Range \-2147483648 to 2147483647, Modbus R126 (holding; wire 0x807E; FC 3/6/16; 32 bits per address; high word first), number 0x807E through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_126: Range \-2147483648 to 2147483647, Modbus R126 (holding; wire 0x807E; FC 3/6/16; 32 bits per address; high word first), number 0x807E through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_126`].
     pub fn mechatronic_126(
@@ -2012,7 +2012,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_127. Range \-2147483648 to 2147483647, Modbus R127 (holding; wire 0x807F; FC 3/6/16; 32 bits per address; high word first), number 0x807F through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_127: Range \-2147483648 to 2147483647, Modbus R127 (holding; wire 0x807F; FC 3/6/16; 32 bits per address; high word first), number 0x807F through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_127`].
     pub fn mechatronic_127(
@@ -2027,7 +2027,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_128. Range \-2147483648 to 2147483647, Modbus R128 (holding; wire 0x8080; FC 3/6/16; 32 bits per address; high word first), number 0x8080 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_128: Range \-2147483648 to 2147483647, Modbus R128 (holding; wire 0x8080; FC 3/6/16; 32 bits per address; high word first), number 0x8080 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_128`].
     pub fn mechatronic_128(
@@ -2042,7 +2042,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_129. Range \-2147483648 to 2147483647, Modbus R129 (holding; wire 0x8081; FC 3/6/16; 32 bits per address; high word first), number 0x8081 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_129: Range \-2147483648 to 2147483647, Modbus R129 (holding; wire 0x8081; FC 3/6/16; 32 bits per address; high word first), number 0x8081 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_129`].
     pub fn mechatronic_129(
@@ -2057,7 +2057,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_130. Range \-2147483648 to 2147483647, Modbus R130 (holding; wire 0x8082; FC 3/6/16; 32 bits per address; high word first), number 0x8082 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_130: Range \-2147483648 to 2147483647, Modbus R130 (holding; wire 0x8082; FC 3/6/16; 32 bits per address; high word first), number 0x8082 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_130`].
     pub fn mechatronic_130(
@@ -2072,7 +2072,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_131. Range \-2147483648 to 2147483647, Modbus R131 (holding; wire 0x8083; FC 3/6/16; 32 bits per address; high word first), number 0x8083 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_131: Range \-2147483648 to 2147483647, Modbus R131 (holding; wire 0x8083; FC 3/6/16; 32 bits per address; high word first), number 0x8083 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_131`].
     pub fn mechatronic_131(
@@ -2087,7 +2087,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_132. Range \-2147483648 to 2147483647, Modbus R132 (holding; wire 0x8084; FC 3/6/16; 32 bits per address; high word first), number 0x8084 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_132: Range \-2147483648 to 2147483647, Modbus R132 (holding; wire 0x8084; FC 3/6/16; 32 bits per address; high word first), number 0x8084 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_132`].
     pub fn mechatronic_132(
@@ -2102,7 +2102,7 @@ impl<C> Eco<C> {
     }
     /// Auxiliary register for mechatronic functions.
     ///
-    /// mechatronic\_133. Range \-2147483648 to 2147483647, Modbus R133 (holding; wire 0x8085; FC 3/6/16; 32 bits per address; high word first), number 0x8085 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
+    /// mechatronic\_133: Range \-2147483648 to 2147483647, Modbus R133 (holding; wire 0x8085; FC 3/6/16; 32 bits per address; high word first), number 0x8085 through a window on CANopen, EtherCAT, PROFINET, INTEGER32, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::MECHATRONIC_133`].
     pub fn mechatronic_133(
@@ -2117,7 +2117,7 @@ impl<C> Eco<C> {
     }
     /// Proportional gain (KP) of the velocity loop.
     ///
-    /// d1. Unit %, range 1 to 99, Modbus 1 (holding; wire 1; FC 3/6/16), number 0x0001 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// d1: Unit %, range 1 to 99, Modbus 1 (holding; wire 1; FC 3/6/16), number 0x0001 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::D1`].
     ///
@@ -2134,7 +2134,7 @@ impl<C> Eco<C> {
     }
     /// Integral gain (KI) of the velocity loop.
     ///
-    /// d2. Unit %, range 1 to 99, Modbus 2 (holding; wire 2; FC 3/6/16), number 0x0002 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// d2: Unit %, range 1 to 99, Modbus 2 (holding; wire 2; FC 3/6/16), number 0x0002 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::D2`].
     pub fn d2(
@@ -2149,7 +2149,7 @@ impl<C> Eco<C> {
     }
     /// Maximum motor speed.
     ///
-    /// d3. Unit %, range 1 to 99, Modbus 3 (holding; wire 3; FC 3/6/16), number 0x0003 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// d3: Unit %, range 1 to 99, Modbus 3 (holding; wire 3; FC 3/6/16), number 0x0003 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::D3`].
     pub fn d3(
@@ -2164,7 +2164,7 @@ impl<C> Eco<C> {
     }
     /// Compensation of the velocity offset.
     ///
-    /// d4. Unit %, range 1 to 99, Modbus 4 (holding; wire 4; FC 3/6/16), number 0x0004 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// d4: Unit %, range 1 to 99, Modbus 4 (holding; wire 4; FC 3/6/16), number 0x0004 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::D4`].
     pub fn d4(
@@ -2179,7 +2179,7 @@ impl<C> Eco<C> {
     }
     /// Maximum motor current.
     ///
-    /// d5. Unit %, range 1 to 99, Modbus 5 (holding; wire 5; FC 3/6/16), number 0x0005 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// d5: Unit %, range 1 to 99, Modbus 5 (holding; wire 5; FC 3/6/16), number 0x0005 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::D5`].
     pub fn d5(
@@ -2194,7 +2194,7 @@ impl<C> Eco<C> {
     }
     /// Ratio of peak current to rated current.
     ///
-    /// d6. Unit %, range 1 to 99, Modbus 6 (holding; wire 6; FC 3/6/16), number 0x0006 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// d6: Unit %, range 1 to 99, Modbus 6 (holding; wire 6; FC 3/6/16), number 0x0006 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::D6`].
     pub fn d6(
@@ -2209,7 +2209,7 @@ impl<C> Eco<C> {
     }
     /// Setting of the I²t function.
     ///
-    /// d7. Unit %, range 1 to 99, Modbus 7 (holding; wire 7; FC 3/6/16), number 0x0007 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// d7: Unit %, range 1 to 99, Modbus 7 (holding; wire 7; FC 3/6/16), number 0x0007 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::D7`].
     pub fn d7(
@@ -2224,7 +2224,7 @@ impl<C> Eco<C> {
     }
     /// Motor selection; it must match the connected motor.
     ///
-    /// d8. Modbus 8 (holding; wire 8; FC 3/6/16), number 0x0008 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// d8: Modbus 8 (holding; wire 8; FC 3/6/16), number 0x0008 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::D8`].
     pub fn d8(
@@ -2239,7 +2239,7 @@ impl<C> Eco<C> {
     }
     /// Maximum rated velocity.
     ///
-    /// E1. Unit %, range 1 to 99, Modbus 9 (holding; wire 9; FC 3/6/16), number 0x0009 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// E1: Unit %, range 1 to 99, Modbus 9 (holding; wire 9; FC 3/6/16), number 0x0009 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::E1`].
     pub fn e1(
@@ -2254,7 +2254,7 @@ impl<C> Eco<C> {
     }
     /// Filter of the reference input.
     ///
-    /// E2. Unit %, range 1 to 99, Modbus 10 (holding; wire 10; FC 3/6/16), number 0x000A through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// E2: Unit %, range 1 to 99, Modbus 10 (holding; wire 10; FC 3/6/16), number 0x000A through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::E2`].
     pub fn e2(
@@ -2269,7 +2269,7 @@ impl<C> Eco<C> {
     }
     /// Exceptions: selects no parity on Modbus, or the address map for Siemens controllers.
     ///
-    /// E3. Modbus 58 (holding; wire 58; FC 3/6/16), number 0x003A through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// E3: Modbus 58 (holding; wire 58; FC 3/6/16), number 0x003A through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::E3`]. Values: [`Exceptions`](types::Exceptions).
     ///
@@ -2286,7 +2286,7 @@ impl<C> Eco<C> {
     }
     /// Reserved; the manual does not describe it.
     ///
-    /// E4. Modbus 55 (holding; wire 55; FC 3/6/16), number 0x0037 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// E4: Modbus 55 (holding; wire 55; FC 3/6/16), number 0x0037 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::E4`].
     ///
@@ -2303,7 +2303,7 @@ impl<C> Eco<C> {
     }
     /// Maximum acceleration ramp.
     ///
-    /// F1. Unit %, range 1 to 99, Modbus 11 (holding; wire 11; FC 3/6/16), number 0x000B through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// F1: Unit %, range 1 to 99, Modbus 11 (holding; wire 11; FC 3/6/16), number 0x000B through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::F1`].
     pub fn f1(
@@ -2318,7 +2318,7 @@ impl<C> Eco<C> {
     }
     /// Maximum deceleration ramp.
     ///
-    /// F2. Unit %, range 1 to 99, Modbus 12 (holding; wire 12; FC 3/6/16), number 0x000C through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// F2: Unit %, range 1 to 99, Modbus 12 (holding; wire 12; FC 3/6/16), number 0x000C through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::F2`].
     pub fn f2(
@@ -2333,7 +2333,7 @@ impl<C> Eco<C> {
     }
     /// Emergency-stop ramp.
     ///
-    /// F3. Unit %, range 1 to 99, Modbus 13 (holding; wire 13; FC 3/6/16), number 0x000D through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// F3: Unit %, range 1 to 99, Modbus 13 (holding; wire 13; FC 3/6/16), number 0x000D through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::F3`].
     pub fn f3(
@@ -2348,7 +2348,7 @@ impl<C> Eco<C> {
     }
     /// Number of pulses of the RTE output.
     ///
-    /// c1. Modbus 14 (holding; wire 14; FC 3/6/16), number 0x000E through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// c1: Modbus 14 (holding; wire 14; FC 3/6/16), number 0x000E through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::C1`].
     pub fn c1(
@@ -2363,7 +2363,7 @@ impl<C> Eco<C> {
     }
     /// Direction of rotation of the motor.
     ///
-    /// c2. Modbus 15 (holding; wire 15; FC 3/6/16), number 0x000F through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// c2: Modbus 15 (holding; wire 15; FC 3/6/16), number 0x000F through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::C2`].
     pub fn c2(
@@ -2378,7 +2378,7 @@ impl<C> Eco<C> {
     }
     /// Control type: velocity or torque.
     ///
-    /// c3. Modbus 16 (holding; wire 16; FC 3/6/16), number 0x0010 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// c3: Modbus 16 (holding; wire 16; FC 3/6/16), number 0x0010 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::C3`].
     pub fn c3(
@@ -2393,7 +2393,7 @@ impl<C> Eco<C> {
     }
     /// Pole pairs of the resolver.
     ///
-    /// c4. Modbus 17 (holding; wire 17; FC 3/6/16), number 0x0011 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// c4: Modbus 17 (holding; wire 17; FC 3/6/16), number 0x0011 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::C4`].
     pub fn c4(
@@ -2408,7 +2408,7 @@ impl<C> Eco<C> {
     }
     /// Encoder pulses per revolution.
     ///
-    /// c5. Modbus 18 (holding; wire 18; FC 3/6/16), number 0x0012 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// c5: Modbus 18 (holding; wire 18; FC 3/6/16), number 0x0012 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::C5`].
     pub fn c5(
@@ -2423,7 +2423,7 @@ impl<C> Eco<C> {
     }
     /// Type of the position sensor.
     ///
-    /// c6. Modbus 19 (holding; wire 19; FC 3/6/16), number 0x0013 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// c6: Modbus 19 (holding; wire 19; FC 3/6/16), number 0x0013 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::C6`].
     pub fn c6(
@@ -2438,7 +2438,7 @@ impl<C> Eco<C> {
     }
     /// Node number: 1 to 90 on Modbus, 1 to 99 on CANopen. EtherCAT does not use it, and PROFINET uses IP addresses.
     ///
-    /// c7. Range 1 to 99, default 1, Modbus 20 (holding; wire 20; FC 3/6/16), number 0x0014 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// c7: Range 1 to 99, default 1, Modbus 20 (holding; wire 20; FC 3/6/16), number 0x0014 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::C7`].
     pub fn c7(
@@ -2453,7 +2453,7 @@ impl<C> Eco<C> {
     }
     /// Selects the functions of the three inputs of the miniECO; "mini\_inputs" has pins and functions.
     ///
-    /// c8. Default 6, Modbus 21 (holding; wire 21; FC 3/6/16), number 0x0015 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// c8: Default 6, Modbus 21 (holding; wire 21; FC 3/6/16), number 0x0015 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::C8`]. Values: [`MiniInputs`](types::MiniInputs).
     ///
@@ -2470,7 +2470,7 @@ impl<C> Eco<C> {
     }
     /// Operating configuration of the drive; some values select the bus.
     ///
-    /// c9. Modbus 22 (holding; wire 22; FC 3/6/16), number 0x0016 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// c9: Modbus 22 (holding; wire 22; FC 3/6/16), number 0x0016 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::C9`]. Values: [`Network`](types::Network).
     ///
@@ -2487,7 +2487,7 @@ impl<C> Eco<C> {
     }
     /// Proportional gain of the position loop.
     ///
-    /// I1. Unit %, range 1 to 99, Modbus 35 (holding; wire 35; FC 3/6/16), number 0x0023 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// I1: Unit %, range 1 to 99, Modbus 35 (holding; wire 35; FC 3/6/16), number 0x0023 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::I1`].
     pub fn i1(
@@ -2502,7 +2502,7 @@ impl<C> Eco<C> {
     }
     /// Integral gain of the position loop.
     ///
-    /// I2. Unit %, range 1 to 99, Modbus 36 (holding; wire 36; FC 3/6/16), number 0x0024 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// I2: Unit %, range 1 to 99, Modbus 36 (holding; wire 36; FC 3/6/16), number 0x0024 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::I2`].
     pub fn i2(
@@ -2517,7 +2517,7 @@ impl<C> Eco<C> {
     }
     /// Derivative gain of the position loop.
     ///
-    /// I3. Unit %, range 1 to 99, Modbus 37 (holding; wire 37; FC 3/6/16), number 0x0025 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// I3: Unit %, range 1 to 99, Modbus 37 (holding; wire 37; FC 3/6/16), number 0x0025 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::I3`].
     pub fn i3(
@@ -2532,7 +2532,7 @@ impl<C> Eco<C> {
     }
     /// Inertia compensation.
     ///
-    /// I4. Unit %, range 1 to 99, Modbus 38 (holding; wire 38; FC 3/6/16), number 0x0026 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// I4: Unit %, range 1 to 99, Modbus 38 (holding; wire 38; FC 3/6/16), number 0x0026 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::I4`].
     pub fn i4(
@@ -2547,7 +2547,7 @@ impl<C> Eco<C> {
     }
     /// Position error timeout.
     ///
-    /// I5. 1 LSB = 0.01 s, Modbus 39 (holding; wire 39; FC 3/6/16), number 0x0027 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// I5: 1 LSB = 0.01 s, Modbus 39 (holding; wire 39; FC 3/6/16), number 0x0027 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::I5`].
     pub fn i5(
@@ -2562,7 +2562,7 @@ impl<C> Eco<C> {
     }
     /// Mode of the external encoder.
     ///
-    /// I6. Modbus 90 (holding; wire 90; FC 3/6/16), number 0x005A through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// I6: Modbus 90 (holding; wire 90; FC 3/6/16), number 0x005A through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::I6`].
     pub fn i6(
@@ -2577,7 +2577,7 @@ impl<C> Eco<C> {
     }
     /// Reserved; the manual does not describe it.
     ///
-    /// I7. Modbus 99 (holding; wire 99; FC 3/6/16), number 0x0063 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// I7: Modbus 99 (holding; wire 99; FC 3/6/16), number 0x0063 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::I7`].
     ///
@@ -2594,7 +2594,7 @@ impl<C> Eco<C> {
     }
     /// Instantaneous motor current. Read-only is an assumption: the manual names no access rights.
     ///
-    /// O1. Modbus 81 (holding; wire 81; FC 3), number 0x0051 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-only.
+    /// O1: Modbus 81 (holding; wire 81; FC 3), number 0x0051 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-only.
     /// Volatile.
     /// Constant: [`objects::O1`].
     pub fn o1(
@@ -2609,7 +2609,7 @@ impl<C> Eco<C> {
     }
     /// RMS current. Read-only is an assumption: the manual names no access rights.
     ///
-    /// O2. Modbus 82 (holding; wire 82; FC 3), number 0x0052 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-only.
+    /// O2: Modbus 82 (holding; wire 82; FC 3), number 0x0052 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-only.
     /// Volatile.
     /// Constant: [`objects::O2`].
     pub fn o2(
@@ -2624,7 +2624,7 @@ impl<C> Eco<C> {
     }
     /// Overload in percent of I²t. Read-only is an assumption: the manual names no access rights.
     ///
-    /// O3. Unit %, Modbus 83 (holding; wire 83; FC 3), number 0x0053 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-only.
+    /// O3: Unit %, Modbus 83 (holding; wire 83; FC 3), number 0x0053 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-only.
     /// Volatile.
     /// Constant: [`objects::O3`].
     pub fn o3(
@@ -2639,7 +2639,7 @@ impl<C> Eco<C> {
     }
     /// Hundreds of the pulses per motor shaft revolution (P1 × 100 + P2).
     ///
-    /// P1. Modbus 41 (holding; wire 41; FC 3/6/16), number 0x0029 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// P1: Modbus 41 (holding; wire 41; FC 3/6/16), number 0x0029 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::P1`]. Part of [`PULSES_PER_TURN`].
     ///
@@ -2656,7 +2656,7 @@ impl<C> Eco<C> {
     }
     /// Units of the pulses per motor shaft revolution (P1 × 100 + P2).
     ///
-    /// P2. Modbus 42 (holding; wire 42; FC 3/6/16), number 0x002A through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// P2: Modbus 42 (holding; wire 42; FC 3/6/16), number 0x002A through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::P2`]. Part of [`PULSES_PER_TURN`].
     ///
@@ -2673,7 +2673,7 @@ impl<C> Eco<C> {
     }
     /// Hundreds of the maximum following error (P3 × 100 + P4).
     ///
-    /// P3. 1 LSB = 100 °, Modbus 43 (holding; wire 43; FC 3/6/16), number 0x002B through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// P3: 1 LSB = 100 °, Modbus 43 (holding; wire 43; FC 3/6/16), number 0x002B through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::P3`]. Part of [`MAX_FOLLOWING_ERROR_P`].
     pub fn p3(
@@ -2688,7 +2688,7 @@ impl<C> Eco<C> {
     }
     /// Units of the maximum following error (P3 × 100 + P4).
     ///
-    /// P4. Unit °, Modbus 44 (holding; wire 44; FC 3/6/16), number 0x002C through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// P4: Unit °, Modbus 44 (holding; wire 44; FC 3/6/16), number 0x002C through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::P4`]. Part of [`MAX_FOLLOWING_ERROR_P`].
     pub fn p4(
@@ -2703,7 +2703,7 @@ impl<C> Eco<C> {
     }
     /// Acceleration ramp time per 100 rpm.
     ///
-    /// P5. Unit ms/100rpm, Modbus 45 (holding; wire 45; FC 3/6/16), number 0x002D through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// P5: Unit ms/100rpm, Modbus 45 (holding; wire 45; FC 3/6/16), number 0x002D through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::P5`].
     pub fn p5(
@@ -2718,7 +2718,7 @@ impl<C> Eco<C> {
     }
     /// Deceleration ramp time per 100 rpm.
     ///
-    /// P6. Unit ms/100rpm, Modbus 46 (holding; wire 46; FC 3/6/16), number 0x002E through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// P6: Unit ms/100rpm, Modbus 46 (holding; wire 46; FC 3/6/16), number 0x002E through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::P6`].
     pub fn p6(
@@ -2733,7 +2733,7 @@ impl<C> Eco<C> {
     }
     /// Maximum velocity.
     ///
-    /// P7. 1 LSB = 100 rpm, Modbus 47 (holding; wire 47; FC 3/6/16), number 0x002F through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// P7: 1 LSB = 100 rpm, Modbus 47 (holding; wire 47; FC 3/6/16), number 0x002F through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::P7`].
     pub fn p7(
@@ -2748,7 +2748,7 @@ impl<C> Eco<C> {
     }
     /// Hundreds of the master encoder pulses (A1 × 100 + A2).
     ///
-    /// A1. Modbus 48 (holding; wire 48; FC 3/6/16), number 0x0030 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// A1: Modbus 48 (holding; wire 48; FC 3/6/16), number 0x0030 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::A1`]. Part of [`MASTER_ENCODER_MARKS`].
     pub fn a1(
@@ -2763,7 +2763,7 @@ impl<C> Eco<C> {
     }
     /// Units of the master encoder pulses (A1 × 100 + A2).
     ///
-    /// A2. Modbus 49 (holding; wire 49; FC 3/6/16), number 0x0031 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// A2: Modbus 49 (holding; wire 49; FC 3/6/16), number 0x0031 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::A2`]. Part of [`MASTER_ENCODER_MARKS`].
     pub fn a2(
@@ -2778,7 +2778,7 @@ impl<C> Eco<C> {
     }
     /// Numerator of the reduction ratio.
     ///
-    /// A3. Modbus 50 (holding; wire 50; FC 3/6/16), number 0x0032 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// A3: Modbus 50 (holding; wire 50; FC 3/6/16), number 0x0032 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::A3`].
     pub fn a3(
@@ -2793,7 +2793,7 @@ impl<C> Eco<C> {
     }
     /// Denominator of the reduction ratio.
     ///
-    /// A4. Modbus 51 (holding; wire 51; FC 3/6/16), number 0x0033 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// A4: Modbus 51 (holding; wire 51; FC 3/6/16), number 0x0033 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::A4`].
     pub fn a4(
@@ -2808,7 +2808,7 @@ impl<C> Eco<C> {
     }
     /// Hundreds of the maximum following error (A5 × 100 + A6).
     ///
-    /// A5. 1 LSB = 100 °, Modbus 52 (holding; wire 52; FC 3/6/16), number 0x0034 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// A5: 1 LSB = 100 °, Modbus 52 (holding; wire 52; FC 3/6/16), number 0x0034 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::A5`]. Part of [`MAX_FOLLOWING_ERROR_A`].
     pub fn a5(
@@ -2823,7 +2823,7 @@ impl<C> Eco<C> {
     }
     /// Units of the maximum following error (A5 × 100 + A6).
     ///
-    /// A6. Unit °, Modbus 53 (holding; wire 53; FC 3/6/16), number 0x0035 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// A6: Unit °, Modbus 53 (holding; wire 53; FC 3/6/16), number 0x0035 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::A6`]. Part of [`MAX_FOLLOWING_ERROR_A`].
     pub fn a6(
@@ -2838,7 +2838,7 @@ impl<C> Eco<C> {
     }
     /// Homing method.
     ///
-    /// H1. Modbus 59 (holding; wire 59; FC 3/6/16), number 0x003B through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// H1: Modbus 59 (holding; wire 59; FC 3/6/16), number 0x003B through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::H1`].
     pub fn h1(
@@ -2853,7 +2853,7 @@ impl<C> Eco<C> {
     }
     /// Homing velocity of the search for the switch, in percent of the rated velocity.
     ///
-    /// H2. Unit %, range 1 to 99, Modbus 60 (holding; wire 60; FC 3/6/16), number 0x003C through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// H2: Unit %, range 1 to 99, Modbus 60 (holding; wire 60; FC 3/6/16), number 0x003C through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::H2`].
     pub fn h2(
@@ -2868,7 +2868,7 @@ impl<C> Eco<C> {
     }
     /// Homing velocity of the search for the index pulse (marker), in thousandths of the rated velocity.
     ///
-    /// H3. 1 LSB = 0.1 %, range 0.1 … 9.9 % (raw 1 … 99), Modbus 61 (holding; wire 61; FC 3/6/16), number 0x003D through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// H3: 1 LSB = 0.1 %, range 0.1 … 9.9 % (raw 1 … 99), Modbus 61 (holding; wire 61; FC 3/6/16), number 0x003D through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::H3`].
     ///
@@ -2885,7 +2885,7 @@ impl<C> Eco<C> {
     }
     /// Homing: acceleration and deceleration ramp time per 100 rpm.
     ///
-    /// H4. Unit ms/100rpm, Modbus 62 (holding; wire 62; FC 3/6/16), number 0x003E through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// H4: Unit ms/100rpm, Modbus 62 (holding; wire 62; FC 3/6/16), number 0x003E through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::H4`].
     pub fn h4(
@@ -2900,7 +2900,7 @@ impl<C> Eco<C> {
     }
     /// Sign of the position offset (H6 × 10000 + H7 × 100 + H8).
     ///
-    /// H5. Modbus 63 (holding; wire 63; FC 3/6/16), number 0x003F through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// H5: Modbus 63 (holding; wire 63; FC 3/6/16), number 0x003F through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::H5`]. Part of [`SPACE_OFFSET`].
     pub fn h5(
@@ -2915,7 +2915,7 @@ impl<C> Eco<C> {
     }
     /// Ten thousands of the position offset in master encoder pulses; H5 is the sign.
     ///
-    /// H6. Modbus 64 (holding; wire 64; FC 3/6/16), number 0x0040 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// H6: Modbus 64 (holding; wire 64; FC 3/6/16), number 0x0040 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::H6`]. Part of [`SPACE_OFFSET`].
     pub fn h6(
@@ -2930,7 +2930,7 @@ impl<C> Eco<C> {
     }
     /// Hundreds of the position offset in master encoder pulses; H5 is the sign.
     ///
-    /// H7. Modbus 65 (holding; wire 65; FC 3/6/16), number 0x0041 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// H7: Modbus 65 (holding; wire 65; FC 3/6/16), number 0x0041 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::H7`]. Part of [`SPACE_OFFSET`].
     pub fn h7(
@@ -2945,7 +2945,7 @@ impl<C> Eco<C> {
     }
     /// Units of the position offset in master encoder pulses; H5 is the sign.
     ///
-    /// H8. Modbus 66 (holding; wire 66; FC 3/6/16), number 0x0042 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// H8: Modbus 66 (holding; wire 66; FC 3/6/16), number 0x0042 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::H8`]. Part of [`SPACE_OFFSET`].
     pub fn h8(
@@ -2960,7 +2960,7 @@ impl<C> Eco<C> {
     }
     /// Utility for manual adjustment of the position offset.
     ///
-    /// H9. Modbus 67 (holding; wire 67; FC 3/6/16), number 0x0043 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// H9: Modbus 67 (holding; wire 67; FC 3/6/16), number 0x0043 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::H9`].
     pub fn h9(
@@ -2975,7 +2975,7 @@ impl<C> Eco<C> {
     }
     /// Bit rate of CANopen.
     ///
-    /// n1. Range 1 to 8, Modbus 40 (holding; wire 40; FC 3/6/16), number 0x0028 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
+    /// n1: Range 1 to 8, Modbus 40 (holding; wire 40; FC 3/6/16), number 0x0028 through a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, read-write.
     /// Non-volatile: stored by save.
     /// Constant: [`objects::N1`]. Values: [`BitRate`](types::BitRate).
     pub fn n1(
@@ -2990,7 +2990,7 @@ impl<C> Eco<C> {
     }
     /// Command that saves registers and parameters to flash memory; the torque must be off.
     ///
-    /// save\_to\_flash. One of 17, Modbus 14338 (holding; wire 0x3802; FC 6/16), UNSIGNED16, write-only.
+    /// save\_to\_flash: One of 17, Modbus 14338 (holding; wire 0x3802; FC 6/16), UNSIGNED16, write-only.
     /// Constant: [`objects::SAVE_TO_FLASH`].
     ///
     /// Note: 0x3802 is in none of the tables, and the manual does not state whether the Siemens map moves it. Assumed: 0x3802 with both address maps (the Siemens map covers only registers and parameters). Manual: Salvataggio su flash di parametri e registri (lines 1037-1038).
@@ -3001,7 +3001,7 @@ impl<C> Eco<C> {
     }
     /// 32-bit form of save\_to\_flash, for function 16.
     ///
-    /// save\_to\_flash\_32. One of 17, Modbus 14338–14339 (holding; wire 0x3802–0x3803; FC 16; high word first), UNSIGNED32, write-only.
+    /// save\_to\_flash\_32: One of 17, Modbus 14338–14339 (holding; wire 0x3802–0x3803; FC 16; high word first), UNSIGNED32, write-only.
     /// Constant: [`objects::SAVE_TO_FLASH_32`].
     ///
     /// Note: The same address takes 16 bits with function 6 and 32 bits with function 16. Assumed: two rows for one value (frames of both widths are printed). Manual: Salvataggio su flash di parametri e registri; Secondo metodo di salvataggio con accesso a 16 bit; Secondo metodo di salvataggio con accesso a 32 bit (lines 1040-1045, 1532, 1610).
@@ -3012,14 +3012,14 @@ impl<C> Eco<C> {
     }
     /// Number of the device profile that the drive follows.
     ///
-    /// Device Type. 0x1000:00, UNSIGNED32, constant.
+    /// Device Type: 0x1000:00, UNSIGNED32, constant.
     /// Constant: [`objects::DEVICE_TYPE`]. Values: [`DeviceType`](types::DeviceType).
     pub fn device_type(&mut self) -> objects::ConstantAccess<'_, C, types::DeviceType> {
         objects::DEVICE_TYPE.at(&mut self.client)
     }
     /// Kinds of errors that are present, one per bit.
     ///
-    /// Error Register. 0x1001:00, UNSIGNED8, read-only.
+    /// Error Register: 0x1001:00, UNSIGNED8, read-only.
     /// Constant: [`objects::ERROR_REGISTER`]. Values: [`ErrorRegister`](types::ErrorRegister).
     pub fn error_register(
         &mut self,
@@ -3037,7 +3037,7 @@ impl<C> Eco<C> {
     }
     /// COB-ID of the SYNC message.
     ///
-    /// Cob-Id Sync. Default 0x80, 0x1005:00, UNSIGNED32, read-write.
+    /// Cob-Id Sync: Default 0x80, 0x1005:00, UNSIGNED32, read-write.
     /// Constant: [`objects::COB_ID_SYNC`]. Values: [`SyncIdentifier`](types::SyncIdentifier).
     pub fn cob_id_sync(
         &mut self,
@@ -3046,7 +3046,7 @@ impl<C> Eco<C> {
     }
     /// Name of the device.
     ///
-    /// Manufacturer Device Name. 0x1008:00, VISIBLE_STRING, constant.
+    /// Manufacturer Device Name: 0x1008:00, VISIBLE_STRING, constant.
     /// Constant: [`objects::MANUFACTURER_DEVICE_NAME`].
     pub fn manufacturer_device_name(
         &mut self,
@@ -3055,7 +3055,7 @@ impl<C> Eco<C> {
     }
     /// Hardware version of the device.
     ///
-    /// Manufacturer Hardware Version. 0x1009:00, VISIBLE_STRING, constant.
+    /// Manufacturer Hardware Version: 0x1009:00, VISIBLE_STRING, constant.
     /// Constant: [`objects::MANUFACTURER_HARDWARE_VERSION`].
     pub fn manufacturer_hardware_version(
         &mut self,
@@ -3064,7 +3064,7 @@ impl<C> Eco<C> {
     }
     /// Software version of the device.
     ///
-    /// Manufacturer Software Version. 0x100A:00, VISIBLE_STRING, constant.
+    /// Manufacturer Software Version: 0x100A:00, VISIBLE_STRING, constant.
     /// Constant: [`objects::MANUFACTURER_SOFTWARE_VERSION`].
     pub fn manufacturer_software_version(
         &mut self,
@@ -3073,7 +3073,7 @@ impl<C> Eco<C> {
     }
     /// Guard time of node guarding. The drive also answers requests with DLC 0; before version 3.00, DLC must be 1.
     ///
-    /// Guard Time. Unit ms, 0x100C:00, UNSIGNED16, read-write.
+    /// Guard Time: Unit ms, 0x100C:00, UNSIGNED16, read-write.
     /// Constant: [`objects::GUARD_TIME`].
     pub fn guard_time(
         &mut self,
@@ -3082,7 +3082,7 @@ impl<C> Eco<C> {
     }
     /// Life time factor: number of guard times without a request of the master before the drive enables an emergency message. When requests return, the drive answers again, but does not reset the message.
     ///
-    /// Life Time Factor. 0x100D:00, UNSIGNED8, read-write.
+    /// Life Time Factor: 0x100D:00, UNSIGNED8, read-write.
     /// Constant: [`objects::LIFE_TIME_FACTOR`].
     pub fn life_time_factor(
         &mut self,
@@ -3100,7 +3100,7 @@ impl<C> Eco<C> {
     }
     /// COB-ID of the emergency message.
     ///
-    /// Cob Id Emcy. 0x1014:00, UNSIGNED32, read-write.
+    /// Cob Id Emcy: 0x1014:00, UNSIGNED32, read-write.
     /// Constant: [`objects::COB_ID_EMCY`]. Values: [`EmergencyIdentifier`](types::EmergencyIdentifier).
     pub fn cob_id_emcy(
         &mut self,
@@ -3109,7 +3109,7 @@ impl<C> Eco<C> {
     }
     /// Inhibit time: minimum time between two emergency messages.
     ///
-    /// Inhibit Emcy. 1 LSB = 100 µs, 0x1015:00, UNSIGNED16, read-write.
+    /// Inhibit Emcy: 1 LSB = 100 µs, 0x1015:00, UNSIGNED16, read-write.
     /// Constant: [`objects::INHIBIT_EMCY`].
     pub fn inhibit_emcy(
         &mut self,
@@ -3118,7 +3118,7 @@ impl<C> Eco<C> {
     }
     /// Heartbeat period. While it is not 0, the drive answers node guarding requests with its state, without changing the toggle bit.
     ///
-    /// Producer Heartbeat Time. Unit ms, 0x1017:00, UNSIGNED16, read-write.
+    /// Producer Heartbeat Time: Unit ms, 0x1017:00, UNSIGNED16, read-write.
     /// Constant: [`objects::PRODUCER_HEARTBEAT_TIME`].
     pub fn producer_heartbeat_time(
         &mut self,
@@ -3301,7 +3301,7 @@ impl<C> Eco<C> {
     }
     /// 16-bit position set-point of the interpolator; 0x60C1:1 has 32 bits.
     ///
-    /// IP Set Point 16. Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, 0x2002:00, INTEGER16, write-only, mappable into RPDOs.
+    /// IP Set Point 16: Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, 0x2002:00, INTEGER16, write-only, mappable into RPDOs.
     /// Constant: [`objects::IP_SET_POINT_16`].
     pub fn ip_set_point_16(
         &mut self,
@@ -3310,7 +3310,7 @@ impl<C> Eco<C> {
     }
     /// Lower 16 bits of the actual position.
     ///
-    /// Position Actual Value 16. Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, 0x2003:00, INTEGER16, read-write, mappable into any PDO.
+    /// Position Actual Value 16: Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, 0x2003:00, INTEGER16, read-write, mappable into any PDO.
     /// Constant: [`objects::POSITION_ACTUAL_VALUE_16`].
     ///
     /// Note: A measured value has the access right rw, but ro in 0x6064. Assumed: rw, as printed (the manual does not state the effect of a write). Manual: Oggetti opzionali; Oggetti “manufacturer specific” (lines 3781, 3862).
@@ -3321,7 +3321,7 @@ impl<C> Eco<C> {
     }
     /// Lower 16 bits of the latched position.
     ///
-    /// Latched User Position 16. Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, 0x2004:00, INTEGER16, read-write, mappable into any PDO.
+    /// Latched User Position 16: Physical value = raw / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rev, 0x2004:00, INTEGER16, read-write, mappable into any PDO.
     /// Constant: [`objects::LATCHED_USER_POSITION_16`].
     ///
     /// Note: A measured value has the access right rw. Assumed: rw, as printed (the manual does not state the effect of a write). Manual: Oggetti “manufacturer specific” (line 3863).
@@ -3350,7 +3350,7 @@ impl<C> Eco<C> {
     }
     /// Command that saves the parameters of the drive to flash memory; the axis must be disabled.
     ///
-    /// Save Parameters. 0x2007:00, UNSIGNED8, write-only.
+    /// Save Parameters: 0x2007:00, UNSIGNED8, write-only.
     /// Constant: [`objects::SAVE_PARAMETERS`].
     ///
     /// Note: Length and access rights are not printed. Assumed: one byte, write-only (the value 0x11, which is written to it, fits into one byte). Manual: Salvataggio in flash dei parametri (lines 5750-5756).
@@ -3359,7 +3359,7 @@ impl<C> Eco<C> {
     }
     /// EtherCAT code of the active alarm, as in "ethercat\_alarms". Several alarms share a code, and alarm 30 has none.
     ///
-    /// Error Codes. 0x603F:00, UNSIGNED16, read-only.
+    /// Error Codes: 0x603F:00, UNSIGNED16, read-only.
     /// Constant: [`objects::ERROR_CODES`].
     ///
     /// Note: Access rights and mapping are not printed. Assumed: read-only, not mappable (the object reports errors). Manual: SDO: tipologia e dizionario oggetti; Codici allarmi specifici (lines 5679, 5866).
@@ -3368,7 +3368,7 @@ impl<C> Eco<C> {
     }
     /// DSP 402 Controlword: commands of the drive state machine and of the mode of operation. control\_word has the bits of the vendor.
     ///
-    /// Controlword. 0x6040:00, UNSIGNED16, read-write, mappable into any PDO.
+    /// Controlword: 0x6040:00, UNSIGNED16, read-write, mappable into any PDO.
     /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`InterpolatedPosition`](pdo::InterpolatedPosition), [`Mode`](pdo::Mode), [`Position`](pdo::Position), [`Velocity`](pdo::Velocity).
     pub fn controlword(
         &mut self,
@@ -3377,14 +3377,14 @@ impl<C> Eco<C> {
     }
     /// DSP 402 Statusword: state of the drive state machine and of the mode of operation. status\_word has the bits of the vendor.
     ///
-    /// Statusword. 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
+    /// Statusword: 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`Status`](pdo::Status), [`ModeDisplay`](pdo::ModeDisplay), [`ActualPosition`](pdo::ActualPosition), [`ActualVelocity`](pdo::ActualVelocity).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
     /// Active mode of operation.
     ///
-    /// Modes Of Operation Display. 0x6061:00, byte 2 of the image to the master, INTEGER8, read-only, mappable into TPDOs.
+    /// Modes Of Operation Display: 0x6061:00, byte 2 of the image to the master, INTEGER8, read-only, mappable into TPDOs.
     /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Values: [`Mode`](types::Mode). Carried by [`ModeDisplay`](pdo::ModeDisplay).
     pub fn modes_of_operation_display(
         &mut self,
@@ -3393,7 +3393,7 @@ impl<C> Eco<C> {
     }
     /// Velocity of a sensor with 8192 pulses per revolution. While bit 12 of the Controlword is set, velocity of the master axis in increments per millisecond.
     ///
-    /// Velocity Sensor Actual Value. 0x6069:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Velocity Sensor Actual Value: 0x6069:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::VELOCITY_SENSOR_ACTUAL_VALUE`].
     pub fn velocity_sensor_actual_value(
         &mut self,
@@ -3402,7 +3402,7 @@ impl<C> Eco<C> {
     }
     /// Velocity demand of the trajectory generator.
     ///
-    /// Velocity Demand Value. Physical value = raw × 60 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rpm, 0x606B:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Velocity Demand Value: Physical value = raw × 60 / [feed\_constant](objects::feed_constant::FEED_CONSTANT) rpm, 0x606B:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::VELOCITY_DEMAND_VALUE`].
     pub fn velocity_demand_value(
         &mut self,
@@ -3443,7 +3443,7 @@ impl<C> Eco<C> {
     }
     /// Maximum slippage of an asynchronous motor.
     ///
-    /// Max Slippage. 0x60F8:00, INTEGER32, read-write, mappable into any PDO.
+    /// Max Slippage: 0x60F8:00, INTEGER32, read-write, mappable into any PDO.
     /// Constant: [`objects::MAX_SLIPPAGE`].
     pub fn max_slippage(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::MAX_SLIPPAGE.at(&mut self.client)
@@ -3457,7 +3457,7 @@ impl<C> Eco<C> {
     }
     /// Modes of operation that the drive supports.
     ///
-    /// Supported Drive Modes. 0x6502:00, UNSIGNED32, read-only.
+    /// Supported Drive Modes: 0x6502:00, UNSIGNED32, read-only.
     /// Constant: [`objects::SUPPORTED_DRIVE_MODES`]. Values: [`SupportedDriveModes`](types::SupportedDriveModes).
     pub fn supported_drive_modes(
         &mut self,
@@ -3466,7 +3466,7 @@ impl<C> Eco<C> {
     }
     /// Name of the manufacturer of the drive.
     ///
-    /// Drive Manufacturer. 0x6504:00, VISIBLE_STRING, read-only.
+    /// Drive Manufacturer: 0x6504:00, VISIBLE_STRING, read-only.
     /// Constant: [`objects::DRIVE_MANUFACTURER`].
     pub fn drive_manufacturer(
         &mut self,
@@ -3475,7 +3475,7 @@ impl<C> Eco<C> {
     }
     /// Web address of the manufacturer of the drive.
     ///
-    /// Http Drive Catalog Address. 0x6505:00, VISIBLE_STRING, read-only.
+    /// Http Drive Catalog Address: 0x6505:00, VISIBLE_STRING, read-only.
     /// Constant: [`objects::HTTP_DRIVE_CATALOG_ADDRESS`].
     pub fn http_drive_catalog_address(
         &mut self,
@@ -3484,7 +3484,7 @@ impl<C> Eco<C> {
     }
     /// Device profile and type of a single drive.
     ///
-    /// Single Device Type. 0x67FF:00, UNSIGNED32, read-write.
+    /// Single Device Type: 0x67FF:00, UNSIGNED32, read-write.
     /// Constant: [`objects::SINGLE_DEVICE_TYPE`].
     ///
     /// Note: The type of the device has the access right rw. Assumed: rw, as printed (the manual does not state the effect of a write). Manual: Oggetti opzionali (line 3845).
@@ -13086,7 +13086,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of errors in the history; writing 0 clears the history.
             ///
-            /// Number Of Error. 0x1003:00, UNSIGNED8, read-write.
+            /// Number Of Error: 0x1003:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ERROR`].
             ///
             /// Note: Sub-index 0 has 4 bytes here, but 1 byte in most other objects. Assumed: one byte (DS 301 defines it as one byte). Manual: Oggetti obbligatori (line 3480).
@@ -13095,7 +13095,7 @@ pub mod objects {
             }
             /// Newest error in the history.
             ///
-            /// Standard Of Error Type. 0x1003:01, UNSIGNED32, read-only.
+            /// Standard Of Error Type: 0x1003:01, UNSIGNED32, read-only.
             /// Constant: [`STANDARD_OF_ERROR_TYPE`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn standard_of_error_type(
                 &mut self,
@@ -13248,7 +13248,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest sub-index.
             ///
-            /// Number of entries of the store parameters. 0x1010:00, UNSIGNED8, read-only.
+            /// Number of entries of the store parameters: 0x1010:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_STORE_PARAMETERS`].
             ///
             /// Note: Sub-index 0 has 4 bytes here, but 1 byte in most other objects. Assumed: one byte (DS 301 defines it as one byte). Manual: Oggetti opzionali (line 3550).
@@ -13259,7 +13259,7 @@ pub mod objects {
             }
             /// Command that saves keypad parameters and saved objects to flash memory; write "save" in ASCII.
             ///
-            /// Save All Parameters. 0x1010:01, UNSIGNED32, read-write.
+            /// Save All Parameters: 0x1010:01, UNSIGNED32, read-write.
             /// Constant: [`SAVE_ALL_PARAMETERS`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
             pub fn save_all_parameters(
                 &mut self,
@@ -13358,7 +13358,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest sub-index.
             ///
-            /// Number of entries of the identity. 0x1018:00, UNSIGNED8, read-only.
+            /// Number of entries of the identity: 0x1018:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_IDENTITY`].
             pub fn number_of_entries_of_the_identity(
                 &mut self,
@@ -13367,7 +13367,7 @@ pub mod objects {
             }
             /// Vendor-ID of the manufacturer.
             ///
-            /// Vendor Id. 0x1018:01, UNSIGNED32, read-only.
+            /// Vendor Id: 0x1018:01, UNSIGNED32, read-only.
             /// Constant: [`VENDOR_ID`].
             ///
             /// Note: 0x0000078F is the vendor-ID for EtherCAT, and 6 is that of an example. Assumed: no default value (the manual does not print the vendor-ID for CANopen). Manual: Device Configuration via SDOs; EtherCAT (lines 2558, 5459).
@@ -13440,7 +13440,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest supported sub-index.
             ///
-            /// Number of entries of RPDO 1. 0x1400:00, UNSIGNED8, read-only.
+            /// Number of entries of RPDO 1: 0x1400:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_RPDO_1`].
             pub fn number_of_entries_of_rpdo_1(
                 &mut self,
@@ -13449,7 +13449,7 @@ pub mod objects {
             }
             /// COB-ID of the PDO; bit 31 set disables the PDO.
             ///
-            /// COB-ID of RPDO 1. Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
+            /// COB-ID of RPDO 1: Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID_OF_RPDO_1`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             ///
             /// Note: Only the default for node 1 is printed: 513. Assumed: 0x200 plus the node number (0x201 is 513, and DS 301 has this default). Manual: Modo interpolatore (line 4434).
@@ -13464,7 +13464,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive applies the received PDO, at the next SYNC or at once.
             ///
-            /// Transmission type of RPDO 1. 0x1400:02, UNSIGNED8, read-write.
+            /// Transmission type of RPDO 1: 0x1400:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE_OF_RPDO_1`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_rpdo_1(
                 &mut self,
@@ -13529,7 +13529,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest supported sub-index.
             ///
-            /// Number of entries of RPDO 2. 0x1401:00, UNSIGNED8, read-only.
+            /// Number of entries of RPDO 2: 0x1401:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_RPDO_2`].
             pub fn number_of_entries_of_rpdo_2(
                 &mut self,
@@ -13538,7 +13538,7 @@ pub mod objects {
             }
             /// COB-ID of the PDO; bit 31 set disables the PDO.
             ///
-            /// COB-ID of RPDO 2. 0x1401:01, UNSIGNED32, read-write.
+            /// COB-ID of RPDO 2: 0x1401:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID_OF_RPDO_2`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id_of_rpdo_2(
                 &mut self,
@@ -13551,7 +13551,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive applies the received PDO, at the next SYNC or at once.
             ///
-            /// Transmission type of RPDO 2. 0x1401:02, UNSIGNED8, read-write.
+            /// Transmission type of RPDO 2: 0x1401:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE_OF_RPDO_2`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_rpdo_2(
                 &mut self,
@@ -13622,7 +13622,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest supported sub-index.
             ///
-            /// Number of entries of RPDO 3. 0x1402:00, UNSIGNED8, read-only.
+            /// Number of entries of RPDO 3: 0x1402:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_RPDO_3`].
             pub fn number_of_entries_of_rpdo_3(
                 &mut self,
@@ -13631,7 +13631,7 @@ pub mod objects {
             }
             /// COB-ID of the PDO; bit 31 set disables the PDO.
             ///
-            /// COB-ID of RPDO 3. 0x1402:01, UNSIGNED32, read-write.
+            /// COB-ID of RPDO 3: 0x1402:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID_OF_RPDO_3`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id_of_rpdo_3(
                 &mut self,
@@ -13644,7 +13644,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive applies the received PDO, at the next SYNC or at once.
             ///
-            /// Transmission type of RPDO 3. 0x1402:02, UNSIGNED8, read-write.
+            /// Transmission type of RPDO 3: 0x1402:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE_OF_RPDO_3`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_rpdo_3(
                 &mut self,
@@ -13715,7 +13715,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest supported sub-index.
             ///
-            /// Number of entries of RPDO 4. 0x1403:00, UNSIGNED8, read-only.
+            /// Number of entries of RPDO 4: 0x1403:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_RPDO_4`].
             pub fn number_of_entries_of_rpdo_4(
                 &mut self,
@@ -13724,7 +13724,7 @@ pub mod objects {
             }
             /// COB-ID of the PDO; bit 31 set disables the PDO.
             ///
-            /// COB-ID of RPDO 4. 0x1403:01, UNSIGNED32, read-write.
+            /// COB-ID of RPDO 4: 0x1403:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID_OF_RPDO_4`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id_of_rpdo_4(
                 &mut self,
@@ -13737,7 +13737,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive applies the received PDO, at the next SYNC or at once.
             ///
-            /// Transmission type of RPDO 4. 0x1403:02, UNSIGNED8, read-write.
+            /// Transmission type of RPDO 4: 0x1403:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE_OF_RPDO_4`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_rpdo_4(
                 &mut self,
@@ -13902,7 +13902,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of objects mapped to RPDO 1; 0 clears the mapping.
             ///
-            /// Number of mapped objects of RPDO 1. At most 8, 0x1600:00, UNSIGNED8, read-write.
+            /// Number of mapped objects of RPDO 1: At most 8, 0x1600:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1`].
             pub fn number_of_mapped_objects_of_rpdo_1(
                 &mut self,
@@ -13911,7 +13911,7 @@ pub mod objects {
             }
             /// First object mapped to RPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 1 of RPDO 1. 0x1600:01, UNSIGNED32, read-write.
+            /// Mapped object 1 of RPDO 1: 0x1600:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_rpdo_1(
                 &mut self,
@@ -13920,7 +13920,7 @@ pub mod objects {
             }
             /// Second object mapped to RPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 2 of RPDO 1. 0x1600:02, UNSIGNED32, read-write.
+            /// Mapped object 2 of RPDO 1: 0x1600:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_rpdo_1(
                 &mut self,
@@ -13929,7 +13929,7 @@ pub mod objects {
             }
             /// Third object mapped to RPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 3 of RPDO 1. 0x1600:03, UNSIGNED32, read-write.
+            /// Mapped object 3 of RPDO 1: 0x1600:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_rpdo_1(
                 &mut self,
@@ -13938,7 +13938,7 @@ pub mod objects {
             }
             /// Fourth object mapped to RPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 4 of RPDO 1. 0x1600:04, UNSIGNED32, read-write.
+            /// Mapped object 4 of RPDO 1: 0x1600:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_rpdo_1(
                 &mut self,
@@ -13947,7 +13947,7 @@ pub mod objects {
             }
             /// Fifth object mapped to RPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 5 of RPDO 1. 0x1600:05, UNSIGNED32, read-write.
+            /// Mapped object 5 of RPDO 1: 0x1600:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_rpdo_1(
                 &mut self,
@@ -13956,7 +13956,7 @@ pub mod objects {
             }
             /// Sixth object mapped to RPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 6 of RPDO 1. 0x1600:06, UNSIGNED32, read-write.
+            /// Mapped object 6 of RPDO 1: 0x1600:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_rpdo_1(
                 &mut self,
@@ -13965,7 +13965,7 @@ pub mod objects {
             }
             /// Seventh object mapped to RPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 7 of RPDO 1. 0x1600:07, UNSIGNED32, read-write.
+            /// Mapped object 7 of RPDO 1: 0x1600:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_rpdo_1(
                 &mut self,
@@ -13974,7 +13974,7 @@ pub mod objects {
             }
             /// Eighth object mapped to RPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 8 of RPDO 1. 0x1600:08, UNSIGNED32, read-write.
+            /// Mapped object 8 of RPDO 1: 0x1600:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_rpdo_1(
                 &mut self,
@@ -14137,7 +14137,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of objects mapped to RPDO 2; 0 clears the mapping.
             ///
-            /// Number of mapped objects of RPDO 2. At most 8, 0x1601:00, UNSIGNED8, read-write.
+            /// Number of mapped objects of RPDO 2: At most 8, 0x1601:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_2`].
             pub fn number_of_mapped_objects_of_rpdo_2(
                 &mut self,
@@ -14146,7 +14146,7 @@ pub mod objects {
             }
             /// First object mapped to RPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 1 of RPDO 2. 0x1601:01, UNSIGNED32, read-write.
+            /// Mapped object 1 of RPDO 2: 0x1601:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_rpdo_2(
                 &mut self,
@@ -14155,7 +14155,7 @@ pub mod objects {
             }
             /// Second object mapped to RPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 2 of RPDO 2. 0x1601:02, UNSIGNED32, read-write.
+            /// Mapped object 2 of RPDO 2: 0x1601:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             ///
             /// Note: On EtherCAT, the default mapping has Modes of Operation with two bytes; the object has one byte. Assumed: no default for this entry and for the number of entries (two mappings have this length: one entry of 16 bits, or one of 8 bits with 8 bits of padding). Manual: Oggetti opzionali; PDO (lines 3779, 5547).
@@ -14166,7 +14166,7 @@ pub mod objects {
             }
             /// Third object mapped to RPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 3 of RPDO 2. 0x1601:03, UNSIGNED32, read-write.
+            /// Mapped object 3 of RPDO 2: 0x1601:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_rpdo_2(
                 &mut self,
@@ -14175,7 +14175,7 @@ pub mod objects {
             }
             /// Fourth object mapped to RPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 4 of RPDO 2. 0x1601:04, UNSIGNED32, read-write.
+            /// Mapped object 4 of RPDO 2: 0x1601:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_rpdo_2(
                 &mut self,
@@ -14184,7 +14184,7 @@ pub mod objects {
             }
             /// Fifth object mapped to RPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 5 of RPDO 2. 0x1601:05, UNSIGNED32, read-write.
+            /// Mapped object 5 of RPDO 2: 0x1601:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_rpdo_2(
                 &mut self,
@@ -14193,7 +14193,7 @@ pub mod objects {
             }
             /// Sixth object mapped to RPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 6 of RPDO 2. 0x1601:06, UNSIGNED32, read-write.
+            /// Mapped object 6 of RPDO 2: 0x1601:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_rpdo_2(
                 &mut self,
@@ -14202,7 +14202,7 @@ pub mod objects {
             }
             /// Seventh object mapped to RPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 7 of RPDO 2. 0x1601:07, UNSIGNED32, read-write.
+            /// Mapped object 7 of RPDO 2: 0x1601:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_rpdo_2(
                 &mut self,
@@ -14211,7 +14211,7 @@ pub mod objects {
             }
             /// Eighth object mapped to RPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 8 of RPDO 2. 0x1601:08, UNSIGNED32, read-write.
+            /// Mapped object 8 of RPDO 2: 0x1601:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_rpdo_2(
                 &mut self,
@@ -14394,7 +14394,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of objects mapped to RPDO 3; 0 clears the mapping.
             ///
-            /// Number of mapped objects of RPDO 3. At most 8, 0x1602:00, UNSIGNED8, read-write.
+            /// Number of mapped objects of RPDO 3: At most 8, 0x1602:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_3`].
             pub fn number_of_mapped_objects_of_rpdo_3(
                 &mut self,
@@ -14403,7 +14403,7 @@ pub mod objects {
             }
             /// First object mapped to RPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 1 of RPDO 3. 0x1602:01, UNSIGNED32, read-write.
+            /// Mapped object 1 of RPDO 3: 0x1602:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_rpdo_3(
                 &mut self,
@@ -14412,7 +14412,7 @@ pub mod objects {
             }
             /// Second object mapped to RPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 2 of RPDO 3. 0x1602:02, UNSIGNED32, read-write.
+            /// Mapped object 2 of RPDO 3: 0x1602:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_rpdo_3(
                 &mut self,
@@ -14421,7 +14421,7 @@ pub mod objects {
             }
             /// Third object mapped to RPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 3 of RPDO 3. 0x1602:03, UNSIGNED32, read-write.
+            /// Mapped object 3 of RPDO 3: 0x1602:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_rpdo_3(
                 &mut self,
@@ -14430,7 +14430,7 @@ pub mod objects {
             }
             /// Fourth object mapped to RPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 4 of RPDO 3. 0x1602:04, UNSIGNED32, read-write.
+            /// Mapped object 4 of RPDO 3: 0x1602:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_rpdo_3(
                 &mut self,
@@ -14439,7 +14439,7 @@ pub mod objects {
             }
             /// Fifth object mapped to RPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 5 of RPDO 3. 0x1602:05, UNSIGNED32, read-write.
+            /// Mapped object 5 of RPDO 3: 0x1602:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_rpdo_3(
                 &mut self,
@@ -14448,7 +14448,7 @@ pub mod objects {
             }
             /// Sixth object mapped to RPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 6 of RPDO 3. 0x1602:06, UNSIGNED32, read-write.
+            /// Mapped object 6 of RPDO 3: 0x1602:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_rpdo_3(
                 &mut self,
@@ -14457,7 +14457,7 @@ pub mod objects {
             }
             /// Seventh object mapped to RPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 7 of RPDO 3. 0x1602:07, UNSIGNED32, read-write.
+            /// Mapped object 7 of RPDO 3: 0x1602:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_rpdo_3(
                 &mut self,
@@ -14466,7 +14466,7 @@ pub mod objects {
             }
             /// Eighth object mapped to RPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 8 of RPDO 3. 0x1602:08, UNSIGNED32, read-write.
+            /// Mapped object 8 of RPDO 3: 0x1602:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_rpdo_3(
                 &mut self,
@@ -14649,7 +14649,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of objects mapped to RPDO 4; 0 clears the mapping.
             ///
-            /// Number of mapped objects of RPDO 4. At most 8, 0x1603:00, UNSIGNED8, read-write.
+            /// Number of mapped objects of RPDO 4: At most 8, 0x1603:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_4`].
             pub fn number_of_mapped_objects_of_rpdo_4(
                 &mut self,
@@ -14658,7 +14658,7 @@ pub mod objects {
             }
             /// First object mapped to RPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 1 of RPDO 4. 0x1603:01, UNSIGNED32, read-write.
+            /// Mapped object 1 of RPDO 4: 0x1603:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_rpdo_4(
                 &mut self,
@@ -14667,7 +14667,7 @@ pub mod objects {
             }
             /// Second object mapped to RPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 2 of RPDO 4. 0x1603:02, UNSIGNED32, read-write.
+            /// Mapped object 2 of RPDO 4: 0x1603:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_rpdo_4(
                 &mut self,
@@ -14676,7 +14676,7 @@ pub mod objects {
             }
             /// Third object mapped to RPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 3 of RPDO 4. 0x1603:03, UNSIGNED32, read-write.
+            /// Mapped object 3 of RPDO 4: 0x1603:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_rpdo_4(
                 &mut self,
@@ -14685,7 +14685,7 @@ pub mod objects {
             }
             /// Fourth object mapped to RPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 4 of RPDO 4. 0x1603:04, UNSIGNED32, read-write.
+            /// Mapped object 4 of RPDO 4: 0x1603:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_rpdo_4(
                 &mut self,
@@ -14694,7 +14694,7 @@ pub mod objects {
             }
             /// Fifth object mapped to RPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 5 of RPDO 4. 0x1603:05, UNSIGNED32, read-write.
+            /// Mapped object 5 of RPDO 4: 0x1603:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_rpdo_4(
                 &mut self,
@@ -14703,7 +14703,7 @@ pub mod objects {
             }
             /// Sixth object mapped to RPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 6 of RPDO 4. 0x1603:06, UNSIGNED32, read-write.
+            /// Mapped object 6 of RPDO 4: 0x1603:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_rpdo_4(
                 &mut self,
@@ -14712,7 +14712,7 @@ pub mod objects {
             }
             /// Seventh object mapped to RPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 7 of RPDO 4. 0x1603:07, UNSIGNED32, read-write.
+            /// Mapped object 7 of RPDO 4: 0x1603:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_rpdo_4(
                 &mut self,
@@ -14721,7 +14721,7 @@ pub mod objects {
             }
             /// Eighth object mapped to RPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 8 of RPDO 4. 0x1603:08, UNSIGNED32, read-write.
+            /// Mapped object 8 of RPDO 4: 0x1603:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_rpdo_4(
                 &mut self,
@@ -14838,7 +14838,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest supported sub-index.
             ///
-            /// Number of entries of TPDO 1. 0x1800:00, UNSIGNED8, read-only.
+            /// Number of entries of TPDO 1: 0x1800:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_TPDO_1`].
             pub fn number_of_entries_of_tpdo_1(
                 &mut self,
@@ -14847,7 +14847,7 @@ pub mod objects {
             }
             /// COB-ID of the PDO; bit 31 set disables the PDO.
             ///
-            /// COB-ID of TPDO 1. 0x1800:01, UNSIGNED32, read-write.
+            /// COB-ID of TPDO 1: 0x1800:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID_OF_TPDO_1`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id_of_tpdo_1(
                 &mut self,
@@ -14860,7 +14860,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive transmits the PDO, at SYNC, on an event or by timer.
             ///
-            /// Transmission type of TPDO 1. 0x1800:02, UNSIGNED8, read-write.
+            /// Transmission type of TPDO 1: 0x1800:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE_OF_TPDO_1`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_tpdo_1(
                 &mut self,
@@ -14869,7 +14869,7 @@ pub mod objects {
             }
             /// Inhibit time: minimum time between two transmissions of the PDO.
             ///
-            /// Inhibit time of TPDO 1. 1 LSB = 100 µs, 0x1800:03, UNSIGNED16, read-write.
+            /// Inhibit time of TPDO 1: 1 LSB = 100 µs, 0x1800:03, UNSIGNED16, read-write.
             /// Constant: [`INHIBIT_TIME_OF_TPDO_1`].
             ///
             /// Note: The table gives ms, the text multiples of 100 microseconds. Assumed: 100 microseconds (DS 301 has this unit, and the text states it twice). Manual: Process data exchange with PDOs (lines 2792, 2820, 2836).
@@ -14880,7 +14880,7 @@ pub mod objects {
             }
             /// Reserved for compatibility.
             ///
-            /// Compatibility entry of TPDO 1. 0x1800:04, UNSIGNED8, read-write.
+            /// Compatibility entry of TPDO 1: 0x1800:04, UNSIGNED8, read-write.
             /// Constant: [`COMPATIBILITY_ENTRY_OF_TPDO_1`].
             pub fn compatibility_entry_of_tpdo_1(
                 &mut self,
@@ -14889,7 +14889,7 @@ pub mod objects {
             }
             /// Event timer: maximum time between two transmissions of an asynchronous PDO.
             ///
-            /// Event timer of TPDO 1. Unit ms, 0x1800:05, UNSIGNED16, read-write.
+            /// Event timer of TPDO 1: Unit ms, 0x1800:05, UNSIGNED16, read-write.
             /// Constant: [`EVENT_TIMER_OF_TPDO_1`].
             pub fn event_timer_of_tpdo_1(
                 &mut self,
@@ -15004,7 +15004,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest supported sub-index.
             ///
-            /// Number of entries of TPDO 2. 0x1801:00, UNSIGNED8, read-only.
+            /// Number of entries of TPDO 2: 0x1801:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_TPDO_2`].
             pub fn number_of_entries_of_tpdo_2(
                 &mut self,
@@ -15013,7 +15013,7 @@ pub mod objects {
             }
             /// COB-ID of the PDO; bit 31 set disables the PDO.
             ///
-            /// COB-ID of TPDO 2. 0x1801:01, UNSIGNED32, read-write.
+            /// COB-ID of TPDO 2: 0x1801:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID_OF_TPDO_2`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id_of_tpdo_2(
                 &mut self,
@@ -15026,7 +15026,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive transmits the PDO, at SYNC, on an event or by timer.
             ///
-            /// Transmission type of TPDO 2. 0x1801:02, UNSIGNED8, read-write.
+            /// Transmission type of TPDO 2: 0x1801:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE_OF_TPDO_2`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_tpdo_2(
                 &mut self,
@@ -15035,7 +15035,7 @@ pub mod objects {
             }
             /// Inhibit time: minimum time between two transmissions of the PDO.
             ///
-            /// Inhibit time of TPDO 2. 1 LSB = 100 µs, 0x1801:03, UNSIGNED16, read-write.
+            /// Inhibit time of TPDO 2: 1 LSB = 100 µs, 0x1801:03, UNSIGNED16, read-write.
             /// Constant: [`INHIBIT_TIME_OF_TPDO_2`].
             pub fn inhibit_time_of_tpdo_2(
                 &mut self,
@@ -15044,7 +15044,7 @@ pub mod objects {
             }
             /// Reserved for compatibility.
             ///
-            /// Compatibility entry of TPDO 2. 0x1801:04, UNSIGNED8, read-write.
+            /// Compatibility entry of TPDO 2: 0x1801:04, UNSIGNED8, read-write.
             /// Constant: [`COMPATIBILITY_ENTRY_OF_TPDO_2`].
             pub fn compatibility_entry_of_tpdo_2(
                 &mut self,
@@ -15053,7 +15053,7 @@ pub mod objects {
             }
             /// Event timer: maximum time between two transmissions of an asynchronous PDO.
             ///
-            /// Event timer of TPDO 2. Unit ms, 0x1801:05, UNSIGNED16, read-write.
+            /// Event timer of TPDO 2: Unit ms, 0x1801:05, UNSIGNED16, read-write.
             /// Constant: [`EVENT_TIMER_OF_TPDO_2`].
             pub fn event_timer_of_tpdo_2(
                 &mut self,
@@ -15180,7 +15180,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest supported sub-index.
             ///
-            /// Number of entries of TPDO 3. 0x1802:00, UNSIGNED8, read-only.
+            /// Number of entries of TPDO 3: 0x1802:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_TPDO_3`].
             pub fn number_of_entries_of_tpdo_3(
                 &mut self,
@@ -15189,7 +15189,7 @@ pub mod objects {
             }
             /// COB-ID of the PDO; bit 31 set disables the PDO.
             ///
-            /// COB-ID of TPDO 3. 0x1802:01, UNSIGNED32, read-write.
+            /// COB-ID of TPDO 3: 0x1802:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID_OF_TPDO_3`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id_of_tpdo_3(
                 &mut self,
@@ -15202,7 +15202,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive transmits the PDO, at SYNC, on an event or by timer.
             ///
-            /// Transmission type of TPDO 3. 0x1802:02, UNSIGNED8, read-write.
+            /// Transmission type of TPDO 3: 0x1802:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE_OF_TPDO_3`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_tpdo_3(
                 &mut self,
@@ -15211,7 +15211,7 @@ pub mod objects {
             }
             /// Inhibit time: minimum time between two transmissions of the PDO.
             ///
-            /// Inhibit time of TPDO 3. 1 LSB = 100 µs, 0x1802:03, UNSIGNED16, read-write.
+            /// Inhibit time of TPDO 3: 1 LSB = 100 µs, 0x1802:03, UNSIGNED16, read-write.
             /// Constant: [`INHIBIT_TIME_OF_TPDO_3`].
             pub fn inhibit_time_of_tpdo_3(
                 &mut self,
@@ -15220,7 +15220,7 @@ pub mod objects {
             }
             /// Reserved for compatibility.
             ///
-            /// Compatibility entry of TPDO 3. 0x1802:04, UNSIGNED8, read-write.
+            /// Compatibility entry of TPDO 3: 0x1802:04, UNSIGNED8, read-write.
             /// Constant: [`COMPATIBILITY_ENTRY_OF_TPDO_3`].
             pub fn compatibility_entry_of_tpdo_3(
                 &mut self,
@@ -15229,7 +15229,7 @@ pub mod objects {
             }
             /// Event timer: maximum time between two transmissions of an asynchronous PDO.
             ///
-            /// Event timer of TPDO 3. Unit ms, 0x1802:05, UNSIGNED16, read-write.
+            /// Event timer of TPDO 3: Unit ms, 0x1802:05, UNSIGNED16, read-write.
             /// Constant: [`EVENT_TIMER_OF_TPDO_3`].
             pub fn event_timer_of_tpdo_3(
                 &mut self,
@@ -15356,7 +15356,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest supported sub-index.
             ///
-            /// Number of entries of TPDO 4. 0x1803:00, UNSIGNED8, read-only.
+            /// Number of entries of TPDO 4: 0x1803:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_TPDO_4`].
             pub fn number_of_entries_of_tpdo_4(
                 &mut self,
@@ -15365,7 +15365,7 @@ pub mod objects {
             }
             /// COB-ID of the PDO; bit 31 set disables the PDO.
             ///
-            /// COB-ID of TPDO 4. 0x1803:01, UNSIGNED32, read-write.
+            /// COB-ID of TPDO 4: 0x1803:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID_OF_TPDO_4`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id_of_tpdo_4(
                 &mut self,
@@ -15378,7 +15378,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive transmits the PDO, at SYNC, on an event or by timer.
             ///
-            /// Transmission type of TPDO 4. 0x1803:02, UNSIGNED8, read-write.
+            /// Transmission type of TPDO 4: 0x1803:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE_OF_TPDO_4`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_tpdo_4(
                 &mut self,
@@ -15387,7 +15387,7 @@ pub mod objects {
             }
             /// Inhibit time: minimum time between two transmissions of the PDO.
             ///
-            /// Inhibit time of TPDO 4. 1 LSB = 100 µs, 0x1803:03, UNSIGNED16, read-write.
+            /// Inhibit time of TPDO 4: 1 LSB = 100 µs, 0x1803:03, UNSIGNED16, read-write.
             /// Constant: [`INHIBIT_TIME_OF_TPDO_4`].
             pub fn inhibit_time_of_tpdo_4(
                 &mut self,
@@ -15396,7 +15396,7 @@ pub mod objects {
             }
             /// Reserved for compatibility.
             ///
-            /// Compatibility entry of TPDO 4. 0x1803:04, UNSIGNED8, read-write.
+            /// Compatibility entry of TPDO 4: 0x1803:04, UNSIGNED8, read-write.
             /// Constant: [`COMPATIBILITY_ENTRY_OF_TPDO_4`].
             pub fn compatibility_entry_of_tpdo_4(
                 &mut self,
@@ -15405,7 +15405,7 @@ pub mod objects {
             }
             /// Event timer: maximum time between two transmissions of an asynchronous PDO.
             ///
-            /// Event timer of TPDO 4. Unit ms, 0x1803:05, UNSIGNED16, read-write.
+            /// Event timer of TPDO 4: Unit ms, 0x1803:05, UNSIGNED16, read-write.
             /// Constant: [`EVENT_TIMER_OF_TPDO_4`].
             pub fn event_timer_of_tpdo_4(
                 &mut self,
@@ -15568,7 +15568,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of objects mapped to TPDO 1; 0 clears the mapping.
             ///
-            /// Number of mapped objects of TPDO 1. At most 8, 0x1A00:00, UNSIGNED8, read-write.
+            /// Number of mapped objects of TPDO 1: At most 8, 0x1A00:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1`].
             pub fn number_of_mapped_objects_of_tpdo_1(
                 &mut self,
@@ -15577,7 +15577,7 @@ pub mod objects {
             }
             /// First object mapped to TPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 1 of TPDO 1. 0x1A00:01, UNSIGNED32, read-write.
+            /// Mapped object 1 of TPDO 1: 0x1A00:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_tpdo_1(
                 &mut self,
@@ -15586,7 +15586,7 @@ pub mod objects {
             }
             /// Second object mapped to TPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 2 of TPDO 1. 0x1A00:02, UNSIGNED32, read-write.
+            /// Mapped object 2 of TPDO 1: 0x1A00:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_tpdo_1(
                 &mut self,
@@ -15595,7 +15595,7 @@ pub mod objects {
             }
             /// Third object mapped to TPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 3 of TPDO 1. 0x1A00:03, UNSIGNED32, read-write.
+            /// Mapped object 3 of TPDO 1: 0x1A00:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_tpdo_1(
                 &mut self,
@@ -15604,7 +15604,7 @@ pub mod objects {
             }
             /// Fourth object mapped to TPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 4 of TPDO 1. 0x1A00:04, UNSIGNED32, read-write.
+            /// Mapped object 4 of TPDO 1: 0x1A00:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_tpdo_1(
                 &mut self,
@@ -15613,7 +15613,7 @@ pub mod objects {
             }
             /// Fifth object mapped to TPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 5 of TPDO 1. 0x1A00:05, UNSIGNED32, read-write.
+            /// Mapped object 5 of TPDO 1: 0x1A00:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_tpdo_1(
                 &mut self,
@@ -15622,7 +15622,7 @@ pub mod objects {
             }
             /// Sixth object mapped to TPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 6 of TPDO 1. 0x1A00:06, UNSIGNED32, read-write.
+            /// Mapped object 6 of TPDO 1: 0x1A00:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_tpdo_1(
                 &mut self,
@@ -15631,7 +15631,7 @@ pub mod objects {
             }
             /// Seventh object mapped to TPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 7 of TPDO 1. 0x1A00:07, UNSIGNED32, read-write.
+            /// Mapped object 7 of TPDO 1: 0x1A00:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_tpdo_1(
                 &mut self,
@@ -15640,7 +15640,7 @@ pub mod objects {
             }
             /// Eighth object mapped to TPDO 1: index, sub-index and length in bits.
             ///
-            /// Mapped object 8 of TPDO 1. 0x1A00:08, UNSIGNED32, read-write.
+            /// Mapped object 8 of TPDO 1: 0x1A00:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_tpdo_1(
                 &mut self,
@@ -15803,7 +15803,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of objects mapped to TPDO 2; 0 clears the mapping.
             ///
-            /// Number of mapped objects of TPDO 2. At most 8, 0x1A01:00, UNSIGNED8, read-write.
+            /// Number of mapped objects of TPDO 2: At most 8, 0x1A01:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_2`].
             pub fn number_of_mapped_objects_of_tpdo_2(
                 &mut self,
@@ -15812,7 +15812,7 @@ pub mod objects {
             }
             /// First object mapped to TPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 1 of TPDO 2. 0x1A01:01, UNSIGNED32, read-write.
+            /// Mapped object 1 of TPDO 2: 0x1A01:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_tpdo_2(
                 &mut self,
@@ -15821,7 +15821,7 @@ pub mod objects {
             }
             /// Second object mapped to TPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 2 of TPDO 2. 0x1A01:02, UNSIGNED32, read-write.
+            /// Mapped object 2 of TPDO 2: 0x1A01:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             ///
             /// Note: On EtherCAT, the default mapping has Modes of Operation Display with two bytes; the object has one byte. Assumed: no default for this entry and for the number of entries (two mappings have this length: one entry of 16 bits, or one of 8 bits with 8 bits of padding). Manual: Oggetti opzionali; PDO (lines 3780, 5566).
@@ -15832,7 +15832,7 @@ pub mod objects {
             }
             /// Third object mapped to TPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 3 of TPDO 2. 0x1A01:03, UNSIGNED32, read-write.
+            /// Mapped object 3 of TPDO 2: 0x1A01:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_tpdo_2(
                 &mut self,
@@ -15841,7 +15841,7 @@ pub mod objects {
             }
             /// Fourth object mapped to TPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 4 of TPDO 2. 0x1A01:04, UNSIGNED32, read-write.
+            /// Mapped object 4 of TPDO 2: 0x1A01:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_tpdo_2(
                 &mut self,
@@ -15850,7 +15850,7 @@ pub mod objects {
             }
             /// Fifth object mapped to TPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 5 of TPDO 2. 0x1A01:05, UNSIGNED32, read-write.
+            /// Mapped object 5 of TPDO 2: 0x1A01:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_tpdo_2(
                 &mut self,
@@ -15859,7 +15859,7 @@ pub mod objects {
             }
             /// Sixth object mapped to TPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 6 of TPDO 2. 0x1A01:06, UNSIGNED32, read-write.
+            /// Mapped object 6 of TPDO 2: 0x1A01:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_tpdo_2(
                 &mut self,
@@ -15868,7 +15868,7 @@ pub mod objects {
             }
             /// Seventh object mapped to TPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 7 of TPDO 2. 0x1A01:07, UNSIGNED32, read-write.
+            /// Mapped object 7 of TPDO 2: 0x1A01:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_tpdo_2(
                 &mut self,
@@ -15877,7 +15877,7 @@ pub mod objects {
             }
             /// Eighth object mapped to TPDO 2: index, sub-index and length in bits.
             ///
-            /// Mapped object 8 of TPDO 2. 0x1A01:08, UNSIGNED32, read-write.
+            /// Mapped object 8 of TPDO 2: 0x1A01:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_tpdo_2(
                 &mut self,
@@ -16060,7 +16060,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of objects mapped to TPDO 3; 0 clears the mapping.
             ///
-            /// Number of mapped objects of TPDO 3. At most 8, 0x1A02:00, UNSIGNED8, read-write.
+            /// Number of mapped objects of TPDO 3: At most 8, 0x1A02:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_3`].
             pub fn number_of_mapped_objects_of_tpdo_3(
                 &mut self,
@@ -16069,7 +16069,7 @@ pub mod objects {
             }
             /// First object mapped to TPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 1 of TPDO 3. 0x1A02:01, UNSIGNED32, read-write.
+            /// Mapped object 1 of TPDO 3: 0x1A02:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_tpdo_3(
                 &mut self,
@@ -16078,7 +16078,7 @@ pub mod objects {
             }
             /// Second object mapped to TPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 2 of TPDO 3. 0x1A02:02, UNSIGNED32, read-write.
+            /// Mapped object 2 of TPDO 3: 0x1A02:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_tpdo_3(
                 &mut self,
@@ -16087,7 +16087,7 @@ pub mod objects {
             }
             /// Third object mapped to TPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 3 of TPDO 3. 0x1A02:03, UNSIGNED32, read-write.
+            /// Mapped object 3 of TPDO 3: 0x1A02:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_tpdo_3(
                 &mut self,
@@ -16096,7 +16096,7 @@ pub mod objects {
             }
             /// Fourth object mapped to TPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 4 of TPDO 3. 0x1A02:04, UNSIGNED32, read-write.
+            /// Mapped object 4 of TPDO 3: 0x1A02:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_tpdo_3(
                 &mut self,
@@ -16105,7 +16105,7 @@ pub mod objects {
             }
             /// Fifth object mapped to TPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 5 of TPDO 3. 0x1A02:05, UNSIGNED32, read-write.
+            /// Mapped object 5 of TPDO 3: 0x1A02:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_tpdo_3(
                 &mut self,
@@ -16114,7 +16114,7 @@ pub mod objects {
             }
             /// Sixth object mapped to TPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 6 of TPDO 3. 0x1A02:06, UNSIGNED32, read-write.
+            /// Mapped object 6 of TPDO 3: 0x1A02:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_tpdo_3(
                 &mut self,
@@ -16123,7 +16123,7 @@ pub mod objects {
             }
             /// Seventh object mapped to TPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 7 of TPDO 3. 0x1A02:07, UNSIGNED32, read-write.
+            /// Mapped object 7 of TPDO 3: 0x1A02:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_tpdo_3(
                 &mut self,
@@ -16132,7 +16132,7 @@ pub mod objects {
             }
             /// Eighth object mapped to TPDO 3: index, sub-index and length in bits.
             ///
-            /// Mapped object 8 of TPDO 3. 0x1A02:08, UNSIGNED32, read-write.
+            /// Mapped object 8 of TPDO 3: 0x1A02:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_tpdo_3(
                 &mut self,
@@ -16315,7 +16315,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of objects mapped to TPDO 4; 0 clears the mapping.
             ///
-            /// Number of mapped objects of TPDO 4. At most 8, 0x1A03:00, UNSIGNED8, read-write.
+            /// Number of mapped objects of TPDO 4: At most 8, 0x1A03:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_4`].
             pub fn number_of_mapped_objects_of_tpdo_4(
                 &mut self,
@@ -16324,7 +16324,7 @@ pub mod objects {
             }
             /// First object mapped to TPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 1 of TPDO 4. 0x1A03:01, UNSIGNED32, read-write.
+            /// Mapped object 1 of TPDO 4: 0x1A03:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_tpdo_4(
                 &mut self,
@@ -16333,7 +16333,7 @@ pub mod objects {
             }
             /// Second object mapped to TPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 2 of TPDO 4. 0x1A03:02, UNSIGNED32, read-write.
+            /// Mapped object 2 of TPDO 4: 0x1A03:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_tpdo_4(
                 &mut self,
@@ -16342,7 +16342,7 @@ pub mod objects {
             }
             /// Third object mapped to TPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 3 of TPDO 4. 0x1A03:03, UNSIGNED32, read-write.
+            /// Mapped object 3 of TPDO 4: 0x1A03:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_tpdo_4(
                 &mut self,
@@ -16351,7 +16351,7 @@ pub mod objects {
             }
             /// Fourth object mapped to TPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 4 of TPDO 4. 0x1A03:04, UNSIGNED32, read-write.
+            /// Mapped object 4 of TPDO 4: 0x1A03:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_tpdo_4(
                 &mut self,
@@ -16360,7 +16360,7 @@ pub mod objects {
             }
             /// Fifth object mapped to TPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 5 of TPDO 4. 0x1A03:05, UNSIGNED32, read-write.
+            /// Mapped object 5 of TPDO 4: 0x1A03:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_tpdo_4(
                 &mut self,
@@ -16369,7 +16369,7 @@ pub mod objects {
             }
             /// Sixth object mapped to TPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 6 of TPDO 4. 0x1A03:06, UNSIGNED32, read-write.
+            /// Mapped object 6 of TPDO 4: 0x1A03:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_tpdo_4(
                 &mut self,
@@ -16378,7 +16378,7 @@ pub mod objects {
             }
             /// Seventh object mapped to TPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 7 of TPDO 4. 0x1A03:07, UNSIGNED32, read-write.
+            /// Mapped object 7 of TPDO 4: 0x1A03:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_tpdo_4(
                 &mut self,
@@ -16387,7 +16387,7 @@ pub mod objects {
             }
             /// Eighth object mapped to TPDO 4: index, sub-index and length in bits.
             ///
-            /// Mapped object 8 of TPDO 4. 0x1A03:08, UNSIGNED32, read-write.
+            /// Mapped object 8 of TPDO 4: 0x1A03:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_tpdo_4(
                 &mut self,
@@ -16475,7 +16475,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of assigned RxPDOs.
             ///
-            /// Number of RxPDOs. Default 1, 0x1C12:00, UNSIGNED8, read-write.
+            /// Number of RxPDOs: Default 1, 0x1C12:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_RX_PDOS`].
             pub fn number_of_rx_pdos(
                 &mut self,
@@ -16484,7 +16484,7 @@ pub mod objects {
             }
             /// First assigned RxPDO: index of its mapping object.
             ///
-            /// First RxPDO. Default 0x1600, 0x1C12:01, UNSIGNED16, read-write.
+            /// First RxPDO: Default 0x1600, 0x1C12:01, UNSIGNED16, read-write.
             /// Constant: [`FIRST_RX_PDO`].
             pub fn first_rx_pdo(
                 &mut self,
@@ -16493,7 +16493,7 @@ pub mod objects {
             }
             /// Second assigned RxPDO: index of its mapping object.
             ///
-            /// Second RxPDO. 0x1C12:02, UNSIGNED16, read-write.
+            /// Second RxPDO: 0x1C12:02, UNSIGNED16, read-write.
             /// Constant: [`SECOND_RX_PDO`].
             pub fn second_rx_pdo(
                 &mut self,
@@ -16502,7 +16502,7 @@ pub mod objects {
             }
             /// Third assigned RxPDO: index of its mapping object.
             ///
-            /// Third RxPDO. 0x1C12:03, UNSIGNED16, read-write.
+            /// Third RxPDO: 0x1C12:03, UNSIGNED16, read-write.
             /// Constant: [`THIRD_RX_PDO`].
             pub fn third_rx_pdo(
                 &mut self,
@@ -16511,7 +16511,7 @@ pub mod objects {
             }
             /// Fourth assigned RxPDO: index of its mapping object.
             ///
-            /// Fourth RxPDO. 0x1C12:04, UNSIGNED16, read-write.
+            /// Fourth RxPDO: 0x1C12:04, UNSIGNED16, read-write.
             /// Constant: [`FOURTH_RX_PDO`].
             pub fn fourth_rx_pdo(
                 &mut self,
@@ -16599,7 +16599,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of assigned TxPDOs.
             ///
-            /// Number of TxPDOs. Default 1, 0x1C13:00, UNSIGNED8, read-write.
+            /// Number of TxPDOs: Default 1, 0x1C13:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_TX_PDOS`].
             pub fn number_of_tx_pdos(
                 &mut self,
@@ -16608,7 +16608,7 @@ pub mod objects {
             }
             /// First assigned TxPDO: index of its mapping object.
             ///
-            /// First TxPDO. Default 0x1A02, 0x1C13:01, UNSIGNED16, read-write.
+            /// First TxPDO: Default 0x1A02, 0x1C13:01, UNSIGNED16, read-write.
             /// Constant: [`FIRST_TX_PDO`].
             pub fn first_tx_pdo(
                 &mut self,
@@ -16617,7 +16617,7 @@ pub mod objects {
             }
             /// Second assigned TxPDO: index of its mapping object.
             ///
-            /// Second TxPDO. 0x1C13:02, UNSIGNED16, read-write.
+            /// Second TxPDO: 0x1C13:02, UNSIGNED16, read-write.
             /// Constant: [`SECOND_TX_PDO`].
             pub fn second_tx_pdo(
                 &mut self,
@@ -16626,7 +16626,7 @@ pub mod objects {
             }
             /// Third assigned TxPDO: index of its mapping object.
             ///
-            /// Third TxPDO. 0x1C13:03, UNSIGNED16, read-write.
+            /// Third TxPDO: 0x1C13:03, UNSIGNED16, read-write.
             /// Constant: [`THIRD_TX_PDO`].
             pub fn third_tx_pdo(
                 &mut self,
@@ -16635,7 +16635,7 @@ pub mod objects {
             }
             /// Fourth assigned TxPDO: index of its mapping object.
             ///
-            /// Fourth TxPDO. 0x1C13:04, UNSIGNED16, read-write.
+            /// Fourth TxPDO: 0x1C13:04, UNSIGNED16, read-write.
             /// Constant: [`FOURTH_TX_PDO`].
             pub fn fourth_tx_pdo(
                 &mut self,
@@ -16726,7 +16726,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest sub-index.
             ///
-            /// Number of entries of the parameter window. 0x2000:00, UNSIGNED8, read-only.
+            /// Number of entries of the parameter window: 0x2000:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_PARAMETER_WINDOW`].
             pub fn number_of_entries_of_the_parameter_window(
                 &mut self,
@@ -16735,7 +16735,7 @@ pub mod objects {
             }
             /// Address of the parameter to write; the drive sets it to 0 when the write is complete.
             ///
-            /// Parameter Write Address. 0x2000:01, UNSIGNED8, read-write.
+            /// Parameter Write Address: 0x2000:01, UNSIGNED8, read-write.
             /// Constant: [`PARAMETER_WRITE_ADDRESS`].
             pub fn parameter_write_address(
                 &mut self,
@@ -16744,7 +16744,7 @@ pub mod objects {
             }
             /// Value to write to the parameter.
             ///
-            /// Parameter Write Value. 0x2000:02, UNSIGNED8, write-only.
+            /// Parameter Write Value: 0x2000:02, UNSIGNED8, write-only.
             /// Constant: [`PARAMETER_WRITE_VALUE`].
             ///
             /// Note: The value has 1 byte, but parameters have 16 bits. Assumed: 1 byte, as printed (the windows 0x2005 and 0x2006 transfer all bits). Manual: Descrizione Manuale; Oggetti “manufacturer specific” (lines 18-20, 3851, 3853).
@@ -16755,7 +16755,7 @@ pub mod objects {
             }
             /// Address of the parameter to read; the drive sets it to 0 when the value is available.
             ///
-            /// Parameter Read Address. 0x2000:03, UNSIGNED8, read-write.
+            /// Parameter Read Address: 0x2000:03, UNSIGNED8, read-write.
             /// Constant: [`PARAMETER_READ_ADDRESS`].
             pub fn parameter_read_address(
                 &mut self,
@@ -16764,7 +16764,7 @@ pub mod objects {
             }
             /// Value read from the parameter.
             ///
-            /// Parameter Read Value. 0x2000:04, UNSIGNED8, read-only.
+            /// Parameter Read Value: 0x2000:04, UNSIGNED8, read-only.
             /// Constant: [`PARAMETER_READ_VALUE`].
             pub fn parameter_read_value(&mut self) -> super::ReadOnlyAccess<'_, C, u8> {
                 PARAMETER_READ_VALUE.at(self.client)
@@ -16880,7 +16880,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest sub-index.
             ///
-            /// Number of entries of the read window. 0x2005:00, UNSIGNED8, read-only.
+            /// Number of entries of the read window: 0x2005:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_READ_WINDOW`].
             pub fn number_of_entries_of_the_read_window(
                 &mut self,
@@ -16889,7 +16889,7 @@ pub mod objects {
             }
             /// Address of the register or parameter to read; the drive sets it to 0 when the value is available.
             ///
-            /// Variable Read Address. One of 0, 1 to 99, 32768 to 36863, 0x2005:01, UNSIGNED16, read-write, mappable into any PDO.
+            /// Variable Read Address: One of 0, 1 to 99, 32768 to 36863, 0x2005:01, UNSIGNED16, read-write, mappable into any PDO.
             /// Constant: [`VARIABLE_READ_ADDRESS`].
             pub fn variable_read_address(
                 &mut self,
@@ -16898,7 +16898,7 @@ pub mod objects {
             }
             /// Value read from the register or parameter.
             ///
-            /// Variable Read Value. 0x2005:02, UNSIGNED32, read-only, mappable into TPDOs.
+            /// Variable Read Value: 0x2005:02, UNSIGNED32, read-only, mappable into TPDOs.
             /// Constant: [`VARIABLE_READ_VALUE`].
             pub fn variable_read_value(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 VARIABLE_READ_VALUE.at(self.client)
@@ -16964,7 +16964,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest sub-index.
             ///
-            /// Number of entries of the write window. 0x2006:00, UNSIGNED8, read-only.
+            /// Number of entries of the write window: 0x2006:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_WRITE_WINDOW`].
             pub fn number_of_entries_of_the_write_window(
                 &mut self,
@@ -16973,7 +16973,7 @@ pub mod objects {
             }
             /// Address of the register or parameter to write; the drive sets it to 0 when the write is complete.
             ///
-            /// Variable Write Address. One of 0, 1 to 99, 32768 to 36863, 0x2006:01, UNSIGNED16, read-write, mappable into any PDO.
+            /// Variable Write Address: One of 0, 1 to 99, 32768 to 36863, 0x2006:01, UNSIGNED16, read-write, mappable into any PDO.
             /// Constant: [`VARIABLE_WRITE_ADDRESS`].
             pub fn variable_write_address(
                 &mut self,
@@ -16982,7 +16982,7 @@ pub mod objects {
             }
             /// Value to write to the register or parameter.
             ///
-            /// Variable Write Value. 0x2006:02, UNSIGNED32, read-write, mappable into any PDO.
+            /// Variable Write Value: 0x2006:02, UNSIGNED32, read-write, mappable into any PDO.
             /// Constant: [`VARIABLE_WRITE_VALUE`].
             ///
             /// Hazard: On CANopen, the value is written first, then the address; on EtherCAT, the text has the address first, then the value. Assumed: write the value first (writing the address starts the write; with the address first, the drive would write the previous value). Manual: Descrizione degli oggetti manufacturer specific; Lettura / Scrittura parametri del drive (lines 4054-4056, 5735-5736).
@@ -17178,7 +17178,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest sub-index.
             ///
-            /// Number of entries of the feed constant. 0x6092:00, UNSIGNED8, read-only.
+            /// Number of entries of the feed constant: 0x6092:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_FEED_CONSTANT`].
             ///
             /// Note: Sub-index 0 has 4 bytes here and in 0x1003, 0x1010 and 0x6099, but 1 byte in all other objects. Assumed: one byte (DS 301 and the other objects have one byte). Manual: Oggetti opzionali (line 3798).
@@ -17189,7 +17189,7 @@ pub mod objects {
             }
             /// User units per motor shaft revolution. Defines the units of position, velocity (u/s) and acceleration (u/s/ms).
             ///
-            /// feed\_constant. Range 0 to 262143, 0x6092:01, Modbus R02 (holding; wire 0x8002; FC 3/6/16; 32 bits per address; high word first), number 0x8002 through a window on PROFINET, UNSIGNED32, read-write.
+            /// feed\_constant: Range 0 to 262143, 0x6092:01, Modbus R02 (holding; wire 0x8002; FC 3/6/16; 32 bits per address; high word first), number 0x8002 through a window on PROFINET, UNSIGNED32, read-write.
             /// Non-volatile: stored by save.
             /// Constant: [`FEED_CONSTANT`].
             pub fn feed_constant(
@@ -17204,7 +17204,7 @@ pub mod objects {
             }
             /// Motor shaft revolutions that the feed constant refers to; always 1.
             ///
-            /// Shaft Revolutions. Range 1 to 1, default 1, 0x6092:02, UNSIGNED32, read-only.
+            /// Shaft Revolutions: Range 1 to 1, default 1, 0x6092:02, UNSIGNED32, read-only.
             /// Constant: [`SHAFT_REVOLUTIONS`].
             pub fn shaft_revolutions(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 SHAFT_REVOLUTIONS.at(self.client)
@@ -17292,7 +17292,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest sub-index.
             ///
-            /// Number of entries of the homing speeds. 0x6099:00, UNSIGNED8, read-only.
+            /// Number of entries of the homing speeds: 0x6099:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_HOMING_SPEEDS`].
             ///
             /// Note: Sub-index 0 has 4 bytes here, but 1 byte in most other objects. Assumed: one byte (DS 301 defines it as one byte). Manual: Oggetti opzionali (line 3806).
@@ -17303,7 +17303,7 @@ pub mod objects {
             }
             /// Homing velocity of the search for the switch.
             ///
-            /// homing\_fast\_speed. Physical value = raw × 60 / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rpm, range raw \-2147483648 … 2147483647, 0x6099:01, Modbus R20 (holding; wire 0x8014; FC 3/6/16; 32 bits per address; high word first), number 0x8014 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
+            /// homing\_fast\_speed: Physical value = raw × 60 / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rpm, range raw \-2147483648 … 2147483647, 0x6099:01, Modbus R20 (holding; wire 0x8014; FC 3/6/16; 32 bits per address; high word first), number 0x8014 through a window on PROFINET, INTEGER32, read-write, mappable into any PDO.
             /// Non-volatile: stored by save.
             /// Constant: [`HOMING_FAST_SPEED`].
             ///
@@ -17320,7 +17320,7 @@ pub mod objects {
             }
             /// Homing velocity of the search for the index pulse (marker).
             ///
-            /// homing\_slow\_speed. Physical value = raw × 60 / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rpm, range raw 0 … 2147483647, 0x6099:02, Modbus R21 (holding; wire 0x8015; FC 3/6/16; 32 bits per address; high word first), number 0x8015 through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
+            /// homing\_slow\_speed: Physical value = raw × 60 / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rpm, range raw 0 … 2147483647, 0x6099:02, Modbus R21 (holding; wire 0x8015; FC 3/6/16; 32 bits per address; high word first), number 0x8015 through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
             /// Non-volatile: stored by save.
             /// Constant: [`HOMING_SLOW_SPEED`].
             pub fn homing_slow_speed(
@@ -17376,7 +17376,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest sub-index.
             ///
-            /// Number of entries of the interpolation data. 0x60C1:00, UNSIGNED8, read-only.
+            /// Number of entries of the interpolation data: 0x60C1:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_DATA`].
             pub fn number_of_entries_of_the_interpolation_data(
                 &mut self,
@@ -17385,7 +17385,7 @@ pub mod objects {
             }
             /// Position set-point of the linear interpolator.
             ///
-            /// Position Set-Point. Physical value = raw / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rev, 0x60C1:01, INTEGER32, write-only, mappable into RPDOs.
+            /// Position Set-Point: Physical value = raw / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rev, 0x60C1:01, INTEGER32, write-only, mappable into RPDOs.
             /// Constant: [`POSITION_SET_POINT`]. Carried by [`InterpolatedPosition`](super::super::pdo::InterpolatedPosition).
             pub fn position_set_point(
                 &mut self,
@@ -17460,7 +17460,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest sub-index.
             ///
-            /// Number of entries of the interpolation time. 0x60C2:00, UNSIGNED8, read-only.
+            /// Number of entries of the interpolation time: 0x60C2:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_TIME`].
             pub fn number_of_entries_of_the_interpolation_time(
                 &mut self,
@@ -17469,7 +17469,7 @@ pub mod objects {
             }
             /// Interpolation period: time between two set-points of the interpolator.
             ///
-            /// ip\_time\_units. Unit ms, range 0 to 255, 0x60C2:01, Modbus R47 (holding; wire 0x802F; FC 3/6/16; 32 bits per address; high word first), number 0x802F through a window on PROFINET, UNSIGNED8, read-write.
+            /// ip\_time\_units: Unit ms, range 0 to 255, 0x60C2:01, Modbus R47 (holding; wire 0x802F; FC 3/6/16; 32 bits per address; high word first), number 0x802F through a window on PROFINET, UNSIGNED8, read-write.
             /// Non-volatile: stored by save.
             /// Constant: [`IP_TIME_UNITS`].
             ///
@@ -17486,7 +17486,7 @@ pub mod objects {
             }
             /// Exponent of the interpolation period to the base 10, in seconds. The manual does not print its value.
             ///
-            /// Time Index. 0x60C2:02, INTEGER8, read-only.
+            /// Time Index: 0x60C2:02, INTEGER8, read-only.
             /// Constant: [`TIME_INDEX`].
             pub fn time_index(&mut self) -> super::ReadOnlyAccess<'_, C, i8> {
                 TIME_INDEX.at(self.client)
@@ -17586,7 +17586,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest sub-index.
             ///
-            /// Number of entries of the digital outputs. 0x60FE:00, UNSIGNED8, read-only.
+            /// Number of entries of the digital outputs: 0x60FE:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_DIGITAL_OUTPUTS`].
             pub fn number_of_entries_of_the_digital_outputs(
                 &mut self,
@@ -17595,7 +17595,7 @@ pub mod objects {
             }
             /// Levels of the digital outputs of connector CN2.
             ///
-            /// digital\_outputs. Range 0 to 4294967295, 0x60FE:01, Modbus R50 (holding; wire 0x8032; FC 3/6/16; 32 bits per address; high word first), number 0x8032 through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
+            /// digital\_outputs: Range 0 to 4294967295, 0x60FE:01, Modbus R50 (holding; wire 0x8032; FC 3/6/16; 32 bits per address; high word first), number 0x8032 through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
             /// Non-volatile: stored by save.
             /// Constant: [`DIGITAL_OUTPUTS`]. Values: [`DigitalOutputs`](super::super::types::DigitalOutputs).
             ///
@@ -17612,7 +17612,7 @@ pub mod objects {
             }
             /// Bit mask of the pins that are outputs; the other pins are unused.
             ///
-            /// digital\_out\_mask. Range 0 to 4294967295, 0x60FE:02, Modbus R49 (holding; wire 0x8031; FC 3/6/16; 32 bits per address; high word first), number 0x8031 through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
+            /// digital\_out\_mask: Range 0 to 4294967295, 0x60FE:02, Modbus R49 (holding; wire 0x8031; FC 3/6/16; 32 bits per address; high word first), number 0x8031 through a window on PROFINET, UNSIGNED32, read-write, mappable into any PDO.
             /// Non-volatile: stored by save.
             /// Constant: [`DIGITAL_OUT_MASK`]. Values: [`DigitalOutputs`](super::super::types::DigitalOutputs).
             pub fn digital_out_mask(

@@ -817,7 +817,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Proportional gain of the current controller; keep the default value.
     ///
-    /// KP\_I. 1 LSB = 0.01, range 0.00 … 327.67 (raw 0 … 32767), default 0.30 (raw 30), parameter 0x0100, INTEGER16, read-write.
+    /// KP\_I: 1 LSB = 0.01, range 0.00 … 327.67 (raw 0 … 32767), default 0.30 (raw 30), parameter 0x0100, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::KP_I`].
     pub fn kp_i(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
@@ -825,7 +825,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Integral gain of the current controller; keep the default value.
     ///
-    /// KI\_I. 1 LSB = 0.01, range 0.00 … 327.67 (raw 0 … 32767), default 0.12 (raw 12), parameter 0x0101, INTEGER16, read-write.
+    /// KI\_I: 1 LSB = 0.01, range 0.00 … 327.67 (raw 0 … 32767), default 0.12 (raw 12), parameter 0x0101, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::KI_I`].
     pub fn ki_i(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
@@ -833,7 +833,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Minimum output of the current controller (voltage); keep the default value.
     ///
-    /// PIMIN\_I. 1 LSB = 0.1 V, range -3276.7 … 0.0 V (raw \-32767 … 0), default -19.4 V (raw \-194), parameter 0x0103, INTEGER16, read-write.
+    /// PIMIN\_I: 1 LSB = 0.1 V, range -3276.7 … 0.0 V (raw \-32767 … 0), default -19.4 V (raw \-194), parameter 0x0103, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::PIMIN_I`].
     ///
@@ -845,7 +845,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum output of the current controller (voltage); keep the default value.
     ///
-    /// PIMAX\_I. 1 LSB = 0.1 V, range 0.0 … 3276.7 V (raw 0 … 32767), default 19.4 V (raw 194), parameter 0x0104, INTEGER16, read-write.
+    /// PIMAX\_I: 1 LSB = 0.1 V, range 0.0 … 3276.7 V (raw 0 … 32767), default 19.4 V (raw 194), parameter 0x0104, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::PIMAX_I`].
     ///
@@ -857,7 +857,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Proportional gain of the speed controller. The default is usually sufficient after tuning of the feedforward; otherwise change one gain at a time while jogging.
     ///
-    /// KP\_VEL. 1 LSB = 0.01, range 0.00 … 327.67 (raw 0 … 32767), default 1.50 (raw 150), parameter 0x0105, INTEGER16, read-write.
+    /// KP\_VEL: 1 LSB = 0.01, range 0.00 … 327.67 (raw 0 … 32767), default 1.50 (raw 150), parameter 0x0105, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::KP_VEL`].
     pub fn kp_vel(
@@ -867,7 +867,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Integral gain of the speed controller, preferably not 0; tune it like KP\_VEL.
     ///
-    /// KI\_VEL. 1 LSB = 0.01, range 0.00 … 327.67 (raw 0 … 32767), default 0.10 (raw 10), parameter 0x0106, INTEGER16, read-write.
+    /// KI\_VEL: 1 LSB = 0.01, range 0.00 … 327.67 (raw 0 … 32767), default 0.10 (raw 10), parameter 0x0106, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::KI_VEL`].
     pub fn ki_vel(
@@ -877,7 +877,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Feedforward of the speed controller, preferably 100 %.
     ///
-    /// KFF\_VEL. Unit %, range 0 to 100, default 100, parameter 0x0107, INTEGER16, read-write.
+    /// KFF\_VEL: Unit %, range 0 to 100, default 100, parameter 0x0107, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::KFF_VEL`].
     pub fn kff_vel(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -885,7 +885,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Minimum output of the speed controller (current); limits the motor torque.
     ///
-    /// PIMIN\_VEL. 1 LSB = 0.01 A, range -9.00 … 0.00 A (raw \-900 … 0), default -5.00 A (raw \-500), parameter 0x0108, INTEGER16, read-write.
+    /// PIMIN\_VEL: 1 LSB = 0.01 A, range -9.00 … 0.00 A (raw \-900 … 0), default -5.00 A (raw \-500), parameter 0x0108, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::PIMIN_VEL`].
     pub fn pimin_vel(
@@ -895,7 +895,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum output of the speed controller (current); limits the motor torque.
     ///
-    /// PIMAX\_VEL. 1 LSB = 0.01 A, range 0.00 … 9.00 A (raw 0 … 900), default 5.00 A (raw 500), parameter 0x0109, INTEGER16, read-write.
+    /// PIMAX\_VEL: 1 LSB = 0.01 A, range 0.00 … 9.00 A (raw 0 … 900), default 5.00 A (raw 500), parameter 0x0109, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::PIMAX_VEL`].
     ///
@@ -907,7 +907,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Proportional gain of the position controller.
     ///
-    /// KP\_POS. 1 LSB = 0.01, range 0.00 … 327.67 (raw 0 … 32767), default 5.00 (raw 500), parameter 0x010A, INTEGER16, read-write.
+    /// KP\_POS: 1 LSB = 0.01, range 0.00 … 327.67 (raw 0 … 32767), default 5.00 (raw 500), parameter 0x010A, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::KP_POS`].
     pub fn kp_pos(
@@ -917,7 +917,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Integral gain of the position controller.
     ///
-    /// KI\_POS. 1 LSB = 0.01, range 0.00 … 327.67 (raw 0 … 32767), default 0.00 (raw 0), parameter 0x010B, INTEGER16, read-write.
+    /// KI\_POS: 1 LSB = 0.01, range 0.00 … 327.67 (raw 0 … 32767), default 0.00 (raw 0), parameter 0x010B, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::KI_POS`].
     pub fn ki_pos(
@@ -927,7 +927,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Feedforward of the position controller, usually 50 % to 100 %; tune it by positioning with feedback gains of 0.
     ///
-    /// KFF\_POS. Unit %, range 0 to 100, default 70, parameter 0x010C, INTEGER16, read-write.
+    /// KFF\_POS: Unit %, range 0 to 100, default 70, parameter 0x010C, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::KFF_POS`].
     pub fn kff_pos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -935,7 +935,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Minimum output of the position controller (speed); limits the motor speed.
     ///
-    /// PIMIN\_POS. Unit rpm, range \-5000 to 0, default \-4500, parameter 0x010D, INTEGER16, read-write.
+    /// PIMIN\_POS: Unit rpm, range \-5000 to 0, default \-4500, parameter 0x010D, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::PIMIN_POS`].
     pub fn pimin_pos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -943,7 +943,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum output of the position controller (speed); limits the motor speed.
     ///
-    /// PIMAX\_POS. Unit rpm, range 0 to 5000, default 4500, parameter 0x010E, INTEGER16, read-write.
+    /// PIMAX\_POS: Unit rpm, range 0 to 5000, default 4500, parameter 0x010E, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::PIMAX_POS`].
     ///
@@ -953,7 +953,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum following error of the position; 0 disables the check.
     ///
-    /// MAXERRORP. Unit count, range 0 to 2147483647, default 0, parameter 0x010F, INTEGER32, read-write.
+    /// MAXERRORP: Unit count, range 0 to 2147483647, default 0, parameter 0x010F, INTEGER32, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::MAXERRORP`].
     ///
@@ -967,7 +967,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Position following error timeout: the motor goes to alarm if the error exceeds MAXERRORP for this time.
     ///
-    /// TIM\_MAXERRORP. Unit ms, range 0 to 32000, default 0, parameter 0x0110, INTEGER16, read-write.
+    /// TIM\_MAXERRORP: Unit ms, range 0 to 32000, default 0, parameter 0x0110, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::TIM_MAXERRORP`].
     pub fn tim_maxerrorp(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -975,7 +975,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum following error of the speed.
     ///
-    /// MAXERRORV. Unit rpm, range 0 to 8000, default 0, parameter 0x0111, INTEGER16, read-write.
+    /// MAXERRORV: Unit rpm, range 0 to 8000, default 0, parameter 0x0111, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::MAXERRORV`].
     pub fn maxerrorv(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -983,7 +983,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Speed following error timeout: the motor goes to alarm if the error exceeds MAXERRORV for this time.
     ///
-    /// TIM\_MAXERRORV. Unit ms, range 0 to 32000, default 0, parameter 0x0112, INTEGER16, read-write.
+    /// TIM\_MAXERRORV: Unit ms, range 0 to 32000, default 0, parameter 0x0112, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::TIM_MAXERRORV`].
     pub fn tim_maxerrorv(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -991,7 +991,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Position window: maximum distance from the target at which positioning can be complete.
     ///
-    /// INPOS. Unit count, range 0 to 32000, default 0, parameter 0x0113, INTEGER16, read-write.
+    /// INPOS: Unit count, range 0 to 32000, default 0, parameter 0x0113, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::INPOS`].
     pub fn inpos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -999,7 +999,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Position window time: positioning is complete after this time in the position window INPOS.
     ///
-    /// TIM\_INPOS. Unit ms, range 0 to 32000, default 0, parameter 0x0114, INTEGER16, read-write.
+    /// TIM\_INPOS: Unit ms, range 0 to 32000, default 0, parameter 0x0114, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::TIM_INPOS`].
     pub fn tim_inpos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1007,7 +1007,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Overload threshold: the motor goes to alarm if the torque exceeds it for TIM\_MAXTORQ.
     ///
-    /// MAXTORQ. 1 LSB = 0.01 A, range 0.00 … 327.67 A (raw 0 … 32767), default 2.50 A (raw 250), parameter 0x0115, INTEGER16, read-write.
+    /// MAXTORQ: 1 LSB = 0.01 A, range 0.00 … 327.67 A (raw 0 … 32767), default 2.50 A (raw 250), parameter 0x0115, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::MAXTORQ`].
     ///
@@ -1019,7 +1019,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Overload timeout: the motor goes to alarm if the torque exceeds MAXTORQ for this time.
     ///
-    /// TIM\_MAXTORQ. Unit ms, range 0 to 32000, default 1000, parameter 0x0116, INTEGER16, read-write.
+    /// TIM\_MAXTORQ: Unit ms, range 0 to 32000, default 1000, parameter 0x0116, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::TIM_MAXTORQ`].
     ///
@@ -1029,7 +1029,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum speed of positioning.
     ///
-    /// VMAXPOS. Unit rpm, range 0 to 32767, default 4000, parameter 0x0117, INTEGER16, read-write.
+    /// VMAXPOS: Unit rpm, range 0 to 32767, default 4000, parameter 0x0117, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::VMAXPOS`].
     ///
@@ -1039,7 +1039,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Speed at which automatic homing searches for the home switch; the sign is the direction.
     ///
-    /// VMAXAZZ. Unit rpm, range \-32767 to 32767, default 0, parameter 0x0118, INTEGER16, read-write.
+    /// VMAXAZZ: Unit rpm, range \-32767 to 32767, default 0, parameter 0x0118, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::VMAXAZZ`].
     pub fn vmaxazz(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1047,7 +1047,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Acceleration of jogging and of commanded stops.
     ///
-    /// AMAX. 1 LSB = 10000 count/s², range 0 … 327670000 count/s² (raw 0 … 32767), default 480000 count/s² (raw 48), parameter 0x0119, INTEGER16, read-write.
+    /// AMAX: 1 LSB = 10000 count/s², range 0 … 327670000 count/s² (raw 0 … 32767), default 480000 count/s² (raw 48), parameter 0x0119, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::AMAX`].
     ///
@@ -1057,7 +1057,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Acceleration of positioning.
     ///
-    /// AMAXPOS. 1 LSB = 10000 count/s², range 0 … 327670000 count/s² (raw 0 … 32767), default 320000 count/s² (raw 32), parameter 0x011A, INTEGER16, read-write.
+    /// AMAXPOS: 1 LSB = 10000 count/s², range 0 … 327670000 count/s² (raw 0 … 32767), default 320000 count/s² (raw 32), parameter 0x011A, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::AMAXPOS`].
     pub fn amaxpos(
@@ -1067,7 +1067,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Position value that automatic homing assigns to the home position.
     ///
-    /// ORIG\_AZZ. Unit count, range \-2147483648 to 2147483647, default 0, parameter 0x011B, INTEGER32, read-write.
+    /// ORIG\_AZZ: Unit count, range \-2147483648 to 2147483647, default 0, parameter 0x011B, INTEGER32, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::ORIG_AZZ`].
     ///
@@ -1077,7 +1077,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Lower software limit of the position; bit 0 of BIT\_A enables it.
     ///
-    /// LOW\_SLIM. Unit count, range \-2147483648 to 2147483647, default \-2147418112, parameter 0x011C, INTEGER32, read-write.
+    /// LOW\_SLIM: Unit count, range \-2147483648 to 2147483647, default \-2147418112, parameter 0x011C, INTEGER32, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::LOW_SLIM`].
     ///
@@ -1091,7 +1091,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Upper software limit of the position; bit 0 of BIT\_A enables it.
     ///
-    /// HIGH\_SLIM. Unit count, range \-2147483648 to 2147483647, default 2147418112, parameter 0x011D, INTEGER32, read-write.
+    /// HIGH\_SLIM: Unit count, range \-2147483648 to 2147483647, default 2147418112, parameter 0x011D, INTEGER32, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::HIGH_SLIM`].
     ///
@@ -1105,7 +1105,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Option bits: software limits, direction of rotation, limit switches and braking.
     ///
-    /// BIT\_A. Default 0, parameter 0x011E, UNSIGNED16, read-write.
+    /// BIT\_A: Default 0, parameter 0x011E, UNSIGNED16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::BIT_A`]. Values: [`BitA`](types::BitA).
     pub fn bit_a(&mut self) -> objects::ReadWriteAccess<'_, C, types::BitA> {
@@ -1113,7 +1113,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved; do not change it.
     ///
-    /// ANGELETTRTACCA. Range 0 to 799, default 676, parameter 0x011F, INTEGER16, read-write.
+    /// ANGELETTRTACCA: Range 0 to 799, default 676, parameter 0x011F, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::ANGELETTRTACCA`].
     pub fn angelettrtacca(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1121,7 +1121,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Friction feedforward: speed above which it acts. A typical value is 200 (48.8 rpm).
     ///
-    /// RESERVED1. Physical value = raw / 2^15 × speed\_base rpm, default raw 600, parameter 0x0120, INTEGER16, read-write.
+    /// RESERVED1: Physical value = raw / 2^15 × speed\_base rpm, default raw 600, parameter 0x0120, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::RESERVED1`].
     ///
@@ -1133,7 +1133,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Friction feedforward: torque. Increase it until the jogging axis can be pushed by hand with little force; reduce it if the axis then does not stop when released.
     ///
-    /// RESERVED2. Default 1400, parameter 0x0121, INTEGER16, read-write.
+    /// RESERVED2: Default 1400, parameter 0x0121, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::RESERVED2`].
     ///
@@ -1143,7 +1143,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Speed feedforward: proportional to the demand speed. Increase it in steps of 100 until the steady jogging speed matches the commanded speed.
     ///
-    /// RESERVED3. Default 2600, parameter 0x0122, INTEGER16, read-write.
+    /// RESERVED3: Default 2600, parameter 0x0122, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::RESERVED3`].
     ///
@@ -1153,7 +1153,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Acceleration feedforward: acts on ramps. Increase it in steps of 2 until actual and demand speed match on the ramps.
     ///
-    /// RESERVED4. Default 6, parameter 0x0123, INTEGER16, read-write.
+    /// RESERVED4: Default 6, parameter 0x0123, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::RESERVED4`].
     ///
@@ -1165,7 +1165,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved; no size and no default are printed.
     ///
-    /// RESERVED5. Parameter 0x0124, unknown type, read-write.
+    /// RESERVED5: Parameter 0x0124, unknown type, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::RESERVED5`].
     pub fn reserved5(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -1173,7 +1173,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved; no size and no default are printed.
     ///
-    /// RESERVED6. Parameter 0x0125, unknown type, read-write.
+    /// RESERVED6: Parameter 0x0125, unknown type, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::RESERVED6`].
     pub fn reserved6(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -1181,7 +1181,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved; no size and no default are printed.
     ///
-    /// RESERVED7. Parameter 0x0126, unknown type, read-write.
+    /// RESERVED7: Parameter 0x0126, unknown type, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::RESERVED7`].
     pub fn reserved7(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -1189,7 +1189,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved; no size and no default are printed.
     ///
-    /// RESERVED8. Parameter 0x0127, unknown type, read-write.
+    /// RESERVED8: Parameter 0x0127, unknown type, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::RESERVED8`].
     pub fn reserved8(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -1197,7 +1197,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved; no size and no default are printed.
     ///
-    /// RESERVED9. Parameter 0x0128, unknown type, read-write.
+    /// RESERVED9: Parameter 0x0128, unknown type, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::RESERVED9`].
     pub fn reserved9(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -1205,7 +1205,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved; no size and no default are printed.
     ///
-    /// RESERVED10. Parameter 0x012A, unknown type, read-write.
+    /// RESERVED10: Parameter 0x012A, unknown type, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::RESERVED10`].
     ///
@@ -1215,7 +1215,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved; no size and no default are printed.
     ///
-    /// RESERVED11. Parameter 0x012B, unknown type, read-write.
+    /// RESERVED11: Parameter 0x012B, unknown type, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::RESERVED11`].
     pub fn reserved11(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -1223,7 +1223,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Minimum delay of the reply of the motor. On ENET-X: actuation time of the bus, a multiple of 4, with the default 8.
     ///
-    /// TIMFB. Unit ms, range 1 to 100, default 50, parameter 0x012C, INTEGER16, read-write.
+    /// TIMFB: Unit ms, range 1 to 100, default 50, parameter 0x012C, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::TIMFB`].
     pub fn timfb(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1231,7 +1231,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Communication timeout: the motor goes to alarm if it receives nothing for this time; 0 disables it. On ENET-X, the default is 8.
     ///
-    /// TIMEOUTFB. Unit ms, range 0 to 100, default 50, parameter 0x012D, INTEGER16, read-write.
+    /// TIMEOUTFB: Unit ms, range 0 to 100, default 50, parameter 0x012D, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::TIMEOUTFB`].
     ///
@@ -1247,7 +1247,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Inverts the digital inputs, one bit per input.
     ///
-    /// INVDIN. Range 0 to 7, default 0, parameter 0x012E, UNSIGNED16, read-write.
+    /// INVDIN: Range 0 to 7, default 0, parameter 0x012E, UNSIGNED16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::INVDIN`]. Values: [`InvertedInputs`](types::InvertedInputs).
     ///
@@ -1257,7 +1257,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Type of automatic homing, which CmdAzz starts.
     ///
-    /// TIPOAZZ. Range 0 to 2, default 0, parameter 0x012F, UNSIGNED16, read-write.
+    /// TIPOAZZ: Range 0 to 2, default 0, parameter 0x012F, UNSIGNED16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::TIPOAZZ`]. Values: [`HomingType`](types::HomingType).
     pub fn tipoazz(&mut self) -> objects::ReadWriteAccess<'_, C, types::HomingType> {
@@ -1265,7 +1265,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Speed at which automatic homing leaves the home switch.
     ///
-    /// VAZZOUTMIC. Unit rpm, range \-32767 to 32767, default \-125, parameter 0x0130, INTEGER16, read-write.
+    /// VAZZOUTMIC: Unit rpm, range \-32767 to 32767, default \-125, parameter 0x0130, INTEGER16, read-write.
     /// Non-volatile: stored by [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::VAZZOUTMIC`].
     pub fn vazzoutmic(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1273,7 +1273,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Sum of proportional and integral gain of the current controller: mantissa.
     ///
-    /// KIQDPIMANT. Physical value = raw / 2^15 × 2^[KIQDPIEXP](objects::KIQDPIEXP), range raw 0 … 32767, default raw 13762, parameter 0x1000, INTEGER16, write-only.
+    /// KIQDPIMANT: Physical value = raw / 2^15 × 2^[KIQDPIEXP](objects::KIQDPIEXP), range raw 0 … 32767, default raw 13762, parameter 0x1000, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KIQDPIMANT`].
     pub fn kiqdpimant(
@@ -1283,7 +1283,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Sum of proportional and integral gain of the current controller: exponent.
     ///
-    /// KIQDPIEXP. Range 0 to 6, default 0, parameter 0x1001, INTEGER16, write-only.
+    /// KIQDPIEXP: Range 0 to 6, default 0, parameter 0x1001, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KIQDPIEXP`].
     pub fn kiqdpiexp(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1291,7 +1291,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Integral fraction of the gain of the current controller: integral gain / (proportional gain + integral gain).
     ///
-    /// KIQDKCOR. 1 LSB = 0.000030517578125, range 0 … 0.999969 (raw 0 … 32767), default 0.285706 (raw 9362), parameter 0x0002, INTEGER16, write-only.
+    /// KIQDKCOR: 1 LSB = 0.000030517578125, range 0 … 0.999969 (raw 0 … 32767), default 0.285706 (raw 9362), parameter 0x0002, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KIQDKCOR`].
     pub fn kiqdkcor(
@@ -1301,7 +1301,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Unused.
     ///
-    /// KIQDKFF. Parameter 0x0003, INTEGER16, write-only.
+    /// KIQDKFF: Parameter 0x0003, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KIQDKFF`].
     pub fn kiqdkff(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1309,7 +1309,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Minimum output of the current controller (voltage).
     ///
-    /// KIQDLIMIN. Physical value = raw / 2^15 × voltage\_base V, range raw \-32767 … 0, default raw \-32767, parameter 0x0004, INTEGER16, write-only.
+    /// KIQDLIMIN: Physical value = raw / 2^15 × voltage\_base V, range raw \-32767 … 0, default raw \-32767, parameter 0x0004, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KIQDLIMIN`].
     ///
@@ -1321,7 +1321,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum output of the current controller (voltage).
     ///
-    /// KIQDLIMAX. Physical value = raw / 2^15 × voltage\_base V, range raw 0 … 32767, default raw 32767, parameter 0x0005, INTEGER16, write-only.
+    /// KIQDLIMAX: Physical value = raw / 2^15 × voltage\_base V, range raw 0 … 32767, default raw 32767, parameter 0x0005, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KIQDLIMAX`].
     pub fn kiqdlimax(
@@ -1331,7 +1331,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Sum of proportional and integral gain of the speed controller: mantissa.
     ///
-    /// KVELPIMANT. Physical value = raw / 2^15 × 2^[KVELPIEXP](objects::KVELPIEXP), range raw 0 … 32767, default raw 26214, parameter 0x2006, INTEGER16, write-only.
+    /// KVELPIMANT: Physical value = raw / 2^15 × 2^[KVELPIEXP](objects::KVELPIEXP), range raw 0 … 32767, default raw 26214, parameter 0x2006, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KVELPIMANT`].
     pub fn kvelpimant(
@@ -1341,7 +1341,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Sum of proportional and integral gain of the speed controller: exponent.
     ///
-    /// KVELPIEXP. Range 0 to 6, default 1, parameter 0x2007, INTEGER16, write-only.
+    /// KVELPIEXP: Range 0 to 6, default 1, parameter 0x2007, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KVELPIEXP`].
     pub fn kvelpiexp(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1349,7 +1349,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Integral fraction of the gain of the speed controller: integral gain / (proportional gain + integral gain).
     ///
-    /// KVELKCOR. 1 LSB = 0.000030517578125, range 0 … 0.999969 (raw 0 … 32767), default 0.0624695 (raw 2047), parameter 0x0008, INTEGER16, write-only.
+    /// KVELKCOR: 1 LSB = 0.000030517578125, range 0 … 0.999969 (raw 0 … 32767), default 0.0624695 (raw 2047), parameter 0x0008, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KVELKCOR`].
     pub fn kvelkcor(
@@ -1359,7 +1359,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Feedforward of the speed controller, as a fraction of 100 %.
     ///
-    /// KVELKFF. 1 LSB = 0.0030517578125 %, range 0 … 99.9969 % (raw 0 … 32767), default 99.9969 % (raw 32767), parameter 0x0009, INTEGER16, write-only.
+    /// KVELKFF: 1 LSB = 0.0030517578125 %, range 0 … 99.9969 % (raw 0 … 32767), default 99.9969 % (raw 32767), parameter 0x0009, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KVELKFF`].
     pub fn kvelkff(
@@ -1369,7 +1369,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Minimum output of the speed controller (current); limits the torque in the negative direction.
     ///
-    /// KVELLIMIN. Physical value = raw / 2^15 × current\_base A, range raw \-26067 … 0, default raw \-14486, parameter 0x000A, INTEGER16, write-only.
+    /// KVELLIMIN: Physical value = raw / 2^15 × current\_base A, range raw \-26067 … 0, default raw \-14486, parameter 0x000A, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KVELLIMIN`].
     pub fn kvellimin(
@@ -1379,7 +1379,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum output of the speed controller (current); limits the torque in the positive direction.
     ///
-    /// KVELLIMAX. Physical value = raw / 2^15 × current\_base A, range raw 0 … 26067, default raw 14486, parameter 0x000B, INTEGER16, write-only.
+    /// KVELLIMAX: Physical value = raw / 2^15 × current\_base A, range raw 0 … 26067, default raw 14486, parameter 0x000B, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KVELLIMAX`].
     pub fn kvellimax(
@@ -1389,7 +1389,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Sum of proportional and integral gain of the position controller: mantissa.
     ///
-    /// KPOSPIMANT. Physical value = raw / 2^15 × 2^[KPOSPIEXP](objects::KPOSPIEXP), range raw 0 … 32767, default raw 20480, parameter 0x300C, INTEGER16, write-only.
+    /// KPOSPIMANT: Physical value = raw / 2^15 × 2^[KPOSPIEXP](objects::KPOSPIEXP), range raw 0 … 32767, default raw 20480, parameter 0x300C, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KPOSPIMANT`].
     pub fn kpospimant(
@@ -1399,7 +1399,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Sum of proportional and integral gain of the position controller: exponent.
     ///
-    /// KPOSPIEXP. Range 0 to 6, default 3, parameter 0x300D, INTEGER16, write-only.
+    /// KPOSPIEXP: Range 0 to 6, default 3, parameter 0x300D, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KPOSPIEXP`].
     pub fn kpospiexp(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1407,7 +1407,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Integral fraction of the gain of the position controller: integral gain / (proportional gain + integral gain).
     ///
-    /// KPOSKCOR. 1 LSB = 0.000030517578125, range 0 … 0.999969 (raw 0 … 32767), default 0 (raw 0), parameter 0x000E, INTEGER16, write-only.
+    /// KPOSKCOR: 1 LSB = 0.000030517578125, range 0 … 0.999969 (raw 0 … 32767), default 0 (raw 0), parameter 0x000E, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KPOSKCOR`].
     pub fn kposkcor(
@@ -1417,7 +1417,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Feedforward of the position controller, as a fraction of 100 %.
     ///
-    /// KPOSKFF. 1 LSB = 0.0030517578125 %, range 0 … 99.9969 % (raw 0 … 32767), default 69.9982 % (raw 22937), parameter 0x000F, INTEGER16, write-only.
+    /// KPOSKFF: 1 LSB = 0.0030517578125 %, range 0 … 99.9969 % (raw 0 … 32767), default 69.9982 % (raw 22937), parameter 0x000F, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KPOSKFF`].
     pub fn kposkff(
@@ -1427,7 +1427,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Minimum output of the position controller (speed); limits the speed in the negative direction.
     ///
-    /// KPOSLIMMIN. Physical value = raw / 2^15 × speed\_base rpm, range raw \-32767 … 0, default raw \-18432, parameter 0x0010, INTEGER16, write-only.
+    /// KPOSLIMMIN: Physical value = raw / 2^15 × speed\_base rpm, range raw \-32767 … 0, default raw \-18432, parameter 0x0010, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KPOSLIMMIN`].
     pub fn kposlimmin(
@@ -1437,7 +1437,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum output of the position controller (speed); limits the speed in the positive direction.
     ///
-    /// KPOSLIMAX. Physical value = raw / 2^15 × speed\_base rpm, range raw 0 … 32767, default raw 18432, parameter 0x0011, INTEGER16, write-only.
+    /// KPOSLIMAX: Physical value = raw / 2^15 × speed\_base rpm, range raw 0 … 32767, default raw 18432, parameter 0x0011, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::KPOSLIMAX`].
     pub fn kposlimax(
@@ -1447,7 +1447,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum following error of the position, bits 15 to 0; 0 in both halves disables the check.
     ///
-    /// MAXERRORPL. Unit count, range \-32768 to 32767, default 0, parameter 0x4012, INTEGER16, write-only.
+    /// MAXERRORPL: Unit count, range \-32768 to 32767, default 0, parameter 0x4012, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::MAXERRORPL`].
     pub fn maxerrorpl(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1455,7 +1455,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum following error of the position, bits 31 to 16; 0 in both halves disables the check.
     ///
-    /// MAXERRORPH. 1 LSB = 65536 count, range 0 … 2147418112 count (raw 0 … 32767), default 0 count (raw 0), parameter 0x4013, INTEGER16, write-only.
+    /// MAXERRORPH: 1 LSB = 65536 count, range 0 … 2147418112 count (raw 0 … 32767), default 0 count (raw 0), parameter 0x4013, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::MAXERRORPH`].
     pub fn maxerrorph(
@@ -1465,7 +1465,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Acceleration of jogging and of commanded stops. On the SM137, the resolution is 4.096 rev/s².
     ///
-    /// AMAXHOLD. Physical value = raw / 2^15 × acceleration\_base rev/s², range raw 1 … 32767, default raw 2089, parameter 0x0014, INTEGER16, write-only.
+    /// AMAXHOLD: Physical value = raw / 2^15 × acceleration\_base rev/s², range raw 1 … 32767, default raw 2089, parameter 0x0014, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::AMAXHOLD`].
     pub fn amaxhold(
@@ -1475,7 +1475,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Acceleration of positioning. On the SM137, the resolution is 78.125 rev/s² (revision B) or 19.53125 rev/s² (revision C).
     ///
-    /// AMAXTRAJ. Physical value = raw / 2^15 × acceleration\_base rev/s², range raw 1 … 32767, default raw 1392, parameter 0x0015, INTEGER16, write-only.
+    /// AMAXTRAJ: Physical value = raw / 2^15 × acceleration\_base rev/s², range raw 1 … 32767, default raw 1392, parameter 0x0015, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::AMAXTRAJ`].
     pub fn amaxtraj(
@@ -1485,7 +1485,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum speed of positioning.
     ///
-    /// VMAXTRAJ. Physical value = raw / 2^15 × speed\_base rpm, range raw 0 … 32767, default raw 16384, parameter 0x0016, INTEGER16, write-only.
+    /// VMAXTRAJ: Physical value = raw / 2^15 × speed\_base rpm, range raw 0 … 32767, default raw 16384, parameter 0x0016, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::VMAXTRAJ`].
     ///
@@ -1497,7 +1497,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Position value that automatic homing assigns to the home position, bits 15 to 0.
     ///
-    /// ORIGINEL. Unit count, range \-32768 to 32767, default 0, parameter 0x5017, INTEGER16, write-only.
+    /// ORIGINEL: Unit count, range \-32768 to 32767, default 0, parameter 0x5017, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::ORIGINEL`].
     pub fn originel(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1505,7 +1505,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Position value that automatic homing assigns to the home position, bits 31 to 16.
     ///
-    /// ORIGINEH. 1 LSB = 65536 count, range -2147483648 … 2147418112 count (raw \-32768 … 32767), default 0 count (raw 0), parameter 0x5018, INTEGER16, write-only.
+    /// ORIGINEH: 1 LSB = 65536 count, range -2147483648 … 2147418112 count (raw \-32768 … 32767), default 0 count (raw 0), parameter 0x5018, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::ORIGINEH`].
     pub fn origineh(
@@ -1515,7 +1515,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Option bits, with the meaning of those of BIT\_A.
     ///
-    /// TESTSLIM. Default 0, parameter 0x0019, UNSIGNED16, write-only.
+    /// TESTSLIM: Default 0, parameter 0x0019, UNSIGNED16, write-only.
     /// Volatile.
     /// Constant: [`objects::TESTSLIM`]. Values: [`TestSlim`](types::TestSlim).
     ///
@@ -1525,7 +1525,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Lower software limit of the position, bits 15 to 0.
     ///
-    /// LOWSLIML. Unit count, range \-32768 to 32767, default 0, parameter 0x601A, INTEGER16, write-only.
+    /// LOWSLIML: Unit count, range \-32768 to 32767, default 0, parameter 0x601A, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::LOWSLIML`].
     pub fn lowsliml(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1533,7 +1533,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Lower software limit of the position, bits 31 to 16.
     ///
-    /// LOWSLIMH. 1 LSB = 65536 count, range -2147483648 … 2147418112 count (raw \-32768 … 32767), default 0 count (raw 0), parameter 0x601B, INTEGER16, write-only.
+    /// LOWSLIMH: 1 LSB = 65536 count, range -2147483648 … 2147418112 count (raw \-32768 … 32767), default 0 count (raw 0), parameter 0x601B, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::LOWSLIMH`].
     pub fn lowslimh(
@@ -1543,7 +1543,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Upper software limit of the position, bits 15 to 0.
     ///
-    /// HIGHSLIML. Unit count, range \-32768 to 32767, default 0, parameter 0x601C, INTEGER16, write-only.
+    /// HIGHSLIML: Unit count, range \-32768 to 32767, default 0, parameter 0x601C, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::HIGHSLIML`].
     pub fn highsliml(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1551,7 +1551,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Upper software limit of the position, bits 31 to 16.
     ///
-    /// HIGHSLIMH. 1 LSB = 65536 count, range -2147483648 … 2147418112 count (raw \-32768 … 32767), default 0 count (raw 0), parameter 0x601D, INTEGER16, write-only.
+    /// HIGHSLIMH: 1 LSB = 65536 count, range -2147483648 … 2147418112 count (raw \-32768 … 32767), default 0 count (raw 0), parameter 0x601D, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::HIGHSLIMH`].
     pub fn highslimh(
@@ -1561,7 +1561,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum following error of the speed.
     ///
-    /// MAXERRORV\_LOW. Physical value = raw / 2^15 × speed\_base rpm, range raw 0 … 32767, default raw 0, parameter 0x001E, INTEGER16, write-only.
+    /// MAXERRORV\_LOW: Physical value = raw / 2^15 × speed\_base rpm, range raw 0 … 32767, default raw 0, parameter 0x001E, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::MAXERRORV_LOW`].
     pub fn maxerrorv_low(
@@ -1571,7 +1571,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Overload threshold: the motor goes to alarm if the torque exceeds it for TIMEOUTMAXTORQUE.
     ///
-    /// MAXTORQUE. Physical value = raw / 2^15 × current\_base A, range raw 0 … 32767, default raw 7243, parameter 0x001F, INTEGER16, write-only.
+    /// MAXTORQUE: Physical value = raw / 2^15 × current\_base A, range raw 0 … 32767, default raw 7243, parameter 0x001F, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::MAXTORQUE`].
     pub fn maxtorque(
@@ -1581,7 +1581,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved.
     ///
-    /// ANGELETTRTACCA\_LOW. Default 676, parameter 0x0020, INTEGER16, write-only.
+    /// ANGELETTRTACCA\_LOW: Default 676, parameter 0x0020, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::ANGELETTRTACCA_LOW`].
     pub fn angelettrtacca_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1589,7 +1589,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Friction feedforward: speed above which it acts, as RESERVED1 of chapter 6.
     ///
-    /// RESERVED1\_LOW. Range 0 to 32767, default 600, parameter 0x0021, INTEGER16, write-only.
+    /// RESERVED1\_LOW: Range 0 to 32767, default 600, parameter 0x0021, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::RESERVED1_LOW`].
     pub fn reserved1_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1597,7 +1597,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Friction feedforward: torque, as RESERVED2 of chapter 6.
     ///
-    /// RESERVED2\_LOW. Range 0 to 32767, default 1400, parameter 0x0022, INTEGER16, write-only.
+    /// RESERVED2\_LOW: Range 0 to 32767, default 1400, parameter 0x0022, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::RESERVED2_LOW`].
     pub fn reserved2_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1605,7 +1605,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Speed feedforward, as RESERVED3 of chapter 6.
     ///
-    /// RESERVED3\_LOW. Range 0 to 32767, default 2600, parameter 0x0023, INTEGER16, write-only.
+    /// RESERVED3\_LOW: Range 0 to 32767, default 2600, parameter 0x0023, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::RESERVED3_LOW`].
     pub fn reserved3_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1613,7 +1613,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Acceleration feedforward, as RESERVED4 of chapter 6.
     ///
-    /// RESERVED4\_LOW. Range 0 to 32767, default 6, parameter 0x0024, INTEGER16, write-only.
+    /// RESERVED4\_LOW: Range 0 to 32767, default 6, parameter 0x0024, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::RESERVED4_LOW`].
     pub fn reserved4_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1621,7 +1621,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved.
     ///
-    /// RESERVED5\_LOW. Parameter 0x0025, INTEGER16, write-only.
+    /// RESERVED5\_LOW: Parameter 0x0025, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::RESERVED5_LOW`].
     pub fn reserved5_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1629,7 +1629,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved.
     ///
-    /// RESERVED6\_LOW. Parameter 0x0026, INTEGER16, write-only.
+    /// RESERVED6\_LOW: Parameter 0x0026, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::RESERVED6_LOW`].
     pub fn reserved6_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1637,7 +1637,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved.
     ///
-    /// RESERVED7\_LOW. Parameter 0x0027, INTEGER16, write-only.
+    /// RESERVED7\_LOW: Parameter 0x0027, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::RESERVED7_LOW`].
     pub fn reserved7_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1645,7 +1645,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved.
     ///
-    /// RESERVED8\_LOW. Parameter 0x0028, INTEGER16, write-only.
+    /// RESERVED8\_LOW: Parameter 0x0028, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::RESERVED8_LOW`].
     pub fn reserved8_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1653,7 +1653,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved.
     ///
-    /// RESERVED9\_LOW. Parameter 0x0029, INTEGER16, write-only.
+    /// RESERVED9\_LOW: Parameter 0x0029, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::RESERVED9_LOW`].
     pub fn reserved9_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1661,7 +1661,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved.
     ///
-    /// RESERVED10\_LOW. Parameter 0x002A, INTEGER16, write-only.
+    /// RESERVED10\_LOW: Parameter 0x002A, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::RESERVED10_LOW`].
     pub fn reserved10_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1669,7 +1669,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved.
     ///
-    /// RESERVED11\_LOW. Parameter 0x002B, INTEGER16, write-only.
+    /// RESERVED11\_LOW: Parameter 0x002B, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::RESERVED11_LOW`].
     pub fn reserved11_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1677,7 +1677,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Reserved; a default is printed for the SM137 only.
     ///
-    /// RESERVED12. Parameter 0x002C, INTEGER16, write-only.
+    /// RESERVED12: Parameter 0x002C, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::RESERVED12`].
     pub fn reserved12(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1685,7 +1685,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Overload timeout: the motor goes to alarm if the torque exceeds MAXTORQUE for this time.
     ///
-    /// TIMEOUTMAXTORQUE. Unit ms, range 0 to 32767, default 1000, parameter 0x002D, INTEGER16, write-only.
+    /// TIMEOUTMAXTORQUE: Unit ms, range 0 to 32767, default 1000, parameter 0x002D, INTEGER16, write-only.
     /// Volatile.
     /// Constant: [`objects::TIMEOUTMAXTORQUE`].
     pub fn timeoutmaxtorque(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {

@@ -333,7 +333,7 @@ impl<C> VectorStep<C> {
     }
     /// Actual position of the axis. Write the position saved at power-off to it after power-on.
     ///
-    /// Rposact. Unit step, range \-2147483648 to 2147483647, 0x2000:01, Modbus 0–1 (holding; wire 0–1; FC 3/16; low word first), INTEGER32, read-write, mappable into TPDOs.
+    /// Rposact: Unit step, range \-2147483648 to 2147483647, 0x2000:01, Modbus 0–1 (holding; wire 0–1; FC 3/16; low word first), INTEGER32, read-write, mappable into TPDOs.
     /// Constant: [`objects::RPOSACT`].
     ///
     /// Note: The notes have MAP READ and no access rights; in the text, the user can copy Rposactsaved to Rposact. Assumed: read-write, mappable for reading only (a copy to the register is a write). Manual: REGISTRI DI POSIZIONE; Memorizzazione automatica della quota attuale allo spegnimento del drive (lines 2129, 2147).
@@ -344,7 +344,7 @@ impl<C> VectorStep<C> {
     }
     /// Position demand of the motion profile.
     ///
-    /// Rposactreq. Unit step, range \-2147483648 to 2147483647, 0x2004:01, Modbus 4–5 (holding; wire 4–5; FC 3; low word first), INTEGER32, read-only, mappable into TPDOs.
+    /// Rposactreq: Unit step, range \-2147483648 to 2147483647, 0x2004:01, Modbus 4–5 (holding; wire 4–5; FC 3; low word first), INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::RPOSACTREQ`].
     ///
     /// Note: The manual states no access rights and marks it MAP READ; a screen listing of a running drive shows RW. Assumed: read-only (it is a demand value that the drive calculates). Manual: INDIRIZZAMENTO REGISTRI PROPRIETARI AEC; REGISTRI DI POSIZIONE (lines 466, 2130).
@@ -353,7 +353,7 @@ impl<C> VectorStep<C> {
     }
     /// Target position of the commands GO and GOR; marked ANA\_T.
     ///
-    /// Rpostarg. Unit step, range \-2147483648 to 2147483647, 0x2008:01, Modbus 8–9 (holding; wire 8–9; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
+    /// Rpostarg: Unit step, range \-2147483648 to 2147483647, 0x2008:01, Modbus 8–9 (holding; wire 8–9; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RPOSTARG`].
     ///
     /// Note: The manual does not explain the mark ANA\_T in the notes. Assumed: only the description mentions the mark (an analog input may set the register, but the manual does not state this). Manual: REGISTRI DI POSIZIONE; ISTRUZIONE ESTOP (STOP SU REGISTRO VALORE O VARIABILE) (lines 2131, 2252).
@@ -362,7 +362,7 @@ impl<C> VectorStep<C> {
     }
     /// Upper software limit of the position; Rflag bit 3 enables it. Homing methods -8 and -7 overwrite it.
     ///
-    /// Rupplim. Unit step, range \-2147483648 to 2147483647, 0x200C:01, Modbus 12–13 (holding; wire 12–13; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
+    /// Rupplim: Unit step, range \-2147483648 to 2147483647, 0x200C:01, Modbus 12–13 (holding; wire 12–13; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RUPPLIM`].
     pub fn rupplim(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -370,7 +370,7 @@ impl<C> VectorStep<C> {
     }
     /// Lower software limit of the position; Rflag bit 2 enables it. Homing methods -8 and -7 overwrite it.
     ///
-    /// Rlowlim. Unit step, range \-2147483648 to 2147483647, 0x2010:01, Modbus 16–17 (holding; wire 16–17; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
+    /// Rlowlim: Unit step, range \-2147483648 to 2147483647, 0x2010:01, Modbus 16–17 (holding; wire 16–17; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RLOWLIM`].
     pub fn rlowlim(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -378,7 +378,7 @@ impl<C> VectorStep<C> {
     }
     /// Position saved at the last power-off; 0 if it is invalid.
     ///
-    /// Rposactsaved. Unit step, 0x2037:01, Modbus 55–56 (holding; wire 55–56; FC 3; low word first), INTEGER32, read-only.
+    /// Rposactsaved: Unit step, 0x2037:01, Modbus 55–56 (holding; wire 55–56; FC 3; low word first), INTEGER32, read-only.
     /// Non-volatile.
     /// Constant: [`objects::RPOSACTSAVED`].
     ///
@@ -388,7 +388,7 @@ impl<C> VectorStep<C> {
     }
     /// Validity of the position in Rposactsaved after power-on; 0 if it is invalid.
     ///
-    /// Rposactsavedflag. 0x2039:01, Modbus 57 (holding; wire 57; FC 3), UNSIGNED16, read-only.
+    /// Rposactsavedflag: 0x2039:01, Modbus 57 (holding; wire 57; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RPOSACTSAVEDFLAG`]. Values: [`SavedPosition`](types::SavedPosition).
     pub fn rposactsavedflag(
         &mut self,
@@ -397,7 +397,7 @@ impl<C> VectorStep<C> {
     }
     /// Main status word of the drive: enable, alarm, homing and motion.
     ///
-    /// Rstsflg. 0x20C7:01, Modbus 199 (holding; wire 199; FC 3/6/16), UNSIGNED16, read-write, mappable into TPDOs.
+    /// Rstsflg: 0x20C7:01, Modbus 199 (holding; wire 199; FC 3/6/16), UNSIGNED16, read-write, mappable into TPDOs.
     /// Constant: [`objects::RSTSFLG`]. Values: [`Status`](types::Status).
     ///
     /// Note: The notes have RO, but the description allows writing the value 0. Assumed: read-write, and 0 is the only value to write (the description states the effect of the write). Manual: FLAG STATO AZIONAMENTO (line 2162).
@@ -406,14 +406,14 @@ impl<C> VectorStep<C> {
     }
     /// Second status word: stored alarms, tasks, limits, controllers and STO.
     ///
-    /// Rstsflg1. 0x20C8:01, Modbus 200 (holding; wire 200; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rstsflg1: 0x20C8:01, Modbus 200 (holding; wire 200; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RSTSFLG1`]. Values: [`Status1`](types::Status1).
     pub fn rstsflg1(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Status1> {
         objects::RSTSFLG1.at(&mut self.client)
     }
     /// Status word of closed-loop control; its bits 0 to 2 set bit 7 of Rstsflg.
     ///
-    /// Rstscllp. 0x20CB:01, Modbus 203 (holding; wire 203; FC 3), UNSIGNED16, read-only.
+    /// Rstscllp: 0x20CB:01, Modbus 203 (holding; wire 203; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RSTSCLLP`]. Values: [`ClosedLoopStatus`](types::ClosedLoopStatus).
     pub fn rstscllp(
         &mut self,
@@ -422,7 +422,7 @@ impl<C> VectorStep<C> {
     }
     /// Flags of the operating mode that cannot be saved.
     ///
-    /// Rflag1. Range 0 to 65535, 0x203A:01, Modbus 58 (holding; wire 58; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rflag1: Range 0 to 65535, 0x203A:01, Modbus 58 (holding; wire 58; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Volatile.
     /// Constant: [`objects::RFLAG1`]. Values: [`ModeFlags1`](types::ModeFlags1).
     pub fn rflag1(&mut self) -> objects::ReadWriteAccess<'_, C, types::ModeFlags1> {
@@ -430,7 +430,7 @@ impl<C> VectorStep<C> {
     }
     /// Flags of the operating mode: limits, resets after homing, corrections, gear directions and USB.
     ///
-    /// Rflag. Range 0 to 2147483647, 0x2066:01, Modbus 102–103 (holding; wire 102–103; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rflag: Range 0 to 2147483647, 0x2066:01, Modbus 102–103 (holding; wire 102–103; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFLAG`]. Values: [`ModeFlags`](types::ModeFlags).
     pub fn rflag(&mut self) -> objects::ReadWriteAccess<'_, C, types::ModeFlags> {
@@ -438,7 +438,7 @@ impl<C> VectorStep<C> {
     }
     /// Hardware configuration: directions, kinds of encoders, PWM range, and realignment for two CANopen masters.
     ///
-    /// Rhwconfig. Range 0 to 65535, 0x2116:01, Modbus 278 (holding; wire 278; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rhwconfig: Range 0 to 65535, 0x2116:01, Modbus 278 (holding; wire 278; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RHWCONFIG`]. Values: [`HardwareConfig`](types::HardwareConfig).
     ///
@@ -452,7 +452,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum velocity of a motion; marked ANA.
     ///
-    /// Rvel. 1 LSB = 0.01 rev/s, range -100.00 … 100.00 rev/s (raw \-10000 … 10000), 0x203F:01, Modbus 63–64 (holding; wire 63–64; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
+    /// Rvel: 1 LSB = 0.01 rev/s, range -100.00 … 100.00 rev/s (raw \-10000 … 10000), 0x203F:01, Modbus 63–64 (holding; wire 63–64; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RVEL`].
     ///
     /// Note: The manual does not explain the mark ANA in the notes. Assumed: only the description mentions the mark (an analog input may set the register, but the manual does not state this). Manual: PARAMETRI MOVIMENTO; GESTIONE POTENZA (lines 2178, 2180, 2182, 2652).
@@ -461,7 +461,7 @@ impl<C> VectorStep<C> {
     }
     /// Start and stop velocity of a motion.
     ///
-    /// Rvss. 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), 0x2041:01, Modbus 65–66 (holding; wire 65–66; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
+    /// Rvss: 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), 0x2041:01, Modbus 65–66 (holding; wire 65–66; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RVSS`].
     ///
     /// Note: The type is Signed32, but Rstrtvss, its copy for power-on, is Unsigned32. Assumed: i32 (each row keeps its type; in the range 0 to 10000 both are equal). Manual: PARAMETRI MOVIMENTO; CONFIGURAZIONE ALL'ACCENSIONE (lines 2179, 2611).
@@ -470,7 +470,7 @@ impl<C> VectorStep<C> {
     }
     /// Acceleration ramp; 0 disables the ramp; marked ANA.
     ///
-    /// Racc. 1 LSB = 0.1 rev/s², range 0.0 … 20000.0 rev/s² (raw 0 … 200000), 0x2043:01, Modbus 67–68 (holding; wire 67–68; FC 3/16; low word first), UNSIGNED32, read-write (assumed), mappable into RPDOs.
+    /// Racc: 1 LSB = 0.1 rev/s², range 0.0 … 20000.0 rev/s² (raw 0 … 200000), 0x2043:01, Modbus 67–68 (holding; wire 67–68; FC 3/16; low word first), UNSIGNED32, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RACC`].
     ///
     /// Note: The minimum is 0, which disables the ramp, but the minimum of Rstrtacc and 0x6083 is 1. Assumed: 0 (the row explains the value 0). Manual: PROFILE ACCELERATION; PARAMETRI MOVIMENTO; CONFIGURAZIONE ALL'ACCENSIONE (lines 1560, 2180, 2612).
@@ -481,7 +481,7 @@ impl<C> VectorStep<C> {
     }
     /// Shape of the acceleration ramp: S-shaped or linear.
     ///
-    /// Raccpro. Range 0 to 10, 0x2045:01, Modbus 69 (holding; wire 69; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Raccpro: Range 0 to 10, 0x2045:01, Modbus 69 (holding; wire 69; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RACCPRO`]. Values: [`RampProfile`](types::RampProfile).
     ///
@@ -491,7 +491,7 @@ impl<C> VectorStep<C> {
     }
     /// Deceleration ramp; 0 disables the ramp; marked ANA.
     ///
-    /// Rdec. 1 LSB = 0.1 rev/s², range 0.0 … 20000.0 rev/s² (raw 0 … 200000), 0x2046:01, Modbus 70–71 (holding; wire 70–71; FC 3/16; low word first), UNSIGNED32, read-write (assumed), mappable into RPDOs.
+    /// Rdec: 1 LSB = 0.1 rev/s², range 0.0 … 20000.0 rev/s² (raw 0 … 200000), 0x2046:01, Modbus 70–71 (holding; wire 70–71; FC 3/16; low word first), UNSIGNED32, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RDEC`].
     ///
     /// Note: The minimum is 0, which disables the ramp, but the minimum of Rstrtdec is 1. Assumed: 0 (the row explains the value 0). Manual: PARAMETRI MOVIMENTO; CONFIGURAZIONE ALL'ACCENSIONE (lines 2182, 2613).
@@ -502,7 +502,7 @@ impl<C> VectorStep<C> {
     }
     /// Shape of the deceleration ramp: S-shaped or linear.
     ///
-    /// Rdecpro. Range 0 to 10, 0x2048:01, Modbus 72 (holding; wire 72; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdecpro: Range 0 to 10, 0x2048:01, Modbus 72 (holding; wire 72; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDECPRO`]. Values: [`RampProfile`](types::RampProfile).
     pub fn rdecpro(&mut self) -> objects::ReadWriteAccess<'_, C, types::RampProfile> {
@@ -510,7 +510,7 @@ impl<C> VectorStep<C> {
     }
     /// Deceleration ramp of an emergency stop.
     ///
-    /// Rdeceme. 1 LSB = 0.1 rev/s², range 0.0 … 20000.0 rev/s² (raw 0 … 200000), 0x2049:01, Modbus 73–74 (holding; wire 73–74; FC 3/16; low word first), UNSIGNED32, read-write (assumed), mappable into RPDOs.
+    /// Rdeceme: 1 LSB = 0.1 rev/s², range 0.0 … 20000.0 rev/s² (raw 0 … 200000), 0x2049:01, Modbus 73–74 (holding; wire 73–74; FC 3/16; low word first), UNSIGNED32, read-write (assumed), mappable into RPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDECEME`].
     pub fn rdeceme(
@@ -520,7 +520,7 @@ impl<C> VectorStep<C> {
     }
     /// Actual velocity of the motor.
     ///
-    /// Rvelact. 1 LSB = 0.01 rev/s, 0x204B:01, Modbus 75–76 (holding; wire 75–76; FC 3; low word first), INTEGER32, read-only, mappable into TPDOs.
+    /// Rvelact: 1 LSB = 0.01 rev/s, 0x204B:01, Modbus 75–76 (holding; wire 75–76; FC 3; low word first), INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::RVELACT`].
     pub fn rvelact(
         &mut self,
@@ -529,7 +529,7 @@ impl<C> VectorStep<C> {
     }
     /// Velocity demand of the motor.
     ///
-    /// Rvelactreq. 1 LSB = 0.01 rev/s, 0x204D:01, Modbus 77–78 (holding; wire 77–78; FC 3; low word first), INTEGER32, read-only, mappable into TPDOs.
+    /// Rvelactreq: 1 LSB = 0.01 rev/s, 0x204D:01, Modbus 77–78 (holding; wire 77–78; FC 3; low word first), INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::RVELACTREQ`].
     pub fn rvelactreq(
         &mut self,
@@ -538,7 +538,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum velocity during position recovery.
     ///
-    /// Rvelmax. 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), 0x204F:01, Modbus 79–80 (holding; wire 79–80; FC 3/16; low word first), INTEGER32, read-write (assumed).
+    /// Rvelmax: 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), 0x204F:01, Modbus 79–80 (holding; wire 79–80; FC 3/16; low word first), INTEGER32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RVELMAX`].
     pub fn rvelmax(
@@ -548,7 +548,7 @@ impl<C> VectorStep<C> {
     }
     /// Divisor of velocities and accelerations: ratio of set value to actual value.
     ///
-    /// Rdefum. One of 1, 10, 100, 0x2064:01, Modbus 100 (holding; wire 100; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdefum: One of 1, 10, 100, 0x2064:01, Modbus 100 (holding; wire 100; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEFUM`]. Values: [`SpeedDivisor`](types::SpeedDivisor).
     ///
@@ -558,14 +558,14 @@ impl<C> VectorStep<C> {
     }
     /// Acceleration ramp in PWM mode.
     ///
-    /// Rpwmacc. Unit bit/s², 0x2147:01, Modbus 327 (holding; wire 327; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rpwmacc: Unit bit/s², 0x2147:01, Modbus 327 (holding; wire 327; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RPWMACC`].
     pub fn rpwmacc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPWMACC.at(&mut self.client)
     }
     /// PWM duty cycle in PWM mode: 0 is 0 %, 1250 is 100 %.
     ///
-    /// Rpwm. 1 LSB = 0.08 %, range 0.00 … 100.00 % (raw 0 … 1250), 0x2148:01, Modbus 328 (holding; wire 328; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rpwm: 1 LSB = 0.08 %, range 0.00 … 100.00 % (raw 0 … 1250), 0x2148:01, Modbus 328 (holding; wire 328; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RPWM`].
     ///
     /// Hazard: The unit is %, but the text has bits from 0 (0%) to 1250 (100%). Assumed: 1 LSB = 0.08 % (limit and text agree that 1250 is 100 %). Manual: PARAMETRI MOVIMENTO (line 2190).
@@ -574,7 +574,7 @@ impl<C> VectorStep<C> {
     }
     /// Velocity below which the gains of the current controller are reduced.
     ///
-    /// Rveladjpicur. Range 0 to 32767, 0x216E:01, Modbus 366 (holding; wire 366; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rveladjpicur: Range 0 to 32767, 0x216E:01, Modbus 366 (holding; wire 366; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RVELADJPICUR`].
     ///
@@ -584,7 +584,7 @@ impl<C> VectorStep<C> {
     }
     /// Delay before the correction of the gains of the current controller; 0 disables the correction.
     ///
-    /// Rdlyadjpicur. Unit ms, range 0 to 32767, 0x2196:01, Modbus 406 (holding; wire 406; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdlyadjpicur: Unit ms, range 0 to 32767, 0x2196:01, Modbus 406 (holding; wire 406; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDLYADJPICUR`].
     pub fn rdlyadjpicur(
@@ -594,7 +594,7 @@ impl<C> VectorStep<C> {
     }
     /// Standstill detection when homing on a mechanical stop in SmartMode: minimum motor encoder counts of a moving axis.
     ///
-    /// Rzerovellim. Unit count, range 0 to 65535, 0x219A:01, Modbus 410 (holding; wire 410; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rzerovellim: Unit count, range 0 to 65535, 0x219A:01, Modbus 410 (holding; wire 410; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RZEROVELLIM`].
     pub fn rzerovellim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -602,7 +602,7 @@ impl<C> VectorStep<C> {
     }
     /// Standstill detection when homing on a mechanical stop in SmartMode: sampling time of the motor encoder.
     ///
-    /// Rzeroveltim. Unit ms, range 0 to 65535, 0x219B:01, Modbus 411 (holding; wire 411; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rzeroveltim: Unit ms, range 0 to 65535, 0x219B:01, Modbus 411 (holding; wire 411; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RZEROVELTIM`].
     pub fn rzeroveltim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -610,7 +610,7 @@ impl<C> VectorStep<C> {
     }
     /// Filter time of the status bit for motor at current limit (FOC\_CLOSE).
     ///
-    /// Rcurlimtim. Unit ms, range 0 to 65535, 0x219C:01, Modbus 412 (holding; wire 412; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcurlimtim: Unit ms, range 0 to 65535, 0x219C:01, Modbus 412 (holding; wire 412; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCURLIMTIM`].
     pub fn rcurlimtim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -618,7 +618,7 @@ impl<C> VectorStep<C> {
     }
     /// Target velocity in mode 9 (cyclic synchronous velocity); on CANopen and EtherCAT only.
     ///
-    /// Rveltarg. Range \-20000 to 20000, 0x21ED:01, INTEGER32, read-write (assumed), mappable into RPDOs.
+    /// Rveltarg: Range \-20000 to 20000, 0x21ED:01, INTEGER32, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RVELTARG`].
     ///
     /// Hazard: The limits are -20000 and +20000 without a unit; Rvel has -10000 to 10000 in 0.01 rev/s. Assumed: a number without a unit, with the printed limits (the manual prints no unit). Manual: PARAMETRI MOVIMENTO (lines 2178, 2197).
@@ -631,14 +631,14 @@ impl<C> VectorStep<C> {
     }
     /// Motion commands of the drive, one bit each; set one bit at a time. The drive clears a bit after execution.
     ///
-    /// Rcmdwr. Range 0 to 65535, 0x203B:01, Modbus 59 (holding; wire 59; FC 6/16), UNSIGNED16, write-only, mappable into RPDOs.
+    /// Rcmdwr: Range 0 to 65535, 0x203B:01, Modbus 59 (holding; wire 59; FC 6/16), UNSIGNED16, write-only, mappable into RPDOs.
     /// Constant: [`objects::RCMDWR`]. Values: [`Command`](types::Command).
     pub fn rcmdwr(&mut self) -> objects::WriteOnlyAccess<'_, C, types::Command> {
         objects::RCMDWR.at(&mut self.client)
     }
     /// Additional commands: phase tests, winding and Smit modes, and SmartMode positions; Rcmd1rd shows their state.
     ///
-    /// Rcmd1wr. Range 0 to 65535, 0x203C:01, Modbus 60 (holding; wire 60; FC 6/16), UNSIGNED16, write-only, mappable into RPDOs.
+    /// Rcmd1wr: Range 0 to 65535, 0x203C:01, Modbus 60 (holding; wire 60; FC 6/16), UNSIGNED16, write-only, mappable into RPDOs.
     /// Constant: [`objects::RCMD1WR`]. Values: [`Command1`](types::Command1).
     ///
     /// Hazard: The drive clears the bits of Rcmdwr. The manual does not state this for Rcmd1wr, and writing 0 to it clears an answer in Rcmd1rd. Assumed: the bits do not clear themselves (the manual does not state that the drive clears them). Manual: COMANDI MOVIMENTO (lines 2202, 2203, 2207).
@@ -649,14 +649,14 @@ impl<C> VectorStep<C> {
     }
     /// Motion commands that the drive is executing, one bit each.
     ///
-    /// Rcmdrd. 0x203D:01, Modbus 61 (holding; wire 61; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rcmdrd: 0x203D:01, Modbus 61 (holding; wire 61; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RCMDRD`]. Values: [`CommandState`](types::CommandState).
     pub fn rcmdrd(&mut self) -> objects::ReadOnlyAccess<'_, C, types::CommandState> {
         objects::RCMDRD.at(&mut self.client)
     }
     /// State of the commands in Rcmd1wr.
     ///
-    /// Rcmd1rd. 0x203E:01, Modbus 62 (holding; wire 62; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rcmd1rd: 0x203E:01, Modbus 62 (holding; wire 62; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RCMD1RD`]. Values: [`CommandState1`](types::CommandState1).
     ///
     /// Note: B2 is missing: the answers are B3, B4, B5, B7 and B8, but the commands are B2, B3, B4, B6 and B7. Assumed: the bits as printed; bit 2 has no name (each answer is one bit higher than its command; a shift by one bit and misprints are both possible). Manual: COMANDI MOVIMENTO (lines 2203, 2207).
@@ -665,14 +665,14 @@ impl<C> VectorStep<C> {
     }
     /// Number of the task that a command from the serial line starts.
     ///
-    /// Rtasknum. Range 0 to 63, 0x206A:01, Modbus 106 (holding; wire 106; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rtasknum: Range 0 to 63, 0x206A:01, Modbus 106 (holding; wire 106; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RTASKNUM`].
     pub fn rtasknum(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RTASKNUM.at(&mut self.client)
     }
     /// Selects the executed command that Rbufcmdstatus, Rbufcmdcommand and Rbufcmdparameter show: 0 is the newest, 7 the oldest.
     ///
-    /// Rptroldcmd. Range 0 to 7, 0x21C2:01, Modbus 450 (holding; wire 450; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rptroldcmd: Range 0 to 7, 0x21C2:01, Modbus 450 (holding; wire 450; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RPTROLDCMD`].
     ///
     /// Note: The three registers are described as the last command, without the pointer. Assumed: the pointer selects the command in the three registers (a pointer into the buffer has no other purpose). Manual: COMANDI MOVIMENTO (lines 2209, 2210-2212).
@@ -681,7 +681,7 @@ impl<C> VectorStep<C> {
     }
     /// Source of the last command: user program, serial line or fieldbus.
     ///
-    /// Rbufcmdstatus. 0x21C3:01, Modbus 451 (holding; wire 451; FC 3), UNSIGNED16, read-only.
+    /// Rbufcmdstatus: 0x21C3:01, Modbus 451 (holding; wire 451; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RBUFCMDSTATUS`].
     ///
     /// Note: Three sources are listed without numbers. Assumed: a number without a unit or names of values (the manual prints neither values nor bits). Manual: COMANDI MOVIMENTO (line 2210).
@@ -690,21 +690,21 @@ impl<C> VectorStep<C> {
     }
     /// Last executed command.
     ///
-    /// Rbufcmdcommand. 0x21C4:01, Modbus 452–453 (holding; wire 452–453; FC 3; high word first), UNSIGNED32, read-only.
+    /// Rbufcmdcommand: 0x21C4:01, Modbus 452–453 (holding; wire 452–453; FC 3; high word first), UNSIGNED32, read-only.
     /// Constant: [`objects::RBUFCMDCOMMAND`].
     pub fn rbufcmdcommand(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RBUFCMDCOMMAND.at(&mut self.client)
     }
     /// Parameter of the last executed command.
     ///
-    /// Rbufcmdparameter. 0x21C6:01, Modbus 454–455 (holding; wire 454–455; FC 3; high word first), INTEGER32, read-only.
+    /// Rbufcmdparameter: 0x21C6:01, Modbus 454–455 (holding; wire 454–455; FC 3; high word first), INTEGER32, read-only.
     /// Constant: [`objects::RBUFCMDPARAMETER`].
     pub fn rbufcmdparameter(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RBUFCMDPARAMETER.at(&mut self.client)
     }
     /// Maximum travel of homing.
     ///
-    /// Rhmaxspc. Unit step, range 0 to 2147483647, 0x2020:01, Modbus 32–33 (holding; wire 32–33; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rhmaxspc: Unit step, range 0 to 2147483647, 0x2020:01, Modbus 32–33 (holding; wire 32–33; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RHMAXSPC`].
     pub fn rhmaxspc(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -712,7 +712,7 @@ impl<C> VectorStep<C> {
     }
     /// Input of the backward limit switch (BLS): standard input, none, or a digital input without another function.
     ///
-    /// Rdefinpbls. Range 0 to 255, 0x2022:01, Modbus 34 (holding; wire 34; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdefinpbls: Range 0 to 255, 0x2022:01, Modbus 34 (holding; wire 34; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEFINPBLS`]. Values: [`LimitSwitchInput`](types::LimitSwitchInput).
     pub fn rdefinpbls(
@@ -722,7 +722,7 @@ impl<C> VectorStep<C> {
     }
     /// Input of the forward limit switch (FLS): standard input, none, or a digital input without another function.
     ///
-    /// Rdefinpfls. Range 0 to 255, 0x2023:01, Modbus 35 (holding; wire 35; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdefinpfls: Range 0 to 255, 0x2023:01, Modbus 35 (holding; wire 35; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RDEFINPFLS`]. Values: [`LimitSwitchInput`](types::LimitSwitchInput).
     ///
     /// Hazard: The row has no SAVE, but the corresponding register Rdefinpbls has it. Assumed: the register is not saved (the row does not state SAVE, although this looks like an omission). Manual: ISTRUZIONE HOME (lines 2218, 2219).
@@ -733,7 +733,7 @@ impl<C> VectorStep<C> {
     }
     /// Home offset: travel of the axis after homing.
     ///
-    /// Rhofs. Unit step, range \-2147483648 to 2147483647, 0x2024:01, Modbus 36–37 (holding; wire 36–37; FC 3/16; low word first), INTEGER32, read-write (assumed).
+    /// Rhofs: Unit step, range \-2147483648 to 2147483647, 0x2024:01, Modbus 36–37 (holding; wire 36–37; FC 3/16; low word first), INTEGER32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RHOFS`].
     pub fn rhofs(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -741,7 +741,7 @@ impl<C> VectorStep<C> {
     }
     /// Position value that is set after homing.
     ///
-    /// Rhpos. Unit step, range \-2147483648 to 2147483647, 0x2026:01, Modbus 38–39 (holding; wire 38–39; FC 3/16; low word first (assumed)), INTEGER32, read-write (assumed).
+    /// Rhpos: Unit step, range \-2147483648 to 2147483647, 0x2026:01, Modbus 38–39 (holding; wire 38–39; FC 3/16; low word first (assumed)), INTEGER32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RHPOS`].
     ///
@@ -751,7 +751,7 @@ impl<C> VectorStep<C> {
     }
     /// Motor current that detects the mechanical stop during homing, in percent of the nominal current (FOC\_CLOSE).
     ///
-    /// Rhcurcoll. Unit %, range 1 to 100, 0x2028:01, Modbus 40 (holding; wire 40; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rhcurcoll: Unit %, range 1 to 100, 0x2028:01, Modbus 40 (holding; wire 40; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RHCURCOLL`].
     pub fn rhcurcoll(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -759,7 +759,7 @@ impl<C> VectorStep<C> {
     }
     /// Filter time of the mechanical stop detection during homing (FOC\_CLOSE).
     ///
-    /// Rhtimcoll. Unit ms, range 0 to 10000, 0x2029:01, Modbus 41 (holding; wire 41; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rhtimcoll: Unit ms, range 0 to 10000, 0x2029:01, Modbus 41 (holding; wire 41; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RHTIMCOLL`].
     pub fn rhtimcoll(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -767,7 +767,7 @@ impl<C> VectorStep<C> {
     }
     /// Pause before the axis reverses its direction in homing.
     ///
-    /// Rhtinv. Unit ms, range 0 to 32767, default 512, 0x2051:01, Modbus 81 (holding; wire 81; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rhtinv: Unit ms, range 0 to 32767, default 512, 0x2051:01, Modbus 81 (holding; wire 81; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RHTINV`].
     pub fn rhtinv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -775,7 +775,7 @@ impl<C> VectorStep<C> {
     }
     /// Homing method; all methods reset the position and set the flag that the axis is homed.
     ///
-    /// Rhmode. Range \-16 to 37, 0x2052:01, Modbus 82 (holding; wire 82; FC 3/6/16), INTEGER16, read-write (assumed), mappable into RPDOs.
+    /// Rhmode: Range \-16 to 37, 0x2052:01, Modbus 82 (holding; wire 82; FC 3/6/16), INTEGER16, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RHMODE`]. Values: [`HomingMethodI16`](types::HomingMethodI16).
     ///
     /// Hazard: The methods use TOP of encoder 1 here, and TOP of the motor encoder at Rstrthmode and 0x6098; methods -6 and -5 have TOP without an encoder there. Assumed: one enumeration, with the index of encoder 1 (encoder 1 is the newer name of the motor encoder, and the numbers agree). Manual: HOMING METHOD; ISTRUZIONE HOME; CONFIGURAZIONE ALL'ACCENSIONE (lines 1626-1639, 2227, 2620).
@@ -786,7 +786,7 @@ impl<C> VectorStep<C> {
     }
     /// Homing velocity of the search for the limit switch.
     ///
-    /// Rhvh. 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), 0x2053:01, Modbus 83–84 (holding; wire 83–84; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
+    /// Rhvh: 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), 0x2053:01, Modbus 83–84 (holding; wire 83–84; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RHVH`].
     ///
     /// Note: The type is Signed32 with the minimum 0; 0x6099:01 is Unsigned32, and the minimum of Rstrthvh is 1. Assumed: i32 with the minimum 0 (each row keeps its type and limits). Manual: HOMING SPEEDS; ISTRUZIONE HOME; CONFIGURAZIONE ALL'ACCENSIONE (lines 1665, 2228, 2615).
@@ -795,7 +795,7 @@ impl<C> VectorStep<C> {
     }
     /// Homing velocity of the search for the zero point; must be in the range of the start/stop velocity.
     ///
-    /// Rhvl. 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), 0x2055:01, Modbus 85–86 (holding; wire 85–86; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
+    /// Rhvl: 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), 0x2055:01, Modbus 85–86 (holding; wire 85–86; FC 3/16; low word first), INTEGER32, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RHVL`].
     ///
     /// Note: The type is Signed32 with the minimum 0; 0x6099:02 is Unsigned32, and the minimum of Rstrthvl is 1. Assumed: i32 with the minimum 0 (each row keeps its type and limits). Manual: HOMING SPEEDS; ISTRUZIONE HOME; CONFIGURAZIONE ALL'ACCENSIONE (lines 1671, 2229, 2616).
@@ -804,7 +804,7 @@ impl<C> VectorStep<C> {
     }
     /// Acceleration and deceleration of homing.
     ///
-    /// Rhacc. 1 LSB = 0.1 rev/s², range 0.0 … 20000.0 rev/s² (raw 0 … 200000), 0x2057:01, Modbus 87–88 (holding; wire 87–88; FC 3/16; low word first), UNSIGNED32, read-write (assumed), mappable into RPDOs.
+    /// Rhacc: 1 LSB = 0.1 rev/s², range 0.0 … 20000.0 rev/s² (raw 0 … 200000), 0x2057:01, Modbus 87–88 (holding; wire 87–88; FC 3/16; low word first), UNSIGNED32, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RHACC`].
     ///
     /// Note: The range is 0 to 200000; 0x609A has 1 to 500000, and the minimum of Rstrthacc is 1. Assumed: 0 to 200000 (each row keeps its limits; the other ramps end at 200000 too). Manual: HOMING ACCELERATION; ISTRUZIONE HOME; CONFIGURAZIONE ALL'ACCENSIONE (lines 1683, 1684, 2230, 2617).
@@ -813,14 +813,14 @@ impl<C> VectorStep<C> {
     }
     /// State and errors of homing; emergency messages FF02, FF06 and FF07 contain its low byte.
     ///
-    /// Rhsts. 0x20CA:01, Modbus 202 (holding; wire 202; FC 3), UNSIGNED16, read-only.
+    /// Rhsts: 0x20CA:01, Modbus 202 (holding; wire 202; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RHSTS`]. Values: [`HomingStatus`](types::HomingStatus).
     pub fn rhsts(&mut self) -> objects::ReadOnlyAccess<'_, C, types::HomingStatus> {
         objects::RHSTS.at(&mut self.client)
     }
     /// Without a description in the manual; probably a distance to the encoder index in homing.
     ///
-    /// Rhindexpc. Unit step, 0x223F:01, Modbus 575–576 (holding; wire 575–576; FC 3/16; low word first (assumed)), INTEGER32, read-write (assumed).
+    /// Rhindexpc: Unit step, 0x223F:01, Modbus 575–576 (holding; wire 575–576; FC 3/16; low word first (assumed)), INTEGER32, read-write (assumed).
     /// Constant: [`objects::RHINDEXPC`].
     ///
     /// Note: The description is empty. Assumed: unit and type as printed, without a meaning (Rhmaxspc and Rspcstop suggest that pc is spc (spazio), a distance; this is a guess). Manual: ISTRUZIONE HOME (line 2232).
@@ -829,7 +829,7 @@ impl<C> VectorStep<C> {
     }
     /// Shift distance of the STOP instruction.
     ///
-    /// Rshstop. Unit step, range 0 to 2147483647, 0x2018:01, Modbus 24–25 (holding; wire 24–25; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rshstop: Unit step, range 0 to 2147483647, 0x2018:01, Modbus 24–25 (holding; wire 24–25; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSHSTOP`].
     pub fn rshstop(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -837,7 +837,7 @@ impl<C> VectorStep<C> {
     }
     /// Fixed stopping distance of the STOP instruction.
     ///
-    /// Rspcstop. Unit step, range 0 to 2147483647, 0x201C:01, Modbus 28–29 (holding; wire 28–29; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rspcstop: Unit step, range 0 to 2147483647, 0x201C:01, Modbus 28–29 (holding; wire 28–29; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSPCSTOP`].
     pub fn rspcstop(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -845,7 +845,7 @@ impl<C> VectorStep<C> {
     }
     /// Stopping distance of the last stop.
     ///
-    /// Rspcstopcalc. Unit step, 0x201E:01, Modbus 30–31 (holding; wire 30–31; FC 3; low word first), UNSIGNED32, read-only.
+    /// Rspcstopcalc: Unit step, 0x201E:01, Modbus 30–31 (holding; wire 30–31; FC 3; low word first), UNSIGNED32, read-only.
     /// Constant: [`objects::RSPCSTOPCALC`].
     ///
     /// Note: The manual states no access rights. Assumed: read-only (it is a measured value). Manual: ISTRUZIONE STOP (line 2239).
@@ -854,14 +854,14 @@ impl<C> VectorStep<C> {
     }
     /// Stop condition of BESTOP: state of a bit, or edge of an encoder index.
     ///
-    /// Rbestpflg. 0x2031:01, Modbus 49 (holding; wire 49; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rbestpflg: 0x2031:01, Modbus 49 (holding; wire 49; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RBESTPFLG`]. Values: [`BestopSetup`](types::BestopSetup).
     pub fn rbestpflg(&mut self) -> objects::ReadWriteAccess<'_, C, types::BestopSetup> {
         objects::RBESTPFLG.at(&mut self.client)
     }
     /// Number of the register or variable whose bit stops the axis; bit 6 of Rbestpflg selects which.
     ///
-    /// Rbestppar. 0x2032:01, Modbus 50 (holding; wire 50; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rbestppar: 0x2032:01, Modbus 50 (holding; wire 50; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RBESTPPAR`].
     ///
     /// Note: The description of the BESTOP parameter ends with generating ESTOP. Assumed: the parameter of BESTOP (name, chapter and the remark below the table are about BESTOP). Manual: ISTRUZIONE BESTOP (STOP SU EVENTO BIT) (lines 2245, 2247).
@@ -870,7 +870,7 @@ impl<C> VectorStep<C> {
     }
     /// Shift distance of the ESTOP instruction; marked ANA\_T.
     ///
-    /// Rshestop. Unit step, range 0 to 2147483647, 0x2014:01, Modbus 20–21 (holding; wire 20–21; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rshestop: Unit step, range 0 to 2147483647, 0x2014:01, Modbus 20–21 (holding; wire 20–21; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSHESTOP`].
     ///
@@ -880,7 +880,7 @@ impl<C> VectorStep<C> {
     }
     /// Stop condition of ESTOP: operands and comparison.
     ///
-    /// Restpflg. 0x202D:01, Modbus 45 (holding; wire 45; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Restpflg: 0x202D:01, Modbus 45 (holding; wire 45; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RESTPFLG`]. Values: [`EstopSetup`](types::EstopSetup).
     ///
     /// Hazard: The row has destination, source and condition, and there are two parameters; the manual does not assign the parameters to them. Assumed: the fields as named (the manual does not show which parameter is destination or source, and to which side Higher and Lower refer). Manual: ISTRUZIONE ESTOP (STOP SU REGISTRO VALORE O VARIABILE) (lines 2253, 2254, 2255).
@@ -889,7 +889,7 @@ impl<C> VectorStep<C> {
     }
     /// First comparison parameter of ESTOP: a number, register or variable, as Restpflg selects.
     ///
-    /// Restppar1. 0x202E:01, Modbus 46–47 (holding; wire 46–47; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed), mappable into RPDOs.
+    /// Restppar1: 0x202E:01, Modbus 46–47 (holding; wire 46–47; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RESTPPAR1`].
     ///
     /// Note: The notes have WORD, but the row has two register numbers and a 32-bit type. Assumed: 32 bits; the word order is not stated (register numbers and type agree). Manual: ISTRUZIONE ESTOP (STOP SU REGISTRO VALORE O VARIABILE) (line 2254).
@@ -898,14 +898,14 @@ impl<C> VectorStep<C> {
     }
     /// Second comparison parameter of ESTOP, as Restpflg selects.
     ///
-    /// Restppar2. 0x2030:01, Modbus 48 (holding; wire 48; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Restppar2: 0x2030:01, Modbus 48 (holding; wire 48; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RESTPPAR2`].
     pub fn restppar2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RESTPPAR2.at(&mut self.client)
     }
     /// Multiplier of the electronic gear ratio.
     ///
-    /// Rgearmul. Range 1 to 32767, 0x2068:01, Modbus 104 (holding; wire 104; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rgearmul: Range 1 to 32767, 0x2068:01, Modbus 104 (holding; wire 104; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RGEARMUL`].
     pub fn rgearmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -913,7 +913,7 @@ impl<C> VectorStep<C> {
     }
     /// Divisor of the electronic gear ratio.
     ///
-    /// Rgeardiv. Range 1 to 32767, 0x2069:01, Modbus 105 (holding; wire 105; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rgeardiv: Range 1 to 32767, 0x2069:01, Modbus 105 (holding; wire 105; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RGEARDIV`].
     pub fn rgeardiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -921,7 +921,7 @@ impl<C> VectorStep<C> {
     }
     /// Positioning timeout after which the drive raises an alarm.
     ///
-    /// Rpostimeout. Unit ms, range 0 to 65535, 0x20E0:01, Modbus 224 (holding; wire 224; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rpostimeout: Unit ms, range 0 to 65535, 0x20E0:01, Modbus 224 (holding; wire 224; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPOSTIMEOUT`].
     pub fn rpostimeout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -929,7 +929,7 @@ impl<C> VectorStep<C> {
     }
     /// Position window (dead band) on both sides of the target, in motor steps.
     ///
-    /// Rdeadpos. Unit step, range 0 to 32767, 0x20E1:01, Modbus 225 (holding; wire 225; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdeadpos: Unit step, range 0 to 32767, 0x20E1:01, Modbus 225 (holding; wire 225; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEADPOS`].
     pub fn rdeadpos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -937,7 +937,7 @@ impl<C> VectorStep<C> {
     }
     /// Settling time in the position window with a velocity demand of 0, after which the motor is in position (closed loop).
     ///
-    /// Rsettim. Unit ms, range 0 to 1000, 0x20E2:01, Modbus 226 (holding; wire 226; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rsettim: Unit ms, range 0 to 1000, 0x20E2:01, Modbus 226 (holding; wire 226; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSETTIM`].
     pub fn rsettim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -945,7 +945,7 @@ impl<C> VectorStep<C> {
     }
     /// Active alarms, one bit each; writing 0 resets them. Ralarm32 has additional alarms.
     ///
-    /// Ralarm. Range 0 to 65535, 0x20E3:01, Modbus 227 (holding; wire 227; FC 3/6/16), UNSIGNED16, read-write, mappable into TPDOs.
+    /// Ralarm: Range 0 to 65535, 0x20E3:01, Modbus 227 (holding; wire 227; FC 3/6/16), UNSIGNED16, read-write, mappable into TPDOs.
     /// Constant: [`objects::RALARM`]. Values: [`Alarm`](types::Alarm).
     ///
     /// Hazard: In closed loop, bit 4 requires that the error lasts for Rposalmtime; in the text below the tables, for Rflwtim. Assumed: the description of the bit has both (three tables name Rposalmtime, but only Rflwtim is described as the filter time of this error). Manual: ALLARMI E WARNING; Gestione controllo inseguimento ad anello chiuso (lines 2273, 2295, 2309, 2316, 2356, 2382).
@@ -956,7 +956,7 @@ impl<C> VectorStep<C> {
     }
     /// Active warnings, one bit each; they do not change the operation of the drive.
     ///
-    /// Rwarning. Range 0 to 65535, 0x20E4:01, Modbus 228 (holding; wire 228; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rwarning: Range 0 to 65535, 0x20E4:01, Modbus 228 (holding; wire 228; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RWARNING`]. Values: [`Warning`](types::Warning).
     ///
     /// Note: In closed loop, bit 4 is set by an error above Rflwmax for Rposwrntime; in the text, by an error above Rflwvrn at once, without a filter. Assumed: the description of the bit has both (the text agrees with the open-loop half of the label; two more tables repeat the label). Manual: ALLARMI E WARNING; Gestione controllo inseguimento ad anello chiuso (lines 2276, 2305, 2317, 2352, 2382).
@@ -967,7 +967,7 @@ impl<C> VectorStep<C> {
     }
     /// Entry 0 of the alarm buffer; the manual does not describe its content.
     ///
-    /// Rbufalm0. 0x20E5:01, Modbus 229 (holding; wire 229; FC 3), UNSIGNED16, read-only.
+    /// Rbufalm0: 0x20E5:01, Modbus 229 (holding; wire 229; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RBUFALM0`].
     ///
     /// Note: The manual describes neither the content nor the order of buffers 0 to 7. Assumed: plain numbers (they may contain the bits of Ralarm, but the manual states neither this nor which buffer is the newest). Manual: ALLARMI E WARNING (lines 2277-2284).
@@ -976,63 +976,63 @@ impl<C> VectorStep<C> {
     }
     /// Entry 1 of the alarm buffer; the manual does not describe its content.
     ///
-    /// Rbufalm1. 0x20E6:01, Modbus 230 (holding; wire 230; FC 3), UNSIGNED16, read-only.
+    /// Rbufalm1: 0x20E6:01, Modbus 230 (holding; wire 230; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RBUFALM1`].
     pub fn rbufalm1(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM1.at(&mut self.client)
     }
     /// Entry 2 of the alarm buffer; the manual does not describe its content.
     ///
-    /// Rbufalm2. 0x20E7:01, Modbus 231 (holding; wire 231; FC 3), UNSIGNED16, read-only.
+    /// Rbufalm2: 0x20E7:01, Modbus 231 (holding; wire 231; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RBUFALM2`].
     pub fn rbufalm2(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM2.at(&mut self.client)
     }
     /// Entry 3 of the alarm buffer; the manual does not describe its content.
     ///
-    /// Rbufalm3. 0x20E8:01, Modbus 232 (holding; wire 232; FC 3), UNSIGNED16, read-only.
+    /// Rbufalm3: 0x20E8:01, Modbus 232 (holding; wire 232; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RBUFALM3`].
     pub fn rbufalm3(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM3.at(&mut self.client)
     }
     /// Entry 4 of the alarm buffer; the manual does not describe its content.
     ///
-    /// Rbufalm4. 0x20E9:01, Modbus 233 (holding; wire 233; FC 3), UNSIGNED16, read-only.
+    /// Rbufalm4: 0x20E9:01, Modbus 233 (holding; wire 233; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RBUFALM4`].
     pub fn rbufalm4(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM4.at(&mut self.client)
     }
     /// Entry 5 of the alarm buffer; the manual does not describe its content.
     ///
-    /// Rbufalm5. 0x20EA:01, Modbus 234 (holding; wire 234; FC 3), UNSIGNED16, read-only.
+    /// Rbufalm5: 0x20EA:01, Modbus 234 (holding; wire 234; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RBUFALM5`].
     pub fn rbufalm5(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM5.at(&mut self.client)
     }
     /// Entry 6 of the alarm buffer; the manual does not describe its content.
     ///
-    /// Rbufalm6. 0x20EB:01, Modbus 235 (holding; wire 235; FC 3), UNSIGNED16, read-only.
+    /// Rbufalm6: 0x20EB:01, Modbus 235 (holding; wire 235; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RBUFALM6`].
     pub fn rbufalm6(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM6.at(&mut self.client)
     }
     /// Entry 7 of the alarm buffer; the manual does not describe its content.
     ///
-    /// Rbufalm7. 0x20EC:01, Modbus 236 (holding; wire 236; FC 3), UNSIGNED16, read-only.
+    /// Rbufalm7: 0x20EC:01, Modbus 236 (holding; wire 236; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RBUFALM7`].
     pub fn rbufalm7(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM7.at(&mut self.client)
     }
     /// Number of faults; bit 1 of Ralmack resets it.
     ///
-    /// Ralmcnt. Range 0 to 65535, 0x20ED:01, Modbus 237 (holding; wire 237; FC 3), UNSIGNED16, read-only.
+    /// Ralmcnt: Range 0 to 65535, 0x20ED:01, Modbus 237 (holding; wire 237; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RALMCNT`].
     pub fn ralmcnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RALMCNT.at(&mut self.client)
     }
     /// Acknowledges the last alarm, and resets the alarm counter.
     ///
-    /// Ralmack. Range 0 to 3, 0x20EE:01, Modbus 238 (holding; wire 238; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Ralmack: Range 0 to 3, 0x20EE:01, Modbus 238 (holding; wire 238; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RALMACK`]. Values: [`AlarmAcknowledge`](types::AlarmAcknowledge).
     pub fn ralmack(
         &mut self,
@@ -1041,7 +1041,7 @@ impl<C> VectorStep<C> {
     }
     /// Overtemperature threshold of the alarm.
     ///
-    /// Rtempalm. Unit °C, range 0 to 150, 0x20EF:01, Modbus 239 (holding; wire 239; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rtempalm: Unit °C, range 0 to 150, 0x20EF:01, Modbus 239 (holding; wire 239; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTEMPALM`].
     pub fn rtempalm(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1049,7 +1049,7 @@ impl<C> VectorStep<C> {
     }
     /// Overvoltage threshold of the alarm.
     ///
-    /// Rtensmax. Unit V, range 0 to 200, 0x20F0:01, Modbus 240 (holding; wire 240; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rtensmax: Unit V, range 0 to 200, 0x20F0:01, Modbus 240 (holding; wire 240; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTENSMAX`].
     pub fn rtensmax(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1057,7 +1057,7 @@ impl<C> VectorStep<C> {
     }
     /// Undervoltage threshold of the alarm.
     ///
-    /// Rtensmin. Unit V, range 0 to 200, 0x20F1:01, Modbus 241 (holding; wire 241; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rtensmin: Unit V, range 0 to 200, 0x20F1:01, Modbus 241 (holding; wire 241; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTENSMIN`].
     pub fn rtensmin(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1065,7 +1065,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum motor current.
     ///
-    /// Rcurmax. Unit mA, range 0 to 20000, 0x20F2:01, Modbus 242 (holding; wire 242; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcurmax: Unit mA, range 0 to 20000, 0x20F2:01, Modbus 242 (holding; wire 242; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCURMAX`].
     pub fn rcurmax(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1073,7 +1073,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum following error (absolute value): a higher error raises the alarm after the filter time; 0 disables the check.
     ///
-    /// Rflwmax. Unit count, range 0 to 32000, 0x20F3:01, Modbus 243–244 (holding; wire 243–244; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rflwmax: Unit count, range 0 to 32000, 0x20F3:01, Modbus 243–244 (holding; wire 243–244; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFLWMAX`].
     pub fn rflwmax(
@@ -1083,7 +1083,7 @@ impl<C> VectorStep<C> {
     }
     /// I²t threshold of the alarm.
     ///
-    /// Ri2tmax. Range 0 to 9999999, 0x20F5:01, Modbus 245–246 (holding; wire 245–246; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Ri2tmax: Range 0 to 9999999, 0x20F5:01, Modbus 245–246 (holding; wire 245–246; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RI2TMAX`].
     pub fn ri2tmax(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -1091,7 +1091,7 @@ impl<C> VectorStep<C> {
     }
     /// Alarm mask: a bit that is 1 disables the alarm of the same bit of Ralarm.
     ///
-    /// Rmaskalm. 0x20F7:01, Modbus 247 (holding; wire 247; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmaskalm: 0x20F7:01, Modbus 247 (holding; wire 247; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMASKALM`]. Values: [`Alarm`](types::Alarm).
     ///
@@ -1105,7 +1105,7 @@ impl<C> VectorStep<C> {
     }
     /// Time out of position at standstill after which the position alarm is raised (closed loop); 0 disables the check.
     ///
-    /// Rposalmtime. Unit ms, range 0 to 32000, 0x20F8:01, Modbus 248 (holding; wire 248; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rposalmtime: Unit ms, range 0 to 32000, 0x20F8:01, Modbus 248 (holding; wire 248; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPOSALMTIME`].
     pub fn rposalmtime(
@@ -1115,7 +1115,7 @@ impl<C> VectorStep<C> {
     }
     /// Overtemperature threshold of the warning.
     ///
-    /// Rtempwrn. Unit °C, range 0 to 150, 0x20F9:01, Modbus 249 (holding; wire 249; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rtempwrn: Unit °C, range 0 to 150, 0x20F9:01, Modbus 249 (holding; wire 249; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTEMPWRN`].
     pub fn rtempwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1123,7 +1123,7 @@ impl<C> VectorStep<C> {
     }
     /// Overvoltage threshold of the warning.
     ///
-    /// Rovvwrn. Unit V, range 0 to 200, 0x20FA:01, Modbus 250 (holding; wire 250; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rovvwrn: Unit V, range 0 to 200, 0x20FA:01, Modbus 250 (holding; wire 250; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::ROVVWRN`].
     pub fn rovvwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1131,7 +1131,7 @@ impl<C> VectorStep<C> {
     }
     /// Undervoltage threshold of the warning.
     ///
-    /// Runvwrn. Unit V, range 0 to 200, 0x20FB:01, Modbus 251 (holding; wire 251; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Runvwrn: Unit V, range 0 to 200, 0x20FB:01, Modbus 251 (holding; wire 251; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RUNVWRN`].
     pub fn runvwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1139,7 +1139,7 @@ impl<C> VectorStep<C> {
     }
     /// Overcurrent threshold of the warning.
     ///
-    /// Rovcwrn. Unit mA, range 0 to 20000, 0x20FC:01, Modbus 252 (holding; wire 252; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rovcwrn: Unit mA, range 0 to 20000, 0x20FC:01, Modbus 252 (holding; wire 252; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::ROVCWRN`].
     pub fn rovcwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1147,7 +1147,7 @@ impl<C> VectorStep<C> {
     }
     /// Following error (absolute value) above which the warning is raised at once; 0 disables the check.
     ///
-    /// Rflwvrn. Unit count, range 0 to 32000, 0x20FD:01, Modbus 253–254 (holding; wire 253–254; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rflwvrn: Unit count, range 0 to 32000, 0x20FD:01, Modbus 253–254 (holding; wire 253–254; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFLWVRN`].
     ///
@@ -1161,7 +1161,7 @@ impl<C> VectorStep<C> {
     }
     /// I²t threshold of the warning.
     ///
-    /// Ri2twrn. Range 0 to 9999999, 0x20FF:01, Modbus 255–256 (holding; wire 255–256; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Ri2twrn: Range 0 to 9999999, 0x20FF:01, Modbus 255–256 (holding; wire 255–256; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RI2TWRN`].
     pub fn ri2twrn(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -1169,7 +1169,7 @@ impl<C> VectorStep<C> {
     }
     /// Warning mask: a bit that is 1 disables the warning of the same bit of Rwarning.
     ///
-    /// Rmaskwrn. 0x2101:01, Modbus 257 (holding; wire 257; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmaskwrn: 0x2101:01, Modbus 257 (holding; wire 257; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMASKWRN`]. Values: [`Warning`](types::Warning).
     ///
@@ -1181,7 +1181,7 @@ impl<C> VectorStep<C> {
     }
     /// Time out of position at standstill after which the position warning is raised (closed loop); 0 disables the check.
     ///
-    /// Rposwrtime. Unit ms, range 0 to 32000, 0x2102:01, Modbus 258 (holding; wire 258; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rposwrtime: Unit ms, range 0 to 32000, 0x2102:01, Modbus 258 (holding; wire 258; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPOSWRTIME`].
     ///
@@ -1193,7 +1193,7 @@ impl<C> VectorStep<C> {
     }
     /// Actual following error; writing 0 resets the following error alarm.
     ///
-    /// Rflwdisp. Unit count, 0x2103:01, Modbus 259–260 (holding; wire 259–260; FC 3/16; low word first), INTEGER32, read-write, mappable into TPDOs.
+    /// Rflwdisp: Unit count, 0x2103:01, Modbus 259–260 (holding; wire 259–260; FC 3/16; low word first), INTEGER32, read-write, mappable into TPDOs.
     /// Constant: [`objects::RFLWDISP`].
     ///
     /// Note: The notes have no access rights, only MAP READ, but by the description, writing 0 resets the alarm. Assumed: read-write, and 0 is the only value to write (a reset by writing needs write access). Manual: ALLARMI E WARNING (line 2307).
@@ -1204,7 +1204,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum following error since the last reset (absolute value); writing 0 resets it.
     ///
-    /// Rflwmem. Unit count, 0x2105:01, Modbus 261–262 (holding; wire 261–262; FC 3/16; low word first), INTEGER32, read-write.
+    /// Rflwmem: Unit count, 0x2105:01, Modbus 261–262 (holding; wire 261–262; FC 3/16; low word first), INTEGER32, read-write.
     /// Constant: [`objects::RFLWMEM`].
     ///
     /// Note: The notes have no access rights, but by the description, writing 0 clears the value. Assumed: read-write, and 0 is the only value to write (a reset by writing needs write access). Manual: ALLARMI E WARNING (line 2308).
@@ -1215,7 +1215,7 @@ impl<C> VectorStep<C> {
     }
     /// Following error timeout: time above the threshold before the alarm; warnings have no filter time.
     ///
-    /// Rflwtim. Unit ms, range 0 to 32000, 0x2107:01, Modbus 263 (holding; wire 263; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rflwtim: Unit ms, range 0 to 32000, 0x2107:01, Modbus 263 (holding; wire 263; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFLWTIM`].
     ///
@@ -1225,7 +1225,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum positive following error since the last reset; writing 0 resets it.
     ///
-    /// Rflwmemp. Unit count, range 0 to 65535, 0x210A:01, Modbus 266 (holding; wire 266; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rflwmemp: Unit count, range 0 to 65535, 0x210A:01, Modbus 266 (holding; wire 266; FC 3/6/16), UNSIGNED16, read-write.
     /// Constant: [`objects::RFLWMEMP`].
     ///
     /// Note: The notes have no access rights, but by the description, writing 0 clears the value. Assumed: read-write, and 0 is the only value to write (a reset by writing needs write access). Manual: ALLARMI E WARNING (line 2310).
@@ -1236,7 +1236,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum negative following error since the last reset, as a positive number; writing 0 resets it.
     ///
-    /// Rflwmemn. Unit count, range 0 to 65535, 0x210B:01, Modbus 267 (holding; wire 267; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rflwmemn: Unit count, range 0 to 65535, 0x210B:01, Modbus 267 (holding; wire 267; FC 3/6/16), UNSIGNED16, read-write.
     /// Constant: [`objects::RFLWMEMN`].
     ///
     /// Note: The notes have no access rights, but by the description, writing 0 clears the value. Assumed: read-write, and 0 is the only value to write (a reset by writing needs write access). Manual: ALLARMI E WARNING (line 2311).
@@ -1245,7 +1245,7 @@ impl<C> VectorStep<C> {
     }
     /// Threshold of the alarm for the difference between motor encoder and motor steps, without a filter time. Detects a missing encoder; if used, set it to one or two revolutions.
     ///
-    /// Rflwencerr. Unit count, range 0 to 2147483647, 0x2197:01, Modbus 407–408 (holding; wire 407–408; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
+    /// Rflwencerr: Unit count, range 0 to 2147483647, 0x2197:01, Modbus 407–408 (holding; wire 407–408; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RFLWENCERR`].
     ///
     /// Note: The notes have WORD, but the row has two register numbers and a 32-bit type. Assumed: 32 bits; the word order is not stated (register numbers and type agree). Manual: ALLARMI E WARNING (line 2312).
@@ -1254,7 +1254,7 @@ impl<C> VectorStep<C> {
     }
     /// Positioning timeout after which the drive raises a warning.
     ///
-    /// Rpostimeoutwrn. Unit ms, range 0 to 65535, 0x2199:01, Modbus 409 (holding; wire 409; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rpostimeoutwrn: Unit ms, range 0 to 65535, 0x2199:01, Modbus 409 (holding; wire 409; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPOSTIMEOUTWRN`].
     pub fn rpostimeoutwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1262,7 +1262,7 @@ impl<C> VectorStep<C> {
     }
     /// All active alarms, one bit each; the low word is Ralarm. Writing 0 resets them.
     ///
-    /// Ralarm32. Range 0 to 65536, 0x222F:01, Modbus 559–560 (holding; wire 559–560; FC 3/16; low word first (assumed)), UNSIGNED32, read-write, mappable into TPDOs.
+    /// Ralarm32: Range 0 to 65536, 0x222F:01, Modbus 559–560 (holding; wire 559–560; FC 3/16; low word first (assumed)), UNSIGNED32, read-write, mappable into TPDOs.
     /// Constant: [`objects::RALARM32`]. Values: [`Alarm32`](types::Alarm32).
     ///
     /// Hazard: In closed loop, bit 4 requires that the error lasts for Rposalmtime; in the text below the tables, for Rflwtim. Assumed: the description of the bit has both (see the ambiguity of Ralarm). Manual: ALLARMI E WARNING; Gestione controllo inseguimento ad anello chiuso (lines 2316, 2356, 2382).
@@ -1277,7 +1277,7 @@ impl<C> VectorStep<C> {
     }
     /// All active warnings, one bit each; the low word is Rwarning.
     ///
-    /// Rwarning32. Range 0 to 65536, 0x2231:01, Modbus 561–562 (holding; wire 561–562; FC 3; low word first (assumed)), UNSIGNED32, read-only, mappable into TPDOs.
+    /// Rwarning32: Range 0 to 65536, 0x2231:01, Modbus 561–562 (holding; wire 561–562; FC 3; low word first (assumed)), UNSIGNED32, read-only, mappable into TPDOs.
     /// Constant: [`objects::RWARNING32`]. Values: [`Warning32`](types::Warning32).
     ///
     /// Note: The maximum is 65536, although bits up to 19 have names. Assumed: the limits as printed (the range may be that of 16 or of 32 bits). Manual: ALLARMI E WARNING (line 2317).
@@ -1292,7 +1292,7 @@ impl<C> VectorStep<C> {
     }
     /// Reaction of the drive to an alarm: ramp and current.
     ///
-    /// Ralarmreact. Range \-4 to 2, default -4, 0x471E:01, Modbus 10014 (holding; wire 0x271E; FC 3/6/16), INTEGER16, read-write.
+    /// Ralarmreact: Range \-4 to 2, default -4, 0x471E:01, Modbus 10014 (holding; wire 0x271E; FC 3/6/16), INTEGER16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RALARMREACT`]. Values: [`AlarmReaction`](types::AlarmReaction).
     ///
@@ -1306,7 +1306,7 @@ impl<C> VectorStep<C> {
     }
     /// Clears the alarm history.
     ///
-    /// Ralmbuffres. 0x47A0:01, Modbus 10144 (holding; wire 0x27A0; FC 3/6/16), UNSIGNED16, read-write.
+    /// Ralmbuffres: 0x47A0:01, Modbus 10144 (holding; wire 0x27A0; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RALMBUFFRES`].
     ///
@@ -1318,7 +1318,7 @@ impl<C> VectorStep<C> {
     }
     /// Index of the alarm history entry that Ralmbufftime and Ralmbuffcode show.
     ///
-    /// Ralmbuffptr. Range 0 to 15, 0x47A1:01, Modbus 10145 (holding; wire 0x27A1; FC 3/6/16), UNSIGNED16, read-write.
+    /// Ralmbuffptr: Range 0 to 15, 0x47A1:01, Modbus 10145 (holding; wire 0x27A1; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RALMBUFFPTR`].
     ///
@@ -1330,7 +1330,7 @@ impl<C> VectorStep<C> {
     }
     /// Time stamp of the selected alarm history entry.
     ///
-    /// Ralmbufftime. 0x47A2:01, Modbus 10146–10147 (holding; wire 0x27A2–0x27A3; FC 3; low word first (assumed)), UNSIGNED32, read-only.
+    /// Ralmbufftime: 0x47A2:01, Modbus 10146–10147 (holding; wire 0x27A2–0x27A3; FC 3; low word first (assumed)), UNSIGNED32, read-only.
     /// Constant: [`objects::RALMBUFFTIME`].
     ///
     /// Note: The index is printed as 0x4802; the rule gives 0x47A2. Assumed: the index of the rule (the wrong carry of register 10144 continues; 10154 follows the rule again). Manual: ALLARMI E WARNING; TIMER (lines 2321, 2323, 2769).
@@ -1341,7 +1341,7 @@ impl<C> VectorStep<C> {
     }
     /// Alarm code of the selected alarm history entry.
     ///
-    /// Ralmbuffcode. 0x47A4:01, Modbus 10148–10149 (holding; wire 0x27A4–0x27A5; FC 3; low word first (assumed)), UNSIGNED32, read-only.
+    /// Ralmbuffcode: 0x47A4:01, Modbus 10148–10149 (holding; wire 0x27A4–0x27A5; FC 3; low word first (assumed)), UNSIGNED32, read-only.
     /// Constant: [`objects::RALMBUFFCODE`].
     ///
     /// Note: The index is printed as 0x4803; the rule gives 0x47A4, and the printed series would give 0x4804. Assumed: the index of the rule (the wrong carry of register 10144 continues, and the second word of 10146-47 was not counted; 10154 follows the rule again). Manual: ALLARMI E WARNING; TIMER (lines 2321, 2324, 2769).
@@ -1352,7 +1352,7 @@ impl<C> VectorStep<C> {
     }
     /// States of the limit switches and encoder lines, sampled every 50 µs.
     ///
-    /// Rhslsi. 0x206B:01, Modbus 107 (holding; wire 107; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rhslsi: 0x206B:01, Modbus 107 (holding; wire 107; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RHSLSI`]. Values: [`LimitSwitches`](types::LimitSwitches).
     ///
     /// Note: The name cell contains "(50us)". Assumed: the name without it; the description has the 50 µs (it is a sampling time). Manual: INGRESSI/USCITE DIGITALI (line 2409).
@@ -1361,7 +1361,7 @@ impl<C> VectorStep<C> {
     }
     /// States of the digital inputs, sampled every 50 µs.
     ///
-    /// Rhsinp. 0x206C:01, Modbus 108 (holding; wire 108; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rhsinp: 0x206C:01, Modbus 108 (holding; wire 108; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RHSINP`]. Values: [`DigitalInputs`](types::DigitalInputs).
     ///
     /// Note: The name cell contains "(50us)". Assumed: the name without it; the description has the 50 µs (it is a sampling time). Manual: INGRESSI/USCITE DIGITALI (line 2410).
@@ -1370,14 +1370,14 @@ impl<C> VectorStep<C> {
     }
     /// States of the limit switches and encoder lines.
     ///
-    /// Rlsi. 0x206D:01, Modbus 109 (holding; wire 109; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rlsi: 0x206D:01, Modbus 109 (holding; wire 109; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RLSI`]. Values: [`LimitSwitches`](types::LimitSwitches).
     pub fn rlsi(&mut self) -> objects::ReadOnlyAccess<'_, C, types::LimitSwitches> {
         objects::RLSI.at(&mut self.client)
     }
     /// Active level of each limit switch and encoder line: 0 is active high, 1 is active low.
     ///
-    /// Rdeflsi. 0x206E:01, Modbus 110 (holding; wire 110; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdeflsi: 0x206E:01, Modbus 110 (holding; wire 110; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEFLSI`]. Values: [`LimitSwitchPolarity`](types::LimitSwitchPolarity).
     pub fn rdeflsi(
@@ -1387,7 +1387,7 @@ impl<C> VectorStep<C> {
     }
     /// Digital filter time of the limit switch inputs.
     ///
-    /// Rfillsi. Unit ms, range 1 to 16, 0x206F:01, Modbus 111 (holding; wire 111; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfillsi: Unit ms, range 1 to 16, 0x206F:01, Modbus 111 (holding; wire 111; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFILLSI`].
     pub fn rfillsi(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1395,7 +1395,7 @@ impl<C> VectorStep<C> {
     }
     /// Enables the filters of the limit switch inputs.
     ///
-    /// Renflsi. 0x2070:01, Modbus 112 (holding; wire 112; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Renflsi: 0x2070:01, Modbus 112 (holding; wire 112; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENFLSI`].
     ///
@@ -1405,7 +1405,7 @@ impl<C> VectorStep<C> {
     }
     /// Memory of the limit switch inputs; the manual does not state what sets its bits.
     ///
-    /// Rmemlsi. 0x2071:01, Modbus 113 (holding; wire 113; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmemlsi: 0x2071:01, Modbus 113 (holding; wire 113; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RMEMLSI`].
     ///
     /// Note: The row lists no bits, but Rmeminp has one for each input. It states neither when a bit is set nor how it is reset. Assumed: a number without a unit or names of values (the bits of Rlsi are likely, but the manual does not state this). Manual: INGRESSI/USCITE DIGITALI (lines 2415, 2422).
@@ -1414,14 +1414,14 @@ impl<C> VectorStep<C> {
     }
     /// States of the digital inputs.
     ///
-    /// Rinp. 0x2072:01, Modbus 114 (holding; wire 114; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rinp: 0x2072:01, Modbus 114 (holding; wire 114; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RINP`]. Values: [`DigitalInputs`](types::DigitalInputs).
     pub fn rinp(&mut self) -> objects::ReadOnlyAccess<'_, C, types::DigitalInputs> {
         objects::RINP.at(&mut self.client)
     }
     /// Active level of each digital input: 0 is active high, 1 is active low.
     ///
-    /// Rdefinp. 0x2073:01, Modbus 115 (holding; wire 115; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdefinp: 0x2073:01, Modbus 115 (holding; wire 115; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEFINP`]. Values: [`DigitalInputPolarity`](types::DigitalInputPolarity).
     pub fn rdefinp(
@@ -1431,7 +1431,7 @@ impl<C> VectorStep<C> {
     }
     /// Digital filter time of the digital inputs.
     ///
-    /// Rfillnp. Unit ms, range 1 to 16, 0x2074:01, Modbus 116 (holding; wire 116; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfillnp: Unit ms, range 1 to 16, 0x2074:01, Modbus 116 (holding; wire 116; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFILLNP`].
     ///
@@ -1441,7 +1441,7 @@ impl<C> VectorStep<C> {
     }
     /// Enables the filter of each digital input.
     ///
-    /// Renfinp. 0x2075:01, Modbus 117 (holding; wire 117; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Renfinp: 0x2075:01, Modbus 117 (holding; wire 117; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENFINP`]. Values: [`DigitalInputs`](types::DigitalInputs).
     ///
@@ -1451,7 +1451,7 @@ impl<C> VectorStep<C> {
     }
     /// Memory of the digital inputs, one bit per input; the manual does not state what sets its bits.
     ///
-    /// Rmeminp. 0x2076:01, Modbus 118 (holding; wire 118; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmeminp: 0x2076:01, Modbus 118 (holding; wire 118; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RMEMINP`]. Values: [`DigitalInputs`](types::DigitalInputs).
     ///
     /// Note: The row states neither when a bit is set nor how it is reset. Assumed: unstated access rights, and no effects (the manual states nothing else). Manual: INGRESSI/USCITE DIGITALI (line 2422).
@@ -1460,14 +1460,14 @@ impl<C> VectorStep<C> {
     }
     /// States of the digital outputs, one bit per output.
     ///
-    /// Rout. 0x2077:01, Modbus 119 (holding; wire 119; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rout: 0x2077:01, Modbus 119 (holding; wire 119; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::ROUT`]. Values: [`DigitalOutputs`](types::DigitalOutputs).
     pub fn rout(&mut self) -> objects::ReadWriteAccess<'_, C, types::DigitalOutputs> {
         objects::ROUT.at(&mut self.client)
     }
     /// Active level of each digital output: 0 is active high, 1 is active low.
     ///
-    /// Rdefout. 0x2078:01, Modbus 120 (holding; wire 120; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdefout: 0x2078:01, Modbus 120 (holding; wire 120; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEFOUT`]. Values: [`DigitalOutputPolarity`](types::DigitalOutputPolarity).
     pub fn rdefout(
@@ -1477,7 +1477,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital output 0.
     ///
-    /// Rfuno0. Range 0 to 14, 0x2079:01, Modbus 121 (holding; wire 121; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuno0: Range 0 to 14, 0x2079:01, Modbus 121 (holding; wire 121; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNO0`]. Values: [`OutputFunction`](types::OutputFunction).
     ///
@@ -1487,7 +1487,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital output 1.
     ///
-    /// Rfuno1. Range 0 to 14, 0x207A:01, Modbus 122 (holding; wire 122; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuno1: Range 0 to 14, 0x207A:01, Modbus 122 (holding; wire 122; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNO1`]. Values: [`OutputFunction`](types::OutputFunction).
     ///
@@ -1497,7 +1497,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital output 2.
     ///
-    /// Rfuno2. Range 0 to 14, 0x207B:01, Modbus 123 (holding; wire 123; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuno2: Range 0 to 14, 0x207B:01, Modbus 123 (holding; wire 123; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNO2`]. Values: [`OutputFunction`](types::OutputFunction).
     ///
@@ -1507,7 +1507,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital output 3.
     ///
-    /// Rfuno3. Range 0 to 14, 0x207C:01, Modbus 124 (holding; wire 124; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuno3: Range 0 to 14, 0x207C:01, Modbus 124 (holding; wire 124; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNO3`]. Values: [`OutputFunction`](types::OutputFunction).
     ///
@@ -1517,7 +1517,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital output 4.
     ///
-    /// Rfuno4. Range 0 to 14, 0x207D:01, Modbus 125 (holding; wire 125; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuno4: Range 0 to 14, 0x207D:01, Modbus 125 (holding; wire 125; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNO4`]. Values: [`OutputFunction`](types::OutputFunction).
     ///
@@ -1527,7 +1527,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital output 5.
     ///
-    /// Rfuno5. Range 0 to 14, 0x207E:01, Modbus 126 (holding; wire 126; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuno5: Range 0 to 14, 0x207E:01, Modbus 126 (holding; wire 126; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNO5`]. Values: [`OutputFunction`](types::OutputFunction).
     ///
@@ -1537,7 +1537,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital output 6.
     ///
-    /// Rfuno6. Range 0 to 14, 0x207F:01, Modbus 127 (holding; wire 127; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuno6: Range 0 to 14, 0x207F:01, Modbus 127 (holding; wire 127; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNO6`]. Values: [`OutputFunction`](types::OutputFunction).
     ///
@@ -1547,7 +1547,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital output 7.
     ///
-    /// Rfuno7. Range 0 to 14, 0x2080:01, Modbus 128 (holding; wire 128; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuno7: Range 0 to 14, 0x2080:01, Modbus 128 (holding; wire 128; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNO7`]. Values: [`OutputFunction`](types::OutputFunction).
     ///
@@ -1557,7 +1557,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 0.
     ///
-    /// Rfuni0. Range 0 to 22, 0x2081:01, Modbus 129 (holding; wire 129; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni0: Range 0 to 22, 0x2081:01, Modbus 129 (holding; wire 129; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI0`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni0(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1565,7 +1565,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 1.
     ///
-    /// Rfuni1. Range 0 to 22, 0x2082:01, Modbus 130 (holding; wire 130; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni1: Range 0 to 22, 0x2082:01, Modbus 130 (holding; wire 130; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI1`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni1(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1573,7 +1573,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 2.
     ///
-    /// Rfuni2. Range 0 to 22, 0x2083:01, Modbus 131 (holding; wire 131; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni2: Range 0 to 22, 0x2083:01, Modbus 131 (holding; wire 131; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI2`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni2(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1581,7 +1581,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 3.
     ///
-    /// Rfuni3. Range 0 to 22, 0x2084:01, Modbus 132 (holding; wire 132; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni3: Range 0 to 22, 0x2084:01, Modbus 132 (holding; wire 132; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI3`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni3(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1589,7 +1589,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 4.
     ///
-    /// Rfuni4. Range 0 to 22, 0x2085:01, Modbus 133 (holding; wire 133; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni4: Range 0 to 22, 0x2085:01, Modbus 133 (holding; wire 133; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI4`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni4(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1597,7 +1597,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 5.
     ///
-    /// Rfuni5. Range 0 to 22, 0x2086:01, Modbus 134 (holding; wire 134; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni5: Range 0 to 22, 0x2086:01, Modbus 134 (holding; wire 134; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI5`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni5(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1605,7 +1605,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 6.
     ///
-    /// Rfuni6. Range 0 to 22, 0x2087:01, Modbus 135 (holding; wire 135; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni6: Range 0 to 22, 0x2087:01, Modbus 135 (holding; wire 135; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI6`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni6(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1613,7 +1613,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 7.
     ///
-    /// Rfuni7. Range 0 to 22, 0x2088:01, Modbus 136 (holding; wire 136; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni7: Range 0 to 22, 0x2088:01, Modbus 136 (holding; wire 136; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI7`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni7(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1621,7 +1621,7 @@ impl<C> VectorStep<C> {
     }
     /// Threshold of the digital inputs: 12 V for 24 V inputs (Rtrginp24v), or 2.5 V for 5 V inputs (Rtrginp5v).
     ///
-    /// Rdiginplev. Range 0 to 1, 0x2129:01, Modbus 297 (holding; wire 297; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdiginplev: Range 0 to 1, 0x2129:01, Modbus 297 (holding; wire 297; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RDIGINPLEV`]. Values: [`DigitalInputLevel`](types::DigitalInputLevel).
     pub fn rdiginplev(
         &mut self,
@@ -1630,7 +1630,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum frequency of a digital output with the step function; the drive outputs excess steps when the motor slows down or stops.
     ///
-    /// Rstpoutmaxfreq. Unit Hz, range 0 to 10000, 0x212A:01, Modbus 298 (holding; wire 298; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rstpoutmaxfreq: Unit Hz, range 0 to 10000, 0x212A:01, Modbus 298 (holding; wire 298; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RSTPOUTMAXFREQ`].
     ///
     /// Note: The name is printed as Rstpout-maxfreq. Assumed: Rstpoutmaxfreq (the hyphen is a line break in the name cell). Manual: INGRESSI/USCITE DIGITALI (line 2446).
@@ -1639,7 +1639,7 @@ impl<C> VectorStep<C> {
     }
     /// Threshold voltage of the inputs for 5 V signals; command 145 of Rloadsav saves it.
     ///
-    /// Rtrginp5v. 1 LSB = 0.01 V, range 0.00 … 17.55 V (raw 0 … 1755), 0x2132:01, Modbus 306 (holding; wire 306; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rtrginp5v: 1 LSB = 0.01 V, range 0.00 … 17.55 V (raw 0 … 1755), 0x2132:01, Modbus 306 (holding; wire 306; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 145.
     /// Constant: [`objects::RTRGINP5V`].
     ///
@@ -1653,7 +1653,7 @@ impl<C> VectorStep<C> {
     }
     /// Threshold voltage of the inputs for 24 V signals; command 145 of Rloadsav saves it.
     ///
-    /// Rtrginp24v. 1 LSB = 0.01 V, range 0.00 … 17.55 V (raw 0 … 1755), 0x2133:01, Modbus 307 (holding; wire 307; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rtrginp24v: 1 LSB = 0.01 V, range 0.00 … 17.55 V (raw 0 … 1755), 0x2133:01, Modbus 307 (holding; wire 307; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 145.
     /// Constant: [`objects::RTRGINP24V`].
     ///
@@ -1667,7 +1667,7 @@ impl<C> VectorStep<C> {
     }
     /// Mask of the digital outputs: 1 enables the output.
     ///
-    /// Routenable. Default 65535, 0x21AC:01, Modbus 428 (holding; wire 428; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Routenable: Default 65535, 0x21AC:01, Modbus 428 (holding; wire 428; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::ROUTENABLE`]. Values: [`DigitalOutputEnable`](types::DigitalOutputEnable).
     ///
@@ -1681,7 +1681,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 8.
     ///
-    /// Rfuni8. Range 0 to 22, 0x21BA:01, Modbus 442 (holding; wire 442; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni8: Range 0 to 22, 0x21BA:01, Modbus 442 (holding; wire 442; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI8`]. Values: [`InputFunction`](types::InputFunction).
     ///
@@ -1691,7 +1691,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 9.
     ///
-    /// Rfuni9. Range 0 to 22, 0x21BB:01, Modbus 443 (holding; wire 443; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni9: Range 0 to 22, 0x21BB:01, Modbus 443 (holding; wire 443; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI9`]. Values: [`InputFunction`](types::InputFunction).
     ///
@@ -1701,7 +1701,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 10.
     ///
-    /// Rfuni10. Range 0 to 22, 0x21BC:01, Modbus 444 (holding; wire 444; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni10: Range 0 to 22, 0x21BC:01, Modbus 444 (holding; wire 444; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI10`]. Values: [`InputFunction`](types::InputFunction).
     ///
@@ -1711,7 +1711,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 11.
     ///
-    /// Rfuni11. Range 0 to 22, 0x21BD:01, Modbus 445 (holding; wire 445; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni11: Range 0 to 22, 0x21BD:01, Modbus 445 (holding; wire 445; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI11`]. Values: [`InputFunction`](types::InputFunction).
     ///
@@ -1721,7 +1721,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 12.
     ///
-    /// Rfuni12. Range 0 to 22, 0x21BE:01, Modbus 446 (holding; wire 446; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni12: Range 0 to 22, 0x21BE:01, Modbus 446 (holding; wire 446; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI12`]. Values: [`InputFunction`](types::InputFunction).
     ///
@@ -1731,7 +1731,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 13.
     ///
-    /// Rfuni13. Range 0 to 22, 0x21BF:01, Modbus 447 (holding; wire 447; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni13: Range 0 to 22, 0x21BF:01, Modbus 447 (holding; wire 447; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI13`]. Values: [`InputFunction`](types::InputFunction).
     ///
@@ -1741,7 +1741,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 14.
     ///
-    /// Rfuni14. Range 0 to 22, 0x21C0:01, Modbus 448 (holding; wire 448; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni14: Range 0 to 22, 0x21C0:01, Modbus 448 (holding; wire 448; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI14`]. Values: [`InputFunction`](types::InputFunction).
     ///
@@ -1751,7 +1751,7 @@ impl<C> VectorStep<C> {
     }
     /// Function of digital input 15.
     ///
-    /// Rfuni15. Range 0 to 22, 0x21C1:01, Modbus 449 (holding; wire 449; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfuni15: Range 0 to 22, 0x21C1:01, Modbus 449 (holding; wire 449; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFUNI15`]. Values: [`InputFunction`](types::InputFunction).
     ///
@@ -1761,7 +1761,7 @@ impl<C> VectorStep<C> {
     }
     /// Active time of the step output, 1 LSB = 50 µs.
     ///
-    /// Rstepouttime. 1 LSB = 50 us, range 0 … 3276750 us (raw 0 … 65535), 0x47A7:01, Modbus 10151 (holding; wire 0x27A7; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rstepouttime: 1 LSB = 50 us, range 0 … 3276750 us (raw 0 … 65535), 0x47A7:01, Modbus 10151 (holding; wire 0x27A7; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTEPOUTTIME`].
     ///
@@ -1775,7 +1775,7 @@ impl<C> VectorStep<C> {
     }
     /// Number of steps after which the step output becomes active.
     ///
-    /// Rstepoutcount. Range 1 to 4294967295, 0x47A8:01, Modbus 10152–10153 (holding; wire 0x27A8–0x27A9; FC 3/16; low word first (assumed)), UNSIGNED32, read-write.
+    /// Rstepoutcount: Range 1 to 4294967295, 0x47A8:01, Modbus 10152–10153 (holding; wire 0x27A8–0x27A9; FC 3/16; low word first (assumed)), UNSIGNED32, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTEPOUTCOUNT`].
     ///
@@ -1787,14 +1787,14 @@ impl<C> VectorStep<C> {
     }
     /// Value of the analog input, 12 bits.
     ///
-    /// Ranainp. 0x2089:01, Modbus 137 (holding; wire 137; FC 3), INTEGER16, read-only, mappable into TPDOs.
+    /// Ranainp: 0x2089:01, Modbus 137 (holding; wire 137; FC 3), INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RANAINP`].
     pub fn ranainp(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RANAINP.at(&mut self.client)
     }
     /// Assignment of the analog input, probably the number of the register that it sets.
     ///
-    /// Rdefanainp. Range 0 to 558, 0x208A:01, Modbus 138 (holding; wire 138; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdefanainp: Range 0 to 558, 0x208A:01, Modbus 138 (holding; wire 138; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEFANAINP`].
     ///
@@ -1804,7 +1804,7 @@ impl<C> VectorStep<C> {
     }
     /// Multiplier of the analog input.
     ///
-    /// Rmulanainp. Range 1 to 32767, 0x208B:01, Modbus 139 (holding; wire 139; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmulanainp: Range 1 to 32767, 0x208B:01, Modbus 139 (holding; wire 139; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMULANAINP`].
     pub fn rmulanainp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1812,7 +1812,7 @@ impl<C> VectorStep<C> {
     }
     /// Divisor of the analog input.
     ///
-    /// Rdivanainp. Range 1 to 32767, 0x208C:01, Modbus 140 (holding; wire 140; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdivanainp: Range 1 to 32767, 0x208C:01, Modbus 140 (holding; wire 140; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDIVANAINP`].
     pub fn rdivanainp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1820,7 +1820,7 @@ impl<C> VectorStep<C> {
     }
     /// Offset of the analog input.
     ///
-    /// Roffsanainp. Range \-32768 to 32767, 0x208D:01, Modbus 141 (holding; wire 141; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Roffsanainp: Range \-32768 to 32767, 0x208D:01, Modbus 141 (holding; wire 141; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::ROFFSANAINP`].
     pub fn roffsanainp(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1828,7 +1828,7 @@ impl<C> VectorStep<C> {
     }
     /// Dead band of the analog input, in converter counts.
     ///
-    /// Rdeadainp. Unit bit, range 0 to 4095, 0x208E:01, Modbus 142 (holding; wire 142; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdeadainp: Unit bit, range 0 to 4095, 0x208E:01, Modbus 142 (holding; wire 142; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEADAINP`].
     pub fn rdeadainp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1836,14 +1836,14 @@ impl<C> VectorStep<C> {
     }
     /// Value of the analog output, 10 bits, in converter counts.
     ///
-    /// Ranaout. Unit bit, range 0 to 1023, 0x208F:01, Modbus 143 (holding; wire 143; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Ranaout: Unit bit, range 0 to 1023, 0x208F:01, Modbus 143 (holding; wire 143; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RANAOUT`].
     pub fn ranaout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RANAOUT.at(&mut self.client)
     }
     /// Assignment of the analog output, probably the number of the register that it outputs.
     ///
-    /// Rdefanaout. Range 0 to 558, 0x2090:01, Modbus 144 (holding; wire 144; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdefanaout: Range 0 to 558, 0x2090:01, Modbus 144 (holding; wire 144; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEFANAOUT`].
     ///
@@ -1853,7 +1853,7 @@ impl<C> VectorStep<C> {
     }
     /// Multiplier of the analog output value.
     ///
-    /// Rmulanaout. Range 1 to 32767, 0x2091:01, Modbus 145 (holding; wire 145; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmulanaout: Range 1 to 32767, 0x2091:01, Modbus 145 (holding; wire 145; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMULANAOUT`].
     pub fn rmulanaout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1861,7 +1861,7 @@ impl<C> VectorStep<C> {
     }
     /// Divisor of the analog output value.
     ///
-    /// Rdivanaout. Range 1 to 32767, 0x2092:01, Modbus 146 (holding; wire 146; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdivanaout: Range 1 to 32767, 0x2092:01, Modbus 146 (holding; wire 146; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDIVANAOUT`].
     pub fn rdivanaout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1869,7 +1869,7 @@ impl<C> VectorStep<C> {
     }
     /// Offset that is added to the analog output value.
     ///
-    /// Roffsananaout. Range \-32768 to 32767, 0x2093:01, Modbus 147 (holding; wire 147; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Roffsananaout: Range \-32768 to 32767, 0x2093:01, Modbus 147 (holding; wire 147; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::ROFFSANANAOUT`].
     ///
@@ -1879,7 +1879,7 @@ impl<C> VectorStep<C> {
     }
     /// Dancer roller correction in percent.
     ///
-    /// Rfloatingrollerperc. Unit %, range \-100 to 100, 0x2139:01, Modbus 313 (holding; wire 313; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Rfloatingrollerperc: Unit %, range \-100 to 100, 0x2139:01, Modbus 313 (holding; wire 313; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFLOATINGROLLERPERC`].
     pub fn rfloatingrollerperc(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1887,7 +1887,7 @@ impl<C> VectorStep<C> {
     }
     /// Disables the analog inputs 0 to 2, one bit each.
     ///
-    /// Ranainpdisable. 0x21AD:01, Modbus 429 (holding; wire 429; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Ranainpdisable: 0x21AD:01, Modbus 429 (holding; wire 429; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RANAINPDISABLE`]. Values: [`AnalogueInputDisable`](types::AnalogueInputDisable).
     ///
     /// Note: The row has no notes. Assumed: access rights, mapping and saving are unstated (no other row of the chapter is without notes). Manual: INGRESSI/USCITE ANALOGICI (line 2476).
@@ -1898,14 +1898,14 @@ impl<C> VectorStep<C> {
     }
     /// Value of analog input 1, 12 bits; only if the input is fitted.
     ///
-    /// Ranainp1. 0x21AE:01, Modbus 430 (holding; wire 430; FC 3), INTEGER16, read-only, mappable into TPDOs.
+    /// Ranainp1: 0x21AE:01, Modbus 430 (holding; wire 430; FC 3), INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RANAINP1`].
     pub fn ranainp1(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RANAINP1.at(&mut self.client)
     }
     /// Assignment of analog input 1, probably the number of the register that it sets.
     ///
-    /// Rdefanainp1. Range 0 to 558, 0x21AF:01, Modbus 431 (holding; wire 431; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdefanainp1: Range 0 to 558, 0x21AF:01, Modbus 431 (holding; wire 431; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEFANAINP1`].
     ///
@@ -1915,7 +1915,7 @@ impl<C> VectorStep<C> {
     }
     /// Multiplier of analog input 1.
     ///
-    /// Rmulanainp1. Range 1 to 32767, 0x21B0:01, Modbus 432 (holding; wire 432; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmulanainp1: Range 1 to 32767, 0x21B0:01, Modbus 432 (holding; wire 432; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMULANAINP1`].
     pub fn rmulanainp1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1923,7 +1923,7 @@ impl<C> VectorStep<C> {
     }
     /// Divisor of analog input 1.
     ///
-    /// Rdivanainp1. Range 1 to 32767, 0x21B1:01, Modbus 433 (holding; wire 433; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdivanainp1: Range 1 to 32767, 0x21B1:01, Modbus 433 (holding; wire 433; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDIVANAINP1`].
     pub fn rdivanainp1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1931,7 +1931,7 @@ impl<C> VectorStep<C> {
     }
     /// Offset of analog input 1.
     ///
-    /// Roffsanainp1. Range \-32768 to 32767, 0x21B2:01, Modbus 434 (holding; wire 434; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Roffsanainp1: Range \-32768 to 32767, 0x21B2:01, Modbus 434 (holding; wire 434; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::ROFFSANAINP1`].
     pub fn roffsanainp1(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1939,7 +1939,7 @@ impl<C> VectorStep<C> {
     }
     /// Dead band of analog input 1, in converter counts.
     ///
-    /// Rdeadainp1. Unit bit, range 0 to 4095, 0x21B3:01, Modbus 435 (holding; wire 435; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdeadainp1: Unit bit, range 0 to 4095, 0x21B3:01, Modbus 435 (holding; wire 435; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEADAINP1`].
     pub fn rdeadainp1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1947,14 +1947,14 @@ impl<C> VectorStep<C> {
     }
     /// Value of analog input 2, 12 bits; only if the input is fitted.
     ///
-    /// Ranainp2. 0x21B4:01, Modbus 436 (holding; wire 436; FC 3), INTEGER16, read-only, mappable into TPDOs.
+    /// Ranainp2: 0x21B4:01, Modbus 436 (holding; wire 436; FC 3), INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RANAINP2`].
     pub fn ranainp2(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RANAINP2.at(&mut self.client)
     }
     /// Assignment of analog input 2, probably the number of the register that it sets.
     ///
-    /// Rdefanainp2. Range 0 to 558, 0x21B5:01, Modbus 437 (holding; wire 437; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdefanainp2: Range 0 to 558, 0x21B5:01, Modbus 437 (holding; wire 437; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEFANAINP2`].
     ///
@@ -1964,7 +1964,7 @@ impl<C> VectorStep<C> {
     }
     /// Multiplier of analog input 2.
     ///
-    /// Rmulanainp2. Range 1 to 32767, 0x21B6:01, Modbus 438 (holding; wire 438; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmulanainp2: Range 1 to 32767, 0x21B6:01, Modbus 438 (holding; wire 438; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMULANAINP2`].
     pub fn rmulanainp2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1972,7 +1972,7 @@ impl<C> VectorStep<C> {
     }
     /// Divisor of analog input 2.
     ///
-    /// Rdivanainp2. Range 1 to 32767, 0x21B7:01, Modbus 439 (holding; wire 439; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdivanainp2: Range 1 to 32767, 0x21B7:01, Modbus 439 (holding; wire 439; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDIVANAINP2`].
     pub fn rdivanainp2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1980,7 +1980,7 @@ impl<C> VectorStep<C> {
     }
     /// Offset of analog input 2.
     ///
-    /// Roffsnainp2. Range \-32768 to 32767, 0x21B8:01, Modbus 440 (holding; wire 440; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Roffsnainp2: Range \-32768 to 32767, 0x21B8:01, Modbus 440 (holding; wire 440; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::ROFFSNAINP2`].
     ///
@@ -1990,7 +1990,7 @@ impl<C> VectorStep<C> {
     }
     /// Dead band of analog input 2, in converter counts.
     ///
-    /// Rdeadainp2. Unit bit, range 0 to 4095, 0x21B9:01, Modbus 441 (holding; wire 441; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdeadainp2: Unit bit, range 0 to 4095, 0x21B9:01, Modbus 441 (holding; wire 441; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEADAINP2`].
     ///
@@ -2000,7 +2000,7 @@ impl<C> VectorStep<C> {
     }
     /// Number of motor steps during encoder alignment.
     ///
-    /// Rencalignsteps. Unit step, default 4, 0x2241:01, Modbus 577 (holding; wire 577; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rencalignsteps: Unit step, default 4, 0x2241:01, Modbus 577 (holding; wire 577; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENCALIGNSTEPS`].
     ///
@@ -2010,7 +2010,7 @@ impl<C> VectorStep<C> {
     }
     /// Feedback encoder of the motor control loop.
     ///
-    /// Rencmotfbk. Default 0, 0x471A:01, Modbus 10010 (holding; wire 0x271A; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rencmotfbk: Default 0, 0x471A:01, Modbus 10010 (holding; wire 0x271A; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENCMOTFBK`]. Values: [`FeedbackEncoder`](types::FeedbackEncoder).
     ///
@@ -2022,7 +2022,7 @@ impl<C> VectorStep<C> {
     }
     /// New-period flags of encoders 1 to 3: a new pulse period was measured. Formerly register 165.
     ///
-    /// Rencnewperiod. 0x473B:01, Modbus 10043 (holding; wire 0x273B; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rencnewperiod: 0x473B:01, Modbus 10043 (holding; wire 0x273B; FC 3/6/16), UNSIGNED16, read-write.
     /// Constant: [`objects::RENCNEWPERIOD`]. Values: [`EncoderPeriods`](types::EncoderPeriods).
     pub fn rencnewperiod(
         &mut self,
@@ -2031,7 +2031,7 @@ impl<C> VectorStep<C> {
     }
     /// Code of the motor that is configured in the drive.
     ///
-    /// Rmotcode. 0x479A:01, Modbus 10138–10139 (holding; wire 0x279A–0x279B; FC 3/16; low word first (assumed)), UNSIGNED32, read-write.
+    /// Rmotcode: 0x479A:01, Modbus 10138–10139 (holding; wire 0x279A–0x279B; FC 3/16; low word first (assumed)), UNSIGNED32, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMOTCODE`].
     ///
@@ -2041,7 +2041,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of the motor encoder.
     ///
-    /// Rmotenc. Unit count, 0x2097:01, Modbus 151–152 (holding; wire 151–152; FC 3; low word first), INTEGER32, read-only, mappable into TPDOs.
+    /// Rmotenc: Unit count, 0x2097:01, Modbus 151–152 (holding; wire 151–152; FC 3; low word first), INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::RMOTENC`].
     ///
     /// Note: In the text on the following error, Rmotenc is the number of pulses per revolution of the motor encoder; in the table and in the text on the line-up, it is the position. Assumed: the position (table and line-up text agree; the other text means Rmotencpuls). Manual: Gestione controllo inseguimento ad anello chiuso; ENCODER 1; Gestione Riallineamento Quota (lines 2376, 2503, 2926).
@@ -2052,7 +2052,7 @@ impl<C> VectorStep<C> {
     }
     /// Measured pulse period of the motor encoder.
     ///
-    /// Rmotencper. 0x20A3:01, Modbus 163 (holding; wire 163; FC 3), UNSIGNED16, read-only.
+    /// Rmotencper: 0x20A3:01, Modbus 163 (holding; wire 163; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RMOTENCPER`].
     ///
     /// Note: The manual states no access rights; its successor Renc1period is RO. Assumed: read-only (it is a measured value). Manual: ENCODER 1 (lines 2504, 2508).
@@ -2061,7 +2061,7 @@ impl<C> VectorStep<C> {
     }
     /// Pulses per revolution of the motor encoder.
     ///
-    /// Rmotencpuls. Unit count, range 1 to 32767, 0x210D:01, Modbus 269 (holding; wire 269; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmotencpuls: Unit count, range 1 to 32767, 0x210D:01, Modbus 269 (holding; wire 269; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMOTENCPULS`].
     pub fn rmotencpuls(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2069,14 +2069,14 @@ impl<C> VectorStep<C> {
     }
     /// Position of encoder 1.
     ///
-    /// Renc1pos. Unit count, 0x471F:01, Modbus 10015–10016 (holding; wire 0x271F–0x2720; FC 3/16; low word first (assumed)), INTEGER32, read-write, mappable into any PDO.
+    /// Renc1pos: Unit count, 0x471F:01, Modbus 10015–10016 (holding; wire 0x271F–0x2720; FC 3/16; low word first (assumed)), INTEGER32, read-write, mappable into any PDO.
     /// Constant: [`objects::RENC1POS`].
     pub fn renc1pos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RENC1POS.at(&mut self.client)
     }
     /// Pulses per revolution of encoder 1.
     ///
-    /// Renc1pulse. Unit count, 0x4729:01, Modbus 10025 (holding; wire 0x2729; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc1pulse: Unit count, 0x4729:01, Modbus 10025 (holding; wire 0x2729; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC1PULSE`].
     pub fn renc1pulse(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2084,21 +2084,21 @@ impl<C> VectorStep<C> {
     }
     /// Measured pulse period of encoder 1.
     ///
-    /// Renc1period. 0x4738:01, Modbus 10040 (holding; wire 0x2738; FC 3), UNSIGNED16, read-only.
+    /// Renc1period: 0x4738:01, Modbus 10040 (holding; wire 0x2738; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RENC1PERIOD`].
     pub fn renc1period(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RENC1PERIOD.at(&mut self.client)
     }
     /// Actual velocity of encoder 1.
     ///
-    /// Renc1vel. 0x473C:01, Modbus 10044 (holding; wire 0x273C; FC 3), INTEGER16, read-only.
+    /// Renc1vel: 0x473C:01, Modbus 10044 (holding; wire 0x273C; FC 3), INTEGER16, read-only.
     /// Constant: [`objects::RENC1VEL`].
     pub fn renc1vel(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RENC1VEL.at(&mut self.client)
     }
     /// Sampling time of the encoder 1 velocity.
     ///
-    /// Renc1sample. Unit ms, 0x473D:01, Modbus 10045 (holding; wire 0x273D; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc1sample: Unit ms, 0x473D:01, Modbus 10045 (holding; wire 0x273D; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC1SAMPLE`].
     pub fn renc1sample(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2106,7 +2106,7 @@ impl<C> VectorStep<C> {
     }
     /// Multiplier of the encoder 1 velocity.
     ///
-    /// Renc1velmul. 0x473E:01, Modbus 10046 (holding; wire 0x273E; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc1velmul: 0x473E:01, Modbus 10046 (holding; wire 0x273E; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC1VELMUL`].
     pub fn renc1velmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2114,7 +2114,7 @@ impl<C> VectorStep<C> {
     }
     /// Divisor of the encoder 1 velocity.
     ///
-    /// Renc1veldiv. 0x473F:01, Modbus 10047 (holding; wire 0x273F; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc1veldiv: 0x473F:01, Modbus 10047 (holding; wire 0x273F; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC1VELDIV`].
     pub fn renc1veldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2122,21 +2122,21 @@ impl<C> VectorStep<C> {
     }
     /// Number of pulses on the index input of encoder 1.
     ///
-    /// Renc1topcnt. 0x4740:01, Modbus 10048–10049 (holding; wire 0x2740–0x2741; FC 3/16; low word first (assumed)), UNSIGNED32, read-write.
+    /// Renc1topcnt: 0x4740:01, Modbus 10048–10049 (holding; wire 0x2740–0x2741; FC 3/16; low word first (assumed)), UNSIGNED32, read-write.
     /// Constant: [`objects::RENC1TOPCNT`].
     pub fn renc1topcnt(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RENC1TOPCNT.at(&mut self.client)
     }
     /// Velocity measured on the index input of encoder 1.
     ///
-    /// Renc1topvel. 0x4742:01, Modbus 10050 (holding; wire 0x2742; FC 3), UNSIGNED16, read-only.
+    /// Renc1topvel: 0x4742:01, Modbus 10050 (holding; wire 0x2742; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RENC1TOPVEL`].
     pub fn renc1topvel(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RENC1TOPVEL.at(&mut self.client)
     }
     /// Sampling time of the velocity on the index input of encoder 1.
     ///
-    /// Renc1topsample. Unit ms, 0x4743:01, Modbus 10051 (holding; wire 0x2743; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc1topsample: Unit ms, 0x4743:01, Modbus 10051 (holding; wire 0x2743; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC1TOPSAMPLE`].
     pub fn renc1topsample(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2144,7 +2144,7 @@ impl<C> VectorStep<C> {
     }
     /// Multiplier of the velocity on the index input of encoder 1.
     ///
-    /// Renc1topvelmul. 0x4744:01, Modbus 10052 (holding; wire 0x2744; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc1topvelmul: 0x4744:01, Modbus 10052 (holding; wire 0x2744; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC1TOPVELMUL`].
     pub fn renc1topvelmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2152,7 +2152,7 @@ impl<C> VectorStep<C> {
     }
     /// Divisor of the velocity on the index input of encoder 1.
     ///
-    /// Renc1topveldiv. 0x4745:01, Modbus 10053 (holding; wire 0x2745; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc1topveldiv: 0x4745:01, Modbus 10053 (holding; wire 0x2745; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC1TOPVELDIV`].
     pub fn renc1topveldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2160,7 +2160,7 @@ impl<C> VectorStep<C> {
     }
     /// Code of the encoder 1 model.
     ///
-    /// Renc1code. 0x475A:01, Modbus 10074 (holding; wire 0x275A; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc1code: 0x475A:01, Modbus 10074 (holding; wire 0x275A; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC1CODE`]. Values: [`EncoderModel`](types::EncoderModel).
     pub fn renc1code(&mut self) -> objects::ReadWriteAccess<'_, C, types::EncoderModel> {
@@ -2168,7 +2168,7 @@ impl<C> VectorStep<C> {
     }
     /// Actual velocity of the external encoder; bit 13 of Rstsflg1 reports a new value.
     ///
-    /// Rextencvel. 0x2033:01, Modbus 51 (holding; wire 51; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rextencvel: 0x2033:01, Modbus 51 (holding; wire 51; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::REXTENCVEL`].
     ///
     /// Note: The type is unsigned, but that of its successor Renc2vel is signed. Assumed: both as printed (the manual does not state how the old register shows backward velocities). Manual: ENCODER 2 (lines 2525, 2541).
@@ -2177,7 +2177,7 @@ impl<C> VectorStep<C> {
     }
     /// Sampling time of the velocities of the external encoder and of its index input.
     ///
-    /// Rextencsmp. Unit ms, range 0 to 10000, 0x2034:01, Modbus 52 (holding; wire 52; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rextencsmp: Unit ms, range 0 to 10000, 0x2034:01, Modbus 52 (holding; wire 52; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::REXTENCSMP`].
     ///
@@ -2187,7 +2187,7 @@ impl<C> VectorStep<C> {
     }
     /// Multiplier of the external encoder velocity.
     ///
-    /// Rextencvelmul. Range 0 to 32767, 0x2035:01, Modbus 53 (holding; wire 53; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rextencvelmul: Range 0 to 32767, 0x2035:01, Modbus 53 (holding; wire 53; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::REXTENCVELMUL`].
     pub fn rextencvelmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2195,7 +2195,7 @@ impl<C> VectorStep<C> {
     }
     /// Divisor of the external encoder velocity.
     ///
-    /// Rextencveldiv. Range 1 to 32767, 0x2036:01, Modbus 54 (holding; wire 54; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rextencveldiv: Range 1 to 32767, 0x2036:01, Modbus 54 (holding; wire 54; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::REXTENCVELDIV`].
     pub fn rextencveldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2203,7 +2203,7 @@ impl<C> VectorStep<C> {
     }
     /// Velocity measured on the index input of the external encoder, with the sampling time of Rextencsmp.
     ///
-    /// Rextencotovel. 0x2059:01, Modbus 89 (holding; wire 89; FC 3), UNSIGNED16, read-only.
+    /// Rextencotovel: 0x2059:01, Modbus 89 (holding; wire 89; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::REXTENCOTOVEL`].
     ///
     /// Note: The manual states no access rights; its successor Renc2topvel is RO. Assumed: read-only (it is a measured value). Manual: ENCODER 2 (lines 2529, 2548).
@@ -2214,21 +2214,21 @@ impl<C> VectorStep<C> {
     }
     /// Multiplier of the velocity on the index input of the external encoder.
     ///
-    /// Rextencotovelmul. 0x205A:01, Modbus 90 (holding; wire 90; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rextencotovelmul: 0x205A:01, Modbus 90 (holding; wire 90; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::REXTENCOTOVELMUL`].
     pub fn rextencotovelmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::REXTENCOTOVELMUL.at(&mut self.client)
     }
     /// Divisor of the velocity on the index input of the external encoder.
     ///
-    /// Rextencotoveldiv. 0x205B:01, Modbus 91 (holding; wire 91; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rextencotoveldiv: 0x205B:01, Modbus 91 (holding; wire 91; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::REXTENCOTOVELDIV`].
     pub fn rextencotoveldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::REXTENCOTOVELDIV.at(&mut self.client)
     }
     /// Number of pulses on the index input of the external encoder.
     ///
-    /// Rextencotopcncnt. 0x205C:01, Modbus 92–93 (holding; wire 92–93; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
+    /// Rextencotopcncnt: 0x205C:01, Modbus 92–93 (holding; wire 92–93; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::REXTENCOTOPCNCNT`].
     ///
     /// Note: The notes have WORD, but the type is Unsigned32 and the row has two register numbers. Assumed: 32 bits (type and register numbers agree). Manual: ENCODER 2 (line 2532).
@@ -2239,7 +2239,7 @@ impl<C> VectorStep<C> {
     }
     /// Counting mode of the external encoder: quadrature or step/direction.
     ///
-    /// Rextencmode. Range 0 to 3, 0x2065:01, Modbus 101 (holding; wire 101; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rextencmode: Range 0 to 3, 0x2065:01, Modbus 101 (holding; wire 101; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::REXTENCMODE`]. Values: [`EncoderMode`](types::EncoderMode).
     pub fn rextencmode(
@@ -2249,7 +2249,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of the external encoder.
     ///
-    /// Rextenc. Unit count, 0x2099:01, Modbus 153–154 (holding; wire 153–154; FC 3; low word first), INTEGER32, read-only, mappable into TPDOs.
+    /// Rextenc: Unit count, 0x2099:01, Modbus 153–154 (holding; wire 153–154; FC 3; low word first), INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::REXTENC`].
     ///
     /// Note: The manual states no access rights and marks it MAP READ; its successor Renc2pos is RW. Assumed: read-only (it is a measured value). Manual: ENCODER 2 (lines 2534, 2538).
@@ -2258,7 +2258,7 @@ impl<C> VectorStep<C> {
     }
     /// Measured pulse period of the external encoder.
     ///
-    /// Rextencper. 0x20A4:01, Modbus 164 (holding; wire 164; FC 3), UNSIGNED16, read-only.
+    /// Rextencper: 0x20A4:01, Modbus 164 (holding; wire 164; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::REXTENCPER`].
     ///
     /// Note: The manual states no access rights; its successor Renc2period is RO. Assumed: read-only (it is a measured value). Manual: ENCODER 2 (lines 2535, 2540).
@@ -2269,7 +2269,7 @@ impl<C> VectorStep<C> {
     }
     /// New-period flags of the motor encoder and the external encoder: a new pulse period was measured.
     ///
-    /// Rnewencper. 0x20A5:01, Modbus 165 (holding; wire 165; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rnewencper: 0x20A5:01, Modbus 165 (holding; wire 165; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RNEWENCPER`]. Values: [`OldEncoderPeriods`](types::OldEncoderPeriods).
     pub fn rnewencper(
         &mut self,
@@ -2278,7 +2278,7 @@ impl<C> VectorStep<C> {
     }
     /// Pulses per revolution of the external encoder.
     ///
-    /// Rextencpuls. Unit count, range 0 to 32767, 0x210C:01, Modbus 268 (holding; wire 268; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rextencpuls: Unit count, range 0 to 32767, 0x210C:01, Modbus 268 (holding; wire 268; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::REXTENCPULS`].
     pub fn rextencpuls(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2286,14 +2286,14 @@ impl<C> VectorStep<C> {
     }
     /// Position of encoder 2.
     ///
-    /// Renc2pos. Unit count, 0x4721:01, Modbus 10017–10018 (holding; wire 0x2721–0x2722; FC 3/16; low word first (assumed)), INTEGER32, read-write, mappable into any PDO.
+    /// Renc2pos: Unit count, 0x4721:01, Modbus 10017–10018 (holding; wire 0x2721–0x2722; FC 3/16; low word first (assumed)), INTEGER32, read-write, mappable into any PDO.
     /// Constant: [`objects::RENC2POS`].
     pub fn renc2pos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RENC2POS.at(&mut self.client)
     }
     /// Pulses per revolution of encoder 2.
     ///
-    /// Renc2pulse. Unit count, default 512, 0x472A:01, Modbus 10026 (holding; wire 0x272A; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc2pulse: Unit count, default 512, 0x472A:01, Modbus 10026 (holding; wire 0x272A; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC2PULSE`].
     ///
@@ -2303,21 +2303,21 @@ impl<C> VectorStep<C> {
     }
     /// Measured pulse period of encoder 2.
     ///
-    /// Renc2period. 0x4739:01, Modbus 10041 (holding; wire 0x2739; FC 3), UNSIGNED16, read-only.
+    /// Renc2period: 0x4739:01, Modbus 10041 (holding; wire 0x2739; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RENC2PERIOD`].
     pub fn renc2period(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RENC2PERIOD.at(&mut self.client)
     }
     /// Actual velocity of encoder 2.
     ///
-    /// Renc2vel. 0x4746:01, Modbus 10054 (holding; wire 0x2746; FC 3), INTEGER16, read-only.
+    /// Renc2vel: 0x4746:01, Modbus 10054 (holding; wire 0x2746; FC 3), INTEGER16, read-only.
     /// Constant: [`objects::RENC2VEL`].
     pub fn renc2vel(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RENC2VEL.at(&mut self.client)
     }
     /// Sampling time of the encoder 2 velocity.
     ///
-    /// Renc2sample. Unit ms, 0x4747:01, Modbus 10055 (holding; wire 0x2747; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc2sample: Unit ms, 0x4747:01, Modbus 10055 (holding; wire 0x2747; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC2SAMPLE`].
     pub fn renc2sample(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2325,7 +2325,7 @@ impl<C> VectorStep<C> {
     }
     /// Multiplier of the encoder 2 velocity.
     ///
-    /// Renc2velmul. 0x4748:01, Modbus 10056 (holding; wire 0x2748; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc2velmul: 0x4748:01, Modbus 10056 (holding; wire 0x2748; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC2VELMUL`].
     pub fn renc2velmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2333,7 +2333,7 @@ impl<C> VectorStep<C> {
     }
     /// Divisor of the encoder 2 velocity.
     ///
-    /// Renc2veldiv. 0x4749:01, Modbus 10057 (holding; wire 0x2749; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc2veldiv: 0x4749:01, Modbus 10057 (holding; wire 0x2749; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC2VELDIV`].
     pub fn renc2veldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2341,21 +2341,21 @@ impl<C> VectorStep<C> {
     }
     /// Number of pulses on the index input of encoder 2.
     ///
-    /// Renc2topcnt. 0x474A:01, Modbus 10058–10059 (holding; wire 0x274A–0x274B; FC 3/16; low word first (assumed)), UNSIGNED32, read-write.
+    /// Renc2topcnt: 0x474A:01, Modbus 10058–10059 (holding; wire 0x274A–0x274B; FC 3/16; low word first (assumed)), UNSIGNED32, read-write.
     /// Constant: [`objects::RENC2TOPCNT`].
     pub fn renc2topcnt(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RENC2TOPCNT.at(&mut self.client)
     }
     /// Velocity measured on the index input of encoder 2.
     ///
-    /// Renc2topvel. 0x474C:01, Modbus 10060 (holding; wire 0x274C; FC 3), UNSIGNED16, read-only.
+    /// Renc2topvel: 0x474C:01, Modbus 10060 (holding; wire 0x274C; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RENC2TOPVEL`].
     pub fn renc2topvel(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RENC2TOPVEL.at(&mut self.client)
     }
     /// Sampling time of the velocity on the index input of encoder 2.
     ///
-    /// Renc2topsample. Unit ms, 0x474D:01, Modbus 10061 (holding; wire 0x274D; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc2topsample: Unit ms, 0x474D:01, Modbus 10061 (holding; wire 0x274D; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC2TOPSAMPLE`].
     ///
@@ -2365,7 +2365,7 @@ impl<C> VectorStep<C> {
     }
     /// Multiplier of the velocity on the index input of encoder 2.
     ///
-    /// Renc2topvelmul. 0x474E:01, Modbus 10062 (holding; wire 0x274E; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc2topvelmul: 0x474E:01, Modbus 10062 (holding; wire 0x274E; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC2TOPVELMUL`].
     pub fn renc2topvelmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2373,7 +2373,7 @@ impl<C> VectorStep<C> {
     }
     /// Divisor of the velocity on the index input of encoder 2.
     ///
-    /// Renc2topveldiv. 0x474F:01, Modbus 10063 (holding; wire 0x274F; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc2topveldiv: 0x474F:01, Modbus 10063 (holding; wire 0x274F; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC2TOPVELDIV`].
     pub fn renc2topveldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2381,7 +2381,7 @@ impl<C> VectorStep<C> {
     }
     /// Code of the encoder 2 model.
     ///
-    /// Renc2code. 0x475B:01, Modbus 10075 (holding; wire 0x275B; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc2code: 0x475B:01, Modbus 10075 (holding; wire 0x275B; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC2CODE`]. Values: [`EncoderModel`](types::EncoderModel).
     pub fn renc2code(&mut self) -> objects::ReadWriteAccess<'_, C, types::EncoderModel> {
@@ -2389,7 +2389,7 @@ impl<C> VectorStep<C> {
     }
     /// Code of the encoder 3 model.
     ///
-    /// Renc3code. 0x475C:01, Modbus 10076 (holding; wire 0x275C; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc3code: 0x475C:01, Modbus 10076 (holding; wire 0x275C; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC3CODE`]. Values: [`EncoderModel`](types::EncoderModel).
     ///
@@ -2399,7 +2399,7 @@ impl<C> VectorStep<C> {
     }
     /// Frame length of the SSI encoder in bits.
     ///
-    /// Rssiencframelen. Unit bit, range 1 to 32, default 25, 0x202C:01, Modbus 44 (holding; wire 44; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rssiencframelen: Unit bit, range 1 to 32, default 25, 0x202C:01, Modbus 44 (holding; wire 44; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSSIENCFRAMELEN`].
     pub fn rssiencframelen(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2407,7 +2407,7 @@ impl<C> VectorStep<C> {
     }
     /// Number of frame bits for the turns.
     ///
-    /// Rssiencturnbit. Unit bit, range 0 to 16, 0x205E:01, Modbus 94 (holding; wire 94; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rssiencturnbit: Unit bit, range 0 to 16, 0x205E:01, Modbus 94 (holding; wire 94; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSSIENCTURNBIT`].
     pub fn rssiencturnbit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2415,7 +2415,7 @@ impl<C> VectorStep<C> {
     }
     /// Number of frame bits for the position within one turn.
     ///
-    /// Rssienccountsbit. Unit bit, range 0 to 16, 0x205F:01, Modbus 95 (holding; wire 95; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rssienccountsbit: Unit bit, range 0 to 16, 0x205F:01, Modbus 95 (holding; wire 95; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSSIENCCOUNTSBIT`].
     pub fn rssienccountsbit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2423,14 +2423,14 @@ impl<C> VectorStep<C> {
     }
     /// Position of the SSI encoder within one turn; bits 6 and 7 of Rhwconfig are preset and complement.
     ///
-    /// Rssienccounts. Range 0 to 32767, 0x2060:01, Modbus 96 (holding; wire 96; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rssienccounts: Range 0 to 32767, 0x2060:01, Modbus 96 (holding; wire 96; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RSSIENCCOUNTS`].
     pub fn rssienccounts(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RSSIENCCOUNTS.at(&mut self.client)
     }
     /// Turns of the SSI encoder; bits 6 and 7 of Rhwconfig are preset and complement.
     ///
-    /// Rssiencturns. Range \-32768 to 32767, 0x2061:01, Modbus 97 (holding; wire 97; FC 3), INTEGER16, read-only, mappable into TPDOs.
+    /// Rssiencturns: Range \-32768 to 32767, 0x2061:01, Modbus 97 (holding; wire 97; FC 3), INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RSSIENCTURNS`].
     ///
     /// Note: The type is Unsigned16, but the limits are -32768 and 32767. Assumed: a signed type (the limits are signed, and so is the successor Rencabsturns). Manual: ENCODER ASSOLUTO (lines 2566, 2569).
@@ -2439,28 +2439,28 @@ impl<C> VectorStep<C> {
     }
     /// Position of the absolute encoder.
     ///
-    /// Rencabsquote. Unit count, 0x4725:01, Modbus 10021–10022 (holding; wire 0x2725–0x2726; FC 3/16; low word first (assumed)), INTEGER32, read-write, mappable into any PDO.
+    /// Rencabsquote: Unit count, 0x4725:01, Modbus 10021–10022 (holding; wire 0x2725–0x2726; FC 3/16; low word first (assumed)), INTEGER32, read-write, mappable into any PDO.
     /// Constant: [`objects::RENCABSQUOTE`].
     pub fn rencabsquote(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RENCABSQUOTE.at(&mut self.client)
     }
     /// Position of the absolute encoder within one turn.
     ///
-    /// Rencabspos. Unit count, 0x4727:01, Modbus 10023 (holding; wire 0x2727; FC 3/6/16), UNSIGNED16, read-write, mappable into any PDO.
+    /// Rencabspos: Unit count, 0x4727:01, Modbus 10023 (holding; wire 0x2727; FC 3/6/16), UNSIGNED16, read-write, mappable into any PDO.
     /// Constant: [`objects::RENCABSPOS`].
     pub fn rencabspos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENCABSPOS.at(&mut self.client)
     }
     /// Turns of the absolute encoder.
     ///
-    /// Rencabsturns. Unit rev, 0x4728:01, Modbus 10024 (holding; wire 0x2728; FC 3/6/16), INTEGER16, read-write, mappable into any PDO.
+    /// Rencabsturns: Unit rev, 0x4728:01, Modbus 10024 (holding; wire 0x2728; FC 3/6/16), INTEGER16, read-write, mappable into any PDO.
     /// Constant: [`objects::RENCABSTURNS`].
     pub fn rencabsturns(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RENCABSTURNS.at(&mut self.client)
     }
     /// Frame length of the absolute encoder in bits.
     ///
-    /// Rencabsframembit. Unit bit, default 25, 0x472C:01, Modbus 10028 (holding; wire 0x272C; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rencabsframembit: Unit bit, default 25, 0x472C:01, Modbus 10028 (holding; wire 0x272C; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENCABSFRAMEMBIT`].
     ///
@@ -2472,7 +2472,7 @@ impl<C> VectorStep<C> {
     }
     /// Number of frame bits for the position within one turn.
     ///
-    /// Rencabsposbit. Unit bit, default 12, 0x472D:01, Modbus 10029 (holding; wire 0x272D; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rencabsposbit: Unit bit, default 12, 0x472D:01, Modbus 10029 (holding; wire 0x272D; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENCABSPOSBIT`].
     ///
@@ -2482,7 +2482,7 @@ impl<C> VectorStep<C> {
     }
     /// Number of frame bits for the turns.
     ///
-    /// Rencabsturnsbit. Unit bit, default 13, 0x472E:01, Modbus 10030 (holding; wire 0x272E; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rencabsturnsbit: Unit bit, default 13, 0x472E:01, Modbus 10030 (holding; wire 0x272E; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENCABSTURNSBIT`].
     ///
@@ -2492,7 +2492,7 @@ impl<C> VectorStep<C> {
     }
     /// Counting mode of encoder 1: quadrature or step/direction; replaces bits 1 and 5 of Rhwconfig.
     ///
-    /// Renc1mode. 0x472F:01, Modbus 10031 (holding; wire 0x272F; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc1mode: 0x472F:01, Modbus 10031 (holding; wire 0x272F; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC1MODE`]. Values: [`EncoderMode`](types::EncoderMode).
     ///
@@ -2504,7 +2504,7 @@ impl<C> VectorStep<C> {
     }
     /// Counting mode of encoder 2: quadrature or step/direction.
     ///
-    /// Renc2mode. 0x4730:01, Modbus 10032 (holding; wire 0x2730; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renc2mode: 0x4730:01, Modbus 10032 (holding; wire 0x2730; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENC2MODE`]. Values: [`EncoderMode`](types::EncoderMode).
     ///
@@ -2514,7 +2514,7 @@ impl<C> VectorStep<C> {
     }
     /// Data format and reading mode of the absolute encoder; replaces bits 7 to 10 of Rhwconfig.
     ///
-    /// Rencabsmode. 0x4732:01, Modbus 10034 (holding; wire 0x2732; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rencabsmode: 0x4732:01, Modbus 10034 (holding; wire 0x2732; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENCABSMODE`]. Values: [`AbsoluteEncoderMode`](types::AbsoluteEncoderMode).
     ///
@@ -2530,7 +2530,7 @@ impl<C> VectorStep<C> {
     }
     /// Commands of the absolute encoder, one bit each.
     ///
-    /// Rencabsctrl. 0x4733:01, Modbus 10035 (holding; wire 0x2733; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rencabsctrl: 0x4733:01, Modbus 10035 (holding; wire 0x2733; FC 3/6/16), UNSIGNED16, read-write.
     /// Constant: [`objects::RENCABSCTRL`]. Values: [`AbsoluteEncoderControl`](types::AbsoluteEncoderControl).
     ///
     /// Note: The row does not state whether the drive clears the bits. Assumed: the bits have no trigger (of the bits in the older register, the drive is described as clearing only bit 3 of Rhwconfig). Manual: FLAG MODO FUNZIONAMENTO; ENCODER ASSOLUTO (lines 2173, 2578).
@@ -2541,7 +2541,7 @@ impl<C> VectorStep<C> {
     }
     /// Clock divisor of the absolute encoder: bit rate = 25 MHz / value.
     ///
-    /// Rencabsbrate. Physical value = 25000000 / raw Hz, range 195312 … 6250000 Hz (raw 4 … 128), 0x4735:01, Modbus 10037 (holding; wire 0x2735; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rencabsbrate: Physical value = 25000000 / raw Hz, range 195312 … 6250000 Hz (raw 4 … 128), 0x4735:01, Modbus 10037 (holding; wire 0x2735; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENCABSBRATE`].
     pub fn rencabsbrate(
@@ -2551,7 +2551,7 @@ impl<C> VectorStep<C> {
     }
     /// Pause between two frames of the absolute encoder.
     ///
-    /// Rencabsframepause. Unit us, range 0 to 20000, 0x4736:01, Modbus 10038 (holding; wire 0x2736; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rencabsframepause: Unit us, range 0 to 20000, 0x4736:01, Modbus 10038 (holding; wire 0x2736; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENCABSFRAMEPAUSE`].
     pub fn rencabsframepause(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2559,7 +2559,7 @@ impl<C> VectorStep<C> {
     }
     /// Number of header bits in the frame of the absolute encoder, which the drive ignores.
     ///
-    /// Rencabsprebit. 0x4737:01, Modbus 10039 (holding; wire 0x2737; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rencabsprebit: 0x4737:01, Modbus 10039 (holding; wire 0x2737; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENCABSPREBIT`].
     ///
@@ -2569,7 +2569,7 @@ impl<C> VectorStep<C> {
     }
     /// Code of the absolute encoder model.
     ///
-    /// Rencabscode. 0x475D:01, Modbus 10077 (holding; wire 0x275D; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rencabscode: 0x475D:01, Modbus 10077 (holding; wire 0x275D; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENCABSCODE`]. Values: [`AbsoluteEncoderModel`](types::AbsoluteEncoderModel).
     pub fn rencabscode(
@@ -2579,7 +2579,7 @@ impl<C> VectorStep<C> {
     }
     /// Pulses per revolution of the absolute encoder.
     ///
-    /// Rencabspulse. 0x475E:01, Modbus 10078 (holding; wire 0x275E; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rencabspulse: 0x475E:01, Modbus 10078 (holding; wire 0x275E; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENCABSPULSE`].
     pub fn rencabspulse(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2587,7 +2587,7 @@ impl<C> VectorStep<C> {
     }
     /// Resolver angle that was acquired during alignment.
     ///
-    /// Rthetainit. 0x4792:01, Modbus 10130–10131 (holding; wire 0x2792–0x2793; FC 3/16; low word first (assumed)), INTEGER32, read-write.
+    /// Rthetainit: 0x4792:01, Modbus 10130–10131 (holding; wire 0x2792–0x2793; FC 3/16; low word first (assumed)), INTEGER32, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTHETAINIT`].
     pub fn rthetainit(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -2595,7 +2595,7 @@ impl<C> VectorStep<C> {
     }
     /// Flag that the resolver angle was acquired.
     ///
-    /// Rthetaack. 0x4794:01, Modbus 10132 (holding; wire 0x2794; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rthetaack: 0x4794:01, Modbus 10132 (holding; wire 0x2794; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTHETAACK`].
     ///
@@ -2605,14 +2605,14 @@ impl<C> VectorStep<C> {
     }
     /// Actual value of the resolver, without a stated unit.
     ///
-    /// Rrslvact. 0x4795:01, Modbus 10133 (holding; wire 0x2795; FC 3), UNSIGNED16, read-only.
+    /// Rrslvact: 0x4795:01, Modbus 10133 (holding; wire 0x2795; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RRSLVACT`].
     pub fn rrslvact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RRSLVACT.at(&mut self.client)
     }
     /// Offset compensation of the resolver sine signal.
     ///
-    /// Rrslvoffsetsin. 0x4796:01, Modbus 10134–10135 (holding; wire 0x2796–0x2797; FC 3/16; low word first (assumed)), INTEGER32, read-write.
+    /// Rrslvoffsetsin: 0x4796:01, Modbus 10134–10135 (holding; wire 0x2796–0x2797; FC 3/16; low word first (assumed)), INTEGER32, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RRSLVOFFSETSIN`].
     pub fn rrslvoffsetsin(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -2620,7 +2620,7 @@ impl<C> VectorStep<C> {
     }
     /// Offset compensation of the resolver cosine signal.
     ///
-    /// Rrslvoffsetcos. 0x4798:01, Modbus 10136–10137 (holding; wire 0x2798–0x2799; FC 3/16; low word first (assumed)), INTEGER32, read-write.
+    /// Rrslvoffsetcos: 0x4798:01, Modbus 10136–10137 (holding; wire 0x2798–0x2799; FC 3/16; low word first (assumed)), INTEGER32, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RRSLVOFFSETCOS`].
     pub fn rrslvoffsetcos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -2628,7 +2628,7 @@ impl<C> VectorStep<C> {
     }
     /// Correction of the resolver.
     ///
-    /// Rrslvcorr. 0x47D1:01, Modbus 10193 (holding; wire 0x27D1; FC 3/6/16), INTEGER16, read-write.
+    /// Rrslvcorr: 0x47D1:01, Modbus 10193 (holding; wire 0x27D1; FC 3/6/16), INTEGER16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RRSLVCORR`].
     pub fn rrslvcorr(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -2636,7 +2636,7 @@ impl<C> VectorStep<C> {
     }
     /// Resolver angle without correction.
     ///
-    /// Rrslvrawangleout. 0x47D2:01, Modbus 10194–10195 (holding; wire 0x27D2–0x27D3; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rrslvrawangleout: 0x47D2:01, Modbus 10194–10195 (holding; wire 0x27D2–0x27D3; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RRSLVRAWANGLEOUT`].
     ///
     /// Note: The index is printed as a range, 0x47D2-D3. Assumed: 0x47D2 (all other 32-bit rows print only the index of the first register; the manual does not mention 0x47D3 elsewhere). Manual: ENCODER ASSOLUTO (line 2590).
@@ -2645,7 +2645,7 @@ impl<C> VectorStep<C> {
     }
     /// Resolver sine after the FIR filter.
     ///
-    /// Rrslvsinfirot. 0x47D4:01, Modbus 10196–10197 (holding; wire 0x27D4–0x27D5; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rrslvsinfirot: 0x47D4:01, Modbus 10196–10197 (holding; wire 0x27D4–0x27D5; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RRSLVSINFIROT`].
     ///
     /// Note: The index is printed as a range, 0x47D4-D5. Assumed: 0x47D4 (all other 32-bit rows print only the index of the first register; the manual does not mention 0x47D5 elsewhere). Manual: ENCODER ASSOLUTO (line 2591).
@@ -2654,7 +2654,7 @@ impl<C> VectorStep<C> {
     }
     /// Resolver cosine after the FIR filter.
     ///
-    /// Rrslvcosfirot. 0x47D6:01, Modbus 10198–10199 (holding; wire 0x27D6–0x27D7; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rrslvcosfirot: 0x47D6:01, Modbus 10198–10199 (holding; wire 0x27D6–0x27D7; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RRSLVCOSFIROT`].
     ///
     /// Note: The index is printed as a range, 0x47D6-D7. Assumed: 0x47D6 (all other 32-bit rows print only the index of the first register; the manual does not mention 0x47D7 elsewhere). Manual: ENCODER ASSOLUTO (line 2592).
@@ -2663,7 +2663,7 @@ impl<C> VectorStep<C> {
     }
     /// Command to the EEPROM and to the communication chip; returns to 0 after execution.
     ///
-    /// Rloadsav. Range 0 to 65535, 0x20C2:01, Modbus 194 (holding; wire 194; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rloadsav: Range 0 to 65535, 0x20C2:01, Modbus 194 (holding; wire 194; FC 3/6/16), UNSIGNED16, read-write.
     /// Constant: [`objects::RLOADSAV`]. Values: [`EepromCommand`](types::EepromCommand).
     ///
     /// Note: The row states no access rights. Assumed: rw (commands are written to it, and the value 0 is read after completion). Manual: GESTIONE MEMORIA NON VOLATILE EEPROM (line 2597).
@@ -2678,7 +2678,7 @@ impl<C> VectorStep<C> {
     }
     /// Loads one variable from the EEPROM, or saves it there.
     ///
-    /// Rmemvar. 0x20C3:01, Modbus 195 (holding; wire 195; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rmemvar: 0x20C3:01, Modbus 195 (holding; wire 195; FC 3/6/16), UNSIGNED16, read-write.
     /// Constant: [`objects::RMEMVAR`]. Values: [`VariableCommand`](types::VariableCommand).
     ///
     /// Note: The row states no access rights. Assumed: rw (the register is written; the manual does not exclude reading). Manual: GESTIONE MEMORIA NON VOLATILE EEPROM (line 2600).
@@ -2691,14 +2691,14 @@ impl<C> VectorStep<C> {
     }
     /// Status and errors of the EEPROM; 0 if there is no error.
     ///
-    /// Reepsts. 0x20C4:01, Modbus 196 (holding; wire 196; FC 3), UNSIGNED16, read-only.
+    /// Reepsts: 0x20C4:01, Modbus 196 (holding; wire 196; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::REEPSTS`]. Values: [`EepromStatus`](types::EepromStatus).
     pub fn reepsts(&mut self) -> objects::ReadOnlyAccess<'_, C, types::EepromStatus> {
         objects::REEPSTS.at(&mut self.client)
     }
     /// Index with which a MIL program accesses the variables.
     ///
-    /// Rindex. Range 1 to 128, 0x20C9:01, Modbus 201 (holding; wire 201; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rindex: Range 1 to 128, 0x20C9:01, Modbus 201 (holding; wire 201; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RINDEX`].
     ///
     /// Note: The type is printed as Holding Register (16bit) Unsigned16. Assumed: Unsigned16 (the first words name the Modbus table, which is the same for all registers). Manual: REGISTRI; GESTIONE MEMORIA NON VOLATILE EEPROM (lines 2120, 2602).
@@ -2707,7 +2707,7 @@ impl<C> VectorStep<C> {
     }
     /// Status and errors of the EEPROM, 32 bits, from the SMD5106 on; the low word is Reepsts.
     ///
-    /// Reepsts32. 0x2149:01, Modbus 329–330 (holding; wire 329–330; FC 3; low word first), UNSIGNED32, read-only, mappable into TPDOs.
+    /// Reepsts32: 0x2149:01, Modbus 329–330 (holding; wire 329–330; FC 3; low word first), UNSIGNED32, read-only, mappable into TPDOs.
     /// Constant: [`objects::REEPSTS32`]. Values: [`EepromStatus32`](types::EepromStatus32).
     ///
     /// Note: The manual states no access rights and marks it MAP READ; Reepsts, its low word, is RO. Assumed: read-only (it is a status word). Manual: GESTIONE MEMORIA NON VOLATILE EEPROM (lines 2601, 2603).
@@ -2722,7 +2722,7 @@ impl<C> VectorStep<C> {
     }
     /// Action of the drive at power-on: load, enable and run.
     ///
-    /// Rstrtmode. Range 1 to 3, 0x20D8:01, Modbus 216 (holding; wire 216; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rstrtmode: Range 1 to 3, 0x20D8:01, Modbus 216 (holding; wire 216; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTRTMODE`]. Values: [`StartMode`](types::StartMode).
     pub fn rstrtmode(&mut self) -> objects::ReadWriteAccess<'_, C, types::StartMode> {
@@ -2730,7 +2730,7 @@ impl<C> VectorStep<C> {
     }
     /// Control loop and source of its set-point (Rconfig) at power-on. Saving the registers copies Rconfig here if bit 15 of Rconfig is 0.
     ///
-    /// Rstrtconf. Range 0 to 13, 0x20D9:01, Modbus 217 (holding; wire 217; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rstrtconf: Range 0 to 13, 0x20D9:01, Modbus 217 (holding; wire 217; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTRTCONF`]. Values: [`Configuration`](types::Configuration).
     ///
@@ -2744,7 +2744,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum velocity (Rvel) at power-on.
     ///
-    /// Rstrtvel. 1 LSB = 0.01 rev/s, range -100.00 … 100.00 rev/s (raw \-10000 … 10000), 0x2185:01, Modbus 389–390 (holding; wire 389–390; FC 3/16; low word first), INTEGER32, read-write (assumed).
+    /// Rstrtvel: 1 LSB = 0.01 rev/s, range -100.00 … 100.00 rev/s (raw \-10000 … 10000), 0x2185:01, Modbus 389–390 (holding; wire 389–390; FC 3/16; low word first), INTEGER32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTRTVEL`].
     pub fn rstrtvel(
@@ -2754,7 +2754,7 @@ impl<C> VectorStep<C> {
     }
     /// Start and stop velocity (Rvss) at power-on.
     ///
-    /// Rstrtvss. 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), 0x2187:01, Modbus 391–392 (holding; wire 391–392; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rstrtvss: 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), 0x2187:01, Modbus 391–392 (holding; wire 391–392; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTRTVSS`].
     ///
@@ -2766,7 +2766,7 @@ impl<C> VectorStep<C> {
     }
     /// Acceleration ramp (Racc) at power-on.
     ///
-    /// Rstrtacc. 1 LSB = 0.1 rev/s², range 0.1 … 20000.0 rev/s² (raw 1 … 200000), 0x2189:01, Modbus 393–394 (holding; wire 393–394; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rstrtacc: 1 LSB = 0.1 rev/s², range 0.1 … 20000.0 rev/s² (raw 1 … 200000), 0x2189:01, Modbus 393–394 (holding; wire 393–394; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTRTACC`].
     ///
@@ -2778,7 +2778,7 @@ impl<C> VectorStep<C> {
     }
     /// Deceleration ramp (Rdec) at power-on.
     ///
-    /// Rstrtdec. 1 LSB = 0.1 rev/s², range 0.1 … 20000.0 rev/s² (raw 1 … 200000), 0x218B:01, Modbus 395–396 (holding; wire 395–396; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rstrtdec: 1 LSB = 0.1 rev/s², range 0.1 … 20000.0 rev/s² (raw 1 … 200000), 0x218B:01, Modbus 395–396 (holding; wire 395–396; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTRTDEC`].
     ///
@@ -2790,7 +2790,7 @@ impl<C> VectorStep<C> {
     }
     /// Target position (Rpostarg) at power-on.
     ///
-    /// Rstrtpostarg. Unit step, range \-2147483648 to 2147483647, 0x218D:01, Modbus 397–398 (holding; wire 397–398; FC 3/16; low word first), INTEGER32, read-write (assumed).
+    /// Rstrtpostarg: Unit step, range \-2147483648 to 2147483647, 0x218D:01, Modbus 397–398 (holding; wire 397–398; FC 3/16; low word first), INTEGER32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTRTPOSTARG`].
     pub fn rstrtpostarg(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -2798,7 +2798,7 @@ impl<C> VectorStep<C> {
     }
     /// Homing velocity of the search for the limit switch (Rhvh) at power-on.
     ///
-    /// Rstrthvh. 1 LSB = 0.01 rev/s, range 0.01 … 100.00 rev/s (raw 1 … 10000), 0x218F:01, Modbus 399–400 (holding; wire 399–400; FC 3/16; low word first), INTEGER32, read-write (assumed).
+    /// Rstrthvh: 1 LSB = 0.01 rev/s, range 0.01 … 100.00 rev/s (raw 1 … 10000), 0x218F:01, Modbus 399–400 (holding; wire 399–400; FC 3/16; low word first), INTEGER32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTRTHVH`].
     ///
@@ -2810,7 +2810,7 @@ impl<C> VectorStep<C> {
     }
     /// Homing velocity of the search for the zero point (Rhvl) at power-on.
     ///
-    /// Rstrthvl. 1 LSB = 0.01 rev/s, range 0.01 … 100.00 rev/s (raw 1 … 10000), 0x2191:01, Modbus 401–402 (holding; wire 401–402; FC 3/16; low word first), INTEGER32, read-write (assumed).
+    /// Rstrthvl: 1 LSB = 0.01 rev/s, range 0.01 … 100.00 rev/s (raw 1 … 10000), 0x2191:01, Modbus 401–402 (holding; wire 401–402; FC 3/16; low word first), INTEGER32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTRTHVL`].
     ///
@@ -2822,7 +2822,7 @@ impl<C> VectorStep<C> {
     }
     /// Acceleration and deceleration of homing (Rhacc) at power-on.
     ///
-    /// Rstrthacc. 1 LSB = 0.1 rev/s², range 0.1 … 20000.0 rev/s² (raw 1 … 200000), 0x2193:01, Modbus 403–404 (holding; wire 403–404; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rstrthacc: 1 LSB = 0.1 rev/s², range 0.1 … 20000.0 rev/s² (raw 1 … 200000), 0x2193:01, Modbus 403–404 (holding; wire 403–404; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTRTHACC`].
     ///
@@ -2834,7 +2834,7 @@ impl<C> VectorStep<C> {
     }
     /// Homing method (Rhmode) at power-on.
     ///
-    /// Rstrthmode. Range \-16 to 0, 0x2195:01, Modbus 405 (holding; wire 405; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Rstrthmode: Range \-16 to 0, 0x2195:01, Modbus 405 (holding; wire 405; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTRTHMODE`]. Values: [`HomingMethodI16`](types::HomingMethodI16).
     ///
@@ -2848,7 +2848,7 @@ impl<C> VectorStep<C> {
     }
     /// Ramp time of the current when it is switched on.
     ///
-    /// Rcuronramptime. Unit ms, range 0 to 65535, 0x2063:01, Modbus 99 (holding; wire 99; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcuronramptime: Unit ms, range 0 to 65535, 0x2063:01, Modbus 99 (holding; wire 99; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCURONRAMPTIME`].
     pub fn rcuronramptime(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2856,14 +2856,14 @@ impl<C> VectorStep<C> {
     }
     /// Actual motor current.
     ///
-    /// Rcuract. Unit mA, 0x20D1:01, Modbus 209 (holding; wire 209; FC 3), INTEGER16, read-only, mappable into TPDOs.
+    /// Rcuract: Unit mA, 0x20D1:01, Modbus 209 (holding; wire 209; FC 3), INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RCURACT`].
     pub fn rcuract(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RCURACT.at(&mut self.client)
     }
     /// Nominal current that the drive supplies to the motor.
     ///
-    /// Rcurnom. Unit mA, range 0 to 8500, 0x20D2:01, Modbus 210 (holding; wire 210; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rcurnom: Unit mA, range 0 to 8500, 0x20D2:01, Modbus 210 (holding; wire 210; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCURNOM`].
     pub fn rcurnom(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2871,7 +2871,7 @@ impl<C> VectorStep<C> {
     }
     /// Reduced current that the drive supplies to the motor after the delay Rtcred.
     ///
-    /// Rcurred. Unit mA, range 0 to 8500, 0x20D3:01, Modbus 211 (holding; wire 211; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rcurred: Unit mA, range 0 to 8500, 0x20D3:01, Modbus 211 (holding; wire 211; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCURRED`].
     pub fn rcurred(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2879,7 +2879,7 @@ impl<C> VectorStep<C> {
     }
     /// Boost current of the motor during ramps.
     ///
-    /// Rcurboost. Unit mA, range 0 to 10000, 0x20D4:01, Modbus 212 (holding; wire 212; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rcurboost: Unit mA, range 0 to 10000, 0x20D4:01, Modbus 212 (holding; wire 212; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCURBOOST`].
     pub fn rcurboost(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2887,14 +2887,14 @@ impl<C> VectorStep<C> {
     }
     /// Target current in torque mode; marked ANA.
     ///
-    /// Rcurtorque. Unit mA, range \-10000 to 10000, 0x20D5:01, Modbus 213 (holding; wire 213; FC 3/6/16), INTEGER16, read-write (assumed), mappable into RPDOs.
+    /// Rcurtorque: Unit mA, range \-10000 to 10000, 0x20D5:01, Modbus 213 (holding; wire 213; FC 3/6/16), INTEGER16, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RCURTORQUE`].
     pub fn rcurtorque(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RCURTORQUE.at(&mut self.client)
     }
     /// Maximum time of the boost current.
     ///
-    /// Rtboost. Unit ms, range 0 to 5000, 0x20D6:01, Modbus 214 (holding; wire 214; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rtboost: Unit ms, range 0 to 5000, 0x20D6:01, Modbus 214 (holding; wire 214; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTBOOST`].
     pub fn rtboost(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2902,7 +2902,7 @@ impl<C> VectorStep<C> {
     }
     /// Delay before the drive changes to the reduced current.
     ///
-    /// Rtcred. Unit ms, range 0 to 10000, 0x20D7:01, Modbus 215 (holding; wire 215; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rtcred: Unit ms, range 0 to 10000, 0x20D7:01, Modbus 215 (holding; wire 215; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTCRED`].
     pub fn rtcred(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2910,14 +2910,14 @@ impl<C> VectorStep<C> {
     }
     /// Active motor control: not initialized, open loop, closed loop or smart mode.
     ///
-    /// Rfocmode. Range 0 to 3, 0x20DB:01, Modbus 219 (holding; wire 219; FC 3), UNSIGNED16, read-only.
+    /// Rfocmode: Range 0 to 3, 0x20DB:01, Modbus 219 (holding; wire 219; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RFOCMODE`]. Values: [`ControlState`](types::ControlState).
     pub fn rfocmode(&mut self) -> objects::ReadOnlyAccess<'_, C, types::ControlState> {
         objects::RFOCMODE.at(&mut self.client)
     }
     /// Active current level of the motor.
     ///
-    /// Rcurmodeact. Range 0 to 4, 0x20DC:01, Modbus 220 (holding; wire 220; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rcurmodeact: Range 0 to 4, 0x20DC:01, Modbus 220 (holding; wire 220; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RCURMODEACT`]. Values: [`CurrentLevelState`](types::CurrentLevelState).
     pub fn rcurmodeact(
         &mut self,
@@ -2926,7 +2926,7 @@ impl<C> VectorStep<C> {
     }
     /// Selected current level of the motor.
     ///
-    /// Rcurmode. Range 0 to 3, 0x20DD:01, Modbus 221 (holding; wire 221; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcurmode: Range 0 to 3, 0x20DD:01, Modbus 221 (holding; wire 221; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCURMODE`]. Values: [`CurrentLevel`](types::CurrentLevel).
     pub fn rcurmode(&mut self) -> objects::ReadWriteAccess<'_, C, types::CurrentLevel> {
@@ -2934,7 +2934,7 @@ impl<C> VectorStep<C> {
     }
     /// Control loop (open, closed or smart) and source of its set-point. Saving copies it to Rstrtconf if bit 15 is 0.
     ///
-    /// Rconfig. Range 0 to 15, 0x20DE:01, Modbus 222 (holding; wire 222; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rconfig: Range 0 to 15, 0x20DE:01, Modbus 222 (holding; wire 222; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RCONFIG`]. Values: [`Configuration`](types::Configuration).
     ///
     /// Note: The row limits Rconfig to 0..15 and lists values only, but the row of Rstrtconf uses bit 15 of Rconfig, which prevents the copy to Rstrtconf. Assumed: an enumeration of 0..15, as in the row of the register (bit 15 is outside of the limits, so a value with this bit set is unknown). Manual: CONFIGURAZIONE ALL'ACCENSIONE; GESTIONE POTENZA (lines 2609, 2658).
@@ -2945,21 +2945,21 @@ impl<C> VectorStep<C> {
     }
     /// Conditions for enabling the drive: configuration set, and error of the check mask.
     ///
-    /// Renmask. 0x20DF:01, Modbus 223 (holding; wire 223; FC 3), UNSIGNED16, read-only.
+    /// Renmask: 0x20DF:01, Modbus 223 (holding; wire 223; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RENMASK`]. Values: [`EnableMask`](types::EnableMask).
     pub fn renmask(&mut self) -> objects::ReadOnlyAccess<'_, C, types::EnableMask> {
         objects::RENMASK.at(&mut self.client)
     }
     /// Torque display value; no unit is printed.
     ///
-    /// Rtrqdisp. 0x2108:01, Modbus 264–265 (holding; wire 264–265; FC 3; low word first), UNSIGNED32, read-only, mappable into TPDOs.
+    /// Rtrqdisp: 0x2108:01, Modbus 264–265 (holding; wire 264–265; FC 3; low word first), UNSIGNED32, read-only, mappable into TPDOs.
     /// Constant: [`objects::RTRQDISP`].
     pub fn rtrqdisp(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RTRQDISP.at(&mut self.client)
     }
     /// Microstep resolution of the motor; from firmware 3.44 on, also in step/direction mode.
     ///
-    /// Rstpres. Range 1 to 1024, 0x210E:01, Modbus 270 (holding; wire 270; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rstpres: Range 1 to 1024, 0x210E:01, Modbus 270 (holding; wire 270; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTPRES`].
     pub fn rstpres(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2967,7 +2967,7 @@ impl<C> VectorStep<C> {
     }
     /// Proportional gain of the q-axis current controller.
     ///
-    /// Rkpiq. Range 0 to 32767, 0x2117:01, Modbus 279 (holding; wire 279; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rkpiq: Range 0 to 32767, 0x2117:01, Modbus 279 (holding; wire 279; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RKPIQ`].
     pub fn rkpiq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2975,7 +2975,7 @@ impl<C> VectorStep<C> {
     }
     /// Integral gain of the q-axis current controller.
     ///
-    /// Rkiiq. Range 0 to 32767, 0x2118:01, Modbus 280 (holding; wire 280; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rkiiq: Range 0 to 32767, 0x2118:01, Modbus 280 (holding; wire 280; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RKIIQ`].
     pub fn rkiiq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2983,7 +2983,7 @@ impl<C> VectorStep<C> {
     }
     /// Proportional gain of the d-axis current controller.
     ///
-    /// Rkpid. Range 0 to 32767, 0x2119:01, Modbus 281 (holding; wire 281; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rkpid: Range 0 to 32767, 0x2119:01, Modbus 281 (holding; wire 281; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RKPID`].
     pub fn rkpid(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2991,7 +2991,7 @@ impl<C> VectorStep<C> {
     }
     /// Integral gain of the d-axis current controller.
     ///
-    /// Rkiid. Range 0 to 32767, 0x211A:01, Modbus 282 (holding; wire 282; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rkiid: Range 0 to 32767, 0x211A:01, Modbus 282 (holding; wire 282; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RKIID`].
     pub fn rkiid(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2999,7 +2999,7 @@ impl<C> VectorStep<C> {
     }
     /// Proportional gain of the velocity controller in closed loop.
     ///
-    /// Rkpvel. Range 0 to 32767, 0x211B:01, Modbus 283 (holding; wire 283; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rkpvel: Range 0 to 32767, 0x211B:01, Modbus 283 (holding; wire 283; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RKPVEL`].
     pub fn rkpvel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3007,7 +3007,7 @@ impl<C> VectorStep<C> {
     }
     /// Integral gain of the velocity controller in closed loop.
     ///
-    /// Rkivel. Range 0 to 32767, 0x211C:01, Modbus 284 (holding; wire 284; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rkivel: Range 0 to 32767, 0x211C:01, Modbus 284 (holding; wire 284; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RKIVEL`].
     pub fn rkivel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3015,7 +3015,7 @@ impl<C> VectorStep<C> {
     }
     /// Kc gain of the velocity controller in closed loop; the manual does not explain Kc.
     ///
-    /// Rkcvel. Range 0 to 32767, 0x211D:01, Modbus 285 (holding; wire 285; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rkcvel: Range 0 to 32767, 0x211D:01, Modbus 285 (holding; wire 285; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RKCVEL`].
     pub fn rkcvel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3023,7 +3023,7 @@ impl<C> VectorStep<C> {
     }
     /// Proportional gain of the position controller in closed loop.
     ///
-    /// Rkppos. Range 0 to 32767, 0x211E:01, Modbus 286 (holding; wire 286; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rkppos: Range 0 to 32767, 0x211E:01, Modbus 286 (holding; wire 286; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RKPPOS`].
     pub fn rkppos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3031,7 +3031,7 @@ impl<C> VectorStep<C> {
     }
     /// Integral gain of the position controller in closed loop.
     ///
-    /// Rkipos. Range 0 to 32767, 0x211F:01, Modbus 287 (holding; wire 287; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rkipos: Range 0 to 32767, 0x211F:01, Modbus 287 (holding; wire 287; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RKIPOS`].
     pub fn rkipos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3039,7 +3039,7 @@ impl<C> VectorStep<C> {
     }
     /// Kci gain of the position controller in closed loop; the manual does not explain Kci.
     ///
-    /// Rkcipos. Range 0 to 32767, 0x2120:01, Modbus 288 (holding; wire 288; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rkcipos: Range 0 to 32767, 0x2120:01, Modbus 288 (holding; wire 288; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RKCIPOS`].
     pub fn rkcipos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3047,7 +3047,7 @@ impl<C> VectorStep<C> {
     }
     /// Feed-forward gain (Kff) of the position controller in closed loop.
     ///
-    /// Rkffpos. Range 0 to 32767, 0x2121:01, Modbus 289 (holding; wire 289; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rkffpos: Range 0 to 32767, 0x2121:01, Modbus 289 (holding; wire 289; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RKFFPOS`].
     pub fn rkffpos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3055,7 +3055,7 @@ impl<C> VectorStep<C> {
     }
     /// Acceleration feed-forward gain (Kaf) of the position controller in closed loop.
     ///
-    /// Rkafpos. Range 0 to 32767, 0x2122:01, Modbus 290 (holding; wire 290; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rkafpos: Range 0 to 32767, 0x2122:01, Modbus 290 (holding; wire 290; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RKAFPOS`].
     pub fn rkafpos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3063,7 +3063,7 @@ impl<C> VectorStep<C> {
     }
     /// Target of the acceleration feed-forward: current or velocity.
     ///
-    /// Rswacfw. Range 0 to 1, 0x2123:01, Modbus 291 (holding; wire 291; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rswacfw: Range 0 to 1, 0x2123:01, Modbus 291 (holding; wire 291; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSWACFW`]. Values: [`AccelerationForward`](types::AccelerationForward).
     pub fn rswacfw(
@@ -3073,7 +3073,7 @@ impl<C> VectorStep<C> {
     }
     /// Correction of the gains of the current controller between maximum and minimum current, which prevents oscillation.
     ///
-    /// Radpicur. Unit %, range \-100 to 100, 0x2124:01, Modbus 292 (holding; wire 292; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Radpicur: Unit %, range \-100 to 100, 0x2124:01, Modbus 292 (holding; wire 292; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RADPICUR`].
     pub fn radpicur(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -3081,7 +3081,7 @@ impl<C> VectorStep<C> {
     }
     /// Microstep resolution in step/direction mode; Rstpres replaces it.
     ///
-    /// Rstpressd. Range 1 to 1024, 0x212B:01, Modbus 299 (holding; wire 299; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rstpressd: Range 1 to 1024, 0x212B:01, Modbus 299 (holding; wire 299; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTPRESSD`].
     ///
@@ -3091,7 +3091,7 @@ impl<C> VectorStep<C> {
     }
     /// Proportional gain of the ramp between incoming steps, in step/direction and gear mode.
     ///
-    /// Rkpstpdir. Range 0 to 1024, 0x212C:01, Modbus 300 (holding; wire 300; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rkpstpdir: Range 0 to 1024, 0x212C:01, Modbus 300 (holding; wire 300; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RKPSTPDIR`].
     ///
@@ -3101,7 +3101,7 @@ impl<C> VectorStep<C> {
     }
     /// Multiplier of incoming steps in closed loop, from 1 (1:1) to 10.
     ///
-    /// Rampfrq. Range 0 to 10, 0x212D:01, Modbus 301 (holding; wire 301; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rampfrq: Range 0 to 10, 0x212D:01, Modbus 301 (holding; wire 301; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RAMPFRQ`].
     ///
@@ -3111,7 +3111,7 @@ impl<C> VectorStep<C> {
     }
     /// Enables flux weakening in open loop.
     ///
-    /// Rdefluxen. Range 0 to 1, 0x2135:01, Modbus 309 (holding; wire 309; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdefluxen: Range 0 to 1, 0x2135:01, Modbus 309 (holding; wire 309; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEFLUXEN`].
     ///
@@ -3121,7 +3121,7 @@ impl<C> VectorStep<C> {
     }
     /// Minimum current of flux weakening in open loop.
     ///
-    /// Rdefluxmin. Range 0 to 5000, 0x2136:01, Modbus 310 (holding; wire 310; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rdefluxmin: Range 0 to 5000, 0x2136:01, Modbus 310 (holding; wire 310; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RDEFLUXMIN`].
     ///
@@ -3131,7 +3131,7 @@ impl<C> VectorStep<C> {
     }
     /// Phase advance mode in open loop; no values are printed.
     ///
-    /// Rphamode. Range 0 to 9, 0x2137:01, Modbus 311 (holding; wire 311; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rphamode: Range 0 to 9, 0x2137:01, Modbus 311 (holding; wire 311; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPHAMODE`].
     pub fn rphamode(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3139,7 +3139,7 @@ impl<C> VectorStep<C> {
     }
     /// Phase advance gain in open loop.
     ///
-    /// Rphagain. Range 0 to 8192, 0x2138:01, Modbus 312 (holding; wire 312; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rphagain: Range 0 to 8192, 0x2138:01, Modbus 312 (holding; wire 312; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPHAGAIN`].
     pub fn rphagain(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3147,14 +3147,14 @@ impl<C> VectorStep<C> {
     }
     /// Velocity correction in open loop (armature feedback).
     ///
-    /// Rveladjopenmode. Range \-4096 to 4096, 0x213A:01, Modbus 314 (holding; wire 314; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Rveladjopenmode: Range \-4096 to 4096, 0x213A:01, Modbus 314 (holding; wire 314; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Constant: [`objects::RVELADJOPENMODE`].
     pub fn rveladjopenmode(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RVELADJOPENMODE.at(&mut self.client)
     }
     /// Gain adjustment of the phase A current sensor.
     ///
-    /// Radjcura. Range \-128 to 127, 0x215F:01, Modbus 351 (holding; wire 351; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Radjcura: Range \-128 to 127, 0x215F:01, Modbus 351 (holding; wire 351; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RADJCURA`].
     ///
@@ -3164,7 +3164,7 @@ impl<C> VectorStep<C> {
     }
     /// Gain adjustment of the phase B current sensor.
     ///
-    /// Radjcurb. Range \-128 to 127, 0x2160:01, Modbus 352 (holding; wire 352; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Radjcurb: Range \-128 to 127, 0x2160:01, Modbus 352 (holding; wire 352; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RADJCURB`].
     ///
@@ -3174,7 +3174,7 @@ impl<C> VectorStep<C> {
     }
     /// Offset of the bus voltage measurement.
     ///
-    /// Rvbusoffs. Range \-32768 to 32767, 0x2170:01, Modbus 368 (holding; wire 368; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Rvbusoffs: Range \-32768 to 32767, 0x2170:01, Modbus 368 (holding; wire 368; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RVBUSOFFS`].
     pub fn rvbusoffs(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -3182,7 +3182,7 @@ impl<C> VectorStep<C> {
     }
     /// Measured current of phase A, in converter counts.
     ///
-    /// Rla. Unit bit, 0x2172:01, Modbus 370 (holding; wire 370; FC 3), INTEGER16, read-only, mappable into TPDOs.
+    /// Rla: Unit bit, 0x2172:01, Modbus 370 (holding; wire 370; FC 3), INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RLA`].
     ///
     /// Note: The measured current is in bits of a DAC. Assumed: the unit is one bit (a measured value comes from an ADC; in both cases the unit is one count of the converter). Manual: GESTIONE POTENZA (lines 2691, 2692).
@@ -3191,7 +3191,7 @@ impl<C> VectorStep<C> {
     }
     /// Measured current of phase B, in converter counts.
     ///
-    /// Rlb. Unit bit, 0x2173:01, Modbus 371 (holding; wire 371; FC 3), INTEGER16, read-only, mappable into TPDOs.
+    /// Rlb: Unit bit, 0x2173:01, Modbus 371 (holding; wire 371; FC 3), INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RLB`].
     ///
     /// Note: The measured current is in bits of a DAC. Assumed: the unit is one bit (a measured value comes from an ADC; in both cases the unit is one count of the converter). Manual: GESTIONE POTENZA (lines 2691, 2692).
@@ -3200,35 +3200,35 @@ impl<C> VectorStep<C> {
     }
     /// Filtered current of phase A.
     ///
-    /// Rlan. Unit mA, 0x2174:01, Modbus 372 (holding; wire 372; FC 3), INTEGER16, read-only, mappable into TPDOs.
+    /// Rlan: Unit mA, 0x2174:01, Modbus 372 (holding; wire 372; FC 3), INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RLAN`].
     pub fn rlan(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RLAN.at(&mut self.client)
     }
     /// Filtered current of phase B.
     ///
-    /// Rlbn. Unit mA, 0x2175:01, Modbus 373 (holding; wire 373; FC 3), INTEGER16, read-only, mappable into TPDOs.
+    /// Rlbn: Unit mA, 0x2175:01, Modbus 373 (holding; wire 373; FC 3), INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RLBN`].
     pub fn rlbn(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RLBN.at(&mut self.client)
     }
     /// Calculated offset of the phase A current sensor.
     ///
-    /// Rla\_offs. Unit bit, 0x2176:01, Modbus 374 (holding; wire 374; FC 3), INTEGER16, read-only.
+    /// Rla\_offs: Unit bit, 0x2176:01, Modbus 374 (holding; wire 374; FC 3), INTEGER16, read-only.
     /// Constant: [`objects::RLA_OFFS`].
     pub fn rla_offs(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RLA_OFFS.at(&mut self.client)
     }
     /// Calculated offset of the phase B current sensor.
     ///
-    /// Rlb\_offs. Unit bit, 0x2177:01, Modbus 375 (holding; wire 375; FC 3), INTEGER16, read-only.
+    /// Rlb\_offs: Unit bit, 0x2177:01, Modbus 375 (holding; wire 375; FC 3), INTEGER16, read-only.
     /// Constant: [`objects::RLB_OFFS`].
     pub fn rlb_offs(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RLB_OFFS.at(&mut self.client)
     }
     /// Manual correction of the phase A offset. Command 137 of Rloadsav saves it, command 138 measures and saves it.
     ///
-    /// Rla\_offsEI. Unit bit, range \-32768 to 32767, 0x2178:01, Modbus 376 (holding; wire 376; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Rla\_offsEI: Unit bit, range \-32768 to 32767, 0x2178:01, Modbus 376 (holding; wire 376; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 137.
     /// Constant: [`objects::RLA_OFFS_EI`].
     pub fn rla_offs_ei(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -3236,7 +3236,7 @@ impl<C> VectorStep<C> {
     }
     /// Manual correction of the phase B offset. Command 137 of Rloadsav saves it, command 138 measures and saves it.
     ///
-    /// Rlb\_offsEI. Unit bit, range \-32768 to 32767, 0x2179:01, Modbus 377 (holding; wire 377; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Rlb\_offsEI: Unit bit, range \-32768 to 32767, 0x2179:01, Modbus 377 (holding; wire 377; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 137.
     /// Constant: [`objects::RLB_OFFS_EI`].
     pub fn rlb_offs_ei(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -3244,21 +3244,21 @@ impl<C> VectorStep<C> {
     }
     /// d-axis current.
     ///
-    /// Rid. Unit mA, 0x217A:01, Modbus 378 (holding; wire 378; FC 3), INTEGER16, read-only.
+    /// Rid: Unit mA, 0x217A:01, Modbus 378 (holding; wire 378; FC 3), INTEGER16, read-only.
     /// Constant: [`objects::RID`].
     pub fn rid(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RID.at(&mut self.client)
     }
     /// q-axis current.
     ///
-    /// Riq. Unit mA, 0x217B:01, Modbus 379 (holding; wire 379; FC 3), INTEGER16, read-only, mappable into TPDOs.
+    /// Riq: Unit mA, 0x217B:01, Modbus 379 (holding; wire 379; FC 3), INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RIQ`].
     pub fn riq(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RIQ.at(&mut self.client)
     }
     /// Correction of the d-axis current in smart mode.
     ///
-    /// Ridcorr. Unit mA, range \-5000 to 5000, 0x2184:01, Modbus 388 (holding; wire 388; FC 3/6/16), INTEGER16, read-write.
+    /// Ridcorr: Unit mA, range \-5000 to 5000, 0x2184:01, Modbus 388 (holding; wire 388; FC 3/6/16), INTEGER16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RIDCORR`].
     pub fn ridcorr(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -3266,7 +3266,7 @@ impl<C> VectorStep<C> {
     }
     /// Pulse alignment of the motor current PWM: centered or left. Save it with command 146 of Rloadsav, then switch the drive off and on.
     ///
-    /// Rpwmmode. Range 0 to 1, 0x21EF:01, Modbus 495 (holding; wire 495; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rpwmmode: Range 0 to 1, 0x21EF:01, Modbus 495 (holding; wire 495; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 146.
     /// Constant: [`objects::RPWMMODE`]. Values: [`PwmAlignment`](types::PwmAlignment).
     pub fn rpwmmode(&mut self) -> objects::ReadWriteAccess<'_, C, types::PwmAlignment> {
@@ -3274,7 +3274,7 @@ impl<C> VectorStep<C> {
     }
     /// Proportional gain of the position PID.
     ///
-    /// RpidposKp. 1 LSB = 0.001, 0x477E:01, Modbus 10110 (holding; wire 0x277E; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidposKp: 1 LSB = 0.001, 0x477E:01, Modbus 10110 (holding; wire 0x277E; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDPOS_KP`].
     pub fn rpidpos_kp(
@@ -3284,7 +3284,7 @@ impl<C> VectorStep<C> {
     }
     /// Integral gain of the position PID.
     ///
-    /// RpidposKi. 1 LSB = 0.001, 0x477F:01, Modbus 10111 (holding; wire 0x277F; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidposKi: 1 LSB = 0.001, 0x477F:01, Modbus 10111 (holding; wire 0x277F; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDPOS_KI`].
     pub fn rpidpos_ki(
@@ -3294,7 +3294,7 @@ impl<C> VectorStep<C> {
     }
     /// Derivative gain of the position PID.
     ///
-    /// RpidposKd. 1 LSB = 0.001, 0x4780:01, Modbus 10112 (holding; wire 0x2780; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidposKd: 1 LSB = 0.001, 0x4780:01, Modbus 10112 (holding; wire 0x2780; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDPOS_KD`].
     pub fn rpidpos_kd(
@@ -3304,7 +3304,7 @@ impl<C> VectorStep<C> {
     }
     /// Filter time constant of the derivative part of the position PID.
     ///
-    /// RpidposTauKd. 1 LSB = 0.001, 0x4781:01, Modbus 10113 (holding; wire 0x2781; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidposTauKd: 1 LSB = 0.001, 0x4781:01, Modbus 10113 (holding; wire 0x2781; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDPOS_TAU_KD`].
     ///
@@ -3316,7 +3316,7 @@ impl<C> VectorStep<C> {
     }
     /// Feed-forward gain of the position PID.
     ///
-    /// RpidposKff. 1 LSB = 0.001, 0x4782:01, Modbus 10114 (holding; wire 0x2782; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidposKff: 1 LSB = 0.001, 0x4782:01, Modbus 10114 (holding; wire 0x2782; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDPOS_KFF`].
     pub fn rpidpos_kff(
@@ -3326,7 +3326,7 @@ impl<C> VectorStep<C> {
     }
     /// Acceleration feed-forward gain of the position PID.
     ///
-    /// RpidposKaf. 1 LSB = 0.001, 0x4783:01, Modbus 10115 (holding; wire 0x2783; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidposKaf: 1 LSB = 0.001, 0x4783:01, Modbus 10115 (holding; wire 0x2783; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDPOS_KAF`].
     pub fn rpidpos_kaf(
@@ -3336,7 +3336,7 @@ impl<C> VectorStep<C> {
     }
     /// Cutoff frequency of the low-pass filter on the feed-forward of the position PID.
     ///
-    /// RpidposKffFc. Unit Hz, 0x4784:01, Modbus 10116 (holding; wire 0x2784; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidposKffFc: Unit Hz, 0x4784:01, Modbus 10116 (holding; wire 0x2784; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDPOS_KFF_FC`].
     pub fn rpidpos_kff_fc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3344,7 +3344,7 @@ impl<C> VectorStep<C> {
     }
     /// Anti-windup gain of the position PID.
     ///
-    /// RpidposKaw. 1 LSB = 0.001, 0x4785:01, Modbus 10117 (holding; wire 0x2785; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidposKaw: 1 LSB = 0.001, 0x4785:01, Modbus 10117 (holding; wire 0x2785; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDPOS_KAW`].
     pub fn rpidpos_kaw(
@@ -3354,7 +3354,7 @@ impl<C> VectorStep<C> {
     }
     /// Proportional gain of the velocity PID.
     ///
-    /// RpidvelKp. 1 LSB = 0.001, 0x4786:01, Modbus 10118 (holding; wire 0x2786; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidvelKp: 1 LSB = 0.001, 0x4786:01, Modbus 10118 (holding; wire 0x2786; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDVEL_KP`].
     pub fn rpidvel_kp(
@@ -3364,7 +3364,7 @@ impl<C> VectorStep<C> {
     }
     /// Integral gain of the velocity PID.
     ///
-    /// RpidvelKi. 1 LSB = 0.001, 0x4787:01, Modbus 10119 (holding; wire 0x2787; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidvelKi: 1 LSB = 0.001, 0x4787:01, Modbus 10119 (holding; wire 0x2787; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDVEL_KI`].
     pub fn rpidvel_ki(
@@ -3374,7 +3374,7 @@ impl<C> VectorStep<C> {
     }
     /// Derivative gain of the velocity PID.
     ///
-    /// RpidvelKd. 1 LSB = 0.001, 0x4788:01, Modbus 10120 (holding; wire 0x2788; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidvelKd: 1 LSB = 0.001, 0x4788:01, Modbus 10120 (holding; wire 0x2788; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDVEL_KD`].
     pub fn rpidvel_kd(
@@ -3384,7 +3384,7 @@ impl<C> VectorStep<C> {
     }
     /// Filter time constant of the derivative part of the velocity PID.
     ///
-    /// RpidveltauKd. 1 LSB = 0.001, 0x4789:01, Modbus 10121 (holding; wire 0x2789; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidveltauKd: 1 LSB = 0.001, 0x4789:01, Modbus 10121 (holding; wire 0x2789; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDVELTAU_KD`].
     ///
@@ -3396,7 +3396,7 @@ impl<C> VectorStep<C> {
     }
     /// Feed-forward gain of the velocity PID.
     ///
-    /// RpidvelKff. 1 LSB = 0.001, 0x478A:01, Modbus 10122 (holding; wire 0x278A; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidvelKff: 1 LSB = 0.001, 0x478A:01, Modbus 10122 (holding; wire 0x278A; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDVEL_KFF`].
     pub fn rpidvel_kff(
@@ -3406,7 +3406,7 @@ impl<C> VectorStep<C> {
     }
     /// Acceleration feed-forward gain of the velocity PID.
     ///
-    /// RpidvelKaf. 1 LSB = 0.001, 0x478B:01, Modbus 10123 (holding; wire 0x278B; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidvelKaf: 1 LSB = 0.001, 0x478B:01, Modbus 10123 (holding; wire 0x278B; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDVEL_KAF`].
     pub fn rpidvel_kaf(
@@ -3416,7 +3416,7 @@ impl<C> VectorStep<C> {
     }
     /// Cutoff frequency of the low-pass filter on the feed-forward of the velocity PID.
     ///
-    /// RpidvelKffFc. Unit Hz, 0x478C:01, Modbus 10124 (holding; wire 0x278C; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidvelKffFc: Unit Hz, 0x478C:01, Modbus 10124 (holding; wire 0x278C; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDVEL_KFF_FC`].
     pub fn rpidvel_kff_fc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3424,7 +3424,7 @@ impl<C> VectorStep<C> {
     }
     /// Anti-windup gain of the velocity PID.
     ///
-    /// RpidvelKaw. 1 LSB = 0.001, 0x478D:01, Modbus 10125 (holding; wire 0x278D; FC 3/6/16), UNSIGNED16, read-write.
+    /// RpidvelKaw: 1 LSB = 0.001, 0x478D:01, Modbus 10125 (holding; wire 0x278D; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPIDVEL_KAW`].
     pub fn rpidvel_kaw(
@@ -3434,7 +3434,7 @@ impl<C> VectorStep<C> {
     }
     /// Cutoff frequency of the filter at the velocity loop input.
     ///
-    /// RfilvelFc. Unit Hz, 0x478E:01, Modbus 10126 (holding; wire 0x278E; FC 3/6/16), UNSIGNED16, read-write.
+    /// RfilvelFc: Unit Hz, 0x478E:01, Modbus 10126 (holding; wire 0x278E; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFILVEL_FC`].
     pub fn rfilvel_fc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3442,7 +3442,7 @@ impl<C> VectorStep<C> {
     }
     /// Peak gain of the filter at the velocity loop input.
     ///
-    /// RfilvelPG. 1 LSB = 0.001 dB, 0x478F:01, Modbus 10127 (holding; wire 0x278F; FC 3/6/16), UNSIGNED16, read-write.
+    /// RfilvelPG: 1 LSB = 0.001 dB, 0x478F:01, Modbus 10127 (holding; wire 0x278F; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFILVEL_PG`].
     pub fn rfilvel_pg(
@@ -3452,7 +3452,7 @@ impl<C> VectorStep<C> {
     }
     /// Cutoff frequency of the filter at the velocity loop output.
     ///
-    /// RfilcurFc. Unit Hz, 0x4790:01, Modbus 10128 (holding; wire 0x2790; FC 3/6/16), UNSIGNED16, read-write.
+    /// RfilcurFc: Unit Hz, 0x4790:01, Modbus 10128 (holding; wire 0x2790; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFILCUR_FC`].
     pub fn rfilcur_fc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3460,7 +3460,7 @@ impl<C> VectorStep<C> {
     }
     /// Peak gain of the filter at the velocity loop output.
     ///
-    /// RfilcurPG. 1 LSB = 0.001 dB, 0x4791:01, Modbus 10129 (holding; wire 0x2791; FC 3/6/16), UNSIGNED16, read-write.
+    /// RfilcurPG: 1 LSB = 0.001 dB, 0x4791:01, Modbus 10129 (holding; wire 0x2791; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFILCUR_PG`].
     pub fn rfilcur_pg(
@@ -3470,133 +3470,133 @@ impl<C> VectorStep<C> {
     }
     /// Actual input of the position PID.
     ///
-    /// Rpidposinpact. 0x47AC:01, Modbus 10156–10157 (holding; wire 0x27AC–0x27AD; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidposinpact: 0x47AC:01, Modbus 10156–10157 (holding; wire 0x27AC–0x27AD; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDPOSINPACT`].
     pub fn rpidposinpact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSINPACT.at(&mut self.client)
     }
     /// Actual proportional part of the position PID.
     ///
-    /// Rpidpospropact. 0x47AE:01, Modbus 10158–10159 (holding; wire 0x27AE–0x27AF; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidpospropact: 0x47AE:01, Modbus 10158–10159 (holding; wire 0x27AE–0x27AF; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDPOSPROPACT`].
     pub fn rpidpospropact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSPROPACT.at(&mut self.client)
     }
     /// Actual integral part of the position PID.
     ///
-    /// Rpidposintact. 0x47B0:01, Modbus 10160–10161 (holding; wire 0x27B0–0x27B1; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidposintact: 0x47B0:01, Modbus 10160–10161 (holding; wire 0x27B0–0x27B1; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDPOSINTACT`].
     pub fn rpidposintact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSINTACT.at(&mut self.client)
     }
     /// Actual derivative part of the position PID.
     ///
-    /// Rpidposderact. 0x47B2:01, Modbus 10162–10163 (holding; wire 0x27B2–0x27B3; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidposderact: 0x47B2:01, Modbus 10162–10163 (holding; wire 0x27B2–0x27B3; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDPOSDERACT`].
     pub fn rpidposderact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSDERACT.at(&mut self.client)
     }
     /// Actual feed-forward part of the position PID.
     ///
-    /// Rpidposffact. 0x47B4:01, Modbus 10164–10165 (holding; wire 0x27B4–0x27B5; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidposffact: 0x47B4:01, Modbus 10164–10165 (holding; wire 0x27B4–0x27B5; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDPOSFFACT`].
     pub fn rpidposffact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSFFACT.at(&mut self.client)
     }
     /// Actual acceleration feed-forward part of the position PID.
     ///
-    /// Rpidposafact. 0x47B6:01, Modbus 10166–10167 (holding; wire 0x27B6–0x27B7; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidposafact: 0x47B6:01, Modbus 10166–10167 (holding; wire 0x27B6–0x27B7; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDPOSAFACT`].
     pub fn rpidposafact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSAFACT.at(&mut self.client)
     }
     /// Actual output of the position PID.
     ///
-    /// Rpidposoutact. 0x47B8:01, Modbus 10168–10169 (holding; wire 0x27B8–0x27B9; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidposoutact: 0x47B8:01, Modbus 10168–10169 (holding; wire 0x27B8–0x27B9; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDPOSOUTACT`].
     pub fn rpidposoutact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSOUTACT.at(&mut self.client)
     }
     /// Actual input of the velocity PID.
     ///
-    /// Rpidvelinpact. 0x47BA:01, Modbus 10170–10171 (holding; wire 0x27BA–0x27BB; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidvelinpact: 0x47BA:01, Modbus 10170–10171 (holding; wire 0x27BA–0x27BB; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDVELINPACT`].
     pub fn rpidvelinpact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELINPACT.at(&mut self.client)
     }
     /// Actual proportional part of the velocity PID.
     ///
-    /// Rpidvelpropact. 0x47BC:01, Modbus 10172–10173 (holding; wire 0x27BC–0x27BD; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidvelpropact: 0x47BC:01, Modbus 10172–10173 (holding; wire 0x27BC–0x27BD; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDVELPROPACT`].
     pub fn rpidvelpropact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELPROPACT.at(&mut self.client)
     }
     /// Actual integral part of the velocity PID.
     ///
-    /// Rpidvelintact. 0x47BE:01, Modbus 10174–10175 (holding; wire 0x27BE–0x27BF; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidvelintact: 0x47BE:01, Modbus 10174–10175 (holding; wire 0x27BE–0x27BF; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDVELINTACT`].
     pub fn rpidvelintact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELINTACT.at(&mut self.client)
     }
     /// Actual derivative part of the velocity PID.
     ///
-    /// Rpidvelderact. 0x47C0:01, Modbus 10176–10177 (holding; wire 0x27C0–0x27C1; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidvelderact: 0x47C0:01, Modbus 10176–10177 (holding; wire 0x27C0–0x27C1; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDVELDERACT`].
     pub fn rpidvelderact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELDERACT.at(&mut self.client)
     }
     /// Actual feed-forward part of the velocity PID.
     ///
-    /// Rpidvelffact. 0x47C2:01, Modbus 10178–10179 (holding; wire 0x27C2–0x27C3; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidvelffact: 0x47C2:01, Modbus 10178–10179 (holding; wire 0x27C2–0x27C3; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDVELFFACT`].
     pub fn rpidvelffact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELFFACT.at(&mut self.client)
     }
     /// Actual acceleration feed-forward part of the velocity PID.
     ///
-    /// Rpidvelafact. 0x47C4:01, Modbus 10180–10181 (holding; wire 0x27C4–0x27C5; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidvelafact: 0x47C4:01, Modbus 10180–10181 (holding; wire 0x27C4–0x27C5; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDVELAFACT`].
     pub fn rpidvelafact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELAFACT.at(&mut self.client)
     }
     /// Actual output of the velocity PID.
     ///
-    /// Rpidveloutact. 0x47C6:01, Modbus 10182–10183 (holding; wire 0x27C6–0x27C7; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rpidveloutact: 0x47C6:01, Modbus 10182–10183 (holding; wire 0x27C6–0x27C7; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RPIDVELOUTACT`].
     pub fn rpidveloutact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELOUTACT.at(&mut self.client)
     }
     /// Actual input of the filter at the velocity loop input.
     ///
-    /// Rfilvelinpact. 0x47C8:01, Modbus 10184–10185 (holding; wire 0x27C8–0x27C9; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rfilvelinpact: 0x47C8:01, Modbus 10184–10185 (holding; wire 0x27C8–0x27C9; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RFILVELINPACT`].
     pub fn rfilvelinpact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RFILVELINPACT.at(&mut self.client)
     }
     /// Actual output of the filter at the velocity loop input.
     ///
-    /// Rfilveloutact. 0x47CA:01, Modbus 10186–10187 (holding; wire 0x27CA–0x27CB; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rfilveloutact: 0x47CA:01, Modbus 10186–10187 (holding; wire 0x27CA–0x27CB; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RFILVELOUTACT`].
     pub fn rfilveloutact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RFILVELOUTACT.at(&mut self.client)
     }
     /// Actual input of the filter at the velocity loop output.
     ///
-    /// Rfilcurinpact. 0x47CC:01, Modbus 10188–10189 (holding; wire 0x27CC–0x27CD; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rfilcurinpact: 0x47CC:01, Modbus 10188–10189 (holding; wire 0x27CC–0x27CD; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RFILCURINPACT`].
     pub fn rfilcurinpact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RFILCURINPACT.at(&mut self.client)
     }
     /// Actual output of the filter at the velocity loop output.
     ///
-    /// Rfilcuroutact. 0x47CE:01, Modbus 10190–10191 (holding; wire 0x27CE–0x27CF; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rfilcuroutact: 0x47CE:01, Modbus 10190–10191 (holding; wire 0x27CE–0x27CF; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RFILCUROUTACT`].
     pub fn rfilcuroutact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RFILCUROUTACT.at(&mut self.client)
     }
     /// Index of the configured motor in the motor database.
     ///
-    /// Rmotype. 0x20DA:01, Modbus 218 (holding; wire 218; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmotype: 0x20DA:01, Modbus 218 (holding; wire 218; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMOTYPE`].
     pub fn rmotype(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3604,7 +3604,7 @@ impl<C> VectorStep<C> {
     }
     /// Phase resistance of the motor.
     ///
-    /// Rmotres. 1 LSB = 0.1 Ω, range 0.1 … 3276.7 Ω (raw 1 … 32767), 0x210F:01, Modbus 271 (holding; wire 271; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmotres: 1 LSB = 0.1 Ω, range 0.1 … 3276.7 Ω (raw 1 … 32767), 0x210F:01, Modbus 271 (holding; wire 271; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMOTRES`].
     pub fn rmotres(
@@ -3614,7 +3614,7 @@ impl<C> VectorStep<C> {
     }
     /// Phase inductance of the motor.
     ///
-    /// Rmotind. 1 LSB = 0.1 mH, range 0.1 … 3276.7 mH (raw 1 … 32767), 0x2110:01, Modbus 272 (holding; wire 272; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmotind: 1 LSB = 0.1 mH, range 0.1 … 3276.7 mH (raw 1 … 32767), 0x2110:01, Modbus 272 (holding; wire 272; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMOTIND`].
     pub fn rmotind(
@@ -3624,7 +3624,7 @@ impl<C> VectorStep<C> {
     }
     /// Back-EMF constant of the motor: phase inductance in mH × nominal current in mA × 100 / 1,000.
     ///
-    /// Rmotkfm. 1 LSB = 0.01 mH·A, range 0.01 … 327.67 mH·A (raw 1 … 32767), 0x2111:01, Modbus 273 (holding; wire 273; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmotkfm: 1 LSB = 0.01 mH·A, range 0.01 … 327.67 mH·A (raw 1 … 32767), 0x2111:01, Modbus 273 (holding; wire 273; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMOTKFM`].
     ///
@@ -3638,7 +3638,7 @@ impl<C> VectorStep<C> {
     }
     /// Nominal voltage of the motor.
     ///
-    /// Rmottensnom. Unit V, range 1 to 32767, 0x2112:01, Modbus 274 (holding; wire 274; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmottensnom: Unit V, range 1 to 32767, 0x2112:01, Modbus 274 (holding; wire 274; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMOTTENSNOM`].
     pub fn rmottensnom(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3646,7 +3646,7 @@ impl<C> VectorStep<C> {
     }
     /// Nominal phase current of the motor.
     ///
-    /// Rmotiph. Unit mA, range 1 to 32767, 0x2113:01, Modbus 275 (holding; wire 275; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmotiph: Unit mA, range 1 to 32767, 0x2113:01, Modbus 275 (holding; wire 275; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMOTIPH`].
     pub fn rmotiph(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3654,7 +3654,7 @@ impl<C> VectorStep<C> {
     }
     /// Torque constant of the motor.
     ///
-    /// Rmotktq. Unit mNm/A, range 1 to 65535, 0x2114:01, Modbus 276 (holding; wire 276; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmotktq: Unit mNm/A, range 1 to 65535, 0x2114:01, Modbus 276 (holding; wire 276; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMOTKTQ`].
     pub fn rmotktq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3662,7 +3662,7 @@ impl<C> VectorStep<C> {
     }
     /// Nominal velocity of the motor.
     ///
-    /// Rmotvelnom. Unit rev/s, 0x2115:01, Modbus 277 (holding; wire 277; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmotvelnom: Unit rev/s, 0x2115:01, Modbus 277 (holding; wire 277; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMOTVELNOM`].
     pub fn rmotvelnom(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3670,35 +3670,35 @@ impl<C> VectorStep<C> {
     }
     /// User timer, which counts down to 0 once per millisecond.
     ///
-    /// Rtim0. Unit ms, 0x209B:01, Modbus 155–156 (holding; wire 155–156; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rtim0: Unit ms, 0x209B:01, Modbus 155–156 (holding; wire 155–156; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RTIM0`].
     pub fn rtim0(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RTIM0.at(&mut self.client)
     }
     /// User timer, which counts down to 0 once per millisecond.
     ///
-    /// Rtim1. Unit ms, 0x209D:01, Modbus 157–158 (holding; wire 157–158; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rtim1: Unit ms, 0x209D:01, Modbus 157–158 (holding; wire 157–158; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RTIM1`].
     pub fn rtim1(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RTIM1.at(&mut self.client)
     }
     /// User timer, which counts down to 0 once per millisecond.
     ///
-    /// Rtim2. Unit ms, 0x209F:01, Modbus 159–160 (holding; wire 159–160; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rtim2: Unit ms, 0x209F:01, Modbus 159–160 (holding; wire 159–160; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RTIM2`].
     pub fn rtim2(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RTIM2.at(&mut self.client)
     }
     /// User timer, which counts down to 0 once per millisecond.
     ///
-    /// Rtim3. Unit ms, 0x20A1:01, Modbus 161–162 (holding; wire 161–162; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rtim3: Unit ms, 0x20A1:01, Modbus 161–162 (holding; wire 161–162; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RTIM3`].
     pub fn rtim3(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RTIM3.at(&mut self.client)
     }
     /// User timer, which counts down to 0 once per millisecond.
     ///
-    /// Rtim4. Unit ms, at least 0, 0x2218:01, Modbus 536–537 (holding; wire 536–537; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
+    /// Rtim4: Unit ms, at least 0, 0x2218:01, Modbus 536–537 (holding; wire 536–537; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RTIM4`].
     ///
     /// Note: The notes have WORD, but the row has two register numbers and a 32-bit type. Assumed: 32 bits (register numbers and type agree). Manual: TIMER (line 2765).
@@ -3709,7 +3709,7 @@ impl<C> VectorStep<C> {
     }
     /// User timer, which counts down to 0 once per millisecond.
     ///
-    /// Rtim5. Unit ms, at least 0, 0x221A:01, Modbus 538–539 (holding; wire 538–539; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
+    /// Rtim5: Unit ms, at least 0, 0x221A:01, Modbus 538–539 (holding; wire 538–539; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RTIM5`].
     ///
     /// Note: The notes have WORD, but the row has two register numbers and a 32-bit type. Assumed: 32 bits (register numbers and type agree). Manual: TIMER (line 2766).
@@ -3720,7 +3720,7 @@ impl<C> VectorStep<C> {
     }
     /// User timer, which counts down to 0 once per millisecond.
     ///
-    /// Rtim6. Unit ms, at least 0, 0x221C:01, Modbus 540–541 (holding; wire 540–541; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
+    /// Rtim6: Unit ms, at least 0, 0x221C:01, Modbus 540–541 (holding; wire 540–541; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RTIM6`].
     ///
     /// Note: The notes have WORD, but the row has two register numbers and a 32-bit type. Assumed: 32 bits (register numbers and type agree). Manual: TIMER (line 2767).
@@ -3731,7 +3731,7 @@ impl<C> VectorStep<C> {
     }
     /// User timer, which counts down to 0 once per millisecond.
     ///
-    /// Rtim7. Unit ms, at least 0, 0x221E:01, Modbus 542–543 (holding; wire 542–543; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
+    /// Rtim7: Unit ms, at least 0, 0x221E:01, Modbus 542–543 (holding; wire 542–543; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RTIM7`].
     ///
     /// Note: The notes have WORD, but the row has two register numbers and a 32-bit type. Assumed: 32 bits (register numbers and type agree). Manual: TIMER (line 2768).
@@ -3742,42 +3742,42 @@ impl<C> VectorStep<C> {
     }
     /// Free-running counter, which counts up once per millisecond.
     ///
-    /// Rfreerun. Unit ms, range 0 to 4294967295, 0x47AA:01, Modbus 10154–10155 (holding; wire 0x27AA–0x27AB; FC 3; low word first (assumed)), UNSIGNED32, read-only.
+    /// Rfreerun: Unit ms, range 0 to 4294967295, 0x47AA:01, Modbus 10154–10155 (holding; wire 0x27AA–0x27AB; FC 3; low word first (assumed)), UNSIGNED32, read-only.
     /// Constant: [`objects::RFREERUN`].
     pub fn rfreerun(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RFREERUN.at(&mut self.client)
     }
     /// Actual temperature of the drive.
     ///
-    /// Rtempact. Unit °C, 0x2094:01, Modbus 148 (holding; wire 148; FC 3), INTEGER16, read-only, mappable into TPDOs.
+    /// Rtempact: Unit °C, 0x2094:01, Modbus 148 (holding; wire 148; FC 3), INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RTEMPACT`].
     pub fn rtempact(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RTEMPACT.at(&mut self.client)
     }
     /// Actual DC-link voltage of the drive.
     ///
-    /// Rtensact. Unit V, 0x2095:01, Modbus 149 (holding; wire 149; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rtensact: Unit V, 0x2095:01, Modbus 149 (holding; wire 149; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RTENSACT`].
     pub fn rtensact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RTENSACT.at(&mut self.client)
     }
     /// Actual current that the drive draws from the DC supply.
     ///
-    /// Rcurdact. Unit mA, 0x2096:01, Modbus 150 (holding; wire 150; FC 3), UNSIGNED16, read-only.
+    /// Rcurdact: Unit mA, 0x2096:01, Modbus 150 (holding; wire 150; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RCURDACT`].
     pub fn rcurdact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RCURDACT.at(&mut self.client)
     }
     /// Software revision; from firmware 6 on in Rindswrev.
     ///
-    /// Rswrev. 0x20BE:01, Modbus 190 (holding; wire 190; FC 3), UNSIGNED16, read-only.
+    /// Rswrev: 0x20BE:01, Modbus 190 (holding; wire 190; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RSWREV`].
     pub fn rswrev(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RSWREV.at(&mut self.client)
     }
     /// Hardware revision; the manufacturer writes it before command 136 of Rloadsav.
     ///
-    /// Rhwrev. 0x20BF:01, Modbus 191 (holding; wire 191; FC 3), UNSIGNED16, read-only.
+    /// Rhwrev: 0x20BF:01, Modbus 191 (holding; wire 191; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RHWREV`].
     ///
     /// Note: Rhwrev has RO, but in the row of Rloadsav, the manufacturer writes it together with Rserial before command 136. Assumed: read-only (this is in the notes of the row, and only the manufacturer writes it). Manual: GESTIONE MEMORIA NON VOLATILE EEPROM; VARIE (lines 2597, 2776).
@@ -3786,7 +3786,7 @@ impl<C> VectorStep<C> {
     }
     /// Serial number, set at the final test; cannot be changed if it is not 0.
     ///
-    /// Rserial. 0x20C0:01, Modbus 192–193 (holding; wire 192–193; FC 3/16; low word first), UNSIGNED32, read-write.
+    /// Rserial: 0x20C0:01, Modbus 192–193 (holding; wire 192–193; FC 3/16; low word first), UNSIGNED32, read-write.
     /// Non-volatile: stored by 136.
     /// Constant: [`objects::RSERIAL`].
     ///
@@ -3800,14 +3800,14 @@ impl<C> VectorStep<C> {
     }
     /// Position of the rotary switches.
     ///
-    /// Rrotsw. Range 0 to 99, 0x20C5:01, Modbus 197 (holding; wire 197; FC 3), UNSIGNED16, read-only.
+    /// Rrotsw: Range 0 to 99, 0x20C5:01, Modbus 197 (holding; wire 197; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RROTSW`].
     pub fn rrotsw(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RROTSW.at(&mut self.client)
     }
     /// Active hardware options of the drive.
     ///
-    /// Rhwoptions. 0x2157:01, Modbus 343 (holding; wire 343; FC 3), UNSIGNED16, read-only.
+    /// Rhwoptions: 0x2157:01, Modbus 343 (holding; wire 343; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RHWOPTIONS`]. Values: [`HardwareOptions`](types::HardwareOptions).
     pub fn rhwoptions(
         &mut self,
@@ -3816,7 +3816,7 @@ impl<C> VectorStep<C> {
     }
     /// Model code of the drive, 0 to 125; 0xFFFF from firmware 5.50 on.
     ///
-    /// Rindtype. 0x20C6:01, Modbus 198 (holding; wire 198; FC 3), UNSIGNED16, read-only.
+    /// Rindtype: 0x20C6:01, Modbus 198 (holding; wire 198; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RINDTYPE`]. Values: [`ModelCode`](types::ModelCode).
     ///
     /// Note: The description is split into two cells. The row has 10 columns, its header has a stray tab, and all later cells are one column to the right. Assumed: cells are read one column to the left: no unit, no limits, the type Unsigned16, and the notes WORD NO MAP RO (the cells then agree with their headers). Manual: VARIE (line 2782).
@@ -3833,7 +3833,7 @@ impl<C> VectorStep<C> {
     }
     /// Drive family as a decimal number, such as 1204, 2204 or 5206.
     ///
-    /// Rindfamily. 0x4710:01, Modbus 10000 (holding; wire 0x2710; FC 3), UNSIGNED16, read-only.
+    /// Rindfamily: 0x4710:01, Modbus 10000 (holding; wire 0x2710; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RINDFAMILY`].
     ///
     /// Note: 'Da fw 5.50' (from firmware 5.50) is printed before a remark on register 198 only. Assumed: the row has no since (the sentence describes register 198; the manual does not state from which firmware on 10000 exists). Manual: VARIE (line 2785).
@@ -3844,7 +3844,7 @@ impl<C> VectorStep<C> {
     }
     /// Voltage, application, platform and communication chip of the drive.
     ///
-    /// Rindmodel. 0x4711:01, Modbus 10001 (holding; wire 0x2711; FC 3), UNSIGNED16, read-only.
+    /// Rindmodel: 0x4711:01, Modbus 10001 (holding; wire 0x2711; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RINDMODEL`]. Values: [`ModelDefinition`](types::ModelDefinition).
     pub fn rindmodel(
         &mut self,
@@ -3853,7 +3853,7 @@ impl<C> VectorStep<C> {
     }
     /// Fieldbus of the drive.
     ///
-    /// Rindfielbus. 0x4712:01, Modbus 10002 (holding; wire 0x2712; FC 3), UNSIGNED16, read-only.
+    /// Rindfielbus: 0x4712:01, Modbus 10002 (holding; wire 0x2712; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RINDFIELBUS`]. Values: [`FieldbusKind`](types::FieldbusKind).
     ///
     /// Note: The name is printed as Rindfielbus. Assumed: the name as printed (Rindfieldbus is probably meant, but no other place has the name). Manual: VARIE (line 2787).
@@ -3864,7 +3864,7 @@ impl<C> VectorStep<C> {
     }
     /// Options of the drive: type of absolute encoder.
     ///
-    /// Rindoptions. 0x4713:01, Modbus 10003 (holding; wire 0x2713; FC 3), UNSIGNED16, read-only.
+    /// Rindoptions: 0x4713:01, Modbus 10003 (holding; wire 0x2713; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RINDOPTIONS`]. Values: [`DriveOptions`](types::DriveOptions).
     pub fn rindoptions(
         &mut self,
@@ -3873,7 +3873,7 @@ impl<C> VectorStep<C> {
     }
     /// Revision of the register map.
     ///
-    /// Rindregset. 0x4714:01, Modbus 10004 (holding; wire 0x2714; FC 3), UNSIGNED16, read-only.
+    /// Rindregset: 0x4714:01, Modbus 10004 (holding; wire 0x2714; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RINDREGSET`]. Values: [`RegisterMap`](types::RegisterMap).
     ///
     /// Note: The description ends with a quotation mark that is not opened. Assumed: left out (the mark comes from the conversion to text). Manual: VARIE (line 2789).
@@ -3882,21 +3882,21 @@ impl<C> VectorStep<C> {
     }
     /// Software revision of the drive.
     ///
-    /// Rindswrev. 0x4715:01, Modbus 10005 (holding; wire 0x2715; FC 3), UNSIGNED16, read-only.
+    /// Rindswrev: 0x4715:01, Modbus 10005 (holding; wire 0x2715; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RINDSWREV`].
     pub fn rindswrev(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RINDSWREV.at(&mut self.client)
     }
     /// Hardware revision of the drive.
     ///
-    /// Rindhwrev. 0x4716:01, Modbus 10006 (holding; wire 0x2716; FC 3), UNSIGNED16, read-only.
+    /// Rindhwrev: 0x4716:01, Modbus 10006 (holding; wire 0x2716; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RINDHWREV`].
     pub fn rindhwrev(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RINDHWREV.at(&mut self.client)
     }
     /// Serial number; a copy of Rserial.
     ///
-    /// Rindsn. 0x4717:01, Modbus 10007–10008 (holding; wire 0x2717–0x2718; FC 3; low word first (assumed)), UNSIGNED32, read-only.
+    /// Rindsn: 0x4717:01, Modbus 10007–10008 (holding; wire 0x2717–0x2718; FC 3; low word first (assumed)), UNSIGNED32, read-only.
     /// Constant: [`objects::RINDSN`].
     ///
     /// Note: The notes have WORD, but the row has two register numbers and a 32-bit type. Assumed: 32 bits (register numbers and type agree). Manual: VARIE (line 2792).
@@ -3905,7 +3905,7 @@ impl<C> VectorStep<C> {
     }
     /// Constant 1234567890 (0x499602D2): a 32-bit read shows whether the word order is Intel or Motorola.
     ///
-    /// Rtestintmot. Range 1234567890 to 1234567890, default 0x499602D2, 0x202A:01, Modbus 42–43 (holding; wire 42–43; FC 3; low word first (assumed)), UNSIGNED32, read-only.
+    /// Rtestintmot: Range 1234567890 to 1234567890, default 0x499602D2, 0x202A:01, Modbus 42–43 (holding; wire 42–43; FC 3; low word first (assumed)), UNSIGNED32, read-only.
     /// Constant: [`objects::RTESTINTMOT`].
     ///
     /// Note: The type is 'Holding Register (32bit)', without a sign. Assumed: u32 (1234567890 is the same in both types). Manual: FIELDBUS (line 2795).
@@ -3918,7 +3918,7 @@ impl<C> VectorStep<C> {
     }
     /// Profibus communication state.
     ///
-    /// Rprofists. 0x20A6:01, Modbus 166 (holding; wire 166; FC 3), UNSIGNED16, read-only.
+    /// Rprofists: 0x20A6:01, Modbus 166 (holding; wire 166; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RPROFISTS`]. Values: [`ProfibusState`](types::ProfibusState).
     ///
     /// Note: The index of register 166 is printed as 0x20A, with three digits; the rule gives 0x20A6. Assumed: 0x20A6 (registers 167 and 168 have 0x20A7 and 0x20A8; a digit is lost). Manual: FIELDBUS (lines 2796, 2797, 2798).
@@ -3927,7 +3927,7 @@ impl<C> VectorStep<C> {
     }
     /// Profibus bit rate.
     ///
-    /// Rprofibaud. Range 0 to 11, 0x20A7:01, Modbus 167 (holding; wire 167; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rprofibaud: Range 0 to 11, 0x20A7:01, Modbus 167 (holding; wire 167; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPROFIBAUD`]. Values: [`ProfibusBitRate`](types::ProfibusBitRate).
     ///
@@ -3939,7 +3939,7 @@ impl<C> VectorStep<C> {
     }
     /// Offset that is added to the Profibus address of the hardware.
     ///
-    /// Rprofiaddr. Range 0 to 127, 0x20A8:01, Modbus 168 (holding; wire 168; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rprofiaddr: Range 0 to 127, 0x20A8:01, Modbus 168 (holding; wire 168; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RPROFIADDR`].
     pub fn rprofiaddr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3947,7 +3947,7 @@ impl<C> VectorStep<C> {
     }
     /// CAN bit rate.
     ///
-    /// Rcanbaud. Range 0 to 8, 0x20A9:01, Modbus 169 (holding; wire 169; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcanbaud: Range 0 to 8, 0x20A9:01, Modbus 169 (holding; wire 169; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCANBAUD`]. Values: [`CanBaudRate`](types::CanBaudRate).
     ///
@@ -3957,7 +3957,7 @@ impl<C> VectorStep<C> {
     }
     /// Offset that is added to the CAN node-ID of the hardware.
     ///
-    /// Rcanaddr. Range 0 to 127, 0x20AA:01, Modbus 170 (holding; wire 170; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcanaddr: Range 0 to 127, 0x20AA:01, Modbus 170 (holding; wire 170; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCANADDR`].
     pub fn rcanaddr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3965,56 +3965,56 @@ impl<C> VectorStep<C> {
     }
     /// Number of transmitted CAN messages.
     ///
-    /// Rcantx. 0x20AB:01, Modbus 171–172 (holding; wire 171–172; FC 3; low word first), UNSIGNED32, read-only.
+    /// Rcantx: 0x20AB:01, Modbus 171–172 (holding; wire 171–172; FC 3; low word first), UNSIGNED32, read-only.
     /// Constant: [`objects::RCANTX`].
     pub fn rcantx(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RCANTX.at(&mut self.client)
     }
     /// Number of received CAN messages.
     ///
-    /// Rcanrx. 0x20AD:01, Modbus 173–174 (holding; wire 173–174; FC 3; low word first), UNSIGNED32, read-only.
+    /// Rcanrx: 0x20AD:01, Modbus 173–174 (holding; wire 173–174; FC 3; low word first), UNSIGNED32, read-only.
     /// Constant: [`objects::RCANRX`].
     pub fn rcanrx(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RCANRX.at(&mut self.client)
     }
     /// Number of CAN overruns.
     ///
-    /// Rcanovr. 0x20AF:01, Modbus 175 (holding; wire 175; FC 3), UNSIGNED16, read-only.
+    /// Rcanovr: 0x20AF:01, Modbus 175 (holding; wire 175; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RCANOVR`].
     pub fn rcanovr(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RCANOVR.at(&mut self.client)
     }
     /// Number of CAN errors.
     ///
-    /// Rcanerr. 0x20B0:01, Modbus 176 (holding; wire 176; FC 3), UNSIGNED16, read-only.
+    /// Rcanerr: 0x20B0:01, Modbus 176 (holding; wire 176; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RCANERR`].
     pub fn rcanerr(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RCANERR.at(&mut self.client)
     }
     /// Index of the CANopen object that Rcancmd accesses.
     ///
-    /// Rcanidx. Range 0 to 65535, 0x20B1:01, Modbus 177 (holding; wire 177; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcanidx: Range 0 to 65535, 0x20B1:01, Modbus 177 (holding; wire 177; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RCANIDX`].
     pub fn rcanidx(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCANIDX.at(&mut self.client)
     }
     /// Sub-index of the CANopen object that Rcancmd accesses.
     ///
-    /// Rcansub. Range 0 to 255, 0x20B2:01, Modbus 178 (holding; wire 178; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcansub: Range 0 to 255, 0x20B2:01, Modbus 178 (holding; wire 178; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RCANSUB`].
     pub fn rcansub(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCANSUB.at(&mut self.client)
     }
     /// Value that Rcancmd writes to the CANopen object.
     ///
-    /// Rcannew. 0x20B3:01, Modbus 179–180 (holding; wire 179–180; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
+    /// Rcannew: 0x20B3:01, Modbus 179–180 (holding; wire 179–180; FC 3/16; low word first), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RCANNEW`].
     pub fn rcannew(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RCANNEW.at(&mut self.client)
     }
     /// Command: writes Rcannew to the object that Rcanidx and Rcansub select, or reads this object into Rcanact.
     ///
-    /// Rcancmd. Range 0 to 2, 0x20B5:01, Modbus 181 (holding; wire 181; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcancmd: Range 0 to 2, 0x20B5:01, Modbus 181 (holding; wire 181; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RCANCMD`]. Values: [`CanObjectCommand`](types::CanObjectCommand).
     ///
     /// Note: The minimum is 0, but only 1 and 2 have names; the manual does not state whether the register returns to 0 after completion. Assumed: limits 0..2, two named values, and no return to 0 (as printed). Manual: FIELDBUS (line 2810).
@@ -4027,14 +4027,14 @@ impl<C> VectorStep<C> {
     }
     /// Value that Rcancmd read from the CANopen object.
     ///
-    /// Rcanact. 0x20B6:01, Modbus 182–183 (holding; wire 182–183; FC 3; low word first), UNSIGNED32, read-only.
+    /// Rcanact: 0x20B6:01, Modbus 182–183 (holding; wire 182–183; FC 3; low word first), UNSIGNED32, read-only.
     /// Constant: [`objects::RCANACT`].
     pub fn rcanact(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RCANACT.at(&mut self.client)
     }
     /// CANopen state: bits 3-0 as shown by the red LED, bits 7-4 as shown by the green LED.
     ///
-    /// Rcansts. 0x20B8:01, Modbus 184 (holding; wire 184; FC 3), UNSIGNED16, read-only.
+    /// Rcansts: 0x20B8:01, Modbus 184 (holding; wire 184; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RCANSTS`]. Values: [`CanopenStatus`](types::CanopenStatus).
     ///
     /// Note: The description ends after 'b7 b6 b5 b4 ... 0 1 0 1 Oper'. Assumed: 'operational' completes it; no further pattern is added (the last green state of the LED table is OPERATIONAL; the rest is lost). Manual: FIELDBUS; STATO DEL LED FLD (lines 2812, 3333).
@@ -4045,7 +4045,7 @@ impl<C> VectorStep<C> {
     }
     /// Bit rate of the serial port.
     ///
-    /// Rserbaud. Range 0 to 7, 0x20B9:01, Modbus 185 (holding; wire 185; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rserbaud: Range 0 to 7, 0x20B9:01, Modbus 185 (holding; wire 185; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSERBAUD`]. Values: [`SerialBaudRate`](types::SerialBaudRate).
     pub fn rserbaud(
@@ -4055,7 +4055,7 @@ impl<C> VectorStep<C> {
     }
     /// Parity and stop bits of the serial port.
     ///
-    /// Rserpar. Range 0 to 5, 0x20BA:01, Modbus 186 (holding; wire 186; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rserpar: Range 0 to 5, 0x20BA:01, Modbus 186 (holding; wire 186; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSERPAR`]. Values: [`SerialFormat`](types::SerialFormat).
     pub fn rserpar(&mut self) -> objects::ReadWriteAccess<'_, C, types::SerialFormat> {
@@ -4063,7 +4063,7 @@ impl<C> VectorStep<C> {
     }
     /// Delay of the reply on the serial port.
     ///
-    /// Rserdly. Unit ms, range 0 to 16, 0x20BB:01, Modbus 187 (holding; wire 187; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rserdly: Unit ms, range 0 to 16, 0x20BB:01, Modbus 187 (holding; wire 187; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSERDLY`].
     pub fn rserdly(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4071,7 +4071,7 @@ impl<C> VectorStep<C> {
     }
     /// Offset that is added to the serial address of the hardware.
     ///
-    /// Rseraddr. Range 0 to 31, 0x20BC:01, Modbus 188 (holding; wire 188; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rseraddr: Range 0 to 31, 0x20BC:01, Modbus 188 (holding; wire 188; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSERADDR`].
     pub fn rseraddr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4079,7 +4079,7 @@ impl<C> VectorStep<C> {
     }
     /// Word order of 32-bit registers on the serial port (RS232, RS485).
     ///
-    /// Rintmot. Range 0 to 1, 0x20BD:01, Modbus 189 (holding; wire 189; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rintmot: Range 0 to 1, 0x20BD:01, Modbus 189 (holding; wire 189; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RINTMOT`]. Values: [`WordOrder`](types::WordOrder).
     ///
@@ -4089,7 +4089,7 @@ impl<C> VectorStep<C> {
     }
     /// Enables Omron FINS/TCP on drives with Ethernet.
     ///
-    /// Rfinsenable. Range 0 to 1, 0x212E:01, Modbus 302 (holding; wire 302; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfinsenable: Range 0 to 1, 0x212E:01, Modbus 302 (holding; wire 302; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFINSENABLE`].
     ///
@@ -4099,7 +4099,7 @@ impl<C> VectorStep<C> {
     }
     /// Station number on Omron FINS/TCP.
     ///
-    /// Rfinsnode. Range 1 to 254, 0x212F:01, Modbus 303 (holding; wire 303; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfinsnode: Range 1 to 254, 0x212F:01, Modbus 303 (holding; wire 303; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFINSNODE`].
     pub fn rfinsnode(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4107,7 +4107,7 @@ impl<C> VectorStep<C> {
     }
     /// TCP port of Modbus/TCP; default 502.
     ///
-    /// Rmdbport. Range 0 to 65535, default 502, 0x2130:01, Modbus 304 (holding; wire 304; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmdbport: Range 0 to 65535, default 502, 0x2130:01, Modbus 304 (holding; wire 304; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMDBPORT`].
     pub fn rmdbport(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4115,7 +4115,7 @@ impl<C> VectorStep<C> {
     }
     /// Word order of 32-bit registers on Modbus/TCP and other Ethernet protocols.
     ///
-    /// Rethintmot. Range 0 to 1, 0x2131:01, Modbus 305 (holding; wire 305; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethintmot: Range 0 to 1, 0x2131:01, Modbus 305 (holding; wire 305; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHINTMOT`]. Values: [`WordOrder`](types::WordOrder).
     ///
@@ -4125,7 +4125,7 @@ impl<C> VectorStep<C> {
     }
     /// Additional time between Modbus RTU messages for slow remote connections; default 0.
     ///
-    /// Rextmdbtime. Unit ms, range 0 to 10000, default 0, 0x2134:01, Modbus 308 (holding; wire 308; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rextmdbtime: Unit ms, range 0 to 10000, default 0, 0x2134:01, Modbus 308 (holding; wire 308; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::REXTMDBTIME`].
     pub fn rextmdbtime(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4133,7 +4133,7 @@ impl<C> VectorStep<C> {
     }
     /// Errors of consistency between Controlword and Statusword on CANopen.
     ///
-    /// Rstatuscan. 0x2161:01, Modbus 353 (holding; wire 353; FC 3), UNSIGNED16, read-only.
+    /// Rstatuscan: 0x2161:01, Modbus 353 (holding; wire 353; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RSTATUSCAN`].
     ///
     /// Note: The manual states no access rights. Assumed: read-only (it is a status word). Manual: FIELDBUS (line 2825).
@@ -4142,7 +4142,7 @@ impl<C> VectorStep<C> {
     }
     /// Copy of object 0x6060 (requested mode of operation).
     ///
-    /// Rcanmodeofoperation. 0x2162:01, Modbus 354 (holding; wire 354; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Rcanmodeofoperation: 0x2162:01, Modbus 354 (holding; wire 354; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Constant: [`objects::RCANMODEOFOPERATION`]. Values: [`ModesOfOperationI16`](types::ModesOfOperationI16).
     ///
     /// Note: The type is Unsigned16, but 0x6060, of which it is a copy, is Integer8 and can be -1. Assumed: i16 (otherwise -1 could not be read; the manual does not state whether the drive extends the sign). Manual: MODES OF OPERATION; FIELDBUS (lines 1456, 1463, 2826).
@@ -4155,7 +4155,7 @@ impl<C> VectorStep<C> {
     }
     /// Firmware version of the Antaios chip; from firmware 6 on in Rswrevariantaios.
     ///
-    /// Rswrevariantais. 0x2163:01, Modbus 355 (holding; wire 355; FC 3), UNSIGNED16, read-only.
+    /// Rswrevariantais: 0x2163:01, Modbus 355 (holding; wire 355; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RSWREVARIANTAIS`].
     ///
     /// Note: The manual states no access rights; its successor Rswrevariantaios is RW. Assumed: read-only (it is a version). Manual: FIELDBUS (lines 2827, 2867).
@@ -4166,7 +4166,7 @@ impl<C> VectorStep<C> {
     }
     /// Hardware version of the Antaios chip; from firmware 6 on in Rhwrevariantaios.
     ///
-    /// Rhwrevariantais. 0x2164:01, Modbus 356 (holding; wire 356; FC 3), UNSIGNED16, read-only.
+    /// Rhwrevariantais: 0x2164:01, Modbus 356 (holding; wire 356; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RHWREVARIANTAIS`].
     ///
     /// Note: The manual states no access rights; its successor Rhwrevariantaios is RW. Assumed: read-only (it is a version). Manual: FIELDBUS (lines 2828, 2868).
@@ -4177,7 +4177,7 @@ impl<C> VectorStep<C> {
     }
     /// Explicit EtherCAT address (device ID) of the drive.
     ///
-    /// Rethercatid. 0x2165:01, Modbus 357 (holding; wire 357; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethercatid: 0x2165:01, Modbus 357 (holding; wire 357; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RETHERCATID`].
     ///
     /// Note: The description is 'Explicite address ID'. Assumed: explicit address (it probably means explicit device identification of EtherCAT; the row has no more text). Manual: FIELDBUS (line 2829).
@@ -4186,7 +4186,7 @@ impl<C> VectorStep<C> {
     }
     /// Value of object 0x6060 (mode of operation) at power-on, on CANopen and EtherCAT.
     ///
-    /// Rstrmodeofoperation. Range \-1 to 8, 0x2166:01, Modbus 358 (holding; wire 358; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Rstrmodeofoperation: Range \-1 to 8, 0x2166:01, Modbus 358 (holding; wire 358; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSTRMODEOFOPERATION`]. Values: [`ModesOfOperationI16`](types::ModesOfOperationI16).
     ///
@@ -4200,7 +4200,7 @@ impl<C> VectorStep<C> {
     }
     /// Options that adapt the DS402 state machine to particular masters.
     ///
-    /// Rds402compatibility. 0x216D:01, Modbus 365 (holding; wire 365; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rds402compatibility: 0x216D:01, Modbus 365 (holding; wire 365; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RDS402COMPATIBILITY`]. Values: [`Ds402Compatibility`](types::Ds402Compatibility).
     ///
     /// Note: The row has neither type nor notes nor limits. Assumed: u16, without notes and limits (it is one register of 16 bits; the manual states neither whether it is saved nor whether each axis has one). Manual: FIELDBUS (line 2831).
@@ -4213,7 +4213,7 @@ impl<C> VectorStep<C> {
     }
     /// Local IP address: bytes 3 and 2.
     ///
-    /// Rethlocipaddr32. Range 0 to 65535, 0x2203:01, Modbus 515 (holding; wire 515; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethlocipaddr32: Range 0 to 65535, 0x2203:01, Modbus 515 (holding; wire 515; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHLOCIPADDR32`].
     ///
@@ -4223,7 +4223,7 @@ impl<C> VectorStep<C> {
     }
     /// Local IP address: bytes 1 and 0.
     ///
-    /// Rethlocipaddr10. Range 0 to 65535, 0x2204:01, Modbus 516 (holding; wire 516; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethlocipaddr10: Range 0 to 65535, 0x2204:01, Modbus 516 (holding; wire 516; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHLOCIPADDR10`].
     pub fn rethlocipaddr10(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4231,7 +4231,7 @@ impl<C> VectorStep<C> {
     }
     /// Subnet mask: bytes 3 and 2.
     ///
-    /// Rethsubnet32. Range 0 to 65535, 0x2205:01, Modbus 517 (holding; wire 517; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethsubnet32: Range 0 to 65535, 0x2205:01, Modbus 517 (holding; wire 517; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHSUBNET32`].
     pub fn rethsubnet32(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4239,7 +4239,7 @@ impl<C> VectorStep<C> {
     }
     /// Subnet mask: bytes 1 and 0.
     ///
-    /// Rethsubnet10. Range 0 to 65535, 0x2206:01, Modbus 518 (holding; wire 518; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethsubnet10: Range 0 to 65535, 0x2206:01, Modbus 518 (holding; wire 518; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHSUBNET10`].
     pub fn rethsubnet10(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4247,7 +4247,7 @@ impl<C> VectorStep<C> {
     }
     /// Gateway address: bytes 3 and 2.
     ///
-    /// Rethgwaddr32. Range 0 to 65535, 0x2207:01, Modbus 519 (holding; wire 519; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethgwaddr32: Range 0 to 65535, 0x2207:01, Modbus 519 (holding; wire 519; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHGWADDR32`].
     pub fn rethgwaddr32(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4255,7 +4255,7 @@ impl<C> VectorStep<C> {
     }
     /// Gateway address: bytes 1 and 0.
     ///
-    /// Rethgwaddr10. Range 0 to 65535, 0x2208:01, Modbus 520 (holding; wire 520; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethgwaddr10: Range 0 to 65535, 0x2208:01, Modbus 520 (holding; wire 520; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHGWADDR10`].
     pub fn rethgwaddr10(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4263,7 +4263,7 @@ impl<C> VectorStep<C> {
     }
     /// MAC address 0: bytes 5 and 4. Write it first of the three, before command 140 of Rloadsav.
     ///
-    /// Rethmacaddr054. Range 0 to 65535, 0x2209:01, Modbus 521 (holding; wire 521; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethmacaddr054: Range 0 to 65535, 0x2209:01, Modbus 521 (holding; wire 521; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 140.
     /// Constant: [`objects::RETHMACADDR054`].
     ///
@@ -4275,7 +4275,7 @@ impl<C> VectorStep<C> {
     }
     /// MAC address 0: bytes 3 and 2. Write it second of the three, before command 140 of Rloadsav.
     ///
-    /// Rethmacaddr032. Range 0 to 65535, 0x220A:01, Modbus 522 (holding; wire 522; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethmacaddr032: Range 0 to 65535, 0x220A:01, Modbus 522 (holding; wire 522; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 140.
     /// Constant: [`objects::RETHMACADDR032`].
     ///
@@ -4285,7 +4285,7 @@ impl<C> VectorStep<C> {
     }
     /// MAC address 0: bytes 1 and 0. Write it last of the three, directly before command 140 of Rloadsav.
     ///
-    /// Rethmacaddr010. Range 0 to 65535, 0x220B:01, Modbus 523 (holding; wire 523; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethmacaddr010: Range 0 to 65535, 0x220B:01, Modbus 523 (holding; wire 523; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 140.
     /// Constant: [`objects::RETHMACADDR010`].
     ///
@@ -4295,7 +4295,7 @@ impl<C> VectorStep<C> {
     }
     /// MAC address 1 (PROFINET port 1): bytes 5 and 4.
     ///
-    /// Rethmacaddr154. Range 0 to 65535, 0x220C:01, Modbus 524 (holding; wire 524; FC 3), UNSIGNED16, read-only.
+    /// Rethmacaddr154: Range 0 to 65535, 0x220C:01, Modbus 524 (holding; wire 524; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RETHMACADDR154`].
     ///
     /// Note: The manual states no access rights. The row has limits, but no SAVE, and no command saves the address. Assumed: read-only (it is an identification of the PROFINET port). Manual: FIELDBUS (line 2841).
@@ -4304,7 +4304,7 @@ impl<C> VectorStep<C> {
     }
     /// MAC address 1 (PROFINET port 1): bytes 3 and 2.
     ///
-    /// Rethmacaddr132. Range 0 to 65535, 0x220D:01, Modbus 525 (holding; wire 525; FC 3), UNSIGNED16, read-only.
+    /// Rethmacaddr132: Range 0 to 65535, 0x220D:01, Modbus 525 (holding; wire 525; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RETHMACADDR132`].
     ///
     /// Note: The manual states no access rights. The row has limits, but no SAVE, and no command saves the address. Assumed: read-only (it is an identification of the PROFINET port). Manual: FIELDBUS (line 2842).
@@ -4313,7 +4313,7 @@ impl<C> VectorStep<C> {
     }
     /// MAC address 1 (PROFINET port 1): bytes 1 and 0.
     ///
-    /// Rethmacaddr110. Range 0 to 65535, 0x220E:01, Modbus 526 (holding; wire 526; FC 3), UNSIGNED16, read-only.
+    /// Rethmacaddr110: Range 0 to 65535, 0x220E:01, Modbus 526 (holding; wire 526; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RETHMACADDR110`].
     ///
     /// Note: The manual states no access rights. The row has limits, but no SAVE, and no command saves the address. Assumed: read-only (it is an identification of the PROFINET port). Manual: FIELDBUS (line 2843).
@@ -4322,7 +4322,7 @@ impl<C> VectorStep<C> {
     }
     /// MAC address 2 (PROFINET port 2): bytes 5 and 4.
     ///
-    /// Rethmacaddr254. Range 0 to 65535, 0x220F:01, Modbus 527 (holding; wire 527; FC 3), UNSIGNED16, read-only.
+    /// Rethmacaddr254: Range 0 to 65535, 0x220F:01, Modbus 527 (holding; wire 527; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RETHMACADDR254`].
     ///
     /// Note: The manual states no access rights. The row has limits, but no SAVE, and no command saves the address. Assumed: read-only (it is an identification of the PROFINET port). Manual: FIELDBUS (line 2844).
@@ -4331,7 +4331,7 @@ impl<C> VectorStep<C> {
     }
     /// MAC address 2 (PROFINET port 2): bytes 3 and 2.
     ///
-    /// Rethmacaddr232. Range 0 to 65535, 0x2210:01, Modbus 528 (holding; wire 528; FC 3), UNSIGNED16, read-only.
+    /// Rethmacaddr232: Range 0 to 65535, 0x2210:01, Modbus 528 (holding; wire 528; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RETHMACADDR232`].
     ///
     /// Note: The manual states no access rights. The row has limits, but no SAVE, and no command saves the address. Assumed: read-only (it is an identification of the PROFINET port). Manual: FIELDBUS (line 2845).
@@ -4340,7 +4340,7 @@ impl<C> VectorStep<C> {
     }
     /// MAC address 2 (PROFINET port 2): bytes 1 and 0.
     ///
-    /// Rethmacaddr210. Range 0 to 65535, 0x2211:01, Modbus 529 (holding; wire 529; FC 3), UNSIGNED16, read-only.
+    /// Rethmacaddr210: Range 0 to 65535, 0x2211:01, Modbus 529 (holding; wire 529; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RETHMACADDR210`].
     ///
     /// Note: The manual states no access rights. The row has limits, but no SAVE, and no command saves the address. Assumed: read-only (it is an identification of the PROFINET port). Manual: FIELDBUS (line 2846).
@@ -4349,7 +4349,7 @@ impl<C> VectorStep<C> {
     }
     /// Protocol of socket 1: TCP or UDP.
     ///
-    /// Rethprotsock1. Range 0 to 1, 0x2220:01, Modbus 544 (holding; wire 544; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethprotsock1: Range 0 to 1, 0x2220:01, Modbus 544 (holding; wire 544; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPROTSOCK1`]. Values: [`SocketProtocol`](types::SocketProtocol).
     pub fn rethprotsock1(
@@ -4359,7 +4359,7 @@ impl<C> VectorStep<C> {
     }
     /// Protocol of socket 2: TCP or UDP.
     ///
-    /// Rethprotsock2. Range 0 to 1, 0x2221:01, Modbus 545 (holding; wire 545; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethprotsock2: Range 0 to 1, 0x2221:01, Modbus 545 (holding; wire 545; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPROTSOCK2`]. Values: [`SocketProtocol`](types::SocketProtocol).
     pub fn rethprotsock2(
@@ -4369,7 +4369,7 @@ impl<C> VectorStep<C> {
     }
     /// Protocol of socket 3: TCP or UDP.
     ///
-    /// Rethprotsock3. Range 0 to 1, 0x2222:01, Modbus 546 (holding; wire 546; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethprotsock3: Range 0 to 1, 0x2222:01, Modbus 546 (holding; wire 546; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPROTSOCK3`]. Values: [`SocketProtocol`](types::SocketProtocol).
     pub fn rethprotsock3(
@@ -4379,7 +4379,7 @@ impl<C> VectorStep<C> {
     }
     /// Reserved; by its name, the protocol of socket 4.
     ///
-    /// Rethprotsock4. Range 0 to 1, 0x2223:01, Modbus 547 (holding; wire 547; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethprotsock4: Range 0 to 1, 0x2223:01, Modbus 547 (holding; wire 547; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPROTSOCK4`].
     ///
@@ -4389,7 +4389,7 @@ impl<C> VectorStep<C> {
     }
     /// Reserved; by its name, the protocol of socket 5.
     ///
-    /// Rethprotsock5. Range 0 to 1, 0x2224:01, Modbus 548 (holding; wire 548; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethprotsock5: Range 0 to 1, 0x2224:01, Modbus 548 (holding; wire 548; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPROTSOCK5`].
     ///
@@ -4399,7 +4399,7 @@ impl<C> VectorStep<C> {
     }
     /// Reserved; by its name, the protocol of socket 6.
     ///
-    /// Rethprotsock6. Range 0 to 1, 0x2225:01, Modbus 549 (holding; wire 549; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethprotsock6: Range 0 to 1, 0x2225:01, Modbus 549 (holding; wire 549; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPROTSOCK6`].
     ///
@@ -4409,7 +4409,7 @@ impl<C> VectorStep<C> {
     }
     /// Reserved; by its name, the protocol of socket 7.
     ///
-    /// Rethprotsock7. Range 0 to 1, 0x2226:01, Modbus 550 (holding; wire 550; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethprotsock7: Range 0 to 1, 0x2226:01, Modbus 550 (holding; wire 550; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPROTSOCK7`].
     ///
@@ -4419,7 +4419,7 @@ impl<C> VectorStep<C> {
     }
     /// Port number of socket 1.
     ///
-    /// Rethportsock1. Range 0 to 65535, 0x2227:01, Modbus 551 (holding; wire 551; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethportsock1: Range 0 to 65535, 0x2227:01, Modbus 551 (holding; wire 551; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPORTSOCK1`].
     pub fn rethportsock1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4427,7 +4427,7 @@ impl<C> VectorStep<C> {
     }
     /// Port number of socket 2.
     ///
-    /// Rethportsock2. Range 0 to 65535, 0x2228:01, Modbus 552 (holding; wire 552; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethportsock2: Range 0 to 65535, 0x2228:01, Modbus 552 (holding; wire 552; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPORTSOCK2`].
     pub fn rethportsock2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4435,7 +4435,7 @@ impl<C> VectorStep<C> {
     }
     /// Port number of socket 3.
     ///
-    /// Rethportsock3. Range 0 to 65535, 0x2229:01, Modbus 553 (holding; wire 553; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethportsock3: Range 0 to 65535, 0x2229:01, Modbus 553 (holding; wire 553; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPORTSOCK3`].
     pub fn rethportsock3(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4443,7 +4443,7 @@ impl<C> VectorStep<C> {
     }
     /// Port number of socket 4.
     ///
-    /// Rethportsock4. Range 0 to 65535, 0x222A:01, Modbus 554 (holding; wire 554; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethportsock4: Range 0 to 65535, 0x222A:01, Modbus 554 (holding; wire 554; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPORTSOCK4`].
     pub fn rethportsock4(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4451,7 +4451,7 @@ impl<C> VectorStep<C> {
     }
     /// Port number of socket 5.
     ///
-    /// Rethportsock5. Range 0 to 65535, 0x222B:01, Modbus 555 (holding; wire 555; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethportsock5: Range 0 to 65535, 0x222B:01, Modbus 555 (holding; wire 555; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPORTSOCK5`].
     pub fn rethportsock5(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4459,7 +4459,7 @@ impl<C> VectorStep<C> {
     }
     /// Port number of socket 6.
     ///
-    /// Rethportsock6. Range 0 to 65535, 0x222C:01, Modbus 556 (holding; wire 556; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethportsock6: Range 0 to 65535, 0x222C:01, Modbus 556 (holding; wire 556; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPORTSOCK6`].
     pub fn rethportsock6(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4467,7 +4467,7 @@ impl<C> VectorStep<C> {
     }
     /// Port number of socket 7.
     ///
-    /// Rethportsock7. Range 0 to 65535, 0x222D:01, Modbus 557 (holding; wire 557; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethportsock7: Range 0 to 65535, 0x222D:01, Modbus 557 (holding; wire 557; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHPORTSOCK7`].
     pub fn rethportsock7(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4475,7 +4475,7 @@ impl<C> VectorStep<C> {
     }
     /// Timeout of an inactive TCP socket; 0 disables it.
     ///
-    /// Rethcptimeout. Unit s, range 0 to 65535, 0x222E:01, Modbus 558 (holding; wire 558; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rethcptimeout: Unit s, range 0 to 65535, 0x222E:01, Modbus 558 (holding; wire 558; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RETHCPTIMEOUT`].
     ///
@@ -4487,21 +4487,21 @@ impl<C> VectorStep<C> {
     }
     /// Position of the character of the PROFINET device name that Rprofinetnamechr accesses.
     ///
-    /// Rprofinetnameptr. 0x4760:01, Modbus 10080 (holding; wire 0x2760; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rprofinetnameptr: 0x4760:01, Modbus 10080 (holding; wire 0x2760; FC 3/6/16), UNSIGNED16, read-write.
     /// Constant: [`objects::RPROFINETNAMEPTR`].
     pub fn rprofinetnameptr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPROFINETNAMEPTR.at(&mut self.client)
     }
     /// Character of the PROFINET device name at the position Rprofinetnameptr.
     ///
-    /// Rprofinetnamechr. 0x4761:01, Modbus 10081 (holding; wire 0x2761; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rprofinetnamechr: 0x4761:01, Modbus 10081 (holding; wire 0x2761; FC 3/6/16), UNSIGNED16, read-write.
     /// Constant: [`objects::RPROFINETNAMECHR`].
     pub fn rprofinetnamechr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPROFINETNAMECHR.at(&mut self.client)
     }
     /// PROFINET device name; it cannot be sent directly to the drive.
     ///
-    /// Rprofinetname. 0x4762:01, Modbus 10082 (holding; wire 0x2762; FC 3/6/16), unknown type, read-write (assumed).
+    /// Rprofinetname: 0x4762:01, Modbus 10082 (holding; wire 0x2762; FC 3/6/16), unknown type, read-write (assumed).
     /// Constant: [`objects::RPROFINETNAME`].
     ///
     /// Note: The type is STRING in one register, without a length; the name cannot be sent to the drive directly. Assumed: the type is unknown, and the register is hidden (registers 10080 and 10081 access the name). Manual: FIELDBUS (line 2866).
@@ -4510,7 +4510,7 @@ impl<C> VectorStep<C> {
     }
     /// Firmware version of the Antaios chip.
     ///
-    /// Rswrevariantaios. 0x479C:01, Modbus 10140 (holding; wire 0x279C; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rswrevariantaios: 0x479C:01, Modbus 10140 (holding; wire 0x279C; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RSWREVARIANTAIOS`].
     ///
@@ -4520,7 +4520,7 @@ impl<C> VectorStep<C> {
     }
     /// Hardware version of the Antaios chip.
     ///
-    /// Rhwrevariantaios. 0x479D:01, Modbus 10141 (holding; wire 0x279D; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rhwrevariantaios: 0x479D:01, Modbus 10141 (holding; wire 0x279D; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RHWREVARIANTAIOS`].
     ///
@@ -4530,7 +4530,7 @@ impl<C> VectorStep<C> {
     }
     /// Model of the expansion card in the Antaios firmware; command 12 of Rloadsav reads it from the card.
     ///
-    /// Rmodelantaios. 0x479E:01, Modbus 10142 (holding; wire 0x279E; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rmodelantaios: 0x479E:01, Modbus 10142 (holding; wire 0x279E; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMODELANTAIOS`].
     ///
@@ -4542,7 +4542,7 @@ impl<C> VectorStep<C> {
     }
     /// Modulo mode of the axis and the encoders, and direction of a motion to the target.
     ///
-    /// Rmodulcmd. Range 0 to 65535, 0x219D:01, Modbus 413 (holding; wire 413; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rmodulcmd: Range 0 to 65535, 0x219D:01, Modbus 413 (holding; wire 413; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMODULCMD`]. Values: [`ModuloCommand`](types::ModuloCommand).
     ///
@@ -4556,7 +4556,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum position of the axis before the rollover to 0.
     ///
-    /// Rmodulpos. Unit step, range 1 to 2147483647, 0x219E:01, Modbus 414–415 (holding; wire 414–415; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rmodulpos: Unit step, range 1 to 2147483647, 0x219E:01, Modbus 414–415 (holding; wire 414–415; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMODULPOS`].
     pub fn rmodulpos(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -4564,7 +4564,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum position of encoder 1 before the rollover to 0.
     ///
-    /// Rmodulmotenc. Unit count, range 1 to 2147483647, 0x21A0:01, Modbus 416–417 (holding; wire 416–417; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rmodulmotenc: Unit count, range 1 to 2147483647, 0x21A0:01, Modbus 416–417 (holding; wire 416–417; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMODULMOTENC`].
     pub fn rmodulmotenc(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -4572,7 +4572,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum position of encoder 2 before the rollover to 0.
     ///
-    /// Rmodulextenc. Unit count, range 1 to 2147483647, 0x21A2:01, Modbus 418–419 (holding; wire 418–419; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rmodulextenc: Unit count, range 1 to 2147483647, 0x21A2:01, Modbus 418–419 (holding; wire 418–419; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RMODULEXTENC`].
     pub fn rmodulextenc(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -4580,7 +4580,7 @@ impl<C> VectorStep<C> {
     }
     /// Sets the selected positions to their line-up values; set all bits in one write.
     ///
-    /// Rlineupcmd. 0x21A4:01, Modbus 420 (holding; wire 420; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rlineupcmd: 0x21A4:01, Modbus 420 (holding; wire 420; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RLINEUPCMD`]. Values: [`LineUpCommand`](types::LineUpCommand).
     ///
     /// Note: The table has bits 0 to 4, but the text only bits 0 to 2. No register has a line-up value of encoder 3 or of the absolute encoder. Assumed: five bits (the table has the newer names (encoder 1, 2 and 3)). Manual: RIALLINEAMENTO QUOTA; Gestione Riallineamento Quota (lines 2912, 2924-2928).
@@ -4593,7 +4593,7 @@ impl<C> VectorStep<C> {
     }
     /// Line-up value of Rposactreq; write it before the command.
     ///
-    /// Rlineuppos. Unit step, 0x21A5:01, Modbus 421–422 (holding; wire 421–422; FC 3/16; high word first), INTEGER32, read-write (assumed).
+    /// Rlineuppos: Unit step, 0x21A5:01, Modbus 421–422 (holding; wire 421–422; FC 3/16; high word first), INTEGER32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RLINEUPPOS`].
     pub fn rlineuppos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -4601,7 +4601,7 @@ impl<C> VectorStep<C> {
     }
     /// Line-up value of encoder 1; write it before the command.
     ///
-    /// Rlineupmotenc. Unit count, 0x21A7:01, Modbus 423–424 (holding; wire 423–424; FC 3/16; high word first), INTEGER32, read-write (assumed).
+    /// Rlineupmotenc: Unit count, 0x21A7:01, Modbus 423–424 (holding; wire 423–424; FC 3/16; high word first), INTEGER32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RLINEUPMOTENC`].
     pub fn rlineupmotenc(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -4609,7 +4609,7 @@ impl<C> VectorStep<C> {
     }
     /// Line-up value of encoder 2; write it before the command.
     ///
-    /// Rlineupextenc. Unit count, 0x21A9:01, Modbus 425–426 (holding; wire 425–426; FC 3/16; high word first), INTEGER32, read-write (assumed).
+    /// Rlineupextenc: Unit count, 0x21A9:01, Modbus 425–426 (holding; wire 425–426; FC 3/16; high word first), INTEGER32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RLINEUPEXTENC`].
     pub fn rlineupextenc(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -4617,7 +4617,7 @@ impl<C> VectorStep<C> {
     }
     /// Bits that the digital line-up input copies to Rlineupcmd.
     ///
-    /// Rlineupdef. 0x21AB:01, Modbus 427 (holding; wire 427; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rlineupdef: 0x21AB:01, Modbus 427 (holding; wire 427; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RLINEUPDEF`]. Values: [`LineUpDefinition`](types::LineUpDefinition).
     ///
@@ -4629,7 +4629,7 @@ impl<C> VectorStep<C> {
     }
     /// Control word of both touch probes; same as object 0x60B8.
     ///
-    /// Rtouchprobefunc. Range 0 to 65535, default 0, 0x214B:01, Modbus 331 (holding; wire 331; FC 3/6/16), UNSIGNED16, read-write, mappable into RPDOs.
+    /// Rtouchprobefunc: Range 0 to 65535, default 0, 0x214B:01, Modbus 331 (holding; wire 331; FC 3/6/16), UNSIGNED16, read-write, mappable into RPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTOUCHPROBEFUNC`]. Values: [`TouchProbeControl`](types::TouchProbeControl).
     ///
@@ -4649,7 +4649,7 @@ impl<C> VectorStep<C> {
     }
     /// Status word of both touch probes; same as object 0x60B9.
     ///
-    /// Rtouchprobestatus. Default 0, 0x214C:01, Modbus 332 (holding; wire 332; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rtouchprobestatus: Default 0, 0x214C:01, Modbus 332 (holding; wire 332; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RTOUCHPROBESTATUS`]. Values: [`TouchProbeStatusBeforeV6`](types::TouchProbeStatusBeforeV6).
     ///
     /// Note: Bits 2 and 10 are not supported here and in the box of 0x60B9. In the text, which is for registers 332 and 10085, they show stored negative edges. Assumed: not supported before firmware 6 (the table of 10085 has the negative edges, but the table of 332 does not). Manual: TOUCH PROBE STATUS; FUNZIONE TOUCH PROBE; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 1743, 1750, 2952, 2964, 3035, 3044, 3052).
@@ -4662,7 +4662,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of touch probe 1 latched at the positive edge; same as object 0x60BA.
     ///
-    /// Rtouchprobepos1pos. Default 0, 0x214D:01, Modbus 333–334 (holding; wire 333–334; FC 3; low word first (assumed)), INTEGER32, read-only, mappable into TPDOs.
+    /// Rtouchprobepos1pos: Default 0, 0x214D:01, Modbus 333–334 (holding; wire 333–334; FC 3; low word first (assumed)), INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::RTOUCHPROBEPOS1POS`].
     ///
     /// Note: Registers 333 and 10086 have the same name. Assumed: the suffix \_v6 for 10086 (firmware 6 replaces 333 by 10086). Manual: FUNZIONE TOUCH PROBE (lines 2953, 2965).
@@ -4671,7 +4671,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of touch probe 1 latched at the negative edge; same as object 0x60BB.
     ///
-    /// Rtouchprobepos1neg. Default 0, 0x214F:01, Modbus 335–336 (holding; wire 335–336; FC 3; low word first (assumed)), INTEGER32, read-only, mappable into TPDOs.
+    /// Rtouchprobepos1neg: Default 0, 0x214F:01, Modbus 335–336 (holding; wire 335–336; FC 3; low word first (assumed)), INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::RTOUCHPROBEPOS1NEG`].
     ///
     /// Note: Registers 335 and 10088 have the same name. Assumed: the suffix \_v6 for 10088 (firmware 6 replaces 335 by 10088). Manual: FUNZIONE TOUCH PROBE (lines 2954, 2966).
@@ -4680,7 +4680,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of touch probe 2 latched at the positive edge; same as object 0x60BC.
     ///
-    /// Rtouchprobepos2pos. Default 0, 0x2151:01, Modbus 337–338 (holding; wire 337–338; FC 3; low word first (assumed)), INTEGER32, read-only, mappable into TPDOs.
+    /// Rtouchprobepos2pos: Default 0, 0x2151:01, Modbus 337–338 (holding; wire 337–338; FC 3; low word first (assumed)), INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::RTOUCHPROBEPOS2POS`].
     ///
     /// Note: The successor is Rtouchprobe2pos in the table, but Rtouchprobepos2pos in the text, like this register. Assumed: the names of the tables (these names are different for the two registers). Manual: FUNZIONE TOUCH PROBE; Rtouchprobepos2pos (CanOpen/EtherCAT standard Object 60BCh) (lines 2974, 3082).
@@ -4689,7 +4689,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of touch probe 2 latched at the negative edge; same as object 0x60BD.
     ///
-    /// Rtouchprobe2neg. Default 0, 0x2153:01, Modbus 339–340 (holding; wire 339–340; FC 3; low word first (assumed)), INTEGER32, read-only, mappable into TPDOs.
+    /// Rtouchprobe2neg: Default 0, 0x2153:01, Modbus 339–340 (holding; wire 339–340; FC 3; low word first (assumed)), INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::RTOUCHPROBE2NEG`].
     ///
     /// Note: The English text of the row has the negative edge, but the Italian text the positive edge (fronte positivo). Assumed: the negative edge (the name, the touch probe chapter and register 10099 have the negative edge). Manual: FUNZIONE TOUCH PROBE; Rtouchprobepos2neg (lines 2958, 2975, 3096).
@@ -4702,7 +4702,7 @@ impl<C> VectorStep<C> {
     }
     /// Trigger signal of touch probe 1.
     ///
-    /// Rtouchprobe1inpdef. Range \-21 to 6, 0x2155:01, Modbus 341 (holding; wire 341; FC 3/6/16), INTEGER16, read-write, mappable into RPDOs.
+    /// Rtouchprobe1inpdef: Range \-21 to 6, 0x2155:01, Modbus 341 (holding; wire 341; FC 3/6/16), INTEGER16, read-write, mappable into RPDOs.
     /// Constant: [`objects::RTOUCHPROBE1INPDEF`]. Values: [`TouchProbeInput`](types::TouchProbeInput).
     ///
     /// Note: The notes have both RO and MAP WRITE. Assumed: read-write, and mappable to RPDOs (it is a setting, it is mapped for writing, and its successor is RW). Manual: FUNZIONE TOUCH PROBE (lines 2959, 2969).
@@ -4715,7 +4715,7 @@ impl<C> VectorStep<C> {
     }
     /// Trigger signal of touch probe 2.
     ///
-    /// Rtouchprobe2inpdef. 0x2156:01, Modbus 342 (holding; wire 342; FC 3/6/16), INTEGER16, read-write, mappable into RPDOs.
+    /// Rtouchprobe2inpdef: 0x2156:01, Modbus 342 (holding; wire 342; FC 3/6/16), INTEGER16, read-write, mappable into RPDOs.
     /// Constant: [`objects::RTOUCHPROBE2INPDEF`]. Values: [`TouchProbeInput`](types::TouchProbeInput).
     ///
     /// Note: The notes have both RO and MAP WRITE. Assumed: read-write, and mappable to RPDOs (it is a setting, it is mapped for writing, and its successor is RW). Manual: FUNZIONE TOUCH PROBE (lines 2960, 2978).
@@ -4728,7 +4728,7 @@ impl<C> VectorStep<C> {
     }
     /// Control word of both touch probes from firmware 6 on; same as object 0x60B8.
     ///
-    /// Rtouchprobefunc\_v6. Range 0 to 65535, default 0, 0x4764:01, Modbus 10084 (holding; wire 0x2764; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rtouchprobefunc\_v6: Range 0 to 65535, default 0, 0x4764:01, Modbus 10084 (holding; wire 0x2764; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTOUCHPROBEFUNC_V6`]. Values: [`TouchProbeControl`](types::TouchProbeControl).
     ///
@@ -4750,7 +4750,7 @@ impl<C> VectorStep<C> {
     }
     /// Status word of both touch probes from firmware 6 on; same as object 0x60B9.
     ///
-    /// Rtouchprobestatus\_v6. Range 0 to 65535, default 0, 0x4765:01, Modbus 10085 (holding; wire 0x2765; FC 3), UNSIGNED16, read-only.
+    /// Rtouchprobestatus\_v6: Range 0 to 65535, default 0, 0x4765:01, Modbus 10085 (holding; wire 0x2765; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RTOUCHPROBESTATUS_V6`]. Values: [`TouchProbeStatusV6`](types::TouchProbeStatusV6).
     ///
     /// Note: The notes have RW SAVE. Register 332, both registers in the text, and 0x60B9 have RO. Assumed: read-only and not saved (it is a status word, and the cell repeats the row above). Manual: TOUCH PROBE STATUS; FUNZIONE TOUCH PROBE; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 1734, 2952, 2964, 3035).
@@ -4765,7 +4765,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of touch probe 1 latched at the positive edge; same as object 0x60BA.
     ///
-    /// Rtouchprobepos1pos\_v6. Default 0, 0x4766:01, Modbus 10086–10087 (holding; wire 0x2766–0x2767; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rtouchprobepos1pos\_v6: Default 0, 0x4766:01, Modbus 10086–10087 (holding; wire 0x2766–0x2767; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RTOUCHPROBEPOS1POS_V6`].
     ///
     /// Note: The notes state no PDO mapping; in the text, 0x60BA is mappable and is the same as both registers. Assumed: the mapping is unstated (the text may refer to the object only). Manual: FUNZIONE TOUCH PROBE; Rtouchprobepos1pos (CanOpen/EtherCAT standard Object 60BAh) (lines 2965, 3062).
@@ -4776,7 +4776,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of touch probe 1 latched at the negative edge; same as object 0x60BB.
     ///
-    /// Rtouchprobepos1neg\_v6. Default 0, 0x4768:01, Modbus 10088–10089 (holding; wire 0x2768–0x2769; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rtouchprobepos1neg\_v6: Default 0, 0x4768:01, Modbus 10088–10089 (holding; wire 0x2768–0x2769; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RTOUCHPROBEPOS1NEG_V6`].
     ///
     /// Note: The notes state no PDO mapping; in the text, 0x60BB is mappable and is the same as both registers. Assumed: the mapping is unstated (the text may refer to the object only). Manual: FUNZIONE TOUCH PROBE; Rtouchprobepos1neg (CanOpen/EtherCAT standard Object 60BBh) (lines 2966, 3072).
@@ -4787,7 +4787,7 @@ impl<C> VectorStep<C> {
     }
     /// Trigger signal of touch probe 1, from firmware 6 on.
     ///
-    /// Rtouchprobe1inp. Range \-21 to 6, 0x476A:01, Modbus 10090 (holding; wire 0x276A; FC 3/6/16), INTEGER16, read-write.
+    /// Rtouchprobe1inp: Range \-21 to 6, 0x476A:01, Modbus 10090 (holding; wire 0x276A; FC 3/6/16), INTEGER16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTOUCHPROBE1INP`]. Values: [`TouchProbeInput`](types::TouchProbeInput).
     ///
@@ -4799,28 +4799,28 @@ impl<C> VectorStep<C> {
     }
     /// Time since the positive edge of touch probe 1, 4 s at most.
     ///
-    /// Rtouchprobe1timestamppos. Unit ns, 0x476B:01, Modbus 10091–10092 (holding; wire 0x276B–0x276C; FC 3; low word first (assumed)), UNSIGNED32, read-only.
+    /// Rtouchprobe1timestamppos: Unit ns, 0x476B:01, Modbus 10091–10092 (holding; wire 0x276B–0x276C; FC 3; low word first (assumed)), UNSIGNED32, read-only.
     /// Constant: [`objects::RTOUCHPROBE1TIMESTAMPPOS`].
     pub fn rtouchprobe1timestamppos(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RTOUCHPROBE1TIMESTAMPPOS.at(&mut self.client)
     }
     /// Time since the negative edge of touch probe 1, 4 s at most.
     ///
-    /// Rtouchprobe1timestampneg. Unit ns, 0x476D:01, Modbus 10093–10094 (holding; wire 0x276D–0x276E; FC 3; low word first (assumed)), UNSIGNED32, read-only.
+    /// Rtouchprobe1timestampneg: Unit ns, 0x476D:01, Modbus 10093–10094 (holding; wire 0x276D–0x276E; FC 3; low word first (assumed)), UNSIGNED32, read-only.
     /// Constant: [`objects::RTOUCHPROBE1TIMESTAMPNEG`].
     pub fn rtouchprobe1timestampneg(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RTOUCHPROBE1TIMESTAMPNEG.at(&mut self.client)
     }
     /// Number of positive edges of touch probe 1.
     ///
-    /// Rtouchprobe1posedgecnt. 0x476F:01, Modbus 10095 (holding; wire 0x276F; FC 3), UNSIGNED16, read-only.
+    /// Rtouchprobe1posedgecnt: 0x476F:01, Modbus 10095 (holding; wire 0x276F; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RTOUCHPROBE1POSEDGECNT`].
     pub fn rtouchprobe1posedgecnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RTOUCHPROBE1POSEDGECNT.at(&mut self.client)
     }
     /// Number of negative edges of touch probe 1.
     ///
-    /// Rtouchprobe1negedgecnt. 0x4770:01, Modbus 10096 (holding; wire 0x2770; FC 3), UNSIGNED16, read-only.
+    /// Rtouchprobe1negedgecnt: 0x4770:01, Modbus 10096 (holding; wire 0x2770; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RTOUCHPROBE1NEGEDGECNT`].
     ///
     /// Note: The English text has a negative edge counter, but the Italian text the number of positive edges (fronti positivi). Assumed: the negative edges (the name has negative, and so does register 10107). Manual: FUNZIONE TOUCH PROBE (lines 2973, 2983).
@@ -4829,7 +4829,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of touch probe 2 latched at the positive edge; same as object 0x60BC.
     ///
-    /// Rtouchprobe2pos. Default 0, 0x4771:01, Modbus 10097–10098 (holding; wire 0x2771–0x2772; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rtouchprobe2pos: Default 0, 0x4771:01, Modbus 10097–10098 (holding; wire 0x2771–0x2772; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RTOUCHPROBE2POS`].
     ///
     /// Note: The notes state no PDO mapping; in the text, 0x60BC is mappable and is the same as both registers. Assumed: the mapping is unstated (the text may refer to the object only). Manual: FUNZIONE TOUCH PROBE; Rtouchprobepos2pos (CanOpen/EtherCAT standard Object 60BCh) (lines 2974, 3082).
@@ -4840,7 +4840,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of touch probe 2 latched at the negative edge; same as object 0x60BD.
     ///
-    /// Rtouchprobe2neg\_v6. Default 0, 0x4773:01, Modbus 10099–10100 (holding; wire 0x2773–0x2774; FC 3; low word first (assumed)), INTEGER32, read-only.
+    /// Rtouchprobe2neg\_v6: Default 0, 0x4773:01, Modbus 10099–10100 (holding; wire 0x2773–0x2774; FC 3; low word first (assumed)), INTEGER32, read-only.
     /// Constant: [`objects::RTOUCHPROBE2NEG_V6`].
     ///
     /// Note: The notes state no PDO mapping; in the text, 0x60BD is mappable and is the same as both registers. Assumed: the mapping is unstated (the text may refer to the object only). Manual: FUNZIONE TOUCH PROBE; Rtouchprobepos2neg (lines 2975, 3094).
@@ -4853,7 +4853,7 @@ impl<C> VectorStep<C> {
     }
     /// Trigger signal of touch probe 2, from firmware 6 on.
     ///
-    /// Rtouchprobe2inp. 0x4775:01, Modbus 10101 (holding; wire 0x2775; FC 3/6/16), INTEGER16, read-write.
+    /// Rtouchprobe2inp: 0x4775:01, Modbus 10101 (holding; wire 0x2775; FC 3/6/16), INTEGER16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTOUCHPROBE2INP`]. Values: [`TouchProbeInput`](types::TouchProbeInput).
     pub fn rtouchprobe2inp(
@@ -4863,14 +4863,14 @@ impl<C> VectorStep<C> {
     }
     /// Time since the positive edge of touch probe 2, 4 s at most.
     ///
-    /// Rtouchprobe2timestamppos. Unit ns, 0x4776:01, Modbus 10102–10103 (holding; wire 0x2776–0x2777; FC 3; low word first (assumed)), UNSIGNED32, read-only.
+    /// Rtouchprobe2timestamppos: Unit ns, 0x4776:01, Modbus 10102–10103 (holding; wire 0x2776–0x2777; FC 3; low word first (assumed)), UNSIGNED32, read-only.
     /// Constant: [`objects::RTOUCHPROBE2TIMESTAMPPOS`].
     pub fn rtouchprobe2timestamppos(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RTOUCHPROBE2TIMESTAMPPOS.at(&mut self.client)
     }
     /// Time since the negative edge of touch probe 2, 4 s at most.
     ///
-    /// Rtouchprobe2timestampneg. Unit ns, 0x4778:01, Modbus 10104–10105 (holding; wire 0x2778–0x2779; FC 3; low word first (assumed)), UNSIGNED32, read-only.
+    /// Rtouchprobe2timestampneg: Unit ns, 0x4778:01, Modbus 10104–10105 (holding; wire 0x2778–0x2779; FC 3; low word first (assumed)), UNSIGNED32, read-only.
     /// Constant: [`objects::RTOUCHPROBE2TIMESTAMPNEG`].
     ///
     /// Note: Register 10104-5 is printed twice, the second time without a unit and with a shorter description. Assumed: one row, with the unit of the first (number, index, name and type are the same). Manual: FUNZIONE TOUCH PROBE (lines 2980, 2981).
@@ -4879,21 +4879,21 @@ impl<C> VectorStep<C> {
     }
     /// Number of positive edges of touch probe 2.
     ///
-    /// Rtouchprobe2posedgecnt. 0x477A:01, Modbus 10106 (holding; wire 0x277A; FC 3), UNSIGNED16, read-only.
+    /// Rtouchprobe2posedgecnt: 0x477A:01, Modbus 10106 (holding; wire 0x277A; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RTOUCHPROBE2POSEDGECNT`].
     pub fn rtouchprobe2posedgecnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RTOUCHPROBE2POSEDGECNT.at(&mut self.client)
     }
     /// Number of negative edges of touch probe 2.
     ///
-    /// Rtouchprobe2negedgecnt. 0x477B:01, Modbus 10107 (holding; wire 0x277B; FC 3), UNSIGNED16, read-only.
+    /// Rtouchprobe2negedgecnt: 0x477B:01, Modbus 10107 (holding; wire 0x277B; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RTOUCHPROBE2NEGEDGECNT`].
     pub fn rtouchprobe2negedgecnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RTOUCHPROBE2NEGEDGECNT.at(&mut self.client)
     }
     /// Position that touch probe 1 latches.
     ///
-    /// Rtouchprobe1source. 0x477C:01, Modbus 10108 (holding; wire 0x277C; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rtouchprobe1source: 0x477C:01, Modbus 10108 (holding; wire 0x277C; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTOUCHPROBE1SOURCE`]. Values: [`TouchProbeSource`](types::TouchProbeSource).
     ///
@@ -4905,7 +4905,7 @@ impl<C> VectorStep<C> {
     }
     /// Position that touch probe 2 latches.
     ///
-    /// Rtouchprobe2source. 0x477D:01, Modbus 10109 (holding; wire 0x277D; FC 3/6/16), UNSIGNED16, read-write.
+    /// Rtouchprobe2source: 0x477D:01, Modbus 10109 (holding; wire 0x277D; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RTOUCHPROBE2SOURCE`]. Values: [`TouchProbeSource`](types::TouchProbeSource).
     ///
@@ -4917,7 +4917,7 @@ impl<C> VectorStep<C> {
     }
     /// Digital input of the capture function.
     ///
-    /// Rcapselinp. Range 0 to 15, 0x2159:01, Modbus 345 (holding; wire 345; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcapselinp: Range 0 to 15, 0x2159:01, Modbus 345 (holding; wire 345; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAPSELINP`].
     pub fn rcapselinp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4925,7 +4925,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum value of the capture timer, 1 LSB = 20 µs.
     ///
-    /// Rcaptvelmax. 1 LSB = 20 us, 0x215A:01, Modbus 346–347 (holding; wire 346–347; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
+    /// Rcaptvelmax: 1 LSB = 20 us, 0x215A:01, Modbus 346–347 (holding; wire 346–347; FC 3/16; low word first (assumed)), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAPTVELMAX`].
     pub fn rcaptvelmax(
@@ -4935,7 +4935,7 @@ impl<C> VectorStep<C> {
     }
     /// Measured period between two edges of the capture input, 1 LSB = 20 µs.
     ///
-    /// Rcaptval. 1 LSB = 20 us, 0x215C:01, Modbus 348–349 (holding; wire 348–349; FC 3; low word first (assumed)), UNSIGNED32, read-only.
+    /// Rcaptval: 1 LSB = 20 us, 0x215C:01, Modbus 348–349 (holding; wire 348–349; FC 3; low word first (assumed)), UNSIGNED32, read-only.
     /// Constant: [`objects::RCAPTVAL`].
     ///
     /// Note: The manual states no access rights. Assumed: read-only (it is a measured value). Manual: FUNZIONE CAPTURE (line 3106).
@@ -4944,7 +4944,7 @@ impl<C> VectorStep<C> {
     }
     /// Number of pulses on the capture input; rolls over from 65535 to 0.
     ///
-    /// Rcaptcnt. Range 0 to 65535, 0x215E:01, Modbus 350 (holding; wire 350; FC 3), UNSIGNED16, read-only.
+    /// Rcaptcnt: Range 0 to 65535, 0x215E:01, Modbus 350 (holding; wire 350; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RCAPTCNT`].
     ///
     /// Note: The manual states no access rights. Assumed: read-only (it is a measured value; the manual does not mention a reset by writing). Manual: FUNZIONE CAPTURE (line 3107).
@@ -4953,7 +4953,7 @@ impl<C> VectorStep<C> {
     }
     /// Counts per revolution of the master encoder, for cams of type 1 and 2.
     ///
-    /// Rcamstpulse. Unit count, range 1 to 32767, 0x217C:01, Modbus 380 (holding; wire 380; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcamstpulse: Unit count, range 1 to 32767, 0x217C:01, Modbus 380 (holding; wire 380; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTPULSE`].
     pub fn rcamstpulse(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4961,7 +4961,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum frequency of the master encoder, for cams of type 2.
     ///
-    /// Rcamstmaxfrq. Unit count/s, range 1 to 32767, 0x217D:01, Modbus 381 (holding; wire 381; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcamstmaxfrq: Unit count/s, range 1 to 32767, 0x217D:01, Modbus 381 (holding; wire 381; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTMAXFRQ`].
     pub fn rcamstmaxfrq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4969,7 +4969,7 @@ impl<C> VectorStep<C> {
     }
     /// Number of the task with the first phase, for cams of type 1 and 2.
     ///
-    /// Rcamstrtphase. Range 0 to 63, 0x217E:01, Modbus 382 (holding; wire 382; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into TPDOs.
+    /// Rcamstrtphase: Range 0 to 63, 0x217E:01, Modbus 382 (holding; wire 382; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into TPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTRTPHASE`].
     ///
@@ -4979,35 +4979,35 @@ impl<C> VectorStep<C> {
     }
     /// Actual position of the master encoder, for cams of type 1 and 2.
     ///
-    /// Rcamstposact. Unit count, 0x217F:01, Modbus 383 (holding; wire 383; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rcamstposact: Unit count, 0x217F:01, Modbus 383 (holding; wire 383; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RCAMSTPOSACT`].
     pub fn rcamstposact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RCAMSTPOSACT.at(&mut self.client)
     }
     /// Number of the active phase (task), for cams of type 1 and 2.
     ///
-    /// Rcamphaseact. 0x2180:01, Modbus 384 (holding; wire 384; FC 3), UNSIGNED16, read-only.
+    /// Rcamphaseact: 0x2180:01, Modbus 384 (holding; wire 384; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RCAMPHASEACT`].
     pub fn rcamphaseact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RCAMPHASEACT.at(&mut self.client)
     }
     /// Control bits of cams of type 1 and 2: reset and single turn.
     ///
-    /// Rcamflgwr. 0x2181:01, Modbus 385 (holding; wire 385; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcamflgwr: 0x2181:01, Modbus 385 (holding; wire 385; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RCAMFLGWR`]. Values: [`CamControl`](types::CamControl).
     pub fn rcamflgwr(&mut self) -> objects::ReadWriteAccess<'_, C, types::CamControl> {
         objects::RCAMFLGWR.at(&mut self.client)
     }
     /// Status bits of cams of type 1 and 2: reset done and phase of the motion.
     ///
-    /// Rcamflgrd. 0x2182:01, Modbus 386 (holding; wire 386; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rcamflgrd: 0x2182:01, Modbus 386 (holding; wire 386; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RCAMFLGRD`]. Values: [`CamStatus`](types::CamStatus).
     pub fn rcamflgrd(&mut self) -> objects::ReadOnlyAccess<'_, C, types::CamStatus> {
         objects::RCAMFLGRD.at(&mut self.client)
     }
     /// Proportional gain of the increments in all cam modes: type 1, type 2, start/stop and winding.
     ///
-    /// Rcamkpl. Range 0 to 32767, 0x2183:01, Modbus 387 (holding; wire 387; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcamkpl: Range 0 to 32767, 0x2183:01, Modbus 387 (holding; wire 387; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMKPL`].
     pub fn rcamkpl(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5015,7 +5015,7 @@ impl<C> VectorStep<C> {
     }
     /// Master travel per encoder count, 1 LSB = 0.001 mm.
     ///
-    /// Rcamstspmstmmpulse. 1 LSB = 0.001 mm/count, range 0.000 … 65.535 mm/count (raw 0 … 65535), 0x21C8:01, Modbus 456 (holding; wire 456; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcamstspmstmmpulse: 1 LSB = 0.001 mm/count, range 0.000 … 65.535 mm/count (raw 0 … 65535), 0x21C8:01, Modbus 456 (holding; wire 456; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTSPMSTMMPULSE`].
     pub fn rcamstspmstmmpulse(
@@ -5025,7 +5025,7 @@ impl<C> VectorStep<C> {
     }
     /// Slave travel per motor step, 1 LSB = 0.001 mm.
     ///
-    /// Rcamstspslvmmstep. 1 LSB = 0.001 mm/step, range 0.000 … 65.535 mm/step (raw 0 … 65535), 0x21C9:01, Modbus 457 (holding; wire 457; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcamstspslvmmstep: 1 LSB = 0.001 mm/step, range 0.000 … 65.535 mm/step (raw 0 … 65535), 0x21C9:01, Modbus 457 (holding; wire 457; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTSPSLVMMSTEP`].
     ///
@@ -5037,7 +5037,7 @@ impl<C> VectorStep<C> {
     }
     /// Correction of the ratio between master and slave.
     ///
-    /// Rcamstspcor. Unit %, range \-1000 to 1000, 0x21CA:01, Modbus 458 (holding; wire 458; FC 3/6/16), INTEGER16, read-write (assumed).
+    /// Rcamstspcor: Unit %, range \-1000 to 1000, 0x21CA:01, Modbus 458 (holding; wire 458; FC 3/6/16), INTEGER16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTSPCOR`].
     ///
@@ -5047,7 +5047,7 @@ impl<C> VectorStep<C> {
     }
     /// Master travel during the acceleration of the slave.
     ///
-    /// Rcamstspaccspace. 1 LSB = 0.1 mm, range 0.0 … 6553.5 mm (raw 0 … 65535), 0x21CB:01, Modbus 459 (holding; wire 459; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcamstspaccspace: 1 LSB = 0.1 mm, range 0.0 … 6553.5 mm (raw 0 … 65535), 0x21CB:01, Modbus 459 (holding; wire 459; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTSPACCSPACE`].
     pub fn rcamstspaccspace(
@@ -5057,7 +5057,7 @@ impl<C> VectorStep<C> {
     }
     /// Control bits of the start/stop cam: run, delays and simulated encoder.
     ///
-    /// Rcamstspctrl. 0x21CC:01, Modbus 460 (holding; wire 460; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rcamstspctrl: 0x21CC:01, Modbus 460 (holding; wire 460; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RCAMSTSPCTRL`]. Values: [`CamStartStopControl`](types::CamStartStopControl).
     pub fn rcamstspctrl(
         &mut self,
@@ -5066,7 +5066,7 @@ impl<C> VectorStep<C> {
     }
     /// Status bits of the start/stop cam: enabled, running and phase of the motion.
     ///
-    /// Rcamstspstatus. 0x21CD:01, Modbus 461 (holding; wire 461; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rcamstspstatus: 0x21CD:01, Modbus 461 (holding; wire 461; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RCAMSTSPSTATUS`]. Values: [`CamStartStopStatus`](types::CamStartStopStatus).
     pub fn rcamstspstatus(
         &mut self,
@@ -5075,7 +5075,7 @@ impl<C> VectorStep<C> {
     }
     /// Minimum position of the slave in the start/stop cam.
     ///
-    /// Rcamstsplowquotestlv. Unit step, range 0 to 2147483647, 0x21CE:01, Modbus 462–463 (holding; wire 462–463; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rcamstsplowquotestlv: Unit step, range 0 to 2147483647, 0x21CE:01, Modbus 462–463 (holding; wire 462–463; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTSPLOWQUOTESTLV`].
     pub fn rcamstsplowquotestlv(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -5083,7 +5083,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum position of the slave in the start/stop cam.
     ///
-    /// Rcamstsphighquotestlv. Unit step, range 0 to 2147483647, 0x21D0:01, Modbus 464–465 (holding; wire 464–465; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rcamstsphighquotestlv: Unit step, range 0 to 2147483647, 0x21D0:01, Modbus 464–465 (holding; wire 464–465; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTSPHIGHQUOTESTLV`].
     pub fn rcamstsphighquotestlv(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -5091,7 +5091,7 @@ impl<C> VectorStep<C> {
     }
     /// Minimum position of the master in the start/stop cam.
     ///
-    /// Rcamstsplowquotemst. Unit count, range 0 to 2147483647, 0x21D2:01, Modbus 466–467 (holding; wire 466–467; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rcamstsplowquotemst: Unit count, range 0 to 2147483647, 0x21D2:01, Modbus 466–467 (holding; wire 466–467; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTSPLOWQUOTEMST`].
     pub fn rcamstsplowquotemst(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -5099,7 +5099,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum position of the master in the start/stop cam.
     ///
-    /// Rcamstsphighquotemst. Unit count, range 0 to 2147483647, 0x21D4:01, Modbus 468–469 (holding; wire 468–469; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rcamstsphighquotemst: Unit count, range 0 to 2147483647, 0x21D4:01, Modbus 468–469 (holding; wire 468–469; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTSPHIGHQUOTEMST`].
     pub fn rcamstsphighquotemst(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -5107,7 +5107,7 @@ impl<C> VectorStep<C> {
     }
     /// Cam type: type 1 (Blk) or type 2 (Bert).
     ///
-    /// Rcammodeselect. Range 0 to 1, 0x21D6:01, Modbus 470 (holding; wire 470; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcammodeselect: Range 0 to 1, 0x21D6:01, Modbus 470 (holding; wire 470; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMMODESELECT`]. Values: [`CamMode`](types::CamMode).
     pub fn rcammodeselect(&mut self) -> objects::ReadWriteAccess<'_, C, types::CamMode> {
@@ -5115,7 +5115,7 @@ impl<C> VectorStep<C> {
     }
     /// Velocity of the simulated encoder in the start/stop cam.
     ///
-    /// Rcamstspsimvel. Unit mm/s, 0x21F0:01, Modbus 496 (holding; wire 496; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcamstspsimvel: Unit mm/s, 0x21F0:01, Modbus 496 (holding; wire 496; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTSPSIMVEL`].
     pub fn rcamstspsimvel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5123,7 +5123,7 @@ impl<C> VectorStep<C> {
     }
     /// Master travel during the deceleration of the slave.
     ///
-    /// Rcamstspdecspace. 1 LSB = 0.1 mm, 0x21F1:01, Modbus 497 (holding; wire 497; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcamstspdecspace: 1 LSB = 0.1 mm, 0x21F1:01, Modbus 497 (holding; wire 497; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTSPDECSPACE`].
     pub fn rcamstspdecspace(
@@ -5133,7 +5133,7 @@ impl<C> VectorStep<C> {
     }
     /// Master travel before the slave starts.
     ///
-    /// Rcamstspstartdly. 1 LSB = 0.1 mm, 0x21F2:01, Modbus 498 (holding; wire 498; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcamstspstartdly: 1 LSB = 0.1 mm, 0x21F2:01, Modbus 498 (holding; wire 498; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTSPSTARTDLY`].
     pub fn rcamstspstartdly(
@@ -5143,7 +5143,7 @@ impl<C> VectorStep<C> {
     }
     /// Slave travel from the stop command to the start of its deceleration ramp.
     ///
-    /// Rcamstspstopdly. 1 LSB = 0.1 mm, 0x21F3:01, Modbus 499 (holding; wire 499; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rcamstspstopdly: 1 LSB = 0.1 mm, 0x21F3:01, Modbus 499 (holding; wire 499; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RCAMSTSPSTOPDLY`].
     pub fn rcamstspstopdly(
@@ -5153,7 +5153,7 @@ impl<C> VectorStep<C> {
     }
     /// Encoder counts per revolution of the spool.
     ///
-    /// Rwindspoolimpturn. Unit count, range 1 to 65535, 0x21D7:01, Modbus 471 (holding; wire 471; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rwindspoolimpturn: Unit count, range 1 to 65535, 0x21D7:01, Modbus 471 (holding; wire 471; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RWINDSPOOLIMPTURN`].
     pub fn rwindspoolimpturn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5161,7 +5161,7 @@ impl<C> VectorStep<C> {
     }
     /// Yarn guide travel per motor step.
     ///
-    /// Rwindyarnguidemmstep. 1 LSB = 0.001 mm, range 0.000 … 65.535 mm (raw 0 … 65535), 0x21D8:01, Modbus 472 (holding; wire 472; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rwindyarnguidemmstep: 1 LSB = 0.001 mm, range 0.000 … 65.535 mm (raw 0 … 65535), 0x21D8:01, Modbus 472 (holding; wire 472; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RWINDYARNGUIDEMMSTEP`].
     pub fn rwindyarnguidemmstep(
@@ -5171,7 +5171,7 @@ impl<C> VectorStep<C> {
     }
     /// Spool revolutions in which the yarn guide accelerates to the required velocity.
     ///
-    /// Rwindaccspoolturn. 1 LSB = 0.1 rev, range 0.0 … 6553.5 rev (raw 0 … 65535), 0x21D9:01, Modbus 473 (holding; wire 473; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rwindaccspoolturn: 1 LSB = 0.1 rev, range 0.0 … 6553.5 rev (raw 0 … 65535), 0x21D9:01, Modbus 473 (holding; wire 473; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RWINDACCSPOOLTURN`].
     pub fn rwindaccspoolturn(
@@ -5181,7 +5181,7 @@ impl<C> VectorStep<C> {
     }
     /// Yarn guide travel per spool revolution.
     ///
-    /// Rwindyarnshift. 1 LSB = 0.01 mm, range 0.00 … 655.35 mm (raw 0 … 65535), 0x21DA:01, Modbus 474 (holding; wire 474; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rwindyarnshift: 1 LSB = 0.01 mm, range 0.00 … 655.35 mm (raw 0 … 65535), 0x21DA:01, Modbus 474 (holding; wire 474; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RWINDYARNSHIFT`].
     pub fn rwindyarnshift(
@@ -5191,7 +5191,7 @@ impl<C> VectorStep<C> {
     }
     /// Yarn guide travel per spool revolution during tying.
     ///
-    /// Rwindtyingshift. 1 LSB = 0.01 mm, range 0.00 … 655.35 mm (raw 0 … 65535), 0x21DB:01, Modbus 475 (holding; wire 475; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rwindtyingshift: 1 LSB = 0.01 mm, range 0.00 … 655.35 mm (raw 0 … 65535), 0x21DB:01, Modbus 475 (holding; wire 475; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RWINDTYINGSHIFT`].
     pub fn rwindtyingshift(
@@ -5201,7 +5201,7 @@ impl<C> VectorStep<C> {
     }
     /// Control word of the winding mode: enable, stop and tying sequences, and error reset.
     ///
-    /// Rwindctrl. 0x21DC:01, Modbus 476 (holding; wire 476; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
+    /// Rwindctrl: 0x21DC:01, Modbus 476 (holding; wire 476; FC 3/6/16), UNSIGNED16, read-write (assumed), mappable into RPDOs.
     /// Constant: [`objects::RWINDCTRL`]. Values: [`WindingControl`](types::WindingControl).
     pub fn rwindctrl(
         &mut self,
@@ -5210,7 +5210,7 @@ impl<C> VectorStep<C> {
     }
     /// Status word of the winding mode: active sequences, direction and errors.
     ///
-    /// Rwindstatus. 0x21DD:01, Modbus 477 (holding; wire 477; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rwindstatus: 0x21DD:01, Modbus 477 (holding; wire 477; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RWINDSTATUS`]. Values: [`WindingStatus`](types::WindingStatus).
     pub fn rwindstatus(
         &mut self,
@@ -5219,7 +5219,7 @@ impl<C> VectorStep<C> {
     }
     /// End position of the yarn guide on the machine side.
     ///
-    /// Rwindquotelleft. 1 LSB = 0.1 mm, range 0.0 … 214748364.7 mm (raw 0 … 2147483647), 0x21DE:01, Modbus 478–479 (holding; wire 478–479; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rwindquotelleft: 1 LSB = 0.1 mm, range 0.0 … 214748364.7 mm (raw 0 … 2147483647), 0x21DE:01, Modbus 478–479 (holding; wire 478–479; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RWINDQUOTELLEFT`].
     pub fn rwindquotelleft(
         &mut self,
@@ -5228,7 +5228,7 @@ impl<C> VectorStep<C> {
     }
     /// End position of the yarn guide on the operator side.
     ///
-    /// Rwindquoteright. 1 LSB = 0.1 mm, range 0.0 … 214748364.7 mm (raw 0 … 2147483647), 0x21E0:01, Modbus 480–481 (holding; wire 480–481; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rwindquoteright: 1 LSB = 0.1 mm, range 0.0 … 214748364.7 mm (raw 0 … 2147483647), 0x21E0:01, Modbus 480–481 (holding; wire 480–481; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RWINDQUOTERIGHT`].
     pub fn rwindquoteright(
         &mut self,
@@ -5237,7 +5237,7 @@ impl<C> VectorStep<C> {
     }
     /// Stop position of the yarn guide.
     ///
-    /// Rwindquotestop. 1 LSB = 0.1 mm, range 0.0 … 214748364.7 mm (raw 0 … 2147483647), 0x21E2:01, Modbus 482–483 (holding; wire 482–483; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rwindquotestop: 1 LSB = 0.1 mm, range 0.0 … 214748364.7 mm (raw 0 … 2147483647), 0x21E2:01, Modbus 482–483 (holding; wire 482–483; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RWINDQUOTESTOP`].
     pub fn rwindquotestop(
         &mut self,
@@ -5246,7 +5246,7 @@ impl<C> VectorStep<C> {
     }
     /// End position of the yarn guide on the machine side during tying.
     ///
-    /// Rwindtyingquotelleft. 1 LSB = 0.1 mm, range 0.0 … 214748364.7 mm (raw 0 … 2147483647), 0x21E4:01, Modbus 484–485 (holding; wire 484–485; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rwindtyingquotelleft: 1 LSB = 0.1 mm, range 0.0 … 214748364.7 mm (raw 0 … 2147483647), 0x21E4:01, Modbus 484–485 (holding; wire 484–485; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RWINDTYINGQUOTELLEFT`].
     pub fn rwindtyingquotelleft(
         &mut self,
@@ -5255,7 +5255,7 @@ impl<C> VectorStep<C> {
     }
     /// End position of the yarn guide on the operator side during tying.
     ///
-    /// Rwindtyingquoteright. 1 LSB = 0.1 mm, range 0.0 … 214748364.7 mm (raw 0 … 2147483647), 0x21E6:01, Modbus 486–487 (holding; wire 486–487; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rwindtyingquoteright: 1 LSB = 0.1 mm, range 0.0 … 214748364.7 mm (raw 0 … 2147483647), 0x21E6:01, Modbus 486–487 (holding; wire 486–487; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RWINDTYINGQUOTERIGHT`].
     pub fn rwindtyingquoteright(
         &mut self,
@@ -5264,7 +5264,7 @@ impl<C> VectorStep<C> {
     }
     /// Yarn guide travel per revolution of the stepper motor.
     ///
-    /// Rwindyarnguidemturnmotor. 1 LSB = 0.01 mm, range 0.00 … 21474836.47 mm (raw 0 … 2147483647), 0x21E8:01, Modbus 488–489 (holding; wire 488–489; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rwindyarnguidemturnmotor: 1 LSB = 0.01 mm, range 0.00 … 21474836.47 mm (raw 0 … 2147483647), 0x21E8:01, Modbus 488–489 (holding; wire 488–489; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RWINDYARNGUIDEMTURNMOTOR`].
     pub fn rwindyarnguidemturnmotor(
         &mut self,
@@ -5273,7 +5273,7 @@ impl<C> VectorStep<C> {
     }
     /// Number of direction reversals of the stepper motor in winding mode.
     ///
-    /// Rwindrevcnt. 0x21EA:01, Modbus 490 (holding; wire 490; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
+    /// Rwindrevcnt: 0x21EA:01, Modbus 490 (holding; wire 490; FC 3), UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::RWINDREVCNT`].
     ///
     /// Note: The manual states no access rights and marks it MAP READ. Assumed: read-only (it is a counter of the drive; the manual does not mention a reset by writing). Manual: FUNZIONE WINDING (GUIDAFILO) (line 3156).
@@ -5282,14 +5282,14 @@ impl<C> VectorStep<C> {
     }
     /// Pause of the motor during a direction reversal, in master encoder counts.
     ///
-    /// Rwindrevpause. Unit count, range 0 to 2147483647, 0x21EB:01, Modbus 491–492 (holding; wire 491–492; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
+    /// Rwindrevpause: Unit count, range 0 to 2147483647, 0x21EB:01, Modbus 491–492 (holding; wire 491–492; FC 3/16; high word first), UNSIGNED32, read-write (assumed).
     /// Constant: [`objects::RWINDREVPAUSE`].
     pub fn rwindrevpause(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RWINDREVPAUSE.at(&mut self.client)
     }
     /// Feedback encoder of the cam and winding functions.
     ///
-    /// Renccamfbk. Default 1, 0x471C:01, Modbus 10012 (holding; wire 0x271C; FC 3/6/16), UNSIGNED16, read-write.
+    /// Renccamfbk: Default 1, 0x471C:01, Modbus 10012 (holding; wire 0x271C; FC 3/6/16), UNSIGNED16, read-write.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RENCCAMFBK`]. Values: [`CamFeedback`](types::CamFeedback).
     ///
@@ -5299,7 +5299,7 @@ impl<C> VectorStep<C> {
     }
     /// Delay before the external brake opens; a digital output controls the brake.
     ///
-    /// Rbrakedlyopen. Unit ms, range 0 to 65535, 0x2062:01, Modbus 98 (holding; wire 98; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rbrakedlyopen: Unit ms, range 0 to 65535, 0x2062:01, Modbus 98 (holding; wire 98; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RBRAKEDLYOPEN`].
     pub fn rbrakedlyopen(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5307,7 +5307,7 @@ impl<C> VectorStep<C> {
     }
     /// Delay before the external brake closes; a digital output controls the brake.
     ///
-    /// Rbrakedlyclose. Unit ms, range 0 to 65535, 0x2158:01, Modbus 344 (holding; wire 344; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rbrakedlyclose: Unit ms, range 0 to 65535, 0x2158:01, Modbus 344 (holding; wire 344; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RBRAKEDLYCLOSE`].
     pub fn rbrakedlyclose(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5315,7 +5315,7 @@ impl<C> VectorStep<C> {
     }
     /// Proportional gain of the user PID.
     ///
-    /// Rusrpidkp. 0x21F4:01, Modbus 500 (holding; wire 500; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rusrpidkp: 0x21F4:01, Modbus 500 (holding; wire 500; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RUSRPIDKP`].
     pub fn rusrpidkp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5323,7 +5323,7 @@ impl<C> VectorStep<C> {
     }
     /// Integral gain of the user PID.
     ///
-    /// Rusrpidki. 0x21F5:01, Modbus 501 (holding; wire 501; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rusrpidki: 0x21F5:01, Modbus 501 (holding; wire 501; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RUSRPIDKI`].
     pub fn rusrpidki(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5331,7 +5331,7 @@ impl<C> VectorStep<C> {
     }
     /// Derivative gain of the user PID.
     ///
-    /// Rusrpidkd. 0x21F6:01, Modbus 502 (holding; wire 502; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rusrpidkd: 0x21F6:01, Modbus 502 (holding; wire 502; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RUSRPIDKD`].
     pub fn rusrpidkd(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5339,7 +5339,7 @@ impl<C> VectorStep<C> {
     }
     /// Integration time of the user PID.
     ///
-    /// Rusrpidkt. Unit ms, 0x21F7:01, Modbus 503 (holding; wire 503; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rusrpidkt: Unit ms, 0x21F7:01, Modbus 503 (holding; wire 503; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RUSRPIDKT`].
     pub fn rusrpidkt(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5347,7 +5347,7 @@ impl<C> VectorStep<C> {
     }
     /// Control bits that start, stop and reset the user PID.
     ///
-    /// Rusrpidflag. 0x21F8:01, Modbus 504 (holding; wire 504; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rusrpidflag: 0x21F8:01, Modbus 504 (holding; wire 504; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RUSRPIDFLAG`]. Values: [`UserPidControl`](types::UserPidControl).
     pub fn rusrpidflag(
         &mut self,
@@ -5356,7 +5356,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum output of the user PID.
     ///
-    /// Rusrpidmaxout. 0x21F9:01, Modbus 505–506 (holding; wire 505–506; FC 3/16; low word first (assumed)), INTEGER32, read-write (assumed).
+    /// Rusrpidmaxout: 0x21F9:01, Modbus 505–506 (holding; wire 505–506; FC 3/16; low word first (assumed)), INTEGER32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RUSRPIDMAXOUT`].
     pub fn rusrpidmaxout(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -5364,7 +5364,7 @@ impl<C> VectorStep<C> {
     }
     /// Minimum output of the user PID.
     ///
-    /// Rusrpidminout. 0x21FB:01, Modbus 507–508 (holding; wire 507–508; FC 3/16; low word first (assumed)), INTEGER32, read-write (assumed).
+    /// Rusrpidminout: 0x21FB:01, Modbus 507–508 (holding; wire 507–508; FC 3/16; low word first (assumed)), INTEGER32, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RUSRPIDMINOUT`].
     pub fn rusrpidminout(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -5372,7 +5372,7 @@ impl<C> VectorStep<C> {
     }
     /// Set-point of the user PID.
     ///
-    /// Rusrpidsetpoint. 0x21FD:01, Modbus 509–510 (holding; wire 509–510; FC 3/16; low word first (assumed)), INTEGER32, read-write (assumed), mappable into RPDOs.
+    /// Rusrpidsetpoint: 0x21FD:01, Modbus 509–510 (holding; wire 509–510; FC 3/16; low word first (assumed)), INTEGER32, read-write (assumed), mappable into RPDOs.
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RUSRPIDSETPOINT`].
     pub fn rusrpidsetpoint(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -5380,7 +5380,7 @@ impl<C> VectorStep<C> {
     }
     /// Process value of the user PID.
     ///
-    /// Rusrpidprocessvalue. 0x21FF:01, Modbus 511–512 (holding; wire 511–512; FC 3; low word first (assumed)), INTEGER32, read-only, mappable into TPDOs.
+    /// Rusrpidprocessvalue: 0x21FF:01, Modbus 511–512 (holding; wire 511–512; FC 3; low word first (assumed)), INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::RUSRPIDPROCESSVALUE`].
     ///
     /// Note: The manual states no access rights and marks it MAP READ; it does not state the source of the process value. Assumed: read-only (it is a measured value). Manual: FUNZIONE PID (line 3177).
@@ -5389,7 +5389,7 @@ impl<C> VectorStep<C> {
     }
     /// Output of the user PID.
     ///
-    /// Rusrpidout. 0x2201:01, Modbus 513–514 (holding; wire 513–514; FC 3; low word first (assumed)), INTEGER32, read-only, mappable into TPDOs.
+    /// Rusrpidout: 0x2201:01, Modbus 513–514 (holding; wire 513–514; FC 3; low word first (assumed)), INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::RUSRPIDOUT`].
     ///
     /// Note: The manual states no access rights and marks it MAP READ. Assumed: read-only (it is a calculated output). Manual: FUNZIONE PID (line 3178).
@@ -5398,7 +5398,7 @@ impl<C> VectorStep<C> {
     }
     /// Target of the function generator: phase current, velocity, position or profile.
     ///
-    /// Rfgapplyto. Range 0 to 5, 0x213B:01, Modbus 315 (holding; wire 315; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfgapplyto: Range 0 to 5, 0x213B:01, Modbus 315 (holding; wire 315; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RFGAPPLYTO`]. Values: [`GeneratorTarget`](types::GeneratorTarget).
     pub fn rfgapplyto(
         &mut self,
@@ -5407,7 +5407,7 @@ impl<C> VectorStep<C> {
     }
     /// Minimum of the generated signal.
     ///
-    /// Rfgvalmin. Unit bit, range \-2147483648 to 2147483647, 0x213C:01, Modbus 316–317 (holding; wire 316–317; FC 3; low word first), INTEGER32, read-only.
+    /// Rfgvalmin: Unit bit, range \-2147483648 to 2147483647, 0x213C:01, Modbus 316–317 (holding; wire 316–317; FC 3; low word first), INTEGER32, read-only.
     /// Constant: [`objects::RFGVALMIN`].
     ///
     /// Note: The notes have RO, but limits over the whole range are typical of a setting. Assumed: read-only, as printed (no other statement contradicts it, and no other register sets the value). Manual: GENERATORE DI FUNZIONI (line 3184).
@@ -5416,7 +5416,7 @@ impl<C> VectorStep<C> {
     }
     /// Maximum of the generated signal.
     ///
-    /// Rfgvalmax. Unit bit, range \-2147483648 to 2147483647, 0x213E:01, Modbus 318–319 (holding; wire 318–319; FC 3; low word first), INTEGER32, read-only.
+    /// Rfgvalmax: Unit bit, range \-2147483648 to 2147483647, 0x213E:01, Modbus 318–319 (holding; wire 318–319; FC 3; low word first), INTEGER32, read-only.
     /// Constant: [`objects::RFGVALMAX`].
     ///
     /// Note: The notes have RO, but limits over the whole range are typical of a setting. Assumed: read-only, as printed (no other statement contradicts it, and no other register sets the value). Manual: GENERATORE DI FUNZIONI (line 3185).
@@ -5425,14 +5425,14 @@ impl<C> VectorStep<C> {
     }
     /// Frequency of the generated signal.
     ///
-    /// Rfgfreq. Unit Hz, range 1 to 10000, 0x2140:01, Modbus 320 (holding; wire 320; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfgfreq: Unit Hz, range 1 to 10000, 0x2140:01, Modbus 320 (holding; wire 320; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RFGFREQ`].
     pub fn rfgfreq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RFGFREQ.at(&mut self.client)
     }
     /// Period of the generated signal.
     ///
-    /// Rfgperiod. Unit ms, range 1 to 1000, 0x2141:01, Modbus 321 (holding; wire 321; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfgperiod: Unit ms, range 1 to 1000, 0x2141:01, Modbus 321 (holding; wire 321; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RFGPERIOD`].
     ///
     /// Note: Frequency (1 to 10000 Hz) and period (1 to 1000 ms) can both be set; the manual does not state how they are related. Assumed: two independent registers (the table has both). Manual: GENERATORE DI FUNZIONI (lines 3186, 3187).
@@ -5441,7 +5441,7 @@ impl<C> VectorStep<C> {
     }
     /// Starts and stops the function generator.
     ///
-    /// Rfgcmd. Range 0 to 1, 0x2142:01, Modbus 322 (holding; wire 322; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfgcmd: Range 0 to 1, 0x2142:01, Modbus 322 (holding; wire 322; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Non-volatile: stored by 129.
     /// Constant: [`objects::RFGCMD`]. Values: [`GeneratorCommand`](types::GeneratorCommand).
     ///
@@ -5453,7 +5453,7 @@ impl<C> VectorStep<C> {
     }
     /// Waveform of the generated signal.
     ///
-    /// Rfgmode. Range 0 to 2, 0x2143:01, Modbus 323 (holding; wire 323; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rfgmode: Range 0 to 2, 0x2143:01, Modbus 323 (holding; wire 323; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RFGMODE`]. Values: [`GeneratorMode`](types::GeneratorMode).
     ///
     /// Note: The maximum is 2, but the values are 0, 1, 2 and 4. Assumed: both as printed (4 may be a misprint of 3, or the limit may be older than the value). Manual: GENERATORE DI FUNZIONI (line 3189).
@@ -5462,14 +5462,14 @@ impl<C> VectorStep<C> {
     }
     /// Output of the function generator, 32 bits.
     ///
-    /// Rfgout32. 0x2144:01, Modbus 324–325 (holding; wire 324–325; FC 3; low word first), INTEGER32, read-only.
+    /// Rfgout32: 0x2144:01, Modbus 324–325 (holding; wire 324–325; FC 3; low word first), INTEGER32, read-only.
     /// Constant: [`objects::RFGOUT32`].
     pub fn rfgout32(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RFGOUT32.at(&mut self.client)
     }
     /// Output of the function generator, 16 bits.
     ///
-    /// Rfgout16. 0x2146:01, Modbus 326 (holding; wire 326; FC 3), INTEGER16, read-only.
+    /// Rfgout16: 0x2146:01, Modbus 326 (holding; wire 326; FC 3), INTEGER16, read-only.
     /// Constant: [`objects::RFGOUT16`].
     ///
     /// Note: The manual states no access rights and no PDO mapping; Rfgout32, the same output, has RO and NO MAP. Assumed: read-only and not mappable (both registers are the output of the function generator). Manual: GENERATORE DI FUNZIONI (lines 3190, 3191).
@@ -5478,14 +5478,14 @@ impl<C> VectorStep<C> {
     }
     /// State of the user program: running, valid.
     ///
-    /// Rstsprg. 0x20CC:01, Modbus 204 (holding; wire 204; FC 3), UNSIGNED16, read-only.
+    /// Rstsprg: 0x20CC:01, Modbus 204 (holding; wire 204; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RSTSPRG`]. Values: [`ProgramStatus`](types::ProgramStatus).
     pub fn rstsprg(&mut self) -> objects::ReadOnlyAccess<'_, C, types::ProgramStatus> {
         objects::RSTSPRG.at(&mut self.client)
     }
     /// Run mode of the user program: stop, single step or run.
     ///
-    /// Rprgrunmode. Range 0 to 2, 0x20CD:01, Modbus 205 (holding; wire 205; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rprgrunmode: Range 0 to 2, 0x20CD:01, Modbus 205 (holding; wire 205; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RPRGRUNMODE`]. Values: [`ProgramRunMode`](types::ProgramRunMode).
     ///
     /// Note: The name cell contains the whole description. Assumed: Rprgrunmode (the first word of the cell has the form of a name). Manual: GESTIONE PROGRAMMA UTENTE (line 3197).
@@ -5496,7 +5496,7 @@ impl<C> VectorStep<C> {
     }
     /// Reason of the last stop of the user program.
     ///
-    /// Rprgstopevent. 0x20CE:01, Modbus 206 (holding; wire 206; FC 3), UNSIGNED16, read-only.
+    /// Rprgstopevent: 0x20CE:01, Modbus 206 (holding; wire 206; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RPRGSTOPEVENT`]. Values: [`ProgramStopEvent`](types::ProgramStopEvent).
     ///
     /// Note: The description has values, but no title. Assumed: the reason of the last stop (this follows from name and values). Manual: GESTIONE PROGRAMMA UTENTE (line 3198).
@@ -5507,7 +5507,7 @@ impl<C> VectorStep<C> {
     }
     /// Program counter of the user program; writable if the program is stopped.
     ///
-    /// Rprgcnt. Range 0 to 4998, 0x20CF:01, Modbus 207 (holding; wire 207; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rprgcnt: Range 0 to 4998, 0x20CF:01, Modbus 207 (holding; wire 207; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RPRGCNT`].
     ///
     /// Note: The maximum is 4998, but Rprgeventcounterptr and the last location have 4988. Assumed: 4998, as printed (the registers contain locations 0 to 4989; the manual does not show which number is the misprint). Manual: GESTIONE PROGRAMMA UTENTE (lines 3199, 3201, 3217).
@@ -5518,7 +5518,7 @@ impl<C> VectorStep<C> {
     }
     /// Condition code flags of the user program.
     ///
-    /// Rprgccflag. 0x20D0:01, Modbus 208 (holding; wire 208; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rprgccflag: 0x20D0:01, Modbus 208 (holding; wire 208; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RPRGCCFLAG`]. Values: [`ProgramConditionCodes`](types::ProgramConditionCodes).
     pub fn rprgccflag(
         &mut self,
@@ -5527,7 +5527,7 @@ impl<C> VectorStep<C> {
     }
     /// Program address at which Rprgeventcounter counts.
     ///
-    /// Rprgeventcounterptr. Range 0 to 4988, 0x2242:01, Modbus 578 (holding; wire 578; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rprgeventcounterptr: Range 0 to 4988, 0x2242:01, Modbus 578 (holding; wire 578; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RPRGEVENTCOUNTERPTR`].
     ///
     /// Note: The maximum is 4988, but that of Rprgcnt is 4998. Assumed: 4988, as printed (see the ambiguity of Rprgcnt). Manual: GESTIONE PROGRAMMA UTENTE (lines 3199, 3201).
@@ -5536,7 +5536,7 @@ impl<C> VectorStep<C> {
     }
     /// Number of times that the program has reached the address in Rprgeventcounterptr.
     ///
-    /// Rprgeventcounter. Range 0 to 65535, 0x2243:01, Modbus 579 (holding; wire 579; FC 3), UNSIGNED16, read-only.
+    /// Rprgeventcounter: Range 0 to 65535, 0x2243:01, Modbus 579 (holding; wire 579; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RPRGEVENTCOUNTER`].
     ///
     /// Note: The manual states no access rights. Assumed: read-only (it is a counter of the drive; the manual does not mention a reset by writing). Manual: GESTIONE PROGRAMMA UTENTE (line 3202).
@@ -5545,7 +5545,7 @@ impl<C> VectorStep<C> {
     }
     /// Password for the program memory. If it differs from the password in the EEPROM, the memory can be neither read nor written.
     ///
-    /// Rprgusrpsw. Modbus 2000 (holding; wire 2000; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rprgusrpsw: Modbus 2000 (holding; wire 2000; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Volatile.
     /// Constant: [`objects::RPRGUSRPSW`].
     pub fn rprgusrpsw(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
@@ -5553,7 +5553,7 @@ impl<C> VectorStep<C> {
     }
     /// Commands that save, load and erase the user program, and set its password.
     ///
-    /// Rprgcmd. Modbus 2001 (holding; wire 2001; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rprgcmd: Modbus 2001 (holding; wire 2001; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RPRGCMD`]. Values: [`ProgramCommand`](types::ProgramCommand).
     pub fn rprgcmd(
         &mut self,
@@ -5562,7 +5562,7 @@ impl<C> VectorStep<C> {
     }
     /// Result of the last command in Rprgcmd; no values are printed.
     ///
-    /// Rprgcmdsts. Modbus 2002 (holding; wire 2002; FC 3), UNSIGNED16, read-only.
+    /// Rprgcmdsts: Modbus 2002 (holding; wire 2002; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RPRGCMDSTS`].
     ///
     /// Note: The manual states no access rights. Assumed: read-only (it is the status of a command). Manual: GESTIONE PROGRAMMA UTENTE (line 3205).
@@ -5571,14 +5571,14 @@ impl<C> VectorStep<C> {
     }
     /// New password; command 0x82 of Rprgcmd sets it.
     ///
-    /// Rprgnewpsw. Modbus 2003 (holding; wire 2003; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rprgnewpsw: Modbus 2003 (holding; wire 2003; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RPRGNEWPSW`].
     pub fn rprgnewpsw(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
         objects::RPRGNEWPSW.at(&mut self.client)
     }
     /// Whether a password protects the user program.
     ///
-    /// Rprgpswact. Modbus 2004 (holding; wire 2004; FC 3), UNSIGNED16, read-only.
+    /// Rprgpswact: Modbus 2004 (holding; wire 2004; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RPRGPSWACT`]. Values: [`ProgramProtection`](types::ProgramProtection).
     ///
     /// Note: The manual states no access rights. Assumed: read-only (it is a status). Manual: GESTIONE PROGRAMMA UTENTE (line 3209).
@@ -5589,7 +5589,7 @@ impl<C> VectorStep<C> {
     }
     /// Enables software breakpoints.
     ///
-    /// Rprgbpenable. Modbus 2005 (holding; wire 2005; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rprgbpenable: Modbus 2005 (holding; wire 2005; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RPRGBPENABLE`].
     ///
     /// Note: The value is byte-wise (Il valore e' inteso a byte) in a 16-bit register. Assumed: a number without a unit or names of values (the manual does not state the meaning of each byte). Manual: GESTIONE PROGRAMMA UTENTE (line 3210).
@@ -5600,7 +5600,7 @@ impl<C> VectorStep<C> {
     }
     /// Number of the breakpoint that Rprgbpval accesses.
     ///
-    /// Rprgbpnum. Modbus 2006 (holding; wire 2006; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rprgbpnum: Modbus 2006 (holding; wire 2006; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RPRGBPNUM`]. Values: [`ProgramBreakpoint`](types::ProgramBreakpoint).
     pub fn rprgbpnum(
         &mut self,
@@ -5609,14 +5609,14 @@ impl<C> VectorStep<C> {
     }
     /// Value of the breakpoint that Rprgbpnum selects.
     ///
-    /// Rprgbpval. Modbus 2007 (holding; wire 2007; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rprgbpval: Modbus 2007 (holding; wire 2007; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RPRGBPVAL`].
     pub fn rprgbpval(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
         objects::RPRGBPVAL.at(&mut self.client)
     }
     /// Length of the user program.
     ///
-    /// Rprglen. Modbus 2008 (holding; wire 2008; FC 3), UNSIGNED16, read-only.
+    /// Rprglen: Modbus 2008 (holding; wire 2008; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RPRGLEN`].
     ///
     /// Note: The manual states no access rights. Assumed: read-only (it is a property of the loaded program). Manual: GESTIONE PROGRAMMA UTENTE (line 3213).
@@ -5625,7 +5625,7 @@ impl<C> VectorStep<C> {
     }
     /// Checksum of the user program.
     ///
-    /// Rprgprgcks. Modbus 2009 (holding; wire 2009; FC 3), UNSIGNED16, read-only.
+    /// Rprgprgcks: Modbus 2009 (holding; wire 2009; FC 3), UNSIGNED16, read-only.
     /// Constant: [`objects::RPRGPRGCKS`].
     ///
     /// Note: The manual states no access rights. Assumed: read-only (it is a checksum). Manual: GESTIONE PROGRAMMA UTENTE (line 3214).
@@ -5634,14 +5634,14 @@ impl<C> VectorStep<C> {
     }
     /// First location (0) of the user program.
     ///
-    /// Rprgusrprg. Modbus 2010 (holding; wire 2010; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Rprgusrprg: Modbus 2010 (holding; wire 2010; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::RPRGUSRPRG`].
     pub fn rprgusrprg(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
         objects::RPRGUSRPRG.at(&mut self.client)
     }
     /// Locations 1 to 4988 of the user program.
     ///
-    /// user\_program\_locations. Modbus 2011–6998 (holding; wire 2011–6998; FC 3/16; low word first (assumed)), unknown type, read-write (assumed).
+    /// user\_program\_locations: Modbus 2011–6998 (holding; wire 2011–6998; FC 3/16; low word first (assumed)), unknown type, read-write (assumed).
     /// Constant: [`objects::USER_PROGRAM_LOCATIONS`].
     ///
     /// Note: One row is for 4988 registers of 16 bits, with the type Unsigned16. Assumed: an array that starts at location 1 (register 2010 is location 0). Manual: GESTIONE PROGRAMMA UTENTE (lines 3215, 3216).
@@ -5654,7 +5654,7 @@ impl<C> VectorStep<C> {
     }
     /// Last location of the user program.
     ///
-    /// user\_program\_last\_location. Modbus 6999 (holding; wire 6999; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// user\_program\_last\_location: Modbus 6999 (holding; wire 6999; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::USER_PROGRAM_LAST_LOCATION`].
     ///
     /// Note: The row is location 4988, but with location 0 in register 2010, register 6999 is location 4989. Assumed: register 6999 is the last location (the register number is the address; 4988 may be the last usable location, or off by one). Manual: GESTIONE PROGRAMMA UTENTE (lines 3215, 3217).
@@ -5667,7 +5667,7 @@ impl<C> VectorStep<C> {
     }
     /// Number of the device profile (low word) and additional information (high word).
     ///
-    /// Device Type. Range 0 to 4294967295, default 0x40192, 0x1000:00, UNSIGNED32, read-only.
+    /// Device Type: Range 0 to 4294967295, default 0x40192, 0x1000:00, UNSIGNED32, read-only.
     /// Constant: [`objects::DEVICE_TYPE`]. Values: [`DeviceType`](types::DeviceType).
     pub fn device_type(
         &mut self,
@@ -5676,7 +5676,7 @@ impl<C> VectorStep<C> {
     }
     /// Kinds of errors that are present, one per bit.
     ///
-    /// Error Register. Range 0 to 255, default 0, 0x1001:00, UNSIGNED8, read-only, mappable into TPDOs.
+    /// Error Register: Range 0 to 255, default 0, 0x1001:00, UNSIGNED8, read-only, mappable into TPDOs.
     /// Constant: [`objects::ERROR_REGISTER`]. Values: [`ErrorRegister`](types::ErrorRegister).
     ///
     /// Note: PDO mapping is Yes in the box, without a direction, and RO / MAP in the summary. Assumed: mappable to TPDOs (in the legend of the DSP-402 summary, MAP is mapping for reading, and the object is read-only). Manual: TAVOLA RIASSUNTIVA; ERROR REGISTER; Legenda (lines 582, 636, 1254).
@@ -5696,7 +5696,7 @@ impl<C> VectorStep<C> {
     }
     /// COB-ID of the SYNC message, and whether the drive produces SYNC; a change of bits 29 or 30 is rejected (abort 0x06090030).
     ///
-    /// COB-ID SYNC Message. Range 0 to 4294967295, default 0x80, 0x1005:00, UNSIGNED32, read-write.
+    /// COB-ID SYNC Message: Range 0 to 4294967295, default 0x80, 0x1005:00, UNSIGNED32, read-write.
     /// Constant: [`objects::COB_ID_SYNC_MESSAGE`]. Values: [`CobIdSync`](types::CobIdSync).
     ///
     /// Note: The default is "0x80 or 0x80000080", but bit 31 is not significant; the manual does not state when each value applies. Assumed: 0x80 (the values differ only in the bit that is not significant). Manual: COB-ID SYNC MESSAGE (lines 712, 718).
@@ -5709,7 +5709,7 @@ impl<C> VectorStep<C> {
     }
     /// SYNC period; 0 disables SYNC.
     ///
-    /// Communication Cycle Period. Unit us, range 0 to 4294967295, default 0, 0x1006:00, UNSIGNED32, read-write.
+    /// Communication Cycle Period: Unit us, range 0 to 4294967295, default 0, 0x1006:00, UNSIGNED32, read-write.
     /// Constant: [`objects::COMMUNICATION_CYCLE_PERIOD`].
     pub fn communication_cycle_period(
         &mut self,
@@ -5718,7 +5718,7 @@ impl<C> VectorStep<C> {
     }
     /// Synchronous window: time after SYNC for synchronous PDOs; 0 disables the window.
     ///
-    /// Synchronous window length. Unit us, range 0 to 4294967295, default 0, 0x1007:00, UNSIGNED32, read-write.
+    /// Synchronous window length: Unit us, range 0 to 4294967295, default 0, 0x1007:00, UNSIGNED32, read-write.
     /// Constant: [`objects::SYNCHRONOUS_WINDOW_LENGTH`].
     pub fn synchronous_window_length(
         &mut self,
@@ -5727,7 +5727,7 @@ impl<C> VectorStep<C> {
     }
     /// Device name: the order code of the drive.
     ///
-    /// Manufacturer Device Name. Default "SMD50.06LIC", 0x1008:00, VISIBLE_STRING, constant.
+    /// Manufacturer Device Name: Default "SMD50.06LIC", 0x1008:00, VISIBLE_STRING, constant.
     /// Constant: [`objects::MANUFACTURER_DEVICE_NAME`].
     ///
     /// Note: The default is SMD50.06LIC, although the manual is for all models with an EDS file. Assumed: the default as printed (the manual does not give the names of the other models; this name is that of the 5006). Manual: CARATTERISTICHE DEI PRODOTTI; MANUFACTURER DEVICE NAME (lines 411-416, 758).
@@ -5740,7 +5740,7 @@ impl<C> VectorStep<C> {
     }
     /// Hardware version, in the form Hw ver.X.XX.
     ///
-    /// Manufacturer Hardware Version. 0x1009:00, VISIBLE_STRING, constant.
+    /// Manufacturer Hardware Version: 0x1009:00, VISIBLE_STRING, constant.
     /// Constant: [`objects::MANUFACTURER_HARDWARE_VERSION`].
     ///
     /// Note: The default is "Hw ver.X.XX". Assumed: no default (each X is a digit of the version). Manual: MANUFACTURER HARDWARE VERSION (line 766).
@@ -5753,7 +5753,7 @@ impl<C> VectorStep<C> {
     }
     /// Software version, in the form Sw ver.X.XX.
     ///
-    /// Manufacturer Software Version. 0x100A:00, VISIBLE_STRING, constant.
+    /// Manufacturer Software Version: 0x100A:00, VISIBLE_STRING, constant.
     /// Constant: [`objects::MANUFACTURER_SOFTWARE_VERSION`].
     ///
     /// Note: The default is "Sw ver.X.XX". Assumed: no default (each X is a digit of the version). Manual: MANUFACTURER SOFTWARE VERSION (line 774).
@@ -5766,7 +5766,7 @@ impl<C> VectorStep<C> {
     }
     /// Guard time: period of node guarding; guard time × life time factor is the life time; 0 disables it.
     ///
-    /// Guard time. Unit ms, range 0 to 65535, default 0, 0x100C:00, UNSIGNED16, read-write.
+    /// Guard time: Unit ms, range 0 to 65535, default 0, 0x100C:00, UNSIGNED16, read-write.
     /// Constant: [`objects::GUARD_TIME`].
     pub fn guard_time(
         &mut self,
@@ -5775,7 +5775,7 @@ impl<C> VectorStep<C> {
     }
     /// Life time factor; guard time × life time factor is the life time; 0 disables it.
     ///
-    /// Life-time factor. Range 0 to 255, default 0, 0x100D:00, UNSIGNED8, read-write.
+    /// Life-time factor: Range 0 to 255, default 0, 0x100D:00, UNSIGNED8, read-write.
     /// Constant: [`objects::LIFE_TIME_FACTOR`].
     pub fn life_time_factor(
         &mut self,
@@ -5784,7 +5784,7 @@ impl<C> VectorStep<C> {
     }
     /// COB-ID of the emergency message; a change of bits 29 or 30 is rejected (abort 0x06090030).
     ///
-    /// COB-ID Emergency Object. Range 1 to 4294967295, default \$NODEID+0x80, 0x1014:00, UNSIGNED32, read-write.
+    /// COB-ID Emergency Object: Range 1 to 4294967295, default \$NODEID+0x80, 0x1014:00, UNSIGNED32, read-write.
     /// Constant: [`objects::COB_ID_EMERGENCY_OBJECT`]. Values: [`CobIdEmergency`](types::CobIdEmergency).
     ///
     /// Note: A change of bits 29 and 30 causes an abort, but bits 31..30 are described as not significant. Assumed: bit 30 has no meaning, and a change of it is rejected (the statements do not contradict each other; writing back a value that was read is safe). Manual: COB-ID EMERGENCY MESSAGE (lines 808, 815).
@@ -5797,7 +5797,7 @@ impl<C> VectorStep<C> {
     }
     /// Inhibit time: minimum time between two emergency messages, 1 LSB = 100 µs.
     ///
-    /// Inhibit Time Emergency. 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1015:00, UNSIGNED16, read-write.
+    /// Inhibit Time Emergency: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1015:00, UNSIGNED16, read-write.
     /// Constant: [`objects::INHIBIT_TIME_EMERGENCY`].
     pub fn inhibit_time_emergency(
         &mut self,
@@ -5815,7 +5815,7 @@ impl<C> VectorStep<C> {
     }
     /// Heartbeat period of the drive; 0 disables the heartbeat.
     ///
-    /// Producer Heartbeat Time. Unit ms, range 0 to 65535, default 0, 0x1017:00, UNSIGNED16, read-write.
+    /// Producer Heartbeat Time: Unit ms, range 0 to 65535, default 0, 0x1017:00, UNSIGNED16, read-write.
     /// Constant: [`objects::PRODUCER_HEARTBEAT_TIME`].
     pub fn producer_heartbeat_time(
         &mut self,
@@ -5991,7 +5991,7 @@ impl<C> VectorStep<C> {
     }
     /// Code of the last error, as in the low word of the entry in 0x1003.
     ///
-    /// Error code. Range 0 to 65535, default 0, 0x603F:00, UNSIGNED16, read-only.
+    /// Error code: Range 0 to 65535, default 0, 0x603F:00, UNSIGNED16, read-only.
     /// Constant: [`objects::ERROR_CODE`]. Values: [`ErrorCode`](types::ErrorCode).
     pub fn error_code(
         &mut self,
@@ -6000,7 +6000,7 @@ impl<C> VectorStep<C> {
     }
     /// Controlword: commands of the drive state machine and of the mode of operation. In the manual, always the first two bytes of a received PDO.
     ///
-    /// Controlword. Range 0 to 65535, default 0, 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
+    /// Controlword: Range 0 to 65535, default 0, 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
     /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`RxPdo1`](pdo::RxPdo1), [`RxPdo2`](pdo::RxPdo2).
     ///
     /// Hazard: Bits 4 to 6 have columns for profile position, homing and JOG, but none for interpolation, although mode 7 exists. Assumed: bits 4 to 6 have no meaning in mode 7 (in CiA 402, bit 4 enables interpolation; the manual does not state whether the drive needs it). Manual: CONTROLWORD; MODES OF OPERATION; INTERPOLATION DATA RECORD (lines 1285, 1468, 1843).
@@ -6015,7 +6015,7 @@ impl<C> VectorStep<C> {
     }
     /// Statusword: state of the drive state machine and of the mode of operation. In the manual, always the first two bytes of a transmitted PDO.
     ///
-    /// Statusword. Range 0 to 65535, default 0, 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
+    /// Statusword: Range 0 to 65535, default 0, 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`TxPdo1`](pdo::TxPdo1), [`TxPdo2`](pdo::TxPdo2).
     ///
     /// Note: Bits 12 and 13 have columns for profile position, homing and JOG, but none for interpolation, although mode 7 exists. Assumed: bits 12 and 13 have no meaning in mode 7 (the manual prints none). Manual: STATUSWORD; MODES OF OPERATION DISPLAY (lines 1328, 1494).
@@ -6028,7 +6028,7 @@ impl<C> VectorStep<C> {
     }
     /// Stop reaction to the command quick stop (transition 11).
     ///
-    /// Quick-Stop option code. Range \-32768 to 32767, default 2, 0x605A:00, INTEGER16, read-write.
+    /// Quick-Stop option code: Range \-32768 to 32767, default 2, 0x605A:00, INTEGER16, read-write.
     /// Constant: [`objects::QUICK_STOP_OPTION_CODE`]. Values: [`QuickStopOptionCode`](types::QuickStopOptionCode).
     ///
     /// Note: The table of values is headed Bit. Assumed: the rows are values (the rows are numbers from -32768 to 32767). Manual: QUICK STOP OPTION CODE (line 1368).
@@ -6044,7 +6044,7 @@ impl<C> VectorStep<C> {
     }
     /// Stop reaction to the command shutdown (transition 8, from operation enabled to ready to switch on).
     ///
-    /// Shutdown option code. Range \-32768 to 32767, default 0, 0x605B:00, INTEGER16, read-write.
+    /// Shutdown option code: Range \-32768 to 32767, default 0, 0x605B:00, INTEGER16, read-write.
     /// Constant: [`objects::SHUTDOWN_OPTION_CODE`]. Values: [`ShutdownOptionCode`](types::ShutdownOptionCode).
     ///
     /// Note: The table of values is headed Bit. Assumed: the rows are values (the rows are numbers from -32768 to 32767). Manual: SHUTDOWN OPTION CODE (line 1391).
@@ -6060,7 +6060,7 @@ impl<C> VectorStep<C> {
     }
     /// Stop reaction to the command disable operation (transition 5, from operation enabled to switched on).
     ///
-    /// Disable operation option code. Range \-32768 to 32767, default 1, 0x605C:00, INTEGER16, read-write.
+    /// Disable operation option code: Range \-32768 to 32767, default 1, 0x605C:00, INTEGER16, read-write.
     /// Constant: [`objects::DISABLE_OPERATION_OPTION_CODE`]. Values: [`DisableOperationOptionCode`](types::DisableOperationOptionCode).
     ///
     /// Note: The table of values is headed Bit. Assumed: the rows are values (the rows are numbers from -32768 to 32767). Manual: DISABLE OPERATION OPTION CODE (line 1407).
@@ -6076,7 +6076,7 @@ impl<C> VectorStep<C> {
     }
     /// Stop reaction to a stop request.
     ///
-    /// Stop option code. Range \-32768 to 32767, default 1, 0x605D:00, INTEGER16, read-write.
+    /// Stop option code: Range \-32768 to 32767, default 1, 0x605D:00, INTEGER16, read-write.
     /// Constant: [`objects::STOP_OPTION_CODE`]. Values: [`StopOptionCode`](types::StopOptionCode).
     ///
     /// Hazard: The object is for a requested Stop, but bit 8 of the Controlword, halt in CiA 402, is reserved. Assumed: both as printed (the manual does not state which request it means). Manual: CONTROLWORD; STOP OPTION CODE (lines 1297, 1415).
@@ -6089,7 +6089,7 @@ impl<C> VectorStep<C> {
     }
     /// Stop reaction to a fault.
     ///
-    /// Fault reaction option code. Range \-32768 to 32767, default 2, 0x605E:00, INTEGER16, read-write.
+    /// Fault reaction option code: Range \-32768 to 32767, default 2, 0x605E:00, INTEGER16, read-write.
     /// Constant: [`objects::FAULT_REACTION_OPTION_CODE`]. Values: [`FaultReactionOptionCode`](types::FaultReactionOptionCode).
     ///
     /// Hazard: By default, the drive decelerates on the quick-stop ramp. In the chapter on error signals, an alarm switches the power off and the motor stops without control. Ralarmreact also selects a reaction, by default the emergency ramp. Assumed: the object as printed (the manual does not state which reaction applies to an alarm). Manual: FAULT REACTION OPTION CODE; ALLARMI E WARNING; SEGNALAZIONE DI ERRORE (lines 1439, 1448, 2320, 3337).
@@ -6107,7 +6107,7 @@ impl<C> VectorStep<C> {
     }
     /// Requested mode of operation.
     ///
-    /// Modes of operation. Range \-128 to 127, default 1, 0x6060:00, INTEGER8, write-only, mappable into RPDOs.
+    /// Modes of operation: Range \-128 to 127, default 1, 0x6060:00, INTEGER8, write-only, mappable into RPDOs.
     /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`ModesOfOperation`](types::ModesOfOperation). Carried by [`RxPdo1`](pdo::RxPdo1).
     ///
     /// Note: 8 to 127 are reserved. However, mode 9 is CSV at Rveltarg, Rds402compatibility enables CSP and CSV, and the mode at power-on can be up to 8. Assumed: 8 cyclic synchronous position, 9 cyclic synchronous velocity, 10 to 127 reserved (the registers are newer than the table; 8 for CSP follows from CiA 402 and from the maximum of Rstrmodeofoperation). Manual: MODES OF OPERATION; PARAMETRI MOVIMENTO; FIELDBUS (lines 1469, 2197, 2830, 2831).
@@ -6120,7 +6120,7 @@ impl<C> VectorStep<C> {
     }
     /// Active mode of operation.
     ///
-    /// Modes of operation display. Default 1, 0x6061:00, INTEGER8, read-only, mappable into TPDOs.
+    /// Modes of operation display: Default 1, 0x6061:00, INTEGER8, read-only, mappable into TPDOs.
     /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Values: [`ModesOfOperation`](types::ModesOfOperation). Carried by [`TxPdo1`](pdo::TxPdo1).
     ///
     /// Note: The type is Integer8, with the minimum 0x00 and the maximum 0xFF. Assumed: i8 without limits (mode -1 exists; in this type, 0xFF is -1, which is below the minimum). Manual: MODES OF OPERATION DISPLAY (lines 1480-1482, 1489).
@@ -6135,7 +6135,7 @@ impl<C> VectorStep<C> {
     }
     /// Actual position of the axis.
     ///
-    /// Position actual value. Unit step, range \-2147483648 to 2147483647, default 0, 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Position actual value: Unit step, range \-2147483648 to 2147483647, default 0, 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::POSITION_ACTUAL_VALUE`]. Carried by [`TxPdo2`](pdo::TxPdo2).
     pub fn position_actual_value(
         &mut self,
@@ -6144,7 +6144,7 @@ impl<C> VectorStep<C> {
     }
     /// Following error window: permitted following error on both sides of the position demand.
     ///
-    /// Following error window. 0x6065:00, UNSIGNED32, read-write, mappable into RPDOs.
+    /// Following error window: 0x6065:00, UNSIGNED32, read-write, mappable into RPDOs.
     /// Constant: [`objects::FOLLOWING_ERROR_WINDOW`].
     ///
     /// Note: The object is in the summary only; it has no box. Assumed: type, access rights and mapping of the summary; no limits, unit or default (the manual states nothing else). Manual: TAVOLA RIASSUNTIVA (line 1217).
@@ -6155,7 +6155,7 @@ impl<C> VectorStep<C> {
     }
     /// Following error timeout: time for which the following error may exceed its window.
     ///
-    /// Following error time-out. Unit ms, 0x6066:00, UNSIGNED16, read-write, mappable into RPDOs.
+    /// Following error time-out: Unit ms, 0x6066:00, UNSIGNED16, read-write, mappable into RPDOs.
     /// Constant: [`objects::FOLLOWING_ERROR_TIME_OUT`].
     ///
     /// Note: The object is in the summary only; it has no box. The list of the three axes has Following error timeout. Assumed: type, access rights and mapping of the summary; no limits, unit or default (the manual states nothing else; the unit is ms in CiA 402). Manual: INDIRIZZAMENTO REGISTRI STANDARD DSP-402; TAVOLA RIASSUNTIVA (lines 440, 1218).
@@ -6166,7 +6166,7 @@ impl<C> VectorStep<C> {
     }
     /// Position window: maximum distance from the target position at which the target is reached.
     ///
-    /// Position window. 0x6067:00, UNSIGNED32, read-write, mappable into RPDOs.
+    /// Position window: 0x6067:00, UNSIGNED32, read-write, mappable into RPDOs.
     /// Constant: [`objects::POSITION_WINDOW`].
     ///
     /// Note: The object is in the summary only; it has no box. Assumed: type, access rights and mapping of the summary; no limits, unit or default (the manual states nothing else). Manual: TAVOLA RIASSUNTIVA (line 1219).
@@ -6177,7 +6177,7 @@ impl<C> VectorStep<C> {
     }
     /// Position window time: time in the position window after which the target is reached.
     ///
-    /// Position window time-out. Unit ms, 0x6068:00, UNSIGNED16, read-write, mappable into RPDOs.
+    /// Position window time-out: Unit ms, 0x6068:00, UNSIGNED16, read-write, mappable into RPDOs.
     /// Constant: [`objects::POSITION_WINDOW_TIME_OUT`].
     ///
     /// Note: The object is in the summary only; it has no box. Assumed: type, access rights and mapping of the summary; no limits, unit or default (the manual states nothing else; the unit is ms in CiA 402). Manual: TAVOLA RIASSUNTIVA (line 1220).
@@ -6188,7 +6188,7 @@ impl<C> VectorStep<C> {
     }
     /// Actual velocity of the motor.
     ///
-    /// Velocity actual value. 1 LSB = 0.01 rev/s, 0x606C:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Velocity actual value: 1 LSB = 0.01 rev/s, 0x606C:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::VELOCITY_ACTUAL_VALUE`].
     ///
     /// Note: The value is signed and read-only, with minimum 1, maximum 20000 and default 1000. Assumed: no limits and no default (the limits cannot apply to a motor at standstill or with a negative speed; they look like limits of a setting). Manual: VELOCITY ACTUAL VALUE (lines 1508-1510).
@@ -6199,7 +6199,7 @@ impl<C> VectorStep<C> {
     }
     /// Target position in profile position mode: absolute or relative, selected by bit 6 of the Controlword.
     ///
-    /// Target position. Unit step, range \-2147483648 to 2147483647, default 0, 0x607A:00, INTEGER32, read-write, mappable into RPDOs.
+    /// Target position: Unit step, range \-2147483648 to 2147483647, default 0, 0x607A:00, INTEGER32, read-write, mappable into RPDOs.
     /// Constant: [`objects::TARGET_POSITION`]. Carried by [`RxPdo2`](pdo::RxPdo2).
     ///
     /// Hazard: The manual gives no unit. Assumed: steps (actual position and home offset have this unit). Manual: POSITION ACTUAL VALUE; TARGET POSITION; HOME OFFSET (lines 1497, 1513, 1521).
@@ -6210,7 +6210,7 @@ impl<C> VectorStep<C> {
     }
     /// Home offset: position value that is set at the end of homing.
     ///
-    /// Home offset. Unit step, range \-2147483648 to 2147483647, default 0, 0x607C:00, INTEGER32, read-write, mappable into RPDOs.
+    /// Home offset: Unit step, range \-2147483648 to 2147483647, default 0, 0x607C:00, INTEGER32, read-write, mappable into RPDOs.
     /// Constant: [`objects::HOME_OFFSET`].
     pub fn home_offset(
         &mut self,
@@ -6219,7 +6219,7 @@ impl<C> VectorStep<C> {
     }
     /// Velocity of a motion.
     ///
-    /// Profile velocity. 1 LSB = 0.01 rev/s, range 0.00 … 21474836.47 rev/s (raw 0 … 2147483647), default 1.00 rev/s (raw 100), 0x6081:00, UNSIGNED32, read-write, mappable into RPDOs.
+    /// Profile velocity: 1 LSB = 0.01 rev/s, range 0.00 … 21474836.47 rev/s (raw 0 … 2147483647), default 1.00 rev/s (raw 100), 0x6081:00, UNSIGNED32, read-write, mappable into RPDOs.
     /// Constant: [`objects::PROFILE_VELOCITY`].
     ///
     /// Note: The type is Unsigned 32 in the summary, and Integer32 in the box, with the limits 0 and 0x7FFFFFFF. Assumed: u32 (the adjacent objects and CiA 402 have an unsigned type; within the limits, both types are equal). Manual: TAVOLA RIASSUNTIVA; PROFILE VELOCITY (lines 1224, 1536-1537, 1538).
@@ -6230,7 +6230,7 @@ impl<C> VectorStep<C> {
     }
     /// Start and stop velocity of a motion.
     ///
-    /// End Velocity. 1 LSB = 0.01 rev/s, range -50.00 … 50.00 rev/s (raw \-5000 … 5000), default 0.00 rev/s (raw 0), 0x6082:00, INTEGER32, read-write, mappable into RPDOs.
+    /// End Velocity: 1 LSB = 0.01 rev/s, range -50.00 … 50.00 rev/s (raw \-5000 … 5000), default 0.00 rev/s (raw 0), 0x6082:00, INTEGER32, read-write, mappable into RPDOs.
     /// Constant: [`objects::END_VELOCITY`].
     ///
     /// Note: The type is Unsigned32 in the box and Unsigned 32 in the summary, with the minimum 0xFFFFEC78 and the maximum 0x1388. Assumed: i32 (the limits are in order only as signed numbers, -5000 and 5000; for values from 0 on, both types are equal). Manual: TAVOLA RIASSUNTIVA; END VELOCITY (START/STOP SPEED) (lines 1225, 1548-1549, 1550).
@@ -6243,7 +6243,7 @@ impl<C> VectorStep<C> {
     }
     /// Acceleration of a motion.
     ///
-    /// Profile acceleration. 1 LSB = 0.1 rev/s², range 0.1 … 20000.0 rev/s² (raw 1 … 200000), default 100.0 rev/s² (raw 1000), 0x6083:00, UNSIGNED32, read-write, mappable into RPDOs.
+    /// Profile acceleration: 1 LSB = 0.1 rev/s², range 0.1 … 20000.0 rev/s² (raw 1 … 200000), default 100.0 rev/s² (raw 1000), 0x6083:00, UNSIGNED32, read-write, mappable into RPDOs.
     /// Constant: [`objects::PROFILE_ACCELERATION`].
     ///
     /// Note: The minimum is 1, but in Racc, the register of the same quantity, 0 disables the ramp. Assumed: the limits of the box (the object may have a narrower range than the register). Manual: PROFILE ACCELERATION; PARAMETRI MOVIMENTO (lines 1560, 2180).
@@ -6254,7 +6254,7 @@ impl<C> VectorStep<C> {
     }
     /// Deceleration of a motion.
     ///
-    /// Profile deceleration. 1 LSB = 0.1 rev/s², range 0.1 … 20000.0 rev/s² (raw 1 … 200000), default 100.0 rev/s² (raw 1000), 0x6084:00, UNSIGNED32, read-write, mappable into RPDOs.
+    /// Profile deceleration: 1 LSB = 0.1 rev/s², range 0.1 … 20000.0 rev/s² (raw 1 … 200000), default 100.0 rev/s² (raw 1000), 0x6084:00, UNSIGNED32, read-write, mappable into RPDOs.
     /// Constant: [`objects::PROFILE_DECELERATION`].
     ///
     /// Note: The minimum is 1, but in Rdec, the register of the same quantity, 0 disables the ramp. Assumed: the limits of the box (the object may have a narrower range than the register). Manual: PROFILE DECELERATION; PARAMETRI MOVIMENTO (lines 1572, 2182).
@@ -6265,7 +6265,7 @@ impl<C> VectorStep<C> {
     }
     /// Emergency deceleration (quick-stop ramp) of a motion.
     ///
-    /// Quick stop deceleration. 1 LSB = 0.1 rev/s², range 0.1 … 20000.0 rev/s² (raw 1 … 200000), default 100.0 rev/s² (raw 1000), 0x6085:00, UNSIGNED32, read-write.
+    /// Quick stop deceleration: 1 LSB = 0.1 rev/s², range 0.1 … 20000.0 rev/s² (raw 1 … 200000), default 100.0 rev/s² (raw 1000), 0x6085:00, UNSIGNED32, read-write.
     /// Constant: [`objects::QUICK_STOP_DECELERATION`].
     ///
     /// Note: The summary has RW / WMAP, but PDO mapping is No in the box. Assumed: not mappable (this choice is safe if the two differ; SDO is possible in both cases). Manual: TAVOLA RIASSUNTIVA; QUICK STOP DECELERATION (lines 1228, 1583).
@@ -6276,7 +6276,7 @@ impl<C> VectorStep<C> {
     }
     /// Shape of the acceleration and deceleration ramps: trapezoidal or S-shaped.
     ///
-    /// Motion profile type. Range \-32768 to 32767, default 0, 0x6086:00, INTEGER16, read-write, mappable into RPDOs.
+    /// Motion profile type: Range \-32768 to 32767, default 0, 0x6086:00, INTEGER16, read-write, mappable into RPDOs.
     /// Constant: [`objects::MOTION_PROFILE_TYPE`]. Values: [`MotionProfileType`](types::MotionProfileType).
     ///
     /// Note: The headers Modo operativo and Codifica are above the wrong columns, the code and the name. Assumed: the first column is the code (the headers are swapped, as at 0x6060). Manual: MODES OF OPERATION; MOTION PROFILE TYPE (lines 1461, 1595).
@@ -6287,7 +6287,7 @@ impl<C> VectorStep<C> {
     }
     /// Homing method: limit switch, encoder index (TOP), mechanical stop or current position.
     ///
-    /// Homing method. Range \-128 to 127, default 0, 0x6098:00, INTEGER8, read-write, mappable into RPDOs.
+    /// Homing method: Range \-128 to 127, default 0, 0x6098:00, INTEGER8, read-write, mappable into RPDOs.
     /// Constant: [`objects::HOMING_METHOD`]. Values: [`HomingMethod`](types::HomingMethod).
     ///
     /// Hazard: The methods use the index (TOP) of the motor encoder here, and of encoder 1 in Rhmode; methods -6 and -5 have TOP without an encoder here. Assumed: one enumeration for both (the numbers and the rest of the texts agree). Manual: HOMING METHOD; ISTRUZIONE HOME (lines 1626-1639, 2227).
@@ -6309,7 +6309,7 @@ impl<C> VectorStep<C> {
     }
     /// Acceleration and deceleration of homing.
     ///
-    /// Homing acceleration. 1 LSB = 0.1 rev/s², range 0.1 … 50000.0 rev/s² (raw 1 … 500000), default 0.1 rev/s² (raw 1), 0x609A:00, UNSIGNED32, read-write, mappable into RPDOs.
+    /// Homing acceleration: 1 LSB = 0.1 rev/s², range 0.1 … 50000.0 rev/s² (raw 1 … 500000), default 0.1 rev/s² (raw 1), 0x609A:00, UNSIGNED32, read-write, mappable into RPDOs.
     /// Constant: [`objects::HOMING_ACCELERATION`].
     ///
     /// Note: The maximum is 0x0007A120, which is 500000, but the register of the same quantity, Rhacc, ends at 200000. Assumed: the limit of the box (the manual does not state which limit the drive checks). Manual: HOMING ACCELERATION; ISTRUZIONE HOME (lines 1684, 2230).
@@ -6320,7 +6320,7 @@ impl<C> VectorStep<C> {
     }
     /// Control word of both touch probes. Same as register 331 (10084 from firmware 6).
     ///
-    /// Touch Probe function. Range 0 to 65535, default 0, 0x60B8:00, UNSIGNED16, read-write, mappable into RPDOs.
+    /// Touch Probe function: Range 0 to 65535, default 0, 0x60B8:00, UNSIGNED16, read-write, mappable into RPDOs.
     /// Constant: [`objects::TOUCH_PROBE_FUNCTION`]. Values: [`TouchProbeFunction`](types::TouchProbeFunction).
     ///
     /// Note: For bit 0, the table has 0 = Definition and 1 = disables touch probe 1. In the touch probe chapter and for bit 8, 0 disables and 1 enables. Assumed: 0 disabled, 1 enabled (a header is printed inside the table and moved the texts by one row). Manual: TOUCH PROBE FUNCTION; Rtouchprobefunc (CanOpen/EtherCAT standard Object 60B8h) (lines 1699-1700, 1713-1714, 2999-3000).
@@ -6348,7 +6348,7 @@ impl<C> VectorStep<C> {
     }
     /// Status word of both touch probes. Same as register 332 (10085 from firmware 6).
     ///
-    /// Touch Probe status. Range 0 to 65535, default 0, 0x60B9:00, UNSIGNED16, read-only, mappable into TPDOs.
+    /// Touch Probe status: Range 0 to 65535, default 0, 0x60B9:00, UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::TOUCH_PROBE_STATUS`]. Values: [`TouchProbeStatus`](types::TouchProbeStatus).
     ///
     /// Note: Bits 2 and 10 are not supported here; in the touch probe chapter and in register 10085, they show a value stored at the negative edge. Assumed: the negative edge, from firmware 6 (the box has the meaning of register 332, which 10085 replaces from this version). Manual: TOUCH PROBE STATUS; FUNZIONE TOUCH PROBE; Rtouchprobestatus (CanOpen/EtherCAT standard Object 60B9h) (lines 1743, 1750, 2952, 2964, 3044-3045, 3052-3053).
@@ -6363,7 +6363,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of touch probe 1 at the positive edge, in user position units. Same as register 333-334 (10086-10087 from firmware 6).
     ///
-    /// Touch probe position 1 positive value. Range \-2147483648 to 2147483647, default 0, 0x60BA:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Touch probe position 1 positive value: Range \-2147483648 to 2147483647, default 0, 0x60BA:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::TOUCH_PROBE_POSITION_1_POSITIVE_VALUE`].
     ///
     /// Note: The default is 0x0000, four digits for 32 bits. Assumed: 0 (the value is the same). Manual: TOUCH PROBE POSIZIONE 1 VALORE POSITIVO (line 1763).
@@ -6376,7 +6376,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of touch probe 1 at the negative edge, in user position units. Same as register 335-336 (10088-10089 from firmware 6).
     ///
-    /// Touch probe position 1 negative value. Range \-2147483648 to 2147483647, default 0, 0x60BB:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Touch probe position 1 negative value: Range \-2147483648 to 2147483647, default 0, 0x60BB:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::TOUCH_PROBE_POSITION_1_NEGATIVE_VALUE`].
     ///
     /// Note: The text has the positive value, of a touch probe without a number; title, summary, symbol and the touch probe chapter have the negative edge of probe 1. Assumed: the negative edge of probe 1 (the text was copied from 0x60BA). Manual: TAVOLA RIASSUNTIVA; TOUCH PROBE POSIZIONE 1 VALORE NEGATIVO; Rtouchprobepos1neg (CanOpen/EtherCAT standard Object 60BBh) (lines 1236, 1770, 3074).
@@ -6389,7 +6389,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of touch probe 2 at the positive edge, in user position units. Same as register 337-338 (10097-10098 from firmware 6).
     ///
-    /// Touch probe position 2 positive value. Range \-2147483648 to 2147483647, default 0, 0x60BC:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Touch probe position 2 positive value: Range \-2147483648 to 2147483647, default 0, 0x60BC:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::TOUCH_PROBE_POSITION_2_POSITIVE_VALUE`].
     ///
     /// Note: The default is 0x0000, four digits for 32 bits. Assumed: 0 (the value is the same). Manual: TOUCH PROBE POSIZIONE 2 VALORE POSITIVO (line 1787).
@@ -6402,7 +6402,7 @@ impl<C> VectorStep<C> {
     }
     /// Position of touch probe 2 at the negative edge, in user position units. Same as register 339-340 (10099-10100 from firmware 6).
     ///
-    /// Touch probe position 2 negative value. Range \-2147483648 to 2147483647, default 0, 0x60BD:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Touch probe position 2 negative value: Range \-2147483648 to 2147483647, default 0, 0x60BD:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::TOUCH_PROBE_POSITION_2_NEGATIVE_VALUE`].
     ///
     /// Note: The text has the positive value, of a touch probe without a number; title, summary, symbol and the touch probe chapter have the negative edge of probe 2. Assumed: the negative edge of probe 2 (the text was copied from 0x60BC). Manual: TAVOLA RIASSUNTIVA; TOUCH PROBE POSIZIONE 2 VALORE NEGATIVO; Rtouchprobepos2neg (lines 1238, 1794, 3096).
@@ -6415,7 +6415,7 @@ impl<C> VectorStep<C> {
     }
     /// Active interpolation type.
     ///
-    /// Interpolation Submode Select. Range \-32768 to 32767, default 0, 0x60C0:00, INTEGER16, read-write.
+    /// Interpolation Submode Select: Range \-32768 to 32767, default 0, 0x60C0:00, INTEGER16, read-write.
     /// Constant: [`objects::INTERPOLATION_SUBMODE_SELECT`]. Values: [`InterpolationSubmode`](types::InterpolationSubmode).
     pub fn interpolation_submode_select(
         &mut self,
@@ -6465,7 +6465,7 @@ impl<C> VectorStep<C> {
     }
     /// States of the limit switches, the home switch and the 16 digital inputs.
     ///
-    /// Digital inputs. Range 0 to 4294902007, default 0, 0x60FD:00, UNSIGNED32, read-only, mappable into TPDOs.
+    /// Digital inputs: Range 0 to 4294902007, default 0, 0x60FD:00, UNSIGNED32, read-only, mappable into TPDOs.
     /// Constant: [`objects::DIGITAL_INPUTS`]. Values: [`ProfileDigitalInputs`](types::ProfileDigitalInputs).
     ///
     /// Note: The maximum is 0xFFFF00F7, but bits 3 to 15 are reserved, which gives 0xFFFF0007. Assumed: the maximum as printed, and the bits as listed (the manual does not state the meaning of bits 4 to 7). Manual: DIGITAL INPUTS (lines 1949, 1959).
@@ -6488,7 +6488,7 @@ impl<C> VectorStep<C> {
     }
     /// Type of the motor; 9 (microstep stepper motor) after each power-on.
     ///
-    /// Motor type. Range 0 to 65535, default 9, 0x6402:00, UNSIGNED16, read-write.
+    /// Motor type: Range 0 to 65535, default 9, 0x6402:00, UNSIGNED16, read-write.
     /// Volatile.
     /// Constant: [`objects::MOTOR_TYPE`]. Values: [`MotorType`](types::MotorType).
     ///
@@ -6506,7 +6506,7 @@ impl<C> VectorStep<C> {
     }
     /// Supported modes of operation.
     ///
-    /// Supported drive modes. Default 0x10021, 0x6502:00, UNSIGNED32, read-only.
+    /// Supported drive modes: Default 0x10021, 0x6502:00, UNSIGNED32, read-only.
     /// Constant: [`objects::SUPPORTED_DRIVE_MODES`]. Values: [`SupportedDriveModes`](types::SupportedDriveModes).
     ///
     /// Note: 0x00010021 is the minimum, maximum and default: bits 0, 5 and 16. Bit 6, interpolation, is also marked as supported, which gives 0x00010061. Assumed: 0x00010021 is the default, without limits (mode 7 exists, so a drive may report bit 6). Manual: MODES OF OPERATION; SUPPORTED DRIVE MODE (lines 1468, 2034-2036, 2048).
@@ -6526,7 +6526,7 @@ impl<C> VectorStep<C> {
     }
     /// Name of the manufacturer; a written value is volatile.
     ///
-    /// Drive manufacturer. Default "Aec srl...Italy", 0x6504:00, VISIBLE_STRING, read-write.
+    /// Drive manufacturer: Default "Aec srl...Italy", 0x6504:00, VISIBLE_STRING, read-write.
     /// Volatile.
     /// Constant: [`objects::DRIVE_MANUFACTURER`].
     ///
@@ -6538,7 +6538,7 @@ impl<C> VectorStep<C> {
     }
     /// Web address of the data sheet; a written value is volatile.
     ///
-    /// http drive catalog address. Default "www.aec-smd.it", 0x6505:00, VISIBLE_STRING, read-write.
+    /// http drive catalog address: Default "www.aec-smd.it", 0x6505:00, VISIBLE_STRING, read-write.
     /// Volatile.
     /// Constant: [`objects::HTTP_DRIVE_CATALOG_ADDRESS`].
     pub fn http_drive_catalog_address(
@@ -38423,7 +38423,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of errors in the history; writing 0 clears it.
             ///
-            /// Number of errors. Range 0 to 2, default 0, 0x1003:00, UNSIGNED8, read-write.
+            /// Number of errors: Range 0 to 2, default 0, 0x1003:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ERRORS`].
             ///
             /// Note: Access is Read/Write with the limits 0x00 to 0x02, but the manual describes only the effect of writing 0. Assumed: rw, and 0 is the only value to write (the manual gives no meaning to other values). Manual: PRE-DEFINED ERROR FIELD (lines 652, 663-665).
@@ -38434,7 +38434,7 @@ pub mod objects {
             }
             /// First error of the history, with its code as in 0x603F in the low word; exists only after an error.
             ///
-            /// Standard error field 1. Range 0 to 4294967295, default 0, 0x1003:01, UNSIGNED32, read-only.
+            /// Standard error field 1: Range 0 to 4294967295, default 0, 0x1003:01, UNSIGNED32, read-only.
             /// Constant: [`STANDARD_ERROR_FIELD_1`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             ///
             /// Note: Sub-indices 1 and 2 both have the symbol standard\_error\_field. Assumed: names with a number (names within an object must differ). Manual: PRE-DEFINED ERROR FIELD (lines 669, 675).
@@ -38450,7 +38450,7 @@ pub mod objects {
             }
             /// Second error of the history; exists only after a second error.
             ///
-            /// Standard error field 2. Range 0 to 4294967295, default 0, 0x1003:02, UNSIGNED32, read-only.
+            /// Standard error field 2: Range 0 to 4294967295, default 0, 0x1003:02, UNSIGNED32, read-only.
             /// Constant: [`STANDARD_ERROR_FIELD_2`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             ///
             /// Note: Index 0x1003:02 is printed a second time, at the box of the serial number. Assumed: 0x1003:2 is the box in the section of 0x1003, and 0x1018:4 the other box (the second box belongs to the list of 0x1018). Manual: PRE-DEFINED ERROR FIELD; IDENTITY OBJECT (lines 674, 909).
@@ -38728,7 +38728,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-entries.
             ///
-            /// Number of entries. Range 0 to 2, default 0, 0x1016:00, UNSIGNED8, read-only.
+            /// Number of entries: Range 0 to 2, default 0, 0x1016:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: The default is 0x00 with the limits 0 to 2, although two sub-entries are described and the array has 3 elements. Assumed: the default as printed (the manual does not state whether the drive counts only the entries in use). Manual: CONSUMER HEARTBEAT TIME (lines 829, 836-838, 841, 847).
@@ -38739,7 +38739,7 @@ pub mod objects {
             }
             /// First monitored node and its heartbeat timeout in ms; 0 disables monitoring. A node in both entries is rejected (abort 0x06040043).
             ///
-            /// Consumer heartbeat time 1. Range 0 to 2147483647, default 0, 0x1016:01, UNSIGNED32, read-write.
+            /// Consumer heartbeat time 1: Range 0 to 2147483647, default 0, 0x1016:01, UNSIGNED32, read-write.
             /// Constant: [`CONSUMER_HEARTBEAT_TIME_1`]. Values: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
             ///
             /// Note: The maximum is 0x007FFFFFFF, ten digits for 32 bits; bits 31..24 are reserved and 0. Assumed: 0x7FFFFFFF (this is the printed number; 0x00FFFFFF would follow from the reserved bits, 0x007FFFFF from a node-ID of 7 bits). Manual: CONSUMER HEARTBEAT TIME (lines 843, 856).
@@ -38755,7 +38755,7 @@ pub mod objects {
             }
             /// Second monitored node and its heartbeat timeout in ms; 0 disables monitoring. A node in both entries is rejected (abort 0x06040043).
             ///
-            /// Consumer heartbeat time 2. Range 0 to 2147483647, default 0, 0x1016:02, UNSIGNED32, read-write.
+            /// Consumer heartbeat time 2: Range 0 to 2147483647, default 0, 0x1016:02, UNSIGNED32, read-write.
             /// Constant: [`CONSUMER_HEARTBEAT_TIME_2`]. Values: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
             ///
             /// Note: The maximum is 0x007FFFFFFF, ten digits for 32 bits; bits 31..24 are reserved and 0. Assumed: 0x7FFFFFFF (this is the printed number; 0x00FFFFFF would follow from the reserved bits, 0x007FFFFF from a node-ID of 7 bits). Manual: CONSUMER HEARTBEAT TIME (lines 849, 856).
@@ -38875,7 +38875,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-entries.
             ///
-            /// Number of entries. Range 1 to 4, default 4, 0x1018:00, UNSIGNED8, read-only.
+            /// Number of entries: Range 1 to 4, default 4, 0x1018:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -38884,7 +38884,7 @@ pub mod objects {
             }
             /// Vendor-ID; 0xBC is AEC.
             ///
-            /// Vendor ID. Range 0 to 4294967295, default 188, 0x1018:01, UNSIGNED32, read-only.
+            /// Vendor ID: Range 0 to 4294967295, default 188, 0x1018:01, UNSIGNED32, read-only.
             /// Constant: [`VENDOR_ID`].
             pub fn vendor_id(
                 &mut self,
@@ -38893,7 +38893,7 @@ pub mod objects {
             }
             /// Product code: the model number, 5006 or 3006.
             ///
-            /// Product code. Range 0 to 4294967295, 0x1018:02, UNSIGNED32, read-only.
+            /// Product code: Range 0 to 4294967295, 0x1018:02, UNSIGNED32, read-only.
             /// Constant: [`PRODUCT_CODE`].
             ///
             /// Note: The default is 0x0000138E or 0x00000BBE, which are 5006 and 3006 in decimal; 1104, 2204 and 5106 have no code. Assumed: no default (the value depends on the model). Manual: IDENTITY OBJECT (line 900).
@@ -38904,7 +38904,7 @@ pub mod objects {
             }
             /// Revision of the CANopen behavior (high word) and of the firmware (low word).
             ///
-            /// Revision number. Range 0 to 4294967295, 0x1018:03, UNSIGNED32, read-only.
+            /// Revision number: Range 0 to 4294967295, 0x1018:03, UNSIGNED32, read-only.
             /// Constant: [`REVISION_NUMBER`]. Values: [`RevisionNumber`](super::super::types::RevisionNumber).
             pub fn revision_number(
                 &mut self,
@@ -38918,7 +38918,7 @@ pub mod objects {
             }
             /// Serial number of the product.
             ///
-            /// Serial number. Range 0 to 4294967295, 0x1018:04, UNSIGNED32, read-only.
+            /// Serial number: Range 0 to 4294967295, 0x1018:04, UNSIGNED32, read-only.
             /// Constant: [`SERIAL_NUMBER`].
             ///
             /// Note: The box is headed 0x1003:02, an index that the section of 0x1003 already has. Assumed: 0x1018:4 (it follows 0x1018:03, 0x1018:00 has 4 entries, and the serial number is the fourth in the text). Manual: PRE-DEFINED ERROR FIELD; IDENTITY OBJECT (lines 674, 875, 909).
@@ -39003,7 +39003,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-entries.
             ///
-            /// Number of entries. Range 2 to 2, default 2, 0x1200:00, UNSIGNED8, read-only.
+            /// Number of entries: Range 2 to 2, default 2, 0x1200:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -39012,7 +39012,7 @@ pub mod objects {
             }
             /// COB-ID of SDO requests from the client to the drive.
             ///
-            /// COB-ID client to server. Range 0 to 4294967295, default \$NODEID+0x600, 0x1200:01, UNSIGNED32, read-write.
+            /// COB-ID client to server: Range 0 to 4294967295, default \$NODEID+0x600, 0x1200:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID_CLIENT_TO_SERVER`]. Values: [`SdoIdentifier`](super::super::types::SdoIdentifier).
             ///
             /// Note: The symbol is printed as COD-ID. Assumed: COB-ID (0x1005 and 0x1014 have the same misprint). Manual: SDO1 PARAMETERS (line 936).
@@ -39028,7 +39028,7 @@ pub mod objects {
             }
             /// COB-ID of SDO replies from the drive to the client.
             ///
-            /// COB-ID server to client. Range 0 to 4294967295, default \$NODEID+0x580, 0x1200:02, UNSIGNED32, read-write.
+            /// COB-ID server to client: Range 0 to 4294967295, default \$NODEID+0x580, 0x1200:02, UNSIGNED32, read-write.
             /// Constant: [`COB_ID_SERVER_TO_CLIENT`]. Values: [`SdoIdentifier`](super::super::types::SdoIdentifier).
             ///
             /// Note: The symbol is printed as COD-ID. Assumed: COB-ID (0x1005 and 0x1014 have the same misprint). Manual: SDO1 PARAMETERS (line 942).
@@ -39112,7 +39112,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-entries.
             ///
-            /// Number of entries. Range 2 to 2, default 2, 0x1400:00, UNSIGNED8, read-only.
+            /// Number of entries: Range 2 to 2, default 2, 0x1400:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -39121,7 +39121,7 @@ pub mod objects {
             }
             /// COB-ID of the RPDO, with the valid bit and the RTR bit.
             ///
-            /// COB-ID. Range 0 to 4294967295, default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
+            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
@@ -39135,7 +39135,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive applies a received RPDO.
             ///
-            /// Transmission type. Range 0 to 255, default 254, 0x1400:02, UNSIGNED8, read-write.
+            /// Transmission type: Range 0 to 255, default 254, 0x1400:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             ///
             /// Note: The text below the box describes transmission of PDOs and an event timer, in the same words as for transmit PDOs. Assumed: one enumeration for both directions (the table of types is the same. The manual does not state the effect of types 252 and 253 and of the event timer on reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS (lines 1005-1017, 1115-1127).
@@ -39221,7 +39221,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-entries.
             ///
-            /// Number of entries. Range 2 to 2, default 2, 0x1401:00, UNSIGNED8, read-only.
+            /// Number of entries: Range 2 to 2, default 2, 0x1401:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -39230,7 +39230,7 @@ pub mod objects {
             }
             /// COB-ID of the RPDO, with the valid bit and the RTR bit.
             ///
-            /// COB-ID. Range 0 to 4294967295, default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
+            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
@@ -39244,7 +39244,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive applies a received RPDO.
             ///
-            /// Transmission type. Range 0 to 255, default 254, 0x1401:02, UNSIGNED8, read-write.
+            /// Transmission type: Range 0 to 255, default 254, 0x1401:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             ///
             /// Note: The text below the box describes transmission of PDOs and an event timer, in the same words as for transmit PDOs. Assumed: one enumeration for both directions (the table of types is the same. The manual does not state the effect of types 252 and 253 and of the event timer on reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS (lines 1005-1017, 1115-1127).
@@ -39330,7 +39330,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-entries.
             ///
-            /// Number of entries. Range 2 to 2, default 2, 0x1402:00, UNSIGNED8, read-only.
+            /// Number of entries: Range 2 to 2, default 2, 0x1402:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -39339,7 +39339,7 @@ pub mod objects {
             }
             /// COB-ID of the RPDO, with the valid bit and the RTR bit.
             ///
-            /// COB-ID. Range 0 to 4294967295, default \$NODEID+0x400, 0x1402:01, UNSIGNED32, read-write.
+            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x400, 0x1402:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
@@ -39353,7 +39353,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive applies a received RPDO.
             ///
-            /// Transmission type. Range 0 to 255, default 254, 0x1402:02, UNSIGNED8, read-write.
+            /// Transmission type: Range 0 to 255, default 254, 0x1402:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             ///
             /// Note: The text below the box describes transmission of PDOs and an event timer, in the same words as for transmit PDOs. Assumed: one enumeration for both directions (the table of types is the same. The manual does not state the effect of types 252 and 253 and of the event timer on reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS (lines 1005-1017, 1115-1127).
@@ -39439,7 +39439,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-entries.
             ///
-            /// Number of entries. Range 2 to 2, default 2, 0x1403:00, UNSIGNED8, read-only.
+            /// Number of entries: Range 2 to 2, default 2, 0x1403:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -39448,7 +39448,7 @@ pub mod objects {
             }
             /// COB-ID of the RPDO, with the valid bit and the RTR bit.
             ///
-            /// COB-ID. Range 0 to 4294967295, default \$NODEID+0x500, 0x1403:01, UNSIGNED32, read-write.
+            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x500, 0x1403:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
@@ -39462,7 +39462,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive applies a received RPDO.
             ///
-            /// Transmission type. Range 0 to 255, default 254, 0x1403:02, UNSIGNED8, read-write.
+            /// Transmission type: Range 0 to 255, default 254, 0x1403:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             ///
             /// Note: The text below the box describes transmission of PDOs and an event timer, in the same words as for transmit PDOs. Assumed: one enumeration for both directions (the table of types is the same. The manual does not state the effect of types 252 and 253 and of the event timer on reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS (lines 1005-1017, 1115-1127).
@@ -39648,7 +39648,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; write 0 before a change of the mapping.
             ///
-            /// Number of entries. Range 0 to 8, default 2, 0x1600:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 8, default 2, 0x1600:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: Access is Read, but the mapping procedure writes 0 and the number of objects to it. Assumed: rw (the mapping could not change otherwise, and the summary has RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; RxPDO MAPPING PARAMETERS (lines 557, 560, 602-605, 1022, 1037).
@@ -39663,7 +39663,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; by default the Controlword.
             ///
-            /// Mapped object 1. Range 0 to 4294967295, default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
+            /// Mapped object 1: Range 0 to 4294967295, default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             ///
             /// Note: The example in the mapping procedure has 0x604000010, nine digits, but the table of defaults has 0x60400010. Assumed: 0x60400010 (a mapping entry has eight digits). Manual: COME MAPPARE UN PDO; Mappature di default (lines 559, 1050).
@@ -39679,7 +39679,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; by default the mode of operation or the target position.
             ///
-            /// Mapped object 2. Range 0 to 4294967295, default 0x60600008, 0x1600:02, UNSIGNED32, read-write.
+            /// Mapped object 2: Range 0 to 4294967295, default 0x60600008, 0x1600:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
@@ -39693,7 +39693,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 3. Range 0 to 4294967295, 0x1600:03, UNSIGNED32, read-write.
+            /// Mapped object 3: Range 0 to 4294967295, 0x1600:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
@@ -39707,7 +39707,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 4. Range 0 to 4294967295, 0x1600:04, UNSIGNED32, read-write.
+            /// Mapped object 4: Range 0 to 4294967295, 0x1600:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
@@ -39721,7 +39721,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 5. Range 0 to 4294967295, 0x1600:05, UNSIGNED32, read-write.
+            /// Mapped object 5: Range 0 to 4294967295, 0x1600:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
@@ -39735,7 +39735,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 6. Range 0 to 4294967295, 0x1600:06, UNSIGNED32, read-write.
+            /// Mapped object 6: Range 0 to 4294967295, 0x1600:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
@@ -39749,7 +39749,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 7. Range 0 to 4294967295, 0x1600:07, UNSIGNED32, read-write.
+            /// Mapped object 7: Range 0 to 4294967295, 0x1600:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
@@ -39763,7 +39763,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 8. Range 0 to 4294967295, 0x1600:08, UNSIGNED32, read-write.
+            /// Mapped object 8: Range 0 to 4294967295, 0x1600:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
@@ -39945,7 +39945,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; write 0 before a change of the mapping.
             ///
-            /// Number of entries. Range 0 to 8, default 2, 0x1601:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 8, default 2, 0x1601:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: Access is Read, but the mapping procedure writes 0 and the number of objects to it. Assumed: rw (the mapping could not change otherwise, and the summary has RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; RxPDO MAPPING PARAMETERS (lines 557, 560, 602-605, 1022, 1037).
@@ -39960,7 +39960,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; by default the Controlword.
             ///
-            /// Mapped object 1. Range 0 to 4294967295, default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
+            /// Mapped object 1: Range 0 to 4294967295, default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             ///
             /// Note: The example in the mapping procedure has 0x604000010, nine digits, but the table of defaults has 0x60400010. Assumed: 0x60400010 (a mapping entry has eight digits). Manual: COME MAPPARE UN PDO; Mappature di default (lines 559, 1050).
@@ -39976,7 +39976,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; by default the mode of operation or the target position.
             ///
-            /// Mapped object 2. Range 0 to 4294967295, default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
+            /// Mapped object 2: Range 0 to 4294967295, default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
@@ -39990,7 +39990,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 3. Range 0 to 4294967295, 0x1601:03, UNSIGNED32, read-write.
+            /// Mapped object 3: Range 0 to 4294967295, 0x1601:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
@@ -40004,7 +40004,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 4. Range 0 to 4294967295, 0x1601:04, UNSIGNED32, read-write.
+            /// Mapped object 4: Range 0 to 4294967295, 0x1601:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
@@ -40018,7 +40018,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 5. Range 0 to 4294967295, 0x1601:05, UNSIGNED32, read-write.
+            /// Mapped object 5: Range 0 to 4294967295, 0x1601:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
@@ -40032,7 +40032,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 6. Range 0 to 4294967295, 0x1601:06, UNSIGNED32, read-write.
+            /// Mapped object 6: Range 0 to 4294967295, 0x1601:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
@@ -40046,7 +40046,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 7. Range 0 to 4294967295, 0x1601:07, UNSIGNED32, read-write.
+            /// Mapped object 7: Range 0 to 4294967295, 0x1601:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
@@ -40060,7 +40060,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 8. Range 0 to 4294967295, 0x1601:08, UNSIGNED32, read-write.
+            /// Mapped object 8: Range 0 to 4294967295, 0x1601:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
@@ -40238,7 +40238,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; write 0 before a change of the mapping.
             ///
-            /// Number of entries. Range 0 to 8, default 0, 0x1602:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 8, default 0, 0x1602:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: Access is Read, but the mapping procedure writes 0 and the number of objects to it. Assumed: rw (the mapping could not change otherwise, and the summary has RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; RxPDO MAPPING PARAMETERS (lines 557, 560, 602-605, 1022, 1037).
@@ -40253,7 +40253,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 1. Range 0 to 4294967295, 0x1602:01, UNSIGNED32, read-write.
+            /// Mapped object 1: Range 0 to 4294967295, 0x1602:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
@@ -40267,7 +40267,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 2. Range 0 to 4294967295, 0x1602:02, UNSIGNED32, read-write.
+            /// Mapped object 2: Range 0 to 4294967295, 0x1602:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
@@ -40281,7 +40281,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 3. Range 0 to 4294967295, 0x1602:03, UNSIGNED32, read-write.
+            /// Mapped object 3: Range 0 to 4294967295, 0x1602:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
@@ -40295,7 +40295,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 4. Range 0 to 4294967295, 0x1602:04, UNSIGNED32, read-write.
+            /// Mapped object 4: Range 0 to 4294967295, 0x1602:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
@@ -40309,7 +40309,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 5. Range 0 to 4294967295, 0x1602:05, UNSIGNED32, read-write.
+            /// Mapped object 5: Range 0 to 4294967295, 0x1602:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
@@ -40323,7 +40323,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 6. Range 0 to 4294967295, 0x1602:06, UNSIGNED32, read-write.
+            /// Mapped object 6: Range 0 to 4294967295, 0x1602:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
@@ -40337,7 +40337,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 7. Range 0 to 4294967295, 0x1602:07, UNSIGNED32, read-write.
+            /// Mapped object 7: Range 0 to 4294967295, 0x1602:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
@@ -40351,7 +40351,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 8. Range 0 to 4294967295, 0x1602:08, UNSIGNED32, read-write.
+            /// Mapped object 8: Range 0 to 4294967295, 0x1602:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
@@ -40529,7 +40529,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; write 0 before a change of the mapping.
             ///
-            /// Number of entries. Range 0 to 8, default 0, 0x1603:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 8, default 0, 0x1603:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: Access is Read, but the mapping procedure writes 0 and the number of objects to it. Assumed: rw (the mapping could not change otherwise, and the summary has RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; RxPDO MAPPING PARAMETERS (lines 557, 560, 602-605, 1022, 1037).
@@ -40544,7 +40544,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 1. Range 0 to 4294967295, 0x1603:01, UNSIGNED32, read-write.
+            /// Mapped object 1: Range 0 to 4294967295, 0x1603:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
@@ -40558,7 +40558,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 2. Range 0 to 4294967295, 0x1603:02, UNSIGNED32, read-write.
+            /// Mapped object 2: Range 0 to 4294967295, 0x1603:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
@@ -40572,7 +40572,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 3. Range 0 to 4294967295, 0x1603:03, UNSIGNED32, read-write.
+            /// Mapped object 3: Range 0 to 4294967295, 0x1603:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
@@ -40586,7 +40586,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 4. Range 0 to 4294967295, 0x1603:04, UNSIGNED32, read-write.
+            /// Mapped object 4: Range 0 to 4294967295, 0x1603:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
@@ -40600,7 +40600,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 5. Range 0 to 4294967295, 0x1603:05, UNSIGNED32, read-write.
+            /// Mapped object 5: Range 0 to 4294967295, 0x1603:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
@@ -40614,7 +40614,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 6. Range 0 to 4294967295, 0x1603:06, UNSIGNED32, read-write.
+            /// Mapped object 6: Range 0 to 4294967295, 0x1603:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
@@ -40628,7 +40628,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 7. Range 0 to 4294967295, 0x1603:07, UNSIGNED32, read-write.
+            /// Mapped object 7: Range 0 to 4294967295, 0x1603:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
@@ -40642,7 +40642,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 8. Range 0 to 4294967295, 0x1603:08, UNSIGNED32, read-write.
+            /// Mapped object 8: Range 0 to 4294967295, 0x1603:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
@@ -40770,7 +40770,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest supported sub-index.
             ///
-            /// Number of entries. Range 2 to 5, default 5, 0x1800:00, UNSIGNED8, read-only.
+            /// Number of entries: Range 2 to 5, default 5, 0x1800:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -40779,7 +40779,7 @@ pub mod objects {
             }
             /// COB-ID of the TPDO, with the valid bit and the RTR bit.
             ///
-            /// COB-ID. Range 0 to 4294967295, default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
+            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
@@ -40793,7 +40793,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive transmits the TPDO.
             ///
-            /// Transmission type. Range 0 to 255, default 254, 0x1800:02, UNSIGNED8, read-write.
+            /// Transmission type: Range 0 to 255, default 254, 0x1800:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
                 &mut self,
@@ -40807,7 +40807,7 @@ pub mod objects {
             }
             /// Inhibit time: minimum time between two transmissions, 1 LSB = 100 µs.
             ///
-            /// Inhibit time. 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1800:03, UNSIGNED16, read-write.
+            /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1800:03, UNSIGNED16, read-write.
             /// Constant: [`INHIBIT_TIME`].
             ///
             /// Note: The symbol is Transmission\_type, as at sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: inhibit time (text, type and CiA 301 agree; the symbol was copied from sub-index 2). Manual: TxPDO COMMUNICATION PARAMETERS (lines 1130, 1135).
@@ -40823,7 +40823,7 @@ pub mod objects {
             }
             /// Reserved; its box is blank.
             ///
-            /// Reserved. 0x1800:04, unknown type, read-only.
+            /// Reserved: 0x1800:04, unknown type, read-only.
             /// Constant: [`RESERVED`].
             pub fn reserved(
                 &mut self,
@@ -40832,7 +40832,7 @@ pub mod objects {
             }
             /// Event timer: the drive transmits the TPDO when it expires, and restarts it on events; only for transmission types 254 and 255.
             ///
-            /// Event timer. Unit ms, range 0 to 65535, default 0, 0x1800:05, UNSIGNED16, read-write.
+            /// Event timer: Unit ms, range 0 to 65535, default 0, 0x1800:05, UNSIGNED16, read-write.
             /// Constant: [`EVENT_TIMER`].
             pub fn event_timer(
                 &mut self,
@@ -40955,7 +40955,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest supported sub-index.
             ///
-            /// Number of entries. Range 2 to 5, default 5, 0x1801:00, UNSIGNED8, read-only.
+            /// Number of entries: Range 2 to 5, default 5, 0x1801:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -40964,7 +40964,7 @@ pub mod objects {
             }
             /// COB-ID of the TPDO, with the valid bit and the RTR bit.
             ///
-            /// COB-ID. Range 0 to 4294967295, default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
+            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
@@ -40978,7 +40978,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive transmits the TPDO.
             ///
-            /// Transmission type. Range 0 to 255, default 254, 0x1801:02, UNSIGNED8, read-write.
+            /// Transmission type: Range 0 to 255, default 254, 0x1801:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
                 &mut self,
@@ -40992,7 +40992,7 @@ pub mod objects {
             }
             /// Inhibit time: minimum time between two transmissions, 1 LSB = 100 µs.
             ///
-            /// Inhibit time. 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1801:03, UNSIGNED16, read-write.
+            /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1801:03, UNSIGNED16, read-write.
             /// Constant: [`INHIBIT_TIME`].
             ///
             /// Note: The symbol is Transmission\_type, as at sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: inhibit time (text, type and CiA 301 agree; the symbol was copied from sub-index 2). Manual: TxPDO COMMUNICATION PARAMETERS (lines 1130, 1135).
@@ -41008,7 +41008,7 @@ pub mod objects {
             }
             /// Reserved; its box is blank.
             ///
-            /// Reserved. 0x1801:04, unknown type, read-only.
+            /// Reserved: 0x1801:04, unknown type, read-only.
             /// Constant: [`RESERVED`].
             pub fn reserved(
                 &mut self,
@@ -41017,7 +41017,7 @@ pub mod objects {
             }
             /// Event timer: the drive transmits the TPDO when it expires, and restarts it on events; only for transmission types 254 and 255.
             ///
-            /// Event timer. Unit ms, range 0 to 65535, default 0, 0x1801:05, UNSIGNED16, read-write.
+            /// Event timer: Unit ms, range 0 to 65535, default 0, 0x1801:05, UNSIGNED16, read-write.
             /// Constant: [`EVENT_TIMER`].
             pub fn event_timer(
                 &mut self,
@@ -41140,7 +41140,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest supported sub-index.
             ///
-            /// Number of entries. Range 2 to 5, default 5, 0x1802:00, UNSIGNED8, read-only.
+            /// Number of entries: Range 2 to 5, default 5, 0x1802:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -41149,7 +41149,7 @@ pub mod objects {
             }
             /// COB-ID of the TPDO, with the valid bit and the RTR bit.
             ///
-            /// COB-ID. Range 0 to 4294967295, default \$NODEID+0x380, 0x1802:01, UNSIGNED32, read-write.
+            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x380, 0x1802:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
@@ -41163,7 +41163,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive transmits the TPDO.
             ///
-            /// Transmission type. Range 0 to 255, default 254, 0x1802:02, UNSIGNED8, read-write.
+            /// Transmission type: Range 0 to 255, default 254, 0x1802:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
                 &mut self,
@@ -41177,7 +41177,7 @@ pub mod objects {
             }
             /// Inhibit time: minimum time between two transmissions, 1 LSB = 100 µs.
             ///
-            /// Inhibit time. 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1802:03, UNSIGNED16, read-write.
+            /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1802:03, UNSIGNED16, read-write.
             /// Constant: [`INHIBIT_TIME`].
             ///
             /// Note: The symbol is Transmission\_type, as at sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: inhibit time (text, type and CiA 301 agree; the symbol was copied from sub-index 2). Manual: TxPDO COMMUNICATION PARAMETERS (lines 1130, 1135).
@@ -41193,7 +41193,7 @@ pub mod objects {
             }
             /// Reserved; its box is blank.
             ///
-            /// Reserved. 0x1802:04, unknown type, read-only.
+            /// Reserved: 0x1802:04, unknown type, read-only.
             /// Constant: [`RESERVED`].
             pub fn reserved(
                 &mut self,
@@ -41202,7 +41202,7 @@ pub mod objects {
             }
             /// Event timer: the drive transmits the TPDO when it expires, and restarts it on events; only for transmission types 254 and 255.
             ///
-            /// Event timer. Unit ms, range 0 to 65535, default 0, 0x1802:05, UNSIGNED16, read-write.
+            /// Event timer: Unit ms, range 0 to 65535, default 0, 0x1802:05, UNSIGNED16, read-write.
             /// Constant: [`EVENT_TIMER`].
             pub fn event_timer(
                 &mut self,
@@ -41325,7 +41325,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Highest supported sub-index.
             ///
-            /// Number of entries. Range 2 to 5, default 5, 0x1803:00, UNSIGNED8, read-only.
+            /// Number of entries: Range 2 to 5, default 5, 0x1803:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -41334,7 +41334,7 @@ pub mod objects {
             }
             /// COB-ID of the TPDO, with the valid bit and the RTR bit.
             ///
-            /// COB-ID. Range 0 to 4294967295, default \$NODEID+0x480, 0x1803:01, UNSIGNED32, read-write.
+            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x480, 0x1803:01, UNSIGNED32, read-write.
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
@@ -41348,7 +41348,7 @@ pub mod objects {
             }
             /// Transmission type: when the drive transmits the TPDO.
             ///
-            /// Transmission type. Range 0 to 255, default 254, 0x1803:02, UNSIGNED8, read-write.
+            /// Transmission type: Range 0 to 255, default 254, 0x1803:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
                 &mut self,
@@ -41362,7 +41362,7 @@ pub mod objects {
             }
             /// Inhibit time: minimum time between two transmissions, 1 LSB = 100 µs.
             ///
-            /// Inhibit time. 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1803:03, UNSIGNED16, read-write.
+            /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1803:03, UNSIGNED16, read-write.
             /// Constant: [`INHIBIT_TIME`].
             ///
             /// Note: The symbol is Transmission\_type, as at sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: inhibit time (text, type and CiA 301 agree; the symbol was copied from sub-index 2). Manual: TxPDO COMMUNICATION PARAMETERS (lines 1130, 1135).
@@ -41378,7 +41378,7 @@ pub mod objects {
             }
             /// Reserved; its box is blank.
             ///
-            /// Reserved. 0x1803:04, unknown type, read-only.
+            /// Reserved: 0x1803:04, unknown type, read-only.
             /// Constant: [`RESERVED`].
             pub fn reserved(
                 &mut self,
@@ -41387,7 +41387,7 @@ pub mod objects {
             }
             /// Event timer: the drive transmits the TPDO when it expires, and restarts it on events; only for transmission types 254 and 255.
             ///
-            /// Event timer. Unit ms, range 0 to 65535, default 0, 0x1803:05, UNSIGNED16, read-write.
+            /// Event timer: Unit ms, range 0 to 65535, default 0, 0x1803:05, UNSIGNED16, read-write.
             /// Constant: [`EVENT_TIMER`].
             pub fn event_timer(
                 &mut self,
@@ -41560,7 +41560,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; write 0 before a change of the mapping.
             ///
-            /// Number of entries. Range 0 to 8, default 2, 0x1A00:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 8, default 2, 0x1A00:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: Access is Read, but the mapping procedure writes 0 and the number of objects to it. Assumed: rw (the mapping could not change otherwise, and the summary has RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS (lines 557, 560, 610-613, 1159, 1176).
@@ -41573,7 +41573,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; by default the Statusword.
             ///
-            /// Mapped object 1. Range 0 to 4294967295, default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
+            /// Mapped object 1: Range 0 to 4294967295, default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
@@ -41587,7 +41587,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; by default the active mode of operation or the actual position.
             ///
-            /// Mapped object 2. Range 0 to 4294967295, default 0x60610008, 0x1A00:02, UNSIGNED32, read-write.
+            /// Mapped object 2: Range 0 to 4294967295, default 0x60610008, 0x1A00:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
@@ -41601,7 +41601,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 3. Range 0 to 4294967295, 0x1A00:03, UNSIGNED32, read-write.
+            /// Mapped object 3: Range 0 to 4294967295, 0x1A00:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
@@ -41615,7 +41615,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 4. Range 0 to 4294967295, 0x1A00:04, UNSIGNED32, read-write.
+            /// Mapped object 4: Range 0 to 4294967295, 0x1A00:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
@@ -41629,7 +41629,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 5. Range 0 to 4294967295, 0x1A00:05, UNSIGNED32, read-write.
+            /// Mapped object 5: Range 0 to 4294967295, 0x1A00:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
@@ -41643,7 +41643,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 6. Range 0 to 4294967295, 0x1A00:06, UNSIGNED32, read-write.
+            /// Mapped object 6: Range 0 to 4294967295, 0x1A00:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
@@ -41657,7 +41657,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 7. Range 0 to 4294967295, 0x1A00:07, UNSIGNED32, read-write.
+            /// Mapped object 7: Range 0 to 4294967295, 0x1A00:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
@@ -41671,7 +41671,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 8. Range 0 to 4294967295, 0x1A00:08, UNSIGNED32, read-write.
+            /// Mapped object 8: Range 0 to 4294967295, 0x1A00:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
@@ -41849,7 +41849,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; write 0 before a change of the mapping.
             ///
-            /// Number of entries. Range 0 to 8, default 2, 0x1A01:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 8, default 2, 0x1A01:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: Access is Read, but the mapping procedure writes 0 and the number of objects to it. Assumed: rw (the mapping could not change otherwise, and the summary has RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS (lines 557, 560, 610-613, 1159, 1176).
@@ -41862,7 +41862,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; by default the Statusword.
             ///
-            /// Mapped object 1. Range 0 to 4294967295, default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
+            /// Mapped object 1: Range 0 to 4294967295, default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
@@ -41876,7 +41876,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; by default the active mode of operation or the actual position.
             ///
-            /// Mapped object 2. Range 0 to 4294967295, default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
+            /// Mapped object 2: Range 0 to 4294967295, default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
@@ -41890,7 +41890,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 3. Range 0 to 4294967295, 0x1A01:03, UNSIGNED32, read-write.
+            /// Mapped object 3: Range 0 to 4294967295, 0x1A01:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
@@ -41904,7 +41904,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 4. Range 0 to 4294967295, 0x1A01:04, UNSIGNED32, read-write.
+            /// Mapped object 4: Range 0 to 4294967295, 0x1A01:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
@@ -41918,7 +41918,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 5. Range 0 to 4294967295, 0x1A01:05, UNSIGNED32, read-write.
+            /// Mapped object 5: Range 0 to 4294967295, 0x1A01:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
@@ -41932,7 +41932,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 6. Range 0 to 4294967295, 0x1A01:06, UNSIGNED32, read-write.
+            /// Mapped object 6: Range 0 to 4294967295, 0x1A01:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
@@ -41946,7 +41946,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 7. Range 0 to 4294967295, 0x1A01:07, UNSIGNED32, read-write.
+            /// Mapped object 7: Range 0 to 4294967295, 0x1A01:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
@@ -41960,7 +41960,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 8. Range 0 to 4294967295, 0x1A01:08, UNSIGNED32, read-write.
+            /// Mapped object 8: Range 0 to 4294967295, 0x1A01:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
@@ -42136,7 +42136,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; write 0 before a change of the mapping.
             ///
-            /// Number of entries. Range 0 to 8, default 0, 0x1A02:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 8, default 0, 0x1A02:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: Access is Read, but the mapping procedure writes 0 and the number of objects to it. Assumed: rw (the mapping could not change otherwise, and the summary has RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS (lines 557, 560, 610-613, 1159, 1176).
@@ -42149,7 +42149,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 1. Range 0 to 4294967295, 0x1A02:01, UNSIGNED32, read-write.
+            /// Mapped object 1: Range 0 to 4294967295, 0x1A02:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
@@ -42163,7 +42163,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 2. Range 0 to 4294967295, 0x1A02:02, UNSIGNED32, read-write.
+            /// Mapped object 2: Range 0 to 4294967295, 0x1A02:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
@@ -42177,7 +42177,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 3. Range 0 to 4294967295, 0x1A02:03, UNSIGNED32, read-write.
+            /// Mapped object 3: Range 0 to 4294967295, 0x1A02:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
@@ -42191,7 +42191,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 4. Range 0 to 4294967295, 0x1A02:04, UNSIGNED32, read-write.
+            /// Mapped object 4: Range 0 to 4294967295, 0x1A02:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
@@ -42205,7 +42205,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 5. Range 0 to 4294967295, 0x1A02:05, UNSIGNED32, read-write.
+            /// Mapped object 5: Range 0 to 4294967295, 0x1A02:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
@@ -42219,7 +42219,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 6. Range 0 to 4294967295, 0x1A02:06, UNSIGNED32, read-write.
+            /// Mapped object 6: Range 0 to 4294967295, 0x1A02:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
@@ -42233,7 +42233,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 7. Range 0 to 4294967295, 0x1A02:07, UNSIGNED32, read-write.
+            /// Mapped object 7: Range 0 to 4294967295, 0x1A02:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
@@ -42247,7 +42247,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 8. Range 0 to 4294967295, 0x1A02:08, UNSIGNED32, read-write.
+            /// Mapped object 8: Range 0 to 4294967295, 0x1A02:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
@@ -42423,7 +42423,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects; write 0 before a change of the mapping.
             ///
-            /// Number of entries. Range 0 to 8, default 0, 0x1A03:00, UNSIGNED8, read-write.
+            /// Number of entries: Range 0 to 8, default 0, 0x1A03:00, UNSIGNED8, read-write.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: Access is Read, but the mapping procedure writes 0 and the number of objects to it. Assumed: rw (the mapping could not change otherwise, and the summary has RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS (lines 557, 560, 610-613, 1159, 1176).
@@ -42436,7 +42436,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 1. Range 0 to 4294967295, 0x1A03:01, UNSIGNED32, read-write.
+            /// Mapped object 1: Range 0 to 4294967295, 0x1A03:01, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
@@ -42450,7 +42450,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 2. Range 0 to 4294967295, 0x1A03:02, UNSIGNED32, read-write.
+            /// Mapped object 2: Range 0 to 4294967295, 0x1A03:02, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
@@ -42464,7 +42464,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 3. Range 0 to 4294967295, 0x1A03:03, UNSIGNED32, read-write.
+            /// Mapped object 3: Range 0 to 4294967295, 0x1A03:03, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
@@ -42478,7 +42478,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 4. Range 0 to 4294967295, 0x1A03:04, UNSIGNED32, read-write.
+            /// Mapped object 4: Range 0 to 4294967295, 0x1A03:04, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
@@ -42492,7 +42492,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 5. Range 0 to 4294967295, 0x1A03:05, UNSIGNED32, read-write.
+            /// Mapped object 5: Range 0 to 4294967295, 0x1A03:05, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
@@ -42506,7 +42506,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 6. Range 0 to 4294967295, 0x1A03:06, UNSIGNED32, read-write.
+            /// Mapped object 6: Range 0 to 4294967295, 0x1A03:06, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
@@ -42520,7 +42520,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 7. Range 0 to 4294967295, 0x1A03:07, UNSIGNED32, read-write.
+            /// Mapped object 7: Range 0 to 4294967295, 0x1A03:07, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
@@ -42534,7 +42534,7 @@ pub mod objects {
             }
             /// Mapped object: index, sub-index and length in bits; unused by default.
             ///
-            /// Mapped object 8. Range 0 to 4294967295, 0x1A03:08, UNSIGNED32, read-write.
+            /// Mapped object 8: Range 0 to 4294967295, 0x1A03:08, UNSIGNED32, read-write.
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
@@ -42683,7 +42683,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-indices.
             ///
-            /// number\_of\_entries. Default 2, 0x23E8:00, UNSIGNED8, read-only.
+            /// number\_of\_entries: Default 2, 0x23E8:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: The default is 0x02, although sub-indices 1 to 6 follow and the header has 7 elements. Assumed: 2, as printed (the drive may return 2; do not rely on it). Manual: Index dell'oggetto; Sub-indice 0: numero di sub-indici presenti nell'oggetto (lines 3227, 3236).
@@ -42694,7 +42694,7 @@ pub mod objects {
             }
             /// Number of the variable that sub-index 2 accesses (by SDO).
             ///
-            /// variable\_number\_sdo. Range 1 to 128, default 1, 0x23E8:01, UNSIGNED16, read-write.
+            /// variable\_number\_sdo: Range 1 to 128, default 1, 0x23E8:01, UNSIGNED16, read-write.
             /// Constant: [`VARIABLE_NUMBER_SDO`].
             pub fn variable_number_sdo(
                 &mut self,
@@ -42703,7 +42703,7 @@ pub mod objects {
             }
             /// Value of the variable that sub-index 1 selects (by SDO).
             ///
-            /// variable\_value\_sdo. Range \-2147483648 to 2147483647, default 0, 0x23E8:02, INTEGER32, read-write.
+            /// variable\_value\_sdo: Range \-2147483648 to 2147483647, default 0, 0x23E8:02, INTEGER32, read-write.
             /// Constant: [`VARIABLE_VALUE_SDO`].
             pub fn variable_value_sdo(
                 &mut self,
@@ -42712,7 +42712,7 @@ pub mod objects {
             }
             /// Number of the variable that sub-index 4 writes (by RPDO).
             ///
-            /// variable\_number\_write\_pdo. Range 1 to 128, default 1, 0x23E8:03, UNSIGNED16, read-write, mappable into RPDOs.
+            /// variable\_number\_write\_pdo: Range 1 to 128, default 1, 0x23E8:03, UNSIGNED16, read-write, mappable into RPDOs.
             /// Constant: [`VARIABLE_NUMBER_WRITE_PDO`].
             pub fn variable_number_write_pdo(
                 &mut self,
@@ -42721,7 +42721,7 @@ pub mod objects {
             }
             /// Value to write to the variable that sub-index 3 selects (by RPDO).
             ///
-            /// variable\_value\_write\_pdo. Range \-2147483648 to 2147483647, default 0, 0x23E8:04, INTEGER32, read-write, mappable into RPDOs.
+            /// variable\_value\_write\_pdo: Range \-2147483648 to 2147483647, default 0, 0x23E8:04, INTEGER32, read-write, mappable into RPDOs.
             /// Constant: [`VARIABLE_VALUE_WRITE_PDO`].
             ///
             /// Note: The pair is for writing by PDO, and is mapped for writing; in the examples for several axes, it is read or written. Assumed: the pair writes a variable (the examples have the same words for all three pairs). Manual: PDO di scrittura; Lettura o Scrittura variabile tramite SDO; Scrittura variabile tramite PDO; 1 more section (lines 3255-3257, 3269, 3295, 3303-3307, 3311).
@@ -42732,7 +42732,7 @@ pub mod objects {
             }
             /// Number of the variable that sub-index 6 reads (by TPDO).
             ///
-            /// variable\_number\_read\_pdo. Range 1 to 128, default 1, 0x23E8:05, UNSIGNED16, read-write, mappable into RPDOs.
+            /// variable\_number\_read\_pdo: Range 1 to 128, default 1, 0x23E8:05, UNSIGNED16, read-write, mappable into RPDOs.
             /// Constant: [`VARIABLE_NUMBER_READ_PDO`].
             pub fn variable_number_read_pdo(
                 &mut self,
@@ -42741,7 +42741,7 @@ pub mod objects {
             }
             /// Value of the variable that sub-index 5 selects (by TPDO).
             ///
-            /// variable\_value\_read\_pdo. Range \-2147483648 to 2147483647, default 0, 0x23E8:06, INTEGER32, read-write, mappable into TPDOs.
+            /// variable\_value\_read\_pdo: Range \-2147483648 to 2147483647, default 0, 0x23E8:06, INTEGER32, read-write, mappable into TPDOs.
             /// Constant: [`VARIABLE_VALUE_READ_PDO`].
             ///
             /// Note: The heading is reading by PDO and the mapping is Read, but in the text, the value is written. Assumed: the value is read (heading and mapping agree). Manual: PDO di lettura (lines 3271, 3273, 3285).
@@ -43316,7 +43316,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-entries.
             ///
-            /// Number of entries. Range 2 to 2, default 2, 0x6099:00, UNSIGNED8, read-only.
+            /// Number of entries: Range 2 to 2, default 2, 0x6099:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
@@ -43325,7 +43325,7 @@ pub mod objects {
             }
             /// Homing speed of the search for the switch.
             ///
-            /// Speed during search for switch. 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), default 1.00 rev/s (raw 100), 0x6099:01, UNSIGNED32, read-write, mappable into RPDOs.
+            /// Speed during search for switch: 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), default 1.00 rev/s (raw 100), 0x6099:01, UNSIGNED32, read-write, mappable into RPDOs.
             /// Constant: [`SPEED_DURING_SEARCH_FOR_SWITCH`].
             pub fn speed_during_search_for_switch(
                 &mut self,
@@ -43339,7 +43339,7 @@ pub mod objects {
             }
             /// Homing speed of the search for the zero point.
             ///
-            /// Speed during search for zero. 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), default 0.10 rev/s (raw 10), 0x6099:02, UNSIGNED32, read-write, mappable into RPDOs.
+            /// Speed during search for zero: 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), default 0.10 rev/s (raw 10), 0x6099:02, UNSIGNED32, read-write, mappable into RPDOs.
             /// Constant: [`SPEED_DURING_SEARCH_FOR_ZERO`].
             pub fn speed_during_search_for_zero(
                 &mut self,
@@ -43605,7 +43605,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-entries.
             ///
-            /// Number of entries. Default 2, 0x60C1:00, UNSIGNED8, read-only.
+            /// Number of entries: Default 2, 0x60C1:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: Sub-index 0 has no box; only sub-indices 1 and 2 have one. Assumed: u8, ro, 2 (sub-index 0 of a record has the number of entries, as at 0x6099). Manual: HOMING SPEEDS; INTERPOLATION DATA RECORD (lines 1656, 1827-1839).
@@ -43616,7 +43616,7 @@ pub mod objects {
             }
             /// First target position of the interpolator.
             ///
-            /// 1st ip function parameter. Unit step, range \-2147483648 to 2147483647, default 0, 0x60C1:01, INTEGER32, read-write, mappable into RPDOs.
+            /// 1st ip function parameter: Unit step, range \-2147483648 to 2147483647, default 0, 0x60C1:01, INTEGER32, read-write, mappable into RPDOs.
             /// Constant: [`_1ST_IP_FUNCTION_PARAMETER`].
             ///
             /// Hazard: The manual gives no unit. Assumed: steps (actual position and home offset have this unit). Manual: POSITION ACTUAL VALUE; HOME OFFSET; INTERPOLATION DATA RECORD (lines 1497, 1521, 1819).
@@ -43627,7 +43627,7 @@ pub mod objects {
             }
             /// Second target position of the interpolator.
             ///
-            /// 2nd ip function parameter. Unit step, range \-2147483648 to 2147483647, default 0, 0x60C1:02, INTEGER32, read-write, mappable into RPDOs.
+            /// 2nd ip function parameter: Unit step, range \-2147483648 to 2147483647, default 0, 0x60C1:02, INTEGER32, read-write, mappable into RPDOs.
             /// Constant: [`_2ND_IP_FUNCTION_PARAMETER`].
             ///
             /// Hazard: The manual gives no unit. Assumed: steps (actual position and home offset have this unit). Manual: POSITION ACTUAL VALUE; HOME OFFSET; INTERPOLATION DATA RECORD (lines 1497, 1521, 1819).
@@ -43704,7 +43704,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-entries.
             ///
-            /// Number of entries. Default 2, 0x60C2:00, UNSIGNED8, read-only.
+            /// Number of entries: Default 2, 0x60C2:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: Sub-index 0 has no box; only sub-indices 1 and 2 have one. Assumed: u8, ro, 2 (sub-index 0 of a record has the number of entries, and the summary counts 3). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION TIME PERIOD (lines 1241, 1853-1865).
@@ -43715,7 +43715,7 @@ pub mod objects {
             }
             /// Interpolation period in ms, the time unit of sub-index 2.
             ///
-            /// Interpolation time units. Unit ms, range 1 to 10, default 4, 0x60C2:01, UNSIGNED8, read-write, mappable into RPDOs.
+            /// Interpolation time units: Unit ms, range 1 to 10, default 4, 0x60C2:01, UNSIGNED8, read-write, mappable into RPDOs.
             /// Constant: [`INTERPOLATION_TIME_UNITS`].
             ///
             /// Hazard: The manual gives neither the unit nor the relation to the time index. Assumed: ms (in CiA 402 the period is units × 10^index s, and the index is always 0xFD, which is -3). Manual: INTERPOLATION TIME PERIOD (lines 1845, 1847-1865).
@@ -43726,7 +43726,7 @@ pub mod objects {
             }
             /// Exponent of the interpolation period to the base 10, in seconds: −3 is ms.
             ///
-            /// Interpolation time index. Range \-3 to \-3, default -3, 0x60C2:02, INTEGER8, read-write.
+            /// Interpolation time index: Range \-3 to \-3, default -3, 0x60C2:02, INTEGER8, read-write.
             /// Constant: [`INTERPOLATION_TIME_INDEX`].
             ///
             /// Note: The type is Unsigned8, with 0xFD as the only value. Assumed: i8 (it is an exponent, -3, and has the type Integer8 in CiA 402). Manual: INTERPOLATION TIME PERIOD (lines 1862-1864).
@@ -43801,7 +43801,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-entries.
             ///
-            /// Number of entries. Default 2, 0x60C3:00, UNSIGNED8, read-only.
+            /// Number of entries: Default 2, 0x60C3:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: Sub-index 0 has no box; only sub-indices 1 and 2 have one. Assumed: u8, ro, 2 (sub-index 0 of an array has the number of entries, and the summary counts 3). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION SYNC DEFINITION (lines 1242, 1877-1889).
@@ -43812,7 +43812,7 @@ pub mod objects {
             }
             /// Synchronization group of the interpolator; must be 0.
             ///
-            /// Synchronize on group. Range 0 to 0, default 0, 0x60C3:01, UNSIGNED8, read-write.
+            /// Synchronize on group: Range 0 to 0, default 0, 0x60C3:01, UNSIGNED8, read-write.
             /// Constant: [`SYNCHRONIZE_ON_GROUP`].
             ///
             /// Note: The symbol is sincronize\_on\_group. Assumed: Synchronize on group (the symbol has a spelling error). Manual: INTERPOLATION SYNC DEFINITION (line 1880).
@@ -43823,7 +43823,7 @@ pub mod objects {
             }
             /// Number of events between two synchronizations; must be 1.
             ///
-            /// Ip sync every n event. Range 1 to 1, default 1, 0x60C3:02, UNSIGNED8, read-write.
+            /// Ip sync every n event: Range 1 to 1, default 1, 0x60C3:02, UNSIGNED8, read-write.
             /// Constant: [`IP_SYNC_EVERY_N_EVENT`].
             pub fn ip_sync_every_n_event(
                 &mut self,
@@ -43963,7 +43963,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-entries.
             ///
-            /// Number of entries. Default 6, 0x60C4:00, UNSIGNED8, read-only.
+            /// Number of entries: Default 6, 0x60C4:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: Sub-index 0 has no box; only sub-indices 1 to 6 have one. Assumed: u8, ro, 6 (sub-index 0 of a record has the number of entries, and the summary counts 7). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION DATA CONFIGURATION (lines 1243, 1899-1935).
@@ -43974,7 +43974,7 @@ pub mod objects {
             }
             /// Maximum number of records in the interpolation buffer.
             ///
-            /// Maximum buffer size. Range 2 to 2, default 2, 0x60C4:01, UNSIGNED8, read-only.
+            /// Maximum buffer size: Range 2 to 2, default 2, 0x60C4:01, UNSIGNED8, read-only.
             /// Constant: [`MAXIMUM_BUFFER_SIZE`].
             pub fn maximum_buffer_size(
                 &mut self,
@@ -43983,7 +43983,7 @@ pub mod objects {
             }
             /// Number of records of the interpolation buffer in use.
             ///
-            /// Actual size. Range 0 to 2, default 0, 0x60C4:02, UNSIGNED8, read-write.
+            /// Actual size: Range 0 to 2, default 0, 0x60C4:02, UNSIGNED8, read-write.
             /// Constant: [`ACTUAL_SIZE`].
             pub fn actual_size(
                 &mut self,
@@ -43992,7 +43992,7 @@ pub mod objects {
             }
             /// Organization of the interpolation buffer; must be 0.
             ///
-            /// Buffer organisation. Range 0 to 0, default 0, 0x60C4:03, UNSIGNED8, read-write.
+            /// Buffer organisation: Range 0 to 0, default 0, 0x60C4:03, UNSIGNED8, read-write.
             /// Constant: [`BUFFER_ORGANISATION`].
             pub fn buffer_organisation(
                 &mut self,
@@ -44001,7 +44001,7 @@ pub mod objects {
             }
             /// Number of the buffer record that is accessed.
             ///
-            /// Buffer position. Range 0 to 1, default 0, 0x60C4:04, UNSIGNED8, read-write, mappable into RPDOs.
+            /// Buffer position: Range 0 to 1, default 0, 0x60C4:04, UNSIGNED8, read-write, mappable into RPDOs.
             /// Constant: [`BUFFER_POSITION`].
             pub fn buffer_position(
                 &mut self,
@@ -44010,7 +44010,7 @@ pub mod objects {
             }
             /// Size of one record of the interpolation buffer.
             ///
-            /// Size of data record. Range 1 to 1, default 1, 0x60C4:05, UNSIGNED8, read-only.
+            /// Size of data record: Range 1 to 1, default 1, 0x60C4:05, UNSIGNED8, read-only.
             /// Constant: [`SIZE_OF_DATA_RECORD`].
             ///
             /// Note: The only value is 1, but a record is a position of 4 bytes. Assumed: 1, without a unit (the unit cannot be bytes, and the manual gives none). Manual: INTERPOLATION DATA RECORD; INTERPOLATION DATA CONFIGURATION (lines 1830, 1926-1928).
@@ -44021,7 +44021,7 @@ pub mod objects {
             }
             /// Clears the interpolation buffer or enables access to it.
             ///
-            /// Buffer clear. Range 0 to 1, default 0, 0x60C4:06, UNSIGNED8, write-only.
+            /// Buffer clear: Range 0 to 1, default 0, 0x60C4:06, UNSIGNED8, write-only.
             /// Constant: [`BUFFER_CLEAR`]. Values: [`BufferClear`](super::super::types::BufferClear).
             ///
             /// Note: The table of values is headed Modo operativo. Assumed: these are values of this sub-entry (its rows describe the buffer). Manual: INTERPOLATION DATA CONFIGURATION (line 1939).
@@ -44125,7 +44125,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of sub-entries.
             ///
-            /// Number of entries. Default 2, 0x60FE:00, UNSIGNED8, read-only.
+            /// Number of entries: Default 2, 0x60FE:00, UNSIGNED8, read-only.
             /// Constant: [`NUMBER_OF_ENTRIES`].
             ///
             /// Note: Sub-index 0 has no box; only sub-indices 1 and 2 have one. Assumed: u8, ro, 2 (sub-index 0 of a record has the number of entries, and the summary counts 3). Manual: TAVOLA RIASSUNTIVA; DIGITAL OUTPUTS (lines 1245, 1971-1983).
@@ -44136,7 +44136,7 @@ pub mod objects {
             }
             /// States of the eight digital outputs; only outputs enabled in the bit mask change.
             ///
-            /// Physical outputs. Range 0 to 16711680, default 0, 0x60FE:01, UNSIGNED32, read-write, mappable into RPDOs.
+            /// Physical outputs: Range 0 to 16711680, default 0, 0x60FE:01, UNSIGNED32, read-write, mappable into RPDOs.
             /// Constant: [`PHYSICAL_OUTPUTS`]. Values: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
             pub fn physical_outputs(
                 &mut self,
@@ -44150,7 +44150,7 @@ pub mod objects {
             }
             /// Bit mask of the digital outputs: an output with bit 0 keeps its state.
             ///
-            /// Bit mask. Range 0 to 4294967295, default 0xFF0000, 0x60FE:02, UNSIGNED32, read-write, mappable into RPDOs.
+            /// Bit mask: Range 0 to 4294967295, default 0xFF0000, 0x60FE:02, UNSIGNED32, read-write, mappable into RPDOs.
             /// Constant: [`BIT_MASK`]. Values: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
             pub fn bit_mask(
                 &mut self,

@@ -128,7 +128,7 @@ impl<C> Ax1<C> {
     }
     /// Control word: commands of the drive state machine and of the mode of operation.
     ///
-    /// Controlword. 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
+    /// Controlword: 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
     /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`SetPoints`](pdo::SetPoints).
     pub fn controlword(
         &mut self,
@@ -137,14 +137,14 @@ impl<C> Ax1<C> {
     }
     /// Status word: state of the drive state machine and of the mode of operation.
     ///
-    /// Statusword. 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
+    /// Statusword: 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`ActualValues`](pdo::ActualValues), [`DriveStatus`](pdo::DriveStatus).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
     /// Requested mode of operation; the active mode is in 0x6061.
     ///
-    /// Modes of operation. 0x6060:00, INTEGER8, read-write, mappable into RPDOs.
+    /// Modes of operation: 0x6060:00, INTEGER8, read-write, mappable into RPDOs.
     /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`ModesOfOperation`](types::ModesOfOperation). Carried by [`SetPoints`](pdo::SetPoints).
     pub fn modes_of_operation(
         &mut self,
@@ -167,7 +167,7 @@ impl<C> Ax1<C> {
     }
     /// Actual torque, relative to the rated torque.
     ///
-    /// Torque. 1 LSB = 0.1 %, 0x6077:00, INTEGER16, read-only, mappable into TPDOs.
+    /// Torque: 1 LSB = 0.1 %, 0x6077:00, INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::TORQUE`]. Carried by [`DriveStatus`](pdo::DriveStatus).
     pub fn torque(&mut self) -> objects::ReadOnlyAccess<'_, C, rt::Scaled<i16, 1, 10>> {
         objects::TORQUE.at(&mut self.client)
@@ -181,7 +181,7 @@ impl<C> Ax1<C> {
     }
     /// Torque offset: added to the target torque, relative to the rated torque.
     ///
-    /// Torque offset. 1 LSB = 0.1 %, 0x60B2:00, INTEGER16, read-write, mappable into RPDOs.
+    /// Torque offset: 1 LSB = 0.1 %, 0x60B2:00, INTEGER16, read-write, mappable into RPDOs.
     /// Constant: [`objects::TORQUE_OFFSET`]. Carried by [`SetPoints`](pdo::SetPoints).
     pub fn torque_offset(
         &mut self,

@@ -239,10 +239,10 @@ fn scale(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
 /// Compares the sentinels: raw values that are not numbers. The type in Rust excludes them.
 fn sentinels(old: &[(Value, CompactString)], new: &[(Value, CompactString)], comparison: &mut Comparison<'_>) {
     let numbers = |list: &[(Value, CompactString)]| list.iter().map(|(raw, _)| raw.clone()).collect::<Vec<_>>();
-    fact("no number", Judgement::API_AND_BEHAVIOR)(&numbers(old), &numbers(new), comparison);
+    fact("special value", Judgement::API_AND_BEHAVIOR)(&numbers(old), &numbers(new), comparison);
     let meanings =
         |list: &[(Value, CompactString)]| list.iter().map(|(_, name)| name.show()).collect::<Vec<_>>().join("; ");
-    comparison.texts("meaning of sentinels", meanings(old), meanings(new), Judgement::NONE);
+    comparison.texts("meaning of special values", meanings(old), meanings(new), Judgement::NONE);
 }
 
 fn machine_unit(old: &MachineUnit, new: &MachineUnit, comparison: &mut Comparison<'_>) {

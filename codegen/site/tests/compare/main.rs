@@ -71,8 +71,8 @@ fn changes_of_a_value_that_affect_rust_code() {
     );
     assert_eq!(
         one("scale = 0.1, unit", "scale = 0.1, na = { 0x7FFF = \"open\" }, unit"),
-        "breaks api, behavior: register 4 gain: no number, 32767\n\
-         no effect: register 4 gain: meaning of values that are no number, open"
+        "breaks api, behavior: register 4 gain: special value, 32767\n\
+         no effect: register 4 gain: meaning of special values, open"
     );
     // Remove a bus, and the second name of a register.
     let object = |buses: &str| TABLE.replace("buses = [\"modbus\", \"serial\"]", buses);

@@ -93,18 +93,15 @@ pub(super) fn method(
     let item = entry.item;
     let link = links_from(entry, context, doc_module);
     let words = linked(&link);
-    let name = match name.trim() {
-        "" => String::new(),
-        name => sentence(&escape(name)),
-    };
+    let name = escape(name.trim());
     let mut description = Vec::new();
     documentation(item, &mut description);
     let mut lines: Vec<String> = description.into_iter().skip(1).collect();
     let mut facts = facts(item, context, &words);
-    if lines.is_empty() {
-        lines.extend(Some(name).filter(|name| !name.is_empty()));
-    } else if !name.is_empty() {
-        facts = format!("{name} {facts}");
+    match (name.is_empty(), lines.is_empty()) {
+        (true, _) => {}
+        (false, true) => lines.push(sentence(&name)),
+        (false, false) => facts = format!("{}: {facts}", name.trim_end_matches('.')),
     }
     if !lines.is_empty() {
         lines.push(String::new());

@@ -1,6 +1,6 @@
     /// Leading zero.
     ///
-    /// 0x2001:00, UNSIGNED8, rw.
+    /// 0x2001:00, UNSIGNED8, read-write.
     /// Accessor: [`leading_zero`](super::Pump::leading_zero).
     pub const LEADING_ZERO: ReadWrite<u8> = ReadWriteU8::object(
         0x2001,
@@ -9,12 +9,12 @@
     );
     /// Prefix.
     ///
-    /// 0x2002:00, UNSIGNED8, rw.
+    /// 0x2002:00, UNSIGNED8, read-write.
     /// Accessor: [`prefix`](super::Pump::prefix).
     pub const PREFIX: ReadWrite<u8> = ReadWriteU8::object(0x2002, 0x00, "Prefix");
         /// Blank before sub.
         ///
-        /// 0x2003:01, UNSIGNED8, rw.
+        /// 0x2003:01, UNSIGNED8, read-write.
         /// Accessor: [`Accessors::blank_before_sub`].
         pub const BLANK_BEFORE_SUB: super::ReadWrite<u8> = super::ReadWriteU8::object(
             0x2003,
@@ -23,7 +23,7 @@
         );
         /// Blank after sub.
         ///
-        /// 0x2003:02, UNSIGNED8, rw.
+        /// 0x2003:02, UNSIGNED8, read-write.
         /// Accessor: [`Accessors::blank_after_sub`].
         pub const BLANK_AFTER_SUB: super::ReadWrite<u8> = super::ReadWriteU8::object(
             0x2003,
@@ -32,7 +32,7 @@
         );
         /// Zero.
         ///
-        /// 0x2003:03, UNSIGNED8, rw.
+        /// 0x2003:03, UNSIGNED8, read-write.
         /// Accessor: [`Accessors::zero`].
         pub const ZERO: super::ReadWrite<u8> = super::ReadWriteU8::object(
             0x2003,
@@ -41,7 +41,7 @@
         );
         /// Second.
         ///
-        /// 0x2004:02, UNSIGNED16, rw.
+        /// 0x2004:02, UNSIGNED16, read-write.
         /// Accessor: [`Accessors::second`].
         pub const SECOND: super::ReadWrite<u16> = super::ReadWriteU16::object(
             0x2004,

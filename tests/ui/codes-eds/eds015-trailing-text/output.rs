@@ -1,11 +1,11 @@
     /// Semicolon.
     ///
-    /// 0x2000:00, UNSIGNED8, rw.
+    /// 0x2000:00, UNSIGNED8, read-write.
     /// Accessor: [`semicolon`](super::Pump::semicolon).
     pub const SEMICOLON: ReadWrite<u8> = ReadWriteU8::object(0x2000, 0x00, "Semicolon");
     /// Suffix of C.
     ///
-    /// 0x2001:00, UNSIGNED8, rw, default 50.
+    /// Default 50, 0x2001:00, UNSIGNED8, read-write.
     /// Accessor: [`suffix_of_c`](super::Pump::suffix_of_c).
     pub const SUFFIX_OF_C: ReadWrite<u8> = ReadWriteU8::object_with_default(
         0x2001,
@@ -15,7 +15,7 @@
     );
     /// Comment.
     ///
-    /// 0x2002:00, UNSIGNED8, rw, default 50.
+    /// Default 50, 0x2002:00, UNSIGNED8, read-write.
     /// Accessor: [`comment`](super::Pump::comment).
     pub const COMMENT: ReadWrite<u8> = ReadWriteU8::object_with_default(
         0x2002,

@@ -1,6 +1,6 @@
     /// Octal.
     ///
-    /// 0x2000:00, UNSIGNED16, rw, default 10.
+    /// Default 10, 0x2000:00, UNSIGNED16, read-write.
     /// Accessor: [`octal`](super::Pump::octal).
     pub const OCTAL: ReadWrite<u16> = ReadWriteU16::object_with_default(
         0x2000,
@@ -10,7 +10,7 @@
     );
     /// Decimal.
     ///
-    /// 0x2001:00, UNSIGNED16, rw, default 12.
+    /// Default 12, 0x2001:00, UNSIGNED16, read-write.
     /// Accessor: [`decimal`](super::Pump::decimal).
     pub const DECIMAL: ReadWrite<u16> = ReadWriteU16::object_with_default(
         0x2001,
@@ -20,7 +20,7 @@
     );
     /// Hexadecimal.
     ///
-    /// 0x2002:00, UNSIGNED16, rw, default 18.
+    /// Default 18, 0x2002:00, UNSIGNED16, read-write.
     /// Accessor: [`hexadecimal`](super::Pump::hexadecimal).
     pub const HEXADECIMAL: ReadWrite<u16> = ReadWriteU16::object_with_default(
         0x2002,
@@ -30,7 +30,7 @@
     );
     /// Zero.
     ///
-    /// 0x2003:00, UNSIGNED16, rw, default 0.
+    /// Default 0, 0x2003:00, UNSIGNED16, read-write.
     /// Accessor: [`zero`](super::Pump::zero).
     pub const ZERO: ReadWrite<u16> = ReadWriteU16::object_with_default(
         0x2003,

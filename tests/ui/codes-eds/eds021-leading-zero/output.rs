@@ -1,6 +1,6 @@
     /// Digit 8.
     ///
-    /// 0x2000:00, UNSIGNED16, rw, default 18.
+    /// Default 18, 0x2000:00, UNSIGNED16, read-write.
     /// Accessor: [`digit_8`](super::Pump::digit_8).
     pub const DIGIT_8: ReadWrite<u16> = ReadWriteU16::object_with_default(
         0x2000,
@@ -10,7 +10,7 @@
     );
     /// Same number.
     ///
-    /// 0x2001:00, UNSIGNED16, rw, default 7.
+    /// Default 7, 0x2001:00, UNSIGNED16, read-write.
     /// Accessor: [`same_number`](super::Pump::same_number).
     pub const SAME_NUMBER: ReadWrite<u16> = ReadWriteU16::object_with_default(
         0x2001,
@@ -20,7 +20,7 @@
     );
     /// Zeros.
     ///
-    /// 0x2002:00, UNSIGNED16, rw, default 0.
+    /// Default 0, 0x2002:00, UNSIGNED16, read-write.
     /// Accessor: [`zeros`](super::Pump::zeros).
     pub const ZEROS: ReadWrite<u16> = ReadWriteU16::object_with_default(
         0x2002,

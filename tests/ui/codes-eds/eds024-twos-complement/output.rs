@@ -1,6 +1,6 @@
     /// Bits.
     ///
-    /// 0x2000:00, INTEGER16, rw, default -32768.
+    /// Default -32768, 0x2000:00, INTEGER16, read-write.
     /// Accessor: [`bits`](super::Pump::bits).
     pub const BITS: ReadWrite<i16> = ReadWriteI16::object_with_default(
         0x2000,
@@ -10,7 +10,7 @@
     );
     /// Minus one.
     ///
-    /// 0x2001:00, INTEGER32, rw, default -1.
+    /// Default -1, 0x2001:00, INTEGER32, read-write.
     /// Accessor: [`minus_one`](super::Pump::minus_one).
     pub const MINUS_ONE: ReadWrite<i32> = ReadWriteI32::object_with_default(
         0x2001,
@@ -20,7 +20,7 @@
     );
     /// Negative.
     ///
-    /// 0x2002:00, INTEGER16, rw, default -32768.
+    /// Default -32768, 0x2002:00, INTEGER16, read-write.
     /// Accessor: [`negative`](super::Pump::negative).
     pub const NEGATIVE: ReadWrite<i16> = ReadWriteI16::object_with_default(
         0x2002,
@@ -30,7 +30,7 @@
     );
     /// Positive.
     ///
-    /// 0x2003:00, INTEGER16, rw, default 32767.
+    /// Default 32767, 0x2003:00, INTEGER16, read-write.
     /// Accessor: [`positive`](super::Pump::positive).
     pub const POSITIVE: ReadWrite<i16> = ReadWriteI16::object_with_default(
         0x2003,

@@ -1,6 +1,6 @@
     /// Zero.
     ///
-    /// 0x2000:00, UNSIGNED32, rw, default 20.
+    /// Default 20, 0x2000:00, UNSIGNED32, read-write.
     /// Accessor: [`zero`](super::Pump::zero).
     pub const ZERO: ReadWrite<u32> = ReadWriteU32::object_with_default(
         0x2000,
@@ -10,12 +10,12 @@
     );
     /// Half.
     ///
-    /// 0x2001:00, UNSIGNED32, rw, default \`20.5\`.
+    /// Default \`20.5\`, 0x2001:00, UNSIGNED32, read-write.
     /// Accessor: [`half`](super::Pump::half).
     pub const HALF: ReadWrite<u32> = ReadWriteU32::object(0x2001, 0x00, "Half");
     /// Real.
     ///
-    /// 0x2002:00, REAL32, rw, default 20\.5.
+    /// Default 20\.5, 0x2002:00, REAL32, read-write.
     /// Accessor: [`real`](super::Pump::real).
     #[allow(clippy::approx_constant)]
     pub const REAL: ReadWrite<f32> = ReadWriteF32::object_with_default(

@@ -1,6 +1,6 @@
     /// Comma.
     ///
-    /// 0x2000:00, REAL32, rw, default 1\.5.
+    /// Default 1\.5, 0x2000:00, REAL32, read-write.
     /// Accessor: [`comma`](super::Pump::comma).
     #[allow(clippy::approx_constant)]
     pub const COMMA: ReadWrite<f32> = ReadWriteF32::object_with_default(
@@ -11,7 +11,7 @@
     );
     /// Point.
     ///
-    /// 0x2001:00, REAL32, rw, default 1\.5.
+    /// Default 1\.5, 0x2001:00, REAL32, read-write.
     /// Accessor: [`point`](super::Pump::point).
     #[allow(clippy::approx_constant)]
     pub const POINT: ReadWrite<f32> = ReadWriteF32::object_with_default(

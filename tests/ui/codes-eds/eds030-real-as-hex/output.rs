@@ -1,6 +1,6 @@
     /// Number.
     ///
-    /// 0x2000:00, REAL32, rw, default 2.
+    /// Default 2, 0x2000:00, REAL32, read-write.
     /// Accessor: [`number`](super::Pump::number).
     #[allow(clippy::approx_constant)]
     pub const NUMBER: ReadWrite<f32> = ReadWriteF32::object_with_default(
@@ -11,7 +11,7 @@
     );
     /// Bits.
     ///
-    /// 0x2001:00, REAL32, rw, default 1\.5.
+    /// Default 1\.5, 0x2001:00, REAL32, read-write.
     /// Accessor: [`bits`](super::Pump::bits).
     #[allow(clippy::approx_constant)]
     pub const BITS: ReadWrite<f32> = ReadWriteF32::object_with_default(
@@ -22,7 +22,7 @@
     );
     /// Long number.
     ///
-    /// 0x2002:00, REAL64, rw, default 1069547520.
+    /// Default 1069547520, 0x2002:00, REAL64, read-write.
     /// Accessor: [`long_number`](super::Pump::long_number).
     #[allow(clippy::approx_constant)]
     pub const LONG_NUMBER: ReadWrite<f64> = ReadWriteF64::object_with_default(
@@ -33,7 +33,7 @@
     );
     /// Long bits.
     ///
-    /// 0x2003:00, REAL64, rw, default 1\.5.
+    /// Default 1\.5, 0x2003:00, REAL64, read-write.
     /// Accessor: [`long_bits`](super::Pump::long_bits).
     #[allow(clippy::approx_constant)]
     pub const LONG_BITS: ReadWrite<f64> = ReadWriteF64::object_with_default(

@@ -1,6 +1,6 @@
     /// With default.
     ///
-    /// 0x2000:00, DOMAIN, rw, default \`0\`.
+    /// Default \`0\`, 0x2000:00, DOMAIN, read-write.
     /// Accessor: [`with_default`](super::Pump::with_default).
     pub const WITH_DEFAULT: ReadWrite<rt::Domain> = ReadWriteDomain::object(
         0x2000,
@@ -9,7 +9,7 @@
     );
     /// Without default.
     ///
-    /// 0x2001:00, DOMAIN, rw.
+    /// 0x2001:00, DOMAIN, read-write.
     /// Accessor: [`without_default`](super::Pump::without_default).
     pub const WITHOUT_DEFAULT: ReadWrite<rt::Domain> = ReadWriteDomain::object(
         0x2001,

@@ -1,6 +1,6 @@
     /// Missing.
     ///
-    /// 0x2000:00, unknown type, ro.
+    /// 0x2000:00, unknown type, read-only.
     /// Accessor: [`missing`](super::Pump::missing).
     pub const MISSING: ReadOnly<rt::Opaque> = ReadOnlyOpaque::object(
         0x2000,
@@ -9,7 +9,7 @@
     );
     /// Empty.
     ///
-    /// 0x2001:00, unknown type, ro.
+    /// 0x2001:00, unknown type, read-only.
     /// Accessor: [`empty`](super::Pump::empty).
     pub const EMPTY: ReadOnly<rt::Opaque> = ReadOnlyOpaque::object(
         0x2001,

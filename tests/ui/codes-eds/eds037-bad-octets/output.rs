@@ -1,6 +1,6 @@
     /// Odd.
     ///
-    /// 0x2000:00, OCTET_STRING, rw, default \`012\`.
+    /// Default \`012\`, 0x2000:00, OCTET_STRING, read-write.
     /// Accessor: [`odd`](super::Pump::odd).
     pub const ODD: ReadWrite<rt::OctetString> = ReadWriteOctetString::object(
         0x2000,
@@ -9,7 +9,7 @@
     );
     /// Letters.
     ///
-    /// 0x2001:00, OCTET_STRING, rw, default \`xyz\`.
+    /// Default \`xyz\`, 0x2001:00, OCTET_STRING, read-write.
     /// Accessor: [`letters`](super::Pump::letters).
     pub const LETTERS: ReadWrite<rt::OctetString> = ReadWriteOctetString::object(
         0x2001,
@@ -18,7 +18,7 @@
     );
     /// Pairs.
     ///
-    /// 0x2002:00, OCTET_STRING, rw, default 01021F.
+    /// Default 01021F, 0x2002:00, OCTET_STRING, read-write.
     /// Accessor: [`pairs`](super::Pump::pairs).
     pub const PAIRS: ReadWrite<rt::OctetString> = ReadWriteOctetString::new(
         rt::OnCanOpen::canopen(0x2002, 0x00),

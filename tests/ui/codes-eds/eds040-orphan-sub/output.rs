@@ -4,7 +4,7 @@
     pub mod object_2022 {
         /// Highest sub-index.
         ///
-        /// 0x2022:00, UNSIGNED8, ro, default 1.
+        /// Default 1, 0x2022:00, UNSIGNED8, read-only.
         /// Accessor: [`Accessors::highest_sub_index`].
         pub const HIGHEST_SUB_INDEX: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x2022,
@@ -14,7 +14,7 @@
         );
         /// Speed.
         ///
-        /// 0x2022:01, UNSIGNED16, rw.
+        /// 0x2022:01, UNSIGNED16, read-write.
         /// Accessor: [`Accessors::speed`].
         pub const SPEED: super::ReadWrite<u16> = super::ReadWriteU16::object(
             0x2022,
@@ -26,12 +26,16 @@
             pub(in super::super) client: &'c mut C,
         }
         impl<C> Accessors<'_, C> {
-            /// Highest sub-index: 0x2022:00.
+            /// Highest sub-index.
+            ///
+            /// Default 1, 0x2022:00, UNSIGNED8, read-only.
             /// Constant: [`HIGHEST_SUB_INDEX`].
             pub fn highest_sub_index(&mut self) -> super::ReadOnlyAccess<'_, C, u8> {
                 HIGHEST_SUB_INDEX.at(self.client)
             }
-            /// Speed: 0x2022:01.
+            /// Speed.
+            ///
+            /// 0x2022:01, UNSIGNED16, read-write.
             /// Constant: [`SPEED`].
             pub fn speed(&mut self) -> super::ReadWriteAccess<'_, C, u16> {
                 SPEED.at(self.client)

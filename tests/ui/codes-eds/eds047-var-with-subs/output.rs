@@ -4,7 +4,7 @@
     pub mod speeds {
         /// Highest sub-index.
         ///
-        /// 0x2000:00, UNSIGNED8, ro, default 1.
+        /// Default 1, 0x2000:00, UNSIGNED8, read-only.
         /// Accessor: [`Accessors::highest_sub_index`].
         pub const HIGHEST_SUB_INDEX: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x2000,
@@ -14,7 +14,7 @@
         );
         /// First.
         ///
-        /// 0x2000:01, UNSIGNED16, rw.
+        /// 0x2000:01, UNSIGNED16, read-write.
         /// Accessor: [`Accessors::first`].
         pub const FIRST: super::ReadWrite<u16> = super::ReadWriteU16::object(
             0x2000,
@@ -26,12 +26,16 @@
             pub(in super::super) client: &'c mut C,
         }
         impl<C> Accessors<'_, C> {
-            /// Highest sub-index: 0x2000:00.
+            /// Highest sub-index.
+            ///
+            /// Default 1, 0x2000:00, UNSIGNED8, read-only.
             /// Constant: [`HIGHEST_SUB_INDEX`].
             pub fn highest_sub_index(&mut self) -> super::ReadOnlyAccess<'_, C, u8> {
                 HIGHEST_SUB_INDEX.at(self.client)
             }
-            /// First: 0x2000:01.
+            /// First.
+            ///
+            /// 0x2000:01, UNSIGNED16, read-write.
             /// Constant: [`FIRST`].
             pub fn first(&mut self) -> super::ReadWriteAccess<'_, C, u16> {
                 FIRST.at(self.client)

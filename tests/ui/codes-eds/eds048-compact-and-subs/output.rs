@@ -4,7 +4,7 @@
     pub mod speeds {
         /// NrOfObjects.
         ///
-        /// 0x2000:00, UNSIGNED8, ro, default 2.
+        /// Default 2, 0x2000:00, UNSIGNED8, read-only.
         /// Accessor: [`Accessors::nr_of_objects`].
         pub const NR_OF_OBJECTS: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x2000,
@@ -14,7 +14,7 @@
         );
         /// Described.
         ///
-        /// 0x2000:01, UNSIGNED16, rw.
+        /// 0x2000:01, UNSIGNED16, read-write.
         /// Accessor: [`Accessors::described`].
         pub const DESCRIBED: super::ReadWrite<u16> = super::ReadWriteU16::object(
             0x2000,
@@ -23,7 +23,7 @@
         );
         /// Speeds2.
         ///
-        /// 0x2000:02, UNSIGNED16, ro.
+        /// 0x2000:02, UNSIGNED16, read-only.
         /// Accessor: [`Accessors::speeds2`].
         pub const SPEEDS2: super::ReadOnly<u16> = super::ReadOnlyU16::object(
             0x2000,
@@ -35,17 +35,23 @@
             pub(in super::super) client: &'c mut C,
         }
         impl<C> Accessors<'_, C> {
-            /// NrOfObjects: 0x2000:00.
+            /// NrOfObjects.
+            ///
+            /// Default 2, 0x2000:00, UNSIGNED8, read-only.
             /// Constant: [`NR_OF_OBJECTS`].
             pub fn nr_of_objects(&mut self) -> super::ReadOnlyAccess<'_, C, u8> {
                 NR_OF_OBJECTS.at(self.client)
             }
-            /// Described: 0x2000:01.
+            /// Described.
+            ///
+            /// 0x2000:01, UNSIGNED16, read-write.
             /// Constant: [`DESCRIBED`].
             pub fn described(&mut self) -> super::ReadWriteAccess<'_, C, u16> {
                 DESCRIBED.at(self.client)
             }
-            /// Speeds2: 0x2000:02.
+            /// Speeds2.
+            ///
+            /// 0x2000:02, UNSIGNED16, read-only.
             /// Constant: [`SPEEDS2`].
             pub fn speeds2(&mut self) -> super::ReadOnlyAccess<'_, C, u16> {
                 SPEEDS2.at(self.client)

@@ -1,6 +1,6 @@
         /// Second.
         ///
-        /// 0x2002:02, unknown type, ro.
+        /// 0x2002:02, unknown type, read-only.
         /// Accessor: [`Accessors::second`].
         pub const SECOND: super::ReadOnly<rt::Opaque> = super::ReadOnlyOpaque::object(
             0x2002,

@@ -1,6 +1,6 @@
     /// Eight digits.
     ///
-    /// 0x2000:00, UNSIGNED16, rw, at most 100.
+    /// At most 100, 0x2000:00, UNSIGNED16, read-write.
     /// Accessor: [`eight_digits`](super::Pump::eight_digits).
     pub const EIGHT_DIGITS: ReadWrite<u16> = ReadWriteU16::new(
         rt::OnCanOpen::canopen(0x2000, 0x00),

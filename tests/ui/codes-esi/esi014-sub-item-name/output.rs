@@ -1,6 +1,6 @@
         /// A.
         ///
-        /// 0x2000:01, UNSIGNED16, rw.
+        /// 0x2000:01, UNSIGNED16, read-write.
         /// Accessor: [`Accessors::a_1`].
         pub const A_1: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
             0x2000,
@@ -9,7 +9,7 @@
         );
         /// A.
         ///
-        /// 0x2000:02, UNSIGNED16, rw.
+        /// 0x2000:02, UNSIGNED16, read-write.
         /// Accessor: [`Accessors::a_2`].
         pub const A_2: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
             0x2000,

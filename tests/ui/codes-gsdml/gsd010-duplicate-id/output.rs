@@ -1,8 +1,8 @@
-        /// Inputs: what the device sends to the controller.
+        /// Inputs: data from the device to the controller.
         ///
         /// 2 bytes of user data, consistent item by item.
         ///
-        /// | Place | Field | Type |
+        /// | Position | Field | Type |
         /// |---|---|---|
         /// | bytes 0 and 1 | [`torque`](Self::torque) | `u16` |
         #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
-        /// Inputs: what the device sends to the controller.
+        /// Inputs: data from the device to the controller.
         ///
         /// 3 bytes of user data, consistent item by item.
         ///
-        /// | Place | Field | Type |
+        /// | Position | Field | Type |
         /// |---|---|---|
         /// | bit 1 of byte 0 | [`one`](Self::one) | `bool` |
         /// | bit 1 of byte 1 | [`two`](Self::two) | `bool` |

@@ -1,5 +1,5 @@
 == latin-1-as-utf-8.xml
-/// Who made Müller Drive, and which device it is.
+/// Identity of Müller Drive: vendor, product and revision.
 pub const IDENTITY: rt::Identity = rt::Identity {
     vendor_id: Some(0x00000001),
     product_code: Some(0x00000002),
@@ -9,7 +9,7 @@ pub const IDENTITY: rt::Identity = rt::Identity {
     order_code: "Drive",
 };
 == latin-1.xml
-/// Who made Müller Drive, and which device it is.
+/// Identity of Müller Drive: vendor, product and revision.
 pub const IDENTITY: rt::Identity = rt::Identity {
     vendor_id: Some(0x00000001),
     product_code: Some(0x00000002),
@@ -19,7 +19,7 @@ pub const IDENTITY: rt::Identity = rt::Identity {
     order_code: "Drive",
 };
 == utf-8-as-latin-1.xml
-/// Who made Müller Drive, and which device it is.
+/// Identity of Müller Drive: vendor, product and revision.
 pub const IDENTITY: rt::Identity = rt::Identity {
     vendor_id: Some(0x00000001),
     product_code: Some(0x00000002),
@@ -29,7 +29,7 @@ pub const IDENTITY: rt::Identity = rt::Identity {
     order_code: "Drive",
 };
 == utf-8.xml
-/// Who made Müller Drive, and which device it is.
+/// Identity of Müller Drive: vendor, product and revision.
 pub const IDENTITY: rt::Identity = rt::Identity {
     vendor_id: Some(0x00000001),
     product_code: Some(0x00000002),

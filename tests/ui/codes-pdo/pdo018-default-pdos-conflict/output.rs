@@ -1,19 +1,19 @@
 == chosen.xml
-    /// Outputs: the data of sync manager 0 by default.
+    /// Outputs: default data of sync manager 0.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1601: Speed.
         pub speed: super::pdo::Speed,
     }
 == conflict.xml
-    /// Outputs: the data of sync manager 0 by default.
+    /// Outputs: default data of sync manager 0.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1601: Speed.
         pub speed: super::pdo::Speed,
     }
 == later.xml
-    /// Outputs: the data of sync manager 0 by default.
+    /// Outputs: default data of sync manager 0.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1601: Speed.

@@ -1,4 +1,4 @@
-    /// Outputs: the data of sync manager 0 by default.
+    /// Outputs: default data of sync manager 0.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1602: Longest.

@@ -1,6 +1,6 @@
     /// Speed.
     ///
-    /// 0x2000:00, UNSIGNED16, rw, default 5.
+    /// Default 5, 0x2000:00, UNSIGNED16, read-write.
     /// Accessor: [`speed`](super::Pump::speed).
     pub const SPEED: ReadWrite<u16> = ReadWriteU16::object_with_default(
         0x2000,

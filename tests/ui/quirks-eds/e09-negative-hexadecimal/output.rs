@@ -1,6 +1,6 @@
     /// Speed.
     ///
-    /// 0x2000:00, INTEGER32, rw, default -2000000000.
+    /// Default -2000000000, 0x2000:00, INTEGER32, read-write.
     /// Accessor: [`speed`](super::Pump::speed).
     pub const SPEED: ReadWrite<i32> = ReadWriteI32::object_with_default(
         0x2000,

@@ -1,6 +1,6 @@
     /// Speed.
     ///
-    /// 0x2000:00, UNSIGNED8, rw, default 2.
+    /// Default 2, 0x2000:00, UNSIGNED8, read-write.
     /// Accessor: [`speed`](super::Pump::speed).
     pub const SPEED: ReadWrite<u8> = ReadWriteU8::object_with_default(
         0x2000,

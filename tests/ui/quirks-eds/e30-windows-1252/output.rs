@@ -1,7 +1,7 @@
 == byte-order-mark.eds
     /// Gerät.
     ///
-    /// 0x2000:00, VISIBLE_STRING, rw, default "5 €".
+    /// Default "5 €", 0x2000:00, VISIBLE_STRING, read-write.
     /// Accessor: [`geraet`](super::Pump::geraet).
     pub const GERAET: ReadWrite<rt::VisibleString> = ReadWriteVisibleString::object_with_default(
         0x2000,
@@ -12,7 +12,7 @@
 == input.eds
     /// Gerät.
     ///
-    /// 0x2000:00, VISIBLE_STRING, rw, default "5 €".
+    /// Default "5 €", 0x2000:00, VISIBLE_STRING, read-write.
     /// Accessor: [`geraet`](super::Pump::geraet).
     pub const GERAET: ReadWrite<rt::VisibleString> = ReadWriteVisibleString::object_with_default(
         0x2000,

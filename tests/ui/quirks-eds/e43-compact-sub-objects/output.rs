@@ -1,6 +1,6 @@
         /// Arr1.
         ///
-        /// 0x2000:01, INTEGER16, rw, mappable into any PDO, default 5, at least \-9.
+        /// At least \-9, default 5, 0x2000:01, INTEGER16, read-write, mappable into any PDO.
         /// Accessor: [`Accessors::arr1`].
         pub const ARR1: super::ReadWrite<i16> = super::ReadWriteI16::new(
             rt::OnCanOpen::canopen(0x2000, 0x01),
@@ -12,7 +12,7 @@
         );
         /// Arr2.
         ///
-        /// 0x2000:02, INTEGER16, rw, mappable into any PDO, default 5, at least \-9.
+        /// At least \-9, default 5, 0x2000:02, INTEGER16, read-write, mappable into any PDO.
         /// Accessor: [`Accessors::arr2`].
         pub const ARR2: super::ReadWrite<i16> = super::ReadWriteI16::new(
             rt::OnCanOpen::canopen(0x2000, 0x02),
@@ -24,7 +24,7 @@
         );
         /// Arr3.
         ///
-        /// 0x2000:03, INTEGER16, rw, mappable into any PDO, default 5, at least \-9.
+        /// At least \-9, default 5, 0x2000:03, INTEGER16, read-write, mappable into any PDO.
         /// Accessor: [`Accessors::arr3`].
         pub const ARR3: super::ReadWrite<i16> = super::ReadWriteI16::new(
             rt::OnCanOpen::canopen(0x2000, 0x03),

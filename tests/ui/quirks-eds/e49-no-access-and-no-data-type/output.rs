@@ -1,11 +1,11 @@
     /// No access.
     ///
-    /// 0x2000:00, UNSIGNED8, ro.
+    /// 0x2000:00, UNSIGNED8, read-only.
     /// Accessor: [`no_access`](super::Pump::no_access).
     pub const NO_ACCESS: ReadOnly<u8> = ReadOnlyU8::object(0x2000, 0x00, "No access");
     /// No type.
     ///
-    /// 0x2001:00, unknown type, ro, default \`0x12\`.
+    /// Default \`0x12\`, 0x2001:00, unknown type, read-only.
     /// Accessor: [`no_type`](super::Pump::no_type).
     pub const NO_TYPE: ReadOnly<rt::Opaque> = ReadOnlyOpaque::object(
         0x2001,
@@ -14,7 +14,7 @@
     );
     /// Empty type.
     ///
-    /// 0x2002:00, unknown type, ro, default \`0x12\`.
+    /// Default \`0x12\`, 0x2002:00, unknown type, read-only.
     /// Accessor: [`empty_type`](super::Pump::empty_type).
     pub const EMPTY_TYPE: ReadOnly<rt::Opaque> = ReadOnlyOpaque::object(
         0x2002,
@@ -23,7 +23,7 @@
     );
         /// Count.
         ///
-        /// 0x2003:00, unknown type, ro.
+        /// 0x2003:00, unknown type, read-only.
         /// Accessor: [`Accessors::count`].
         pub const COUNT: super::ReadOnly<rt::Opaque> = super::ReadOnlyOpaque::object(
             0x2003,

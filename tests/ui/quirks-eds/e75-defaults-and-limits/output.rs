@@ -1,6 +1,6 @@
     /// Swapped.
     ///
-    /// 0x2002:00, INTEGER16, rw, default 7, range 9 to 5.
+    /// Range 9 to 5, default 7, 0x2002:00, INTEGER16, read-write.
     /// Accessor: [`swapped`](super::Pump::swapped).
     pub const SWAPPED: ReadWrite<i16> = ReadWriteI16::object_with_default(
         0x2002,
@@ -10,7 +10,7 @@
     );
     /// No default.
     ///
-    /// 0x2005:00, INTEGER16, rw, range 5 to 9.
+    /// Range 5 to 9, 0x2005:00, INTEGER16, read-write.
     /// Accessor: [`no_default`](super::Pump::no_default).
     pub const NO_DEFAULT: ReadWrite<i16> = ReadWriteI16::new(
         rt::OnCanOpen::canopen(0x2005, 0x00),

@@ -1,4 +1,4 @@
-/// What a master has to know of Maker Drive.
+/// EtherCAT description of Maker Drive, for a master.
 pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
     identity: IDENTITY,
     sync_managers: &[
@@ -44,7 +44,7 @@ pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
     mailbox: rt::ethercat::Mailbox::NONE,
     slots: None,
 };
-/// Process data objects as they are mapped by default.
+/// PDOs with their default mapping.
 pub mod pdo {
     use ::lexibus as rt;
     /// RxPDO 0x1602: P1602.
@@ -64,18 +64,18 @@ pub mod pdo {
         pub const BITS: u32 = 65535;
         /// Length in bytes.
         pub const LEN: usize = 8192;
-        /// The bytes of a frame; padding is zero.
+        /// Returns the bytes of a frame. Padding is 0.
         #[inline]
         pub fn pack(&self) -> [u8; 8192] {
             let mut data = [0; 8192];
             data = rt::bits::put_bits(data, 0, 65535, &self.output_2);
             data
         }
-        /// The fields of a frame. Bytes behind the mapped ones are not looked at.
+        /// Reads the fields of a frame. Bytes after the mapped ones are ignored.
         ///
         /// # Errors
         ///
-        /// When `data` has fewer bytes than the PDO.
+        /// Fails if `data` has fewer bytes than the PDO.
         #[inline]
         pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
             let Some(data) = data.first_chunk::<8192>() else {
@@ -100,18 +100,18 @@ pub mod pdo {
         pub const SYNC_MANAGER: u8 = 0;
         /// Length in bytes.
         pub const LEN: usize = 16384;
-        /// The bytes of the image; padding is zero.
+        /// Returns the bytes of the image. Padding is 0.
         #[inline]
         pub fn pack(&self) -> [u8; 16384] {
             let mut data = [0; 16384];
             rt::bits::set_bytes(&mut data, 65536, &self.p1602.pack());
             data
         }
-        /// The PDOs of an image. Bytes behind it are not looked at.
+        /// Reads the PDOs of an image. Bytes after it are ignored.
         ///
         /// # Errors
         ///
-        /// When `data` has fewer bytes than the image.
+        /// Fails if `data` has fewer bytes than the image.
         #[inline]
         pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data, 131071)?;

@@ -1,4 +1,4 @@
-    /// Values that have names.
+    /// Named values.
     pub mod types {
         use ::lexibus as rt;
         /// DT0800EN08.
@@ -16,14 +16,14 @@
             Unknown(u8),
         }
         impl Dt0800En08 {
-            /// The value of a number.
+            /// Returns the value with this number.
             pub const fn from_raw(raw: u8) -> Self {
                 match raw {
                     0 => Self::Off,
                     other => Self::Unknown(other),
                 }
             }
-            /// The number of a value.
+            /// Returns the number of the value.
             pub const fn raw(self) -> u8 {
                 match self {
                     Self::Off => 0,
@@ -41,11 +41,11 @@
             }
         }
     }
-    /// Values that have names.
+    /// Named values.
     pub mod types {
         pub use super::super::d1::types::Dt0800En08;
     }
-    /// Values that have names.
+    /// Named values.
     pub mod types {
         use ::lexibus as rt;
         /// DT0800EN08.
@@ -63,14 +63,14 @@
             Unknown(u8),
         }
         impl Dt0800En08 {
-            /// The value of a number.
+            /// Returns the value with this number.
             pub const fn from_raw(raw: u8) -> Self {
                 match raw {
                     0 => Self::Stopped,
                     other => Self::Unknown(other),
                 }
             }
-            /// The number of a value.
+            /// Returns the number of the value.
             pub const fn raw(self) -> u8 {
                 match self {
                     Self::Stopped => 0,
@@ -88,7 +88,7 @@
             }
         }
     }
-    /// Values that have names.
+    /// Named values.
     pub mod types {
         pub use super::super::d3::types::Dt0800En08;
     }

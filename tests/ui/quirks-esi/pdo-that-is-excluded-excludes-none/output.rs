@@ -1,4 +1,4 @@
-/// What a master has to know of Maker Drive.
+/// EtherCAT description of Maker Drive, for a master.
 pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
     identity: IDENTITY,
     sync_managers: &[],
@@ -44,7 +44,7 @@ pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
     mailbox: rt::ethercat::Mailbox::NONE,
     slots: None,
 };
-    /// Outputs: the data of sync manager 0 by default.
+    /// Outputs: default data of sync manager 0.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1601: P1601.

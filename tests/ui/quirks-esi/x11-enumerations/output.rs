@@ -17,7 +17,7 @@
     }
     /// Mode.
     ///
-    /// 0x2000:00, UNSIGNED8, ro, mappable into TPDOs, default 16.
+    /// Default 16, 0x2000:00, UNSIGNED8, read-only, mappable into TPDOs.
     /// Accessor: [`mode`](super::D1::mode). Values: [`Dt0800En08`](super::types::Dt0800En08). Carried by [`Sensors`](super::pdo::Sensors).
     pub const MODE: ReadOnly<super::types::Dt0800En08> = ReadOnlyNamedDt0800En08::flagged_coe_object_with_default(
         0x2000,

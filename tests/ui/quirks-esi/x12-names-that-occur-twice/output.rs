@@ -1,6 +1,6 @@
         /// New array subitem.
         ///
-        /// 0x2000:01, UNSIGNED16, rw.
+        /// 0x2000:01, UNSIGNED16, read-write.
         /// Accessor: [`Accessors::new_array_subitem_1`].
         pub const NEW_ARRAY_SUBITEM_1: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
             0x2000,
@@ -9,7 +9,7 @@
         );
         /// New array subitem.
         ///
-        /// 0x2000:02, UNSIGNED16, rw.
+        /// 0x2000:02, UNSIGNED16, read-write.
         /// Accessor: [`Accessors::new_array_subitem_2`].
         pub const NEW_ARRAY_SUBITEM_2: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
             0x2000,

@@ -1,6 +1,6 @@
         /// Temperature.
         ///
-        /// 0x2000:00, UNSIGNED32, ro, mappable into TPDOs.
+        /// 0x2000:00, UNSIGNED32, read-only, mappable into TPDOs.
         /// Accessor: [`Accessors::temperature`]. Carried by [`Values`](super::super::pdo::Values).
         pub const TEMPERATURE: super::ReadOnly<u32> = super::ReadOnlyU32::flagged_coe_object(
             0x2000,
@@ -10,7 +10,7 @@
         );
         /// Peak.
         ///
-        /// 0x2000:01, UNSIGNED16, ro, mappable into TPDOs.
+        /// 0x2000:01, UNSIGNED16, read-only, mappable into TPDOs.
         /// Accessor: [`Accessors::peak`]. Carried by [`Values`](super::super::pdo::Values).
         ///
         /// Access rights from the rule for objects that only a PDO describes.

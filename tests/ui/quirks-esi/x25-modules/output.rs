@@ -1,4 +1,4 @@
-        /// What a master has to know of 4 inputs.
+        /// EtherCAT description of 4 inputs, for a master.
         pub static MODULE: rt::ethercat::Module = rt::ethercat::Module {
             ident: 0x00000030,
             name: "4 inputs",
@@ -54,7 +54,7 @@
             }
             /// Filter.
             ///
-            /// 0x8000:00, UNSIGNED8, rw.
+            /// 0x8000:00, UNSIGNED8, read-write.
             /// Values: [`Filter`](super::types::Filter).
             pub const FILTER: ReadWrite<super::types::Filter> = ReadWriteNamedFilter::coe_object(
                 0x8000,
@@ -63,7 +63,7 @@
             );
                 /// In 1.
                 ///
-                /// 0x6000:01, BOOLEAN, ro, mappable into TPDOs.
+                /// 0x6000:01, BOOLEAN, read-only, mappable into TPDOs.
                 /// Carried by [`Inputs`](super::super::pdo::Inputs).
                 ///
                 /// Access rights from the rule for objects that only a PDO describes.

@@ -1,4 +1,4 @@
-/// What a master has to know of a device of Maker.
+/// EtherCAT description of a device of Maker, for a master.
 pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
     identity: IDENTITY,
     sync_managers: &[],

@@ -25,7 +25,7 @@
         pub const BITS: u32 = 44;
         /// Length in bytes.
         pub const LEN: usize = 6;
-        /// The bytes of a frame; padding is zero.
+        /// Returns the bytes of a frame. Padding is 0.
         #[inline]
         pub const fn pack(&self) -> [u8; 6] {
             let mut word = 0;
@@ -39,11 +39,11 @@
             word |= bits << 32;
             rt::pdo::to_bytes(word)
         }
-        /// The fields of a frame. Bytes behind the mapped ones are not looked at.
+        /// Reads the fields of a frame. Bytes after the mapped ones are ignored.
         ///
         /// # Errors
         ///
-        /// When `data` has fewer bytes than the PDO.
+        /// Fails if `data` has fewer bytes than the PDO.
         #[inline]
         pub const fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
             let Some(data) = data.first_chunk::<6>() else {

@@ -21,12 +21,12 @@
     }
     /// RxPDO 0x1600: Outputs.
     ///
-    /// Its layout: [`pdo::Outputs`](super::pdo::Outputs).
+    /// Layout: [`pdo::Outputs`](super::pdo::Outputs).
     pub struct Outputs<B> {
         pub(super) data: B,
         pub(super) bit: usize,
     }
-    /// Outputs: the data of sync manager 2 by default.
+    /// Outputs: default data of sync manager 2.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1600: Outputs.
@@ -56,18 +56,18 @@
     }
     /// TxPDO 0x1A00: Inputs.
     ///
-    /// Its layout: [`pdo::Inputs`](super::pdo::Inputs).
+    /// Layout: [`pdo::Inputs`](super::pdo::Inputs).
     pub struct Inputs<B> {
         pub(super) data: B,
         pub(super) bit: usize,
     }
-    /// Inputs: the data of sync manager 3 by default.
+    /// Inputs: default data of sync manager 3.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Inputs {
         /// TxPDO 0x1A00: Inputs.
         pub inputs: super::pdo::Inputs,
     }
-/// What can be mapped into PDOs, by the names of the accessors: `lexibus::pdo!` looks it up here.
+/// Items that can be mapped into PDOs, by the names of their accessors. `lexibus::pdo!` looks them up here.
 #[allow(missing_docs, non_camel_case_types)]
 pub mod mappable {
     use ::lexibus as rt;

@@ -1,8 +1,8 @@
-        /// Inputs: what the device sends to the controller.
+        /// Inputs: data from the device to the controller.
         ///
         /// 19 bytes of user data, consistent item by item.
         ///
-        /// | Place | Field | Type |
+        /// | Position | Field | Type |
         /// |---|---|---|
         /// | bit 0 of byte 0 | [`byte_0`](Self::byte_0) | `bool` |
         /// | bit 3 of byte 0 | [`byte_3`](Self::byte_3) | `bool` |

@@ -1,6 +1,6 @@
     /// Details: user structure 0x0002 of 5 bytes.
     ///
-    /// | Place | Field | Type |
+    /// | Position | Field | Type |
     /// |---|---|---|
     /// | bytes 2 and 3 | [`cause`](Self::cause) | [`V`](values::V) |
     /// | bit 5 of byte 4 | [`stopped`](Self::stopped) | `bool` |

@@ -2,7 +2,7 @@
             ///
             /// # Errors
             ///
-            /// When a field has another value.
+            /// Fails if a field has another value.
             #[allow(clippy::approx_constant)]
             pub fn check(&self) -> Result<(), rt::profinet::NotAllowed> {
                 rt::profinet::check("List", self.list, &[(0, 0), (1, 1), (3, 3)])?;

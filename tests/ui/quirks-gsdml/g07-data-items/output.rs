@@ -1,8 +1,8 @@
-        /// Inputs: what the device sends to the controller.
+        /// Inputs: data from the device to the controller.
         ///
         /// 967 bytes of user data, consistent item by item.
         ///
-        /// | Place | Field | Type |
+        /// | Position | Field | Type |
         /// |---|---|---|
         /// | bytes 0 to 949 | [`octets`](Self::octets) | `[u8; 950]` |
         /// | bytes 950 to 953 | [`speed`](Self::speed) | `f32` |
@@ -22,7 +22,7 @@
             /// Ready: Boolean, byte 966.
             pub ready: bool,
         }
-            /// The user data; what no field covers is 0.
+            /// Returns the user data. Bits that no field covers are 0.
             #[inline]
             pub fn pack(&self) -> [u8; 967] {
                 let mut data = [0; 967];

@@ -1,8 +1,8 @@
-        /// Inputs: what the device sends to the controller.
+        /// Inputs: data from the device to the controller.
         ///
         /// 36 bytes of user data, consistent item by item.
         ///
-        /// | Place | Field | Type |
+        /// | Position | Field | Type |
         /// |---|---|---|
         /// | bytes 0 and 1 | [`n2`](Self::n2) | `i16` |
         /// | bytes 2 and 3 | [`n2_again`](Self::n2_again) | `i16` |
@@ -20,15 +20,15 @@
         /// | bytes 34 and 35 | [`unipolar2_16_again`](Self::unipolar2_16_again) | `u16` |
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Inputs {
-            /// N2: N2, counts of 0.006103515625, bytes 0 and 1.
+            /// N2: N2, 1 LSB = 0.006103515625, bytes 0 and 1.
             pub n2: i16,
-            /// N2 again: N2, counts of 0.006103515625, bytes 2 and 3.
+            /// N2 again: N2, 1 LSB = 0.006103515625, bytes 2 and 3.
             pub n2_again: i16,
-            /// N4: N4, counts of 0.00000009313225746154785, bytes 4 to 7.
+            /// N4: N4, 1 LSB = 0.00000009313225746154785, bytes 4 to 7.
             pub n4: i32,
-            /// E2: E2, counts of 0.0078125, bytes 8 and 9.
+            /// E2: E2, 1 LSB = 0.0078125, bytes 8 and 9.
             pub e2: i16,
-            /// C4: C4, counts of 0.0001, bytes 10 to 13.
+            /// C4: C4, 1 LSB = 0.0001, bytes 10 to 13.
             pub c4: i32,
             /// X2: X2, bytes 14 and 15.
             pub x2: i16,

@@ -1,8 +1,8 @@
-        /// Inputs: what the device sends to the controller.
+        /// Inputs: data from the device to the controller.
         ///
         /// 29 bytes of user data, consistent item by item.
         ///
-        /// | Place | Field | Type |
+        /// | Position | Field | Type |
         /// |---|---|---|
         /// | byte 0 | [`mode`](Self::mode) | `u8` |
         /// | bytes 1 to 4 | [`value_1`](Self::value_1) | `f32` |

@@ -1,8 +1,8 @@
-        /// Inputs: what the device sends to the controller.
+        /// Inputs: data from the device to the controller.
         ///
         /// 8 bytes of user data, consistent item by item.
         ///
-        /// | Place | Field | Type |
+        /// | Position | Field | Type |
         /// |---|---|---|
         /// | byte 0 | [`t_speed`](Self::t_speed) | `u8` |
         /// | bytes 1 and 2 | [`field_1`](Self::field_1) | `u16` |

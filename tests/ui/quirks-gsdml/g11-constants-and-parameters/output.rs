@@ -1,6 +1,6 @@
         /// Settings: parameter record 0x000A of 16 bytes.
         ///
-        /// | Place | Field | Type | Default |
+        /// | Position | Field | Type | Default |
         /// |---|---|---|---|
         /// | bytes 1 and 2 | [`speed`](Self::speed) | `u16` | 5 |
         /// | bit 6 of byte 9 | [`start`](Self::start) | `bool` | true |
@@ -14,11 +14,11 @@
             /// Mode: bits 1 to 4 of byte 9, default 1.
             pub mode: u8,
         }
-            /// The record's index.
+            /// Index of the record.
             pub const INDEX: u16 = 0x000A;
             const INDEX: u16 = Self::INDEX;
-            /// Its place among the records of the submodule at start-up; 0 = any.
+            /// Position in the transfer sequence of the submodule's records at start-up; 0 = any.
             pub const TRANSFER_SEQUENCE: u16 = 0;
             const TRANSFER_SEQUENCE: u16 = Self::TRANSFER_SEQUENCE;
-            /// Its bytes by default.
+            /// Default bytes.
             pub const DEFAULT_BYTES: [u8; 16] = *b"\x01\x00\x05\x00\x00\x00\x00\x00\xaa\x42\x00\x00\x00\x00\x00\x00";

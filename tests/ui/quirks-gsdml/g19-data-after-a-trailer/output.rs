@@ -1,8 +1,8 @@
-        /// Inputs: what the device sends to the controller.
+        /// Inputs: data from the device to the controller.
         ///
-        /// 6 bytes of user data, consistent item by item; behind them an F message trailer of 4 bytes.
+        /// 6 bytes of user data, consistent item by item, followed by an F message trailer of 4 bytes.
         ///
-        /// | Place | Field | Type |
+        /// | Position | Field | Type |
         /// |---|---|---|
         /// | bytes 0 to 3 | [`safety`](Self::safety) | `[u8; 4]` |
         /// | bytes 4 and 5 | [`speed`](Self::speed) | `u16` |

@@ -1,8 +1,8 @@
-        /// Inputs: what the device sends to the controller.
+        /// Inputs: data from the device to the controller.
         ///
-        /// 2 bytes of user data, consistent as a whole; behind them an F message trailer of 4 bytes.
+        /// 2 bytes of user data, consistent as a whole, followed by an F message trailer of 4 bytes.
         ///
-        /// | Place | Field | Type |
+        /// | Position | Field | Type |
         /// |---|---|---|
         /// | bytes 0 and 1 | [`speed`](Self::speed) | `u16` |
         #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,11 +10,11 @@
             /// Speed: Unsigned16, bytes 0 and 1.
             pub speed: u16,
         }
-        /// Inputs: what the device sends to the controller.
+        /// Inputs: data from the device to the controller.
         ///
-        /// 2 bytes of user data, consistent as a whole; behind them an F message trailer of 5 bytes.
+        /// 2 bytes of user data, consistent as a whole, followed by an F message trailer of 5 bytes.
         ///
-        /// | Place | Field | Type |
+        /// | Position | Field | Type |
         /// |---|---|---|
         /// | bytes 0 and 1 | [`speed`](Self::speed) | `u16` |
         #[derive(Clone, Copy, Debug, PartialEq)]

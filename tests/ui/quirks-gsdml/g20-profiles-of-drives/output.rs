@@ -1,4 +1,4 @@
-    /// The errors of channels that the description names, by application process (API) and error type.
+    /// Channel errors that the description names, by application process (API) and error type.
     pub static CHANNEL_ERRORS: [rt::profinet::ChannelError; 1] = [
         rt::profinet::ChannelError::of_profile(
             0x3A00,

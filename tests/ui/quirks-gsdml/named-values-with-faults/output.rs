@@ -1,6 +1,6 @@
         /// Settings: parameter record 0x000A of 10 bytes.
         ///
-        /// | Place | Field | Type | Default |
+        /// | Position | Field | Type | Default |
         /// |---|---|---|---|
         /// | byte 0 | [`fraction`](Self::fraction) | `u8` | 0 |
         /// | byte 1 | [`word`](Self::word) | `u8` | 0 |

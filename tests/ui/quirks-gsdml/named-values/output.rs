@@ -1,6 +1,6 @@
         /// Settings: parameter record 0x000A of 6 bytes.
         ///
-        /// | Place | Field | Type | Default |
+        /// | Position | Field | Type | Default |
         /// |---|---|---|---|
         /// | byte 0 | [`first_mode`](Self::first_mode) | [`VModeU8`](values::VModeU8) | 0 |
         /// | byte 1 | [`second_mode`](Self::second_mode) | [`VModeU8`](values::VModeU8) | 0 |
@@ -31,6 +31,6 @@
         Off,
         /// -1: Fault.
         Fault,
-        /// A number that the description doesn't list.
+        /// A number that the description does not list.
         Unknown(i16),
     }

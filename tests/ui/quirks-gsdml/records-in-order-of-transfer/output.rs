@@ -1,4 +1,4 @@
-        /// The submodule, as modules and plans name it.
+        /// Description of the submodule, for modules and plans of slots.
         pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {
             ident: 0x00000001,
             api: 0x0000,

@@ -1,11 +1,11 @@
     /// Gain.
     ///
-    /// Modbus 0 (holding; wire 0; FC 3/6/16), UNSIGNED16, rw?.
+    /// Modbus 0 (holding; wire 0; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Accessor: [`gain`](super::Press::gain).
     ///
     /// Gain of the speed controller.
     ///
-    /// The manual states no access rights; read-write is assumed.
+    /// Access rights assumed: read-write. The manual does not state them.
     ///
     /// Chapter Movement.
     pub const GAIN: ReadWrite<u16> = ReadWriteU16::register(
@@ -13,17 +13,16 @@
         "Gain",
         rt::Flags::NONE,
     );
-    /// Gain: register 0.
-    ///
     /// Gain of the speed controller.
     ///
+    /// Gain: Modbus 0 (holding; wire 0; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::GAIN`].
     pub fn gain(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::GAIN.at(&mut self.client)
     }
     /// Speed.
     ///
-    /// Modbus 1 (holding; wire 1; FC 3), UNSIGNED16, ro.
+    /// Modbus 1 (holding; wire 1; FC 3), UNSIGNED16, read-only.
     /// Accessor: [`speed`](super::Press::speed).
     ///
     /// Actual speed.

@@ -1,6 +1,6 @@
     /// Speed.
     ///
-    /// Modbus 0 (holding; wire 0; FC 3/6/16), UNSIGNED16, rw.
+    /// Modbus 0 (holding; wire 0; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`speed`](super::Press::speed).
     ///
     /// Speed of the slide.
@@ -13,14 +13,14 @@
     );
     /// Mode.
     ///
-    /// Modbus 1 (holding; wire 1; FC 3/6/16), UNSIGNED16, rw.
+    /// Modbus 1 (holding; wire 1; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`mode`](super::Press::mode).
     ///
     /// Mode of operation.
     ///
     /// Chapter Movement. Manual: 3\.2 Modi; Allarmi, Mode (lines 31, 52-53).
     ///
-    /// Note: 2 modes and 3 modes. Chosen: 3 modes (the table has 3 rows). Manual: 3\.2 Modi (line 33).
+    /// Note: 2 modes and 3 modes. Assumed: 3 modes (the table has 3 rows). Manual: 3\.2 Modi (line 33).
     pub const MODE: ReadWrite<u16> = ReadWriteU16::register(
         rt::Register::holding(1),
         "Mode",
@@ -32,7 +32,7 @@
     ///
     /// Manual: Allarmi (line 50).
     ///
-    /// As a type: [`Alarms`].
+    /// Type of the codes: [`Alarms`].
     pub static ALARMS: &[rt::codes::Code] = &[
         rt::codes::Code::new(0x10, 0x10, "door open", "", &[]),
     ];

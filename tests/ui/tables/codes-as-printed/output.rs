@@ -10,7 +10,7 @@
         Bus,
         /// 35: sensor.
         Sensor,
-        /// Any other number.
+        /// Any other code.
         Unknown(u16),
     }
     /// A code of [`FAULTS`].
@@ -25,6 +25,6 @@
         SynchronizationLost,
         /// F130 to F132: encoder.
         Encoder(u16),
-        /// Any other number.
+        /// Any other code.
         Unknown(u16),
     }

@@ -1,6 +1,6 @@
         /// Torque.
         ///
-        /// 0x2000:01, INTEGER16, ro.
+        /// 0x2000:01, INTEGER16, read-only.
         /// Accessor: [`Accessors::torque`].
         ///
         /// Actual torque.
@@ -13,7 +13,7 @@
         );
         /// Reserve 2.
         ///
-        /// 0x2000:02, INTEGER16, ro.
+        /// 0x2000:02, INTEGER16, read-only.
         /// Accessor: [`Accessors::reserve_2`].
         ///
         /// Second reserve.

@@ -2,9 +2,9 @@
     ///
     /// 0 V is low.
     ///
-    /// Hazard: 0: Whether an edge starts the press is not printed. Chosen: the level (nothing says otherwise). Manual, page 4.
+    /// Hazard: 0: Whether an edge starts the press is not printed. Assumed: the level (nothing says otherwise). Manual, page 4.
     ///
-    /// Note: The order of the bits is not printed. Chosen: bit 0 first (all tables begin so). Manual, page 3.
+    /// Note: The order of the bits is not printed. Assumed: bit 0 first (all tables begin so). Manual, page 3.
     ///
     /// Values of [`CONTROL`](super::objects::CONTROL).
     ///
@@ -15,7 +15,7 @@
     pub struct Control(u16);
     /// Mode.
     ///
-    /// Note: 0: 0 and 00. Chosen: 0 (both are the same). Manual, page 5.
+    /// Note: 0: 0 and 00. Assumed: 0 (both are the same). Manual, page 5.
     ///
     /// Values of [`MODE`](super::objects::MODE).
     ///
@@ -31,9 +31,9 @@
     }
     /// alarms.
     ///
-    /// Note: 0x1: Door and gate. Chosen: door (the figure shows a door). Manual, page 6.
+    /// Note: 0x1: Door and gate. Assumed: door (the figure shows a door). Manual, page 6.
     ///
-    /// As a type: [`Alarms`].
+    /// Type of the codes: [`Alarms`].
     pub static ALARMS: &[rt::codes::Code] = &[
         rt::codes::Code::new(1, 1, "door", "", &[]),
     ];

@@ -12,12 +12,12 @@
             );
     /// Level.
     ///
-    /// Modbus 0 (holding; wire 0; FC 3/6/16), INTEGER16, rw, default 5.0 °C (raw 50), range -2.0 … 200.0 °C (raw \-20 … 2000), 1 LSB = 0.1 °C.
+    /// 1 LSB = 0.1 °C, range -2.0 … 200.0 °C (raw \-20 … 2000), default 5.0 °C (raw 50), Modbus 0 (holding; wire 0; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`level`](super::Press::level).
     ///
     /// Default and range of the row apply to the other models.
     ///
-    /// Of P2: default 7, at least \-30, 1 LSB = 1 °C.
+    /// On P2: default 7, at least \-30, 1 LSB = 1 °C.
     ///
     /// Writes are checked against the range of all models and buses: -3.0 … 200.0 °C (raw \-30 … 2000).
     ///
@@ -33,7 +33,7 @@
     /// P2.
     #[allow(clippy::approx_constant)]
     pub mod p2 {
-        /// Handles of items in whose values models differ.
+        /// Handles of items whose range or initial value differs between models.
         pub mod objects {
             use ::lexibus as rt;
             use super::super::super::objects;

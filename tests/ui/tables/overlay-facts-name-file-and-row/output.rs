@@ -1,6 +1,6 @@
     /// Torque actual value.
     ///
-    /// 0x6077:00, INTEGER16, ro, 1 LSB = 0.01 %.
+    /// 1 LSB = 0.01 %, 0x6077:00, INTEGER16, read-only.
     /// Accessor: [`torque_actual_value`](super::Axis::torque_actual_value).
     ///
     /// Changed by an overlay: the data sheet has other values.
@@ -16,7 +16,7 @@
     );
     /// Ramp.
     ///
-    /// 0x2000:00, UNSIGNED16, rw, default 10, range 1 to 200, in ms.
+    /// Unit ms, range 1 to 200, default 10, 0x2000:00, UNSIGNED16, read-write.
     /// Accessor: [`ramp`](super::Axis::ramp).
     ///
     /// Changed by an overlay: the data sheet has other values.

@@ -6,14 +6,14 @@
             );
     /// Temperature.
     ///
-    /// Modbus 0 (holding; wire 0; FC 3/6/16), INTEGER16, rw, default 25.0 °C (raw 250), range -20.0 … 200.0 °C (raw \-200 … 2000), 1 LSB = 0.1 °C.
+    /// 1 LSB = 0.1 °C, range -20.0 … 200.0 °C (raw \-200 … 2000), default 25.0 °C (raw 250), Modbus 0 (holding; wire 0; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`temperature`](super::Press::temperature).
     ///
     /// The device rounds to steps of 0.5 °C (raw 5).
     ///
     /// Default and range of the row apply to the other models.
     ///
-    /// Of P2: default 30.0 °C (raw 300), range ≤ 100.0 °C (raw ≤ 1000).
+    /// On P2: default 30.0 °C (raw 300), range ≤ 100.0 °C (raw ≤ 1000).
     ///
     /// Chapter Values.
     pub const TEMPERATURE: ReadWrite<rt::Scaled<i16, 1, 10>> = ReadWriteI16Times1Per10::new(
@@ -26,7 +26,7 @@
     );
     /// Speed.
     ///
-    /// Modbus 1 (holding; wire 1; FC 3/6/16), INTEGER16, rw, range -100.00 … 100.00 rev/s (raw \-10000 … 10000), 1 LSB = -0.01 rev/s.
+    /// 1 LSB = -0.01 rev/s, range -100.00 … 100.00 rev/s (raw \-10000 … 10000), Modbus 1 (holding; wire 1; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`speed`](super::Press::speed).
     ///
     /// Chapter Values.
@@ -39,7 +39,7 @@
     );
     /// Frequency.
     ///
-    /// Modbus 2 (holding; wire 2; FC 3/6/16), UNSIGNED16, rw, default 500 Hz (raw 2), range 250 … 1000 Hz (raw 1 … 4), physical value = 1000 / raw Hz.
+    /// Physical value = 1000 / raw Hz, range 250 … 1000 Hz (raw 1 … 4), default 500 Hz (raw 2), Modbus 2 (holding; wire 2; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`frequency`](super::Press::frequency).
     ///
     /// Chapter Values.
@@ -53,7 +53,7 @@
     );
     /// Time.
     ///
-    /// Modbus 3 (holding; wire 3; FC 3/6/16), UNSIGNED16, rw, default 250, at most 1000, in ms.
+    /// Unit ms, at most 1000, default 250, Modbus 3 (holding; wire 3; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`time`](super::Press::time).
     ///
     /// Chapter Values.
@@ -67,7 +67,7 @@
     );
     /// Level.
     ///
-    /// Modbus 4 (holding; wire 4; FC 3/6/16), UNSIGNED16, rw, default raw 10, range raw ≤ 100, physical value = raw × 0.1 / [Time](TIME) V.
+    /// Physical value = raw × 0.1 / [Time](TIME) V, range raw ≤ 100, default raw 10, Modbus 4 (holding; wire 4; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`level`](super::Press::level).
     ///
     /// Chapter Values.
@@ -81,7 +81,7 @@
     );
     /// Steps.
     ///
-    /// Modbus 5 (holding; wire 5; FC 3/6/16), INTEGER16, rw, default -268.15 °C (raw 10), one of -273.15 °C (raw 0), -268.15 … -263.15 °C (raw 10 … 20), physical value = raw × 0.5 − 273.15 °C.
+    /// Physical value = raw × 0.5 − 273.15 °C, one of -273.15 °C (raw 0), -268.15 … -263.15 °C (raw 10 … 20), default -268.15 °C (raw 10), Modbus 5 (holding; wire 5; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`steps`](super::Press::steps).
     ///
     /// Chapter Values.

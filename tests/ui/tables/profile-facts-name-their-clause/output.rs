@@ -1,6 +1,6 @@
     /// Torque actual value.
     ///
-    /// 0x6077:00, INTEGER16, ro, 1 LSB = 0.1 %.
+    /// 1 LSB = 0.1 %, 0x6077:00, INTEGER16, read-only.
     /// Accessor: [`torque_actual_value`](super::Axis::torque_actual_value).
     ///
     /// Actual torque, relative to the rated torque.
@@ -18,10 +18,10 @@
     );
     /// Digital inputs.
     ///
-    /// 0x60FD:00, UNSIGNED32, ro.
+    /// 0x60FD:00, UNSIGNED32, read-only.
     /// Accessor: [`digital_inputs`](super::Axis::digital_inputs). Values: [`DigitalInputs`](super::types::DigitalInputs).
     ///
-    /// Digital inputs: limit switches, home switch, and inputs of the manufacturer.
+    /// Digital inputs: limit switches, home switch and manufacturer-specific inputs.
     ///
     /// Bits from CiA 402, 9.3.15.
     ///

@@ -1,6 +1,6 @@
         /// Reserved.
         ///
-        /// 0x1800:04, UNSIGNED8, ro.
+        /// 0x1800:04, UNSIGNED8, read-only.
         /// Accessor: [`Accessors::reserved`].
         pub const RESERVED: super::ReadOnly<u8> = super::ReadOnlyU8::object(
             0x1800,
