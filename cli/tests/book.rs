@@ -172,3 +172,18 @@ fn the_catalogue_of_codes_is_todays() {
     let is_same = String::from_utf8(output.stdout).expect("UTF-8") == text;
     assert!(is_same, "docs/src/lints.md is stale: tests/bindings.sh writes it again");
 }
+
+/// The README shows what its first command prints. The number of lines may differ.
+#[test]
+fn the_readme_shows_what_its_first_command_prints() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let readme = std::fs::read_to_string(root.join("README.md")).expect("the README");
+    let start = "cargo run -p lexibus-cli -- ";
+    let command = readme.lines().find_map(|line| line.trim().strip_prefix(start)).expect("the first command");
+    let output = run(&format!("lexibus {command}"), &root).expect("lexibus runs");
+    assert!(output.status.success());
+    for line in printed(&output) {
+        let (kept, _) = line.rsplit_once(": ").filter(|_| line.starts_with("wrote")).unwrap_or((&line, ""));
+        assert!(readme.contains(&format!("    {kept}")), "the README lacks: {line}");
+    }
+}
