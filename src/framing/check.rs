@@ -1,17 +1,17 @@
-//! Checks: the error detection at the end of a frame.
+//! Error detection codes at the end of a frame.
 
 /// Error detection code after the data of a frame. The parameter is its initial value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Check {
-    /// No check.
+    /// No error detection code.
     #[default]
     None,
     /// One byte: XOR of the data.
     Xor(u8),
     /// One byte: the low eight bits of the sum of the data.
     Sum(u8),
-    /// One byte: the low eight bits of the negative sum. The sum of data and check is 0 if the initial value is 0.
+    /// One byte: the low eight bits of the negative sum. The sum of data and code is 0 if the initial value is 0.
     Lrc(u8),
     /// Two bytes, the low byte first: a CRC with the polynomial 0x8005. Modbus RTU uses it with the initial value
     /// 0xFFFF.
@@ -19,7 +19,7 @@ pub enum Check {
 }
 
 impl Check {
-    /// Returns the length of the check in bytes.
+    /// Returns the length of the code in bytes.
     #[must_use]
     pub const fn len(self) -> usize {
         match self {
@@ -29,13 +29,13 @@ impl Check {
         }
     }
 
-    /// Returns whether there is no check.
+    /// Returns whether frames have no code.
     #[must_use]
     pub const fn is_empty(self) -> bool {
         self.len() == 0
     }
 
-    /// Computes the check of `data`. Only the first [`len`](Self::len) bytes are used.
+    /// Computes the error detection code of `data`. Only the first [`len`](Self::len) bytes are used.
     #[must_use]
     pub fn of(self, data: &[u8]) -> [u8; 2] {
         let sum = |seed: u8| data.iter().fold(seed, |sum, byte| sum.wrapping_add(*byte));

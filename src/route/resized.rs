@@ -106,8 +106,8 @@ pub(super) fn written(data: &[u8], bits: u32, is_signed: bool) -> Result<[u8; 8]
     fit(from_bytes(data), bits_of(data), bits, is_signed).map(u64::to_le_bytes).ok_or(OutOfRange)
 }
 
-/// Returns the first bytes of `bytes`, as many as `bits` bits need.
-pub(super) fn room(bytes: &mut [u8; 8], bits: u32) -> &mut [u8] {
+/// Returns the start of `bytes` that holds `bits` bits, in whole bytes.
+pub(super) fn truncated(bytes: &mut [u8; 8], bits: u32) -> &mut [u8] {
     &mut bytes[..byte_len(bits)]
 }
 
@@ -136,7 +136,7 @@ impl<R: Route> Route for Resized<R> {
 impl<B: Bus, R: ReadRoute<B>> ReadRoute<B> for Resized<R> {
     fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
         let (mut raw, bits) = ([0; 8], self.bits.into());
-        let raw = room(&mut raw, bits);
+        let raw = truncated(&mut raw, bits);
         check(raw.len(), self.at.read(client, raw)?)?;
         Ok(read(raw, bits, self.is_signed, buffer)?)
     }
@@ -147,7 +147,7 @@ impl<B: Bus, R: ReadRoute<B>> ReadRoute<B> for Resized<R> {
         buffer: &mut [u8],
     ) -> Result<usize, Error<C::Error>> {
         let (mut raw, bits) = ([0; 8], self.bits.into());
-        let raw = room(&mut raw, bits);
+        let raw = truncated(&mut raw, bits);
         check(raw.len(), self.at.read_async(client, raw).await?)?;
         Ok(read(raw, bits, self.is_signed, buffer)?)
     }
@@ -157,13 +157,13 @@ impl<B: Bus, R: WriteRoute<B>> WriteRoute<B> for Resized<R> {
     fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
         let bits = self.bits.into();
         let mut raw = written(data, bits, self.is_signed)?;
-        self.at.write(client, room(&mut raw, bits))
+        self.at.write(client, truncated(&mut raw, bits))
     }
 
     async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
         let bits = self.bits.into();
         let mut raw = written(data, bits, self.is_signed)?;
-        self.at.write_async(client, room(&mut raw, bits)).await
+        self.at.write_async(client, truncated(&mut raw, bits)).await
     }
 }
 

@@ -174,7 +174,7 @@ macro_rules! settle {
                     unless_no_clock(client.wait(INTERVAL)$(.$await)?)?;
                 }
                 let mut raw = [0; 8];
-                let raw = resized::room(&mut raw, bits.into());
+                let raw = resized::truncated(&mut raw, bits.into());
                 resized::check(raw.len(), client.read(number, raw)$(.$await)??)?;
                 if raw.iter().all(|byte| *byte == 0) {
                     return Ok(());
@@ -194,10 +194,10 @@ impl<W> Route for Through<W> {}
 impl<B: Bus> ReadRoute<B> for Through<ReadWindow<B::Address>> {
     fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
         let window = self.window;
-        client.write(window.number, resized::room(&mut self.number(), window.number_bits.into()))?;
+        client.write(window.number, resized::truncated(&mut self.number(), window.number_bits.into()))?;
         settle(client, window.number, window.number_bits, window.handshake)?;
         let (mut raw, bits) = ([0; 8], window.value_bits.into());
-        let raw = resized::room(&mut raw, bits);
+        let raw = resized::truncated(&mut raw, bits);
         resized::check(raw.len(), client.read(window.value, raw)?)?;
         Ok(resized::read(raw, bits, self.is_signed, buffer)?)
     }
@@ -208,10 +208,10 @@ impl<B: Bus> ReadRoute<B> for Through<ReadWindow<B::Address>> {
         buffer: &mut [u8],
     ) -> Result<usize, Error<C::Error>> {
         let window = self.window;
-        client.write(window.number, resized::room(&mut self.number(), window.number_bits.into())).await?;
+        client.write(window.number, resized::truncated(&mut self.number(), window.number_bits.into())).await?;
         settle_async(client, window.number, window.number_bits, window.handshake).await?;
         let (mut raw, bits) = ([0; 8], window.value_bits.into());
-        let raw = resized::room(&mut raw, bits);
+        let raw = resized::truncated(&mut raw, bits);
         resized::check(raw.len(), client.read(window.value, raw).await?)?;
         Ok(resized::read(raw, bits, self.is_signed, buffer)?)
     }
@@ -234,14 +234,16 @@ impl<A: Copy> Through<WriteWindow<A>> {
 impl<B: Bus> WriteRoute<B> for Through<WriteWindow<B::Address>> {
     fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
         let [(first, mut one, bits), (second, mut other, other_bits)] = self.writes(data)?;
-        let writes = [(first, &*resized::room(&mut one, bits)), (second, &*resized::room(&mut other, other_bits))];
+        let writes =
+            [(first, &*resized::truncated(&mut one, bits)), (second, &*resized::truncated(&mut other, other_bits))];
         client.write_both(writes)?;
         settle(client, self.window.number, self.window.number_bits, self.window.handshake)
     }
 
     async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
         let [(first, mut one, bits), (second, mut other, other_bits)] = self.writes(data)?;
-        let writes = [(first, &*resized::room(&mut one, bits)), (second, &*resized::room(&mut other, other_bits))];
+        let writes =
+            [(first, &*resized::truncated(&mut one, bits)), (second, &*resized::truncated(&mut other, other_bits))];
         client.write_both(writes).await?;
         settle_async(client, self.window.number, self.window.number_bits, self.window.handshake).await
     }

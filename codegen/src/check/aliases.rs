@@ -17,7 +17,8 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         let differences = differences(context.owner, item, other);
         if !differences.is_empty() {
             let (name, other_name, differences) = (brief(&item.name), brief(alias), differences.join("; "));
-            let message = format!("`{name}` is the same value as `{other_name}`, but differs: {differences}");
+            let message =
+                format!("`{name}` and `{other_name}` are declared as the same value, but differ: {differences}");
             let found = codes::SAME_VALUE_DIFFERS.at(difference_span(item, alias), message);
             diagnostics.push(found.note_at(other.origin.span, "the other item"));
         }
@@ -58,7 +59,7 @@ fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
         return found;
     }
     if types.0 != types.1 {
-        found.push(format!("{} and {}", types.0, types.1));
+        found.push(format!("type {} and {}", types.0, types.1));
     }
     let limits =
         [("lower limit", &one.limits.low, &other.limits.low), ("upper limit", &one.limits.high, &other.limits.high)];

@@ -72,7 +72,7 @@ fn outside(definition: &TypeDef, base: Type, values: &[EnumValue], used: impl Fn
     let first = beyond.next()?;
     let others = more(beyond.count(), |others| format!(" and {others} more"));
     let value = if first.value < low { first.value } else { first.range().1 };
-    let message = format!("{value} (`{}`{others}) is outside of {base}", brief(&first.name));
+    let message = format!("{value} (`{}`{others}) is outside of the range of {base}", brief(&first.name));
     let found = codes::NAME_OUTSIDE_TYPE.at(used(), message);
     let found = found.note_at(first.at.0.or(definition.origin.span), "definition of the value");
     Some(match (base, value) {

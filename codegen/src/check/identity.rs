@@ -11,8 +11,8 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         let (Some(stated), Some((value, span))) = (number.stated(device), number.in_object(device)) else { continue };
         if stated != value && value != 0 {
             let name = number.name();
-            let message = format!("the {name} in 0x1018 is {value:#x}, but that of the device is {stated:#x}");
-            diagnostics.push(codes::IDENTITY_MISMATCH.at(span, message).label("used the number of the device"));
+            let message = format!("the {name} is {value:#x} in object 0x1018, but {stated:#x} in the device identity");
+            diagnostics.push(codes::IDENTITY_MISMATCH.at(span, message).label("the device identity is used"));
         }
     }
 }

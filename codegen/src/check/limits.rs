@@ -69,9 +69,12 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
             _ => item.at.low,
         };
         let message = format!("the {what} {value} is {reason}");
-        let help = "compare both numbers with the manual, and correct the misprinted one";
+        let (help, note) = match reason {
+            Excluded::NotAllowed => ("compare the number with the allowed values in the manual", "the allowed values"),
+            _ => ("compare both numbers with the manual, and correct the misprinted one", "the limit"),
+        };
         let found = codes::DEFAULT_OUT_OF_LIMITS.at(span.or(item.origin.span), message).help(help);
-        diagnostics.push(if limit.is_empty() { found } else { found.note_at(limit, "the limit") });
+        diagnostics.push(if limit.is_empty() { found } else { found.note_at(limit, note) });
     }
 }
 

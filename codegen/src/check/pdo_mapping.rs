@@ -199,7 +199,7 @@ impl Mapping<'_, '_> {
         };
         let Some(announced) = announced else { return };
         if usize::from(announced) != described && !device.groups.is_empty() {
-            let message = format!("{key} is {announced}, but {described} PDOs are described");
+            let message = format!("{key} is {announced}, but the number of described PDOs is {described}");
             self.report(&codes::PDO_COUNT, span.or(device.origin.span), message);
         }
         let Some(item) = device.entry(0x1004, 0) else { return };

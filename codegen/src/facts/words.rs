@@ -3,7 +3,7 @@
 use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
 use crate::facts::{address, cob_id};
 use crate::ir::{
-    Access, Availability, Behaviour, Binding, Bus, CiteUnit, CompactString, Condition, Device, Direction,
+    Access, Availability, Behaviour, Binding, Bus, Buses, CiteUnit, CompactString, Condition, Device, Direction,
     Documentation, Doubt, ElementId, Fact, FactOrigin, Item, ItemVariant, Limits, LocalText, Manual, Quantity,
     Reference, Rule, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
 };
@@ -50,7 +50,7 @@ pub const ALLOWED_SHOWN: usize = 16;
 /// Maximum number of sections in a citation.
 const SECTIONS_NAMED: usize = 3;
 
-/// Returns section, row and page or line of a manual: `PARAMETRI MOVIMENTO, Rvel (line 2178)`. Without sections, it returns `line 2178`.
+/// Returns section, row and page of a manual: `PARAMETRI MOVIMENTO, Rvel (page 12)`. Without sections, it returns page or line.
 fn citation(manual: &Manual, row: &str, cite: &str) -> String {
     let numbers = cite.split(',').filter_map(|part| part.split('-').next()?.trim().parse().ok());
     let mut sections: Vec<&str> = Vec::new();
@@ -59,8 +59,9 @@ fn citation(manual: &Manual, row: &str, cite: &str) -> String {
             sections.push(&section.title);
         }
     }
+    let is_number = cite.starts_with(|letter: char| letter.is_ascii_digit());
     let number = match manual.counts {
-        Some(_) if !cite.starts_with(|letter: char| letter.is_ascii_digit()) => cite.to_owned(),
+        Some(_) if !is_number => cite.to_owned(),
         Some(unit) => {
             let plural = if cite.contains([',', '-']) { "s" } else { "" };
             format!("{}{plural} {cite}", if unit == CiteUnit::Page { "page" } else { "line" })
@@ -79,7 +80,11 @@ fn citation(manual: &Manual, row: &str, cite: &str) -> String {
         citation += ", ";
         citation += row;
     }
-    format!("{citation} ({number})")
+    // Lines count in a text of the manual that readers do not have.
+    match is_number && manual.counts == Some(CiteUnit::Line) {
+        true => citation,
+        false => format!("{citation} ({number})"),
+    }
 }
 
 /// Returns `text` with a full stop at its end.
@@ -105,6 +110,11 @@ pub fn bus_name(bus: Bus) -> &'static str {
         Bus::Profinet => "PROFINET",
         Bus::Serial => "a serial line",
     }
+}
+
+/// Returns the names of buses: `CANopen, EtherCAT`.
+pub fn bus_names(buses: Buses) -> String {
+    buses.iter().map(bus_name).collect::<Vec<_>>().join(", ")
 }
 
 /// Returns the origin of a fact: `CiA 402, 17.3.7`, `overlay pump.toml:12`.
@@ -423,13 +433,13 @@ impl Words<'_> {
         format!("{hazard}: {element}{}. Assumed: {}{why}.{citation}", part(&doubt.says), part(&doubt.chosen))
     }
 
-    /// Returns a citation: `Manual: PARAMETRI MOVIMENTO, Rvel (line 2178)`, or without a known section `Manual, line 2178`.
+    /// Returns a citation: `Manual: PARAMETRI MOVIMENTO, Rvel (page 12)`, or without a known section `Manual, line 2178`.
     pub fn citation(&self, manual: &Manual, row: &str, cite: &str) -> String {
         let separator = if manual.sections.is_empty() { "," } else { ":" };
         format!("Manual{separator} {}", self.escaped(&citation(manual, row, cite)))
     }
 
-    /// Returns the citation of an element and its name in the manual: `Manual: PARAMETRI MOVIMENTO, Rvel (line 12): Posizione.`
+    /// Returns the citation of an element and its name in the manual: `Manual: PARAMETRI MOVIMENTO, Rvel (page 12): Posizione.`
     pub fn manual_entry(
         &self,
         manual: &Manual,
@@ -518,7 +528,7 @@ impl Words<'_> {
     pub fn notes(&self, quantity: &Quantity) -> Vec<String> {
         let sentinels = quantity.sentinels.iter();
         let mut notes: Vec<String> = sentinels
-            .map(|(value, name)| format!("{} means: {}", self.value(value), sentence(&self.escaped(name))))
+            .map(|(value, name)| format!("Special value {}: {}", self.value(value), sentence(&self.escaped(name))))
             .collect();
         if let Some(step) = &quantity.step {
             notes.push(format!("The device rounds to {}.", self.step_of(step, Physical::of(Some(quantity)))));
@@ -590,8 +600,8 @@ impl Words<'_> {
         };
         let applies_to = match (variant.models.is_empty(), variant.buses.is_empty()) {
             (false, true) => format!("On {}", self.list(&variant.models)),
-            (false, false) => format!("On {} via {}", self.list(&variant.models), variant.buses),
-            (true, _) => format!("On {}", variant.buses),
+            (false, false) => format!("On {} via {}", self.list(&variant.models), bus_names(variant.buses)),
+            (true, _) => format!("On {}", bus_names(variant.buses)),
         };
         let mut facts = Vec::new();
         facts.extend(variant.ty.map(|ty| ty.to_string()));

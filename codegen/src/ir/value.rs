@@ -135,7 +135,7 @@ impl fmt::Display for Excluded<'_> {
         match self {
             Excluded::Below(low) => write!(f, "below the lower limit {low}"),
             Excluded::Above(high) => write!(f, "above the upper limit {high}"),
-            Excluded::NotAllowed => f.write_str("none of the allowed values"),
+            Excluded::NotAllowed => f.write_str("not one of the allowed values"),
         }
     }
 }

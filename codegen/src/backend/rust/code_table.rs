@@ -9,6 +9,7 @@ use super::docs::WORDS;
 use super::links::is_derive;
 use super::literal;
 use super::options::RustOptions;
+use crate::facts::words::bus_names;
 use crate::ir::{CodeRow, CodeTable, Device, SubjectKind, Value};
 use crate::names::{self, Case};
 
@@ -55,7 +56,7 @@ fn model(
     );
     docs::doubts_about(context, SubjectKind::Codes, &table.name, &mut docs);
     if !table.buses.is_empty() {
-        docs.extend([String::new(), format!("On {}.", table.buses)]);
+        docs.extend([String::new(), format!("On {}.", bus_names(table.buses))]);
     }
     if !table.columns.is_empty() {
         let columns: Vec<String> = table.columns.iter().map(|column| docs::escape(column)).collect();

@@ -252,7 +252,7 @@ impl Links {
         let carriers: Vec<&str> = carriers.iter().map(String::as_str).collect();
         let wholes = self.wholes.get(&entry.id).into_iter().flatten();
         let wholes = sentence("Part of", &wholes.map(String::as_str).collect::<Vec<_>>(), doc_module);
-        let last = [wholes, sentence("Carried by", &carriers, doc_module)];
+        let last = [wholes, sentence("Mapped in", &carriers, doc_module)];
         first.into_iter().flatten().chain(last).filter(|sentence| !sentence.is_empty()).collect::<Vec<_>>().join(" ")
     }
 }
@@ -270,7 +270,7 @@ fn has_object_access(device: &Device) -> bool {
     coe || device.groups.iter().any(|group| group.origin.line > 0)
 }
 
-/// Returns a sentence such as `Carried by …, … and 3 more.`; empty if there is nothing to list.
+/// Returns a sentence such as `Mapped in …, … and 3 more.`; empty if there is nothing to list.
 fn sentence(start: &str, paths: &[&str], doc_module: DocModule<'_>) -> String {
     if paths.is_empty() {
         return String::new();
@@ -316,8 +316,8 @@ mod tests {
     fn long_lists_are_cut() {
         let names: Vec<String> = (0..10).map(|number| format!("pdo::P{number}")).collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        let listed = sentence("Carried by", &names, DocModule::PDO);
-        assert!(listed.starts_with("Carried by [`P0`], [`P1`]") && listed.ends_with("[`P7`] and 2 more."), "{listed}");
+        let listed = sentence("Mapped in", &names, DocModule::PDO);
+        assert!(listed.starts_with("Mapped in [`P0`], [`P1`]") && listed.ends_with("[`P7`] and 2 more."), "{listed}");
         assert_eq!(sentence("Of", &[], DocModule::PDO), "");
         let of_object = sentence("Of", &["objects::store::SAVE"], DocModule::TYPES);
         assert_eq!(of_object, "Of [`store::SAVE`](super::objects::store::SAVE).");

@@ -181,9 +181,14 @@ fn cells(machine: &str, row: &CommandOutcomes, message: &Message, diagnostics: &
         if is_stated == can {
             continue;
         }
-        let (stated, table) = if is_stated { ("accepted", "refuses") } else { ("not accepted", "accepts") };
+        let (stated, table) = match is_stated {
+            true => ("lists", "refused"),
+            false => ("does not list", "accepted"),
+        };
         let (name, state, machine) = (brief(&message.name), brief(&cell.state), brief(machine));
-        let text = format!("`{name}` is {stated} in `{state}`, but the table of `{machine}` {table} it there");
+        let text = format!(
+            "the message `{name}` {stated} the state `{state}`, but it is {table} there in the table of `{machine}`"
+        );
         let found = codes::STATES_DIFFER.at(message.origin.span, text);
         diagnostics.push(found.help("keep the statement that lists the states one by one, and add a `doubt`"));
     }

@@ -109,7 +109,7 @@ fn unbroken(name: &str, at: Span, diagnostics: &mut Diagnostics) -> bool {
 }
 
 fn broken(name: &str, whole: &str, at: Span, diagnostics: &mut Diagnostics) {
-    let message = format!("`{}` contains the hyphen of a line break", brief(name));
+    let message = format!("`{}` probably contains a hyphen from a line break", brief(name));
     let found = codes::BROKEN_NAME.at(at, message);
     diagnostics.push(found.help(format!("write `{}` if the manual's text does", brief(whole))));
 }

@@ -309,7 +309,7 @@ impl Rows {
         if let Some((ruled, ruled_sub)) = by_rule {
             if ruled != index || sub_index.is_some_and(|sub| sub != ruled_sub) {
                 let message =
-                    format!("the row has object {text}, but the rule of its space gives 0x{ruled:04X}:{ruled_sub}");
+                    format!("the row has object {text}, but its `[spaces]` rule derives 0x{ruled:04X}:{ruled_sub}");
                 reader.diagnostics.push(
                     Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(object), message)
                         .label("the object of the row is used")

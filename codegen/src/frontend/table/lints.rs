@@ -190,7 +190,7 @@ pub(super) fn unprinted(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row
         };
         let Some((index, _)) = number.and_then(|number| space?.object(number)) else { continue };
         let message = format!(
-            "the row has no object, unlike others of its chapter, but the rule of its space gives 0x{index:04X}"
+            "the row has no object, unlike others of its chapter, but its `[spaces]` rule derives 0x{index:04X}"
         );
         let found = Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(reg), message);
         reader.diagnostics.push(found.help("use a space without this rule if the register is not an object"));

@@ -54,7 +54,7 @@ fn field(code: &mut Code, field: &FieldModel) {
     open!(code, call!(seq!["pub const fn ", field.getter], "self"), " -> ", field.ty, " {");
     line!(code, field.get);
     code.close("}");
-    code.doc(&format!("Returns a copy with another {}.", field.title));
+    code.doc(&format!("Returns a copy with {} set to `value`.", field.title));
     line!(code, "#[must_use]");
     open!(code, call!(seq!["pub const fn ", field.setter], "self", seq!["value: ", field.ty]), " -> Self {");
     line!(code, field.set);
