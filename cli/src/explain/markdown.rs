@@ -96,7 +96,10 @@ mod tests {
 
     #[test]
     fn a_code_is_a_section() {
-        insta::assert_snapshot!(explain(&codes::OCTAL_NUMBER), @r#"
+        let text = explain(&codes::OCTAL_NUMBER);
+        let (text, example) = text.split_once("\n```text\n").expect("an example");
+        assert!(example.starts_with("warning[EDS020]: ") && example.ends_with("\n```\n"), "{example}");
+        insta::assert_snapshot!(text, @r#"
         <a id="EDS020"></a>
 
         ### EDS020: octal-number

@@ -1,7 +1,8 @@
 //! Device access points.
 
 use super::elements;
-use super::module::{find, graphics, ranges, slot_lists, subslots, Info};
+use super::module::{find, graphics, slot_lists, subslots, Info};
+use super::values::ranges;
 use super::{record, submodule, Context};
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;

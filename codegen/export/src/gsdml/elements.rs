@@ -1,6 +1,5 @@
 //! Elements whose attributes the IR stores as they are written: a list of `Element@Attribute` and value.
 
-use super::module::is_of_info;
 use crate::xml::Xml;
 use lexibus_codegen::ir::CompactString;
 
@@ -138,6 +137,14 @@ pub(super) fn is_of_element(key: &str) -> bool {
     let all = roots.into_iter().chain([&GENERAL, &MEDIA_REDUNDANCY]).chain(&OF_INTERFACE).chain(&OF_SUBMODULE);
     let name = key.split_once('@').map_or(key, |(name, _)| name);
     key.contains(['@', '/']) || all.into_iter().any(|root| root.has(name))
+}
+
+/// Attributes of ModuleInfo.
+pub(super) const OF_INFO: [&str; 2] = ["CategoryRef", "SubCategory1Ref"];
+
+/// Returns whether an attribute belongs to ModuleInfo.
+fn is_of_info(key: &str) -> bool {
+    OF_INFO.contains(&key) || matches!(key, "HardwareRelease" | "SoftwareRelease")
 }
 
 #[cfg(test)]

@@ -1,12 +1,11 @@
 //! Modules, and parts that modules, submodules and device access points have in common.
 
-use std::fmt::Display;
-
 use super::elements::{self, Attributes};
+use super::values::ranges;
 use super::{submodule, Context};
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
-use lexibus_codegen::ir::{CompactString, Documentation, Extension, Module, Numbers, SlotNumbers, SubslotName, Texts};
+use lexibus_codegen::ir::{CompactString, Documentation, Extension, Module, SlotNumbers, SubslotName, Texts};
 
 /// The facts of ModuleInfo.
 pub(super) struct Info<'i> {
@@ -21,9 +20,6 @@ pub(super) struct Info<'i> {
     pub(super) attributes: &'i Attributes,
 }
 
-/// Attributes of ModuleInfo.
-const OF_INFO: [&str; 2] = ["CategoryRef", "SubCategory1Ref"];
-
 /// Returns the value of an attribute that the IR stores as it is written, or an empty text.
 pub(super) fn find<'a>(attributes: &'a Attributes, key: &str) -> &'a str {
     attributes.iter().find(|(name, _)| name == key).map_or("", |(_, value)| value)
@@ -33,7 +29,7 @@ impl Info<'_> {
     /// Writes ModuleInfo.
     pub(super) fn write(&self, xml: &mut Xml, context: &mut Context<'_>) {
         xml.open("ModuleInfo");
-        for key in OF_INFO {
+        for key in elements::OF_INFO {
             xml.text_attribute(key, find(self.attributes, key));
         }
         context.texts.text(xml, "Name", self.name, self.names);
@@ -57,25 +53,6 @@ impl Info<'_> {
             xml.reference(name, "Value", value);
         }
         xml.close();
-    }
-}
-
-/// Returns whether an attribute belongs to ModuleInfo.
-pub(super) fn is_of_info(key: &str) -> bool {
-    OF_INFO.contains(&key) || matches!(key, "HardwareRelease" | "SoftwareRelease")
-}
-
-/// Formats ranges of numbers as in GSDML.
-pub(super) fn ranges(numbers: &Numbers) -> String {
-    numbers.0.iter().map(|(first, last)| range(first, last)).collect::<Vec<_>>().join(" ")
-}
-
-/// Formats a range of values as in GSDML.
-pub(super) fn range<T: PartialEq + Display>(first: T, last: T) -> String {
-    if first == last {
-        first.to_string()
-    } else {
-        format!("{first}..{last}")
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::fmt::Write as _;
 
-use super::module::range;
+use super::values::range;
 use super::{elements, types, Context};
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;

@@ -3,7 +3,8 @@
 use std::collections::HashSet;
 
 use super::elements::{self, Attributes};
-use super::module::{find, graphics_of, ranges, slot_lists, Info};
+use super::module::{find, graphics_of, slot_lists, Info};
+use super::values::ranges;
 use super::{io_data, record, Context};
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;

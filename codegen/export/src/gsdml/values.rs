@@ -1,11 +1,12 @@
-//! Lists of named values.
+//! Lists of named values, and ranges of numbers.
 
 use std::collections::HashSet;
+use std::fmt::Display;
 
 use super::Context;
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
-use lexibus_codegen::ir::{EnumValue, Shape, TypeDef};
+use lexibus_codegen::ir::{EnumValue, Numbers, Shape, TypeDef};
 
 /// Writes ValueList, with one list for each name, even if several types have its values.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>) {
@@ -54,4 +55,18 @@ fn assignments(xml: &mut Xml, context: &mut Context<'_>, values: &[EnumValue]) {
         context.notes.add_many(NoteKind::Documentation, is_more, Subject::Named(&value.name));
     }
     xml.close();
+}
+
+/// Formats ranges of numbers as in GSDML.
+pub(super) fn ranges(numbers: &Numbers) -> String {
+    numbers.0.iter().map(|(first, last)| range(first, last)).collect::<Vec<_>>().join(" ")
+}
+
+/// Formats a range of values as in GSDML.
+pub(super) fn range<T: PartialEq + Display>(first: T, last: T) -> String {
+    if first == last {
+        first.to_string()
+    } else {
+        format!("{first}..{last}")
+    }
 }
