@@ -42,7 +42,7 @@ def markdown(path):
         if line.lstrip().startswith("```"):
             in_code = not in_code
             line = ""
-        if in_code or line.startswith(("    ", "<", "#", "|---", "[", "!")):
+        if in_code or line.startswith(("    ", "<", "#", "|---", ">", "!")):
             line = ""
         if line.startswith("|"):
             for cell in line.strip("|").split("|"):
