@@ -77,41 +77,41 @@ macro_rules! table {
     ({ meaning $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// Meaning of the bits: a name of `[bits]`, or the definition.
+            /// Definition of the bits, or a name of `[bits]`.
             #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS)))]
             pub bits: Option<At<TextOr<BitEntries>>>,
-            /// Meaning of the values: a name of `[enums]`, or the definition.
+            /// Definition of the values, or a name of `[enums]`.
             #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
             pub values = "enum": Option<At<TextOr<ValueEntries>>>,
-            /// Unit: a symbol, or a name of `[units]`.
+            /// Symbol of the unit, or a name of `[units]`.
             pub unit: Option<At<String>>,
-            /// Scale factor (physical = raw × scale + offset), or the rule for it.
+            /// Scale factor (physical value = raw value × scale + offset), or another rule that converts raw values.
             pub scale: Option<At<Scaling>>,
             /// Minimum raw value.
             pub min: Option<At<Literal>>,
             /// Maximum raw value.
             pub max: Option<At<Literal>>,
-            /// Raw values that are not numbers, with their meaning.
+            /// Raw values that do not represent a number, each with its meaning.
             pub na: Option<Entries<String>>,
-            /// Printed conversions, which are compared with the scale.
+            /// Pairs of raw and physical values in the manual; the compiler compares each pair with the scale.
             pub conversions: Vec<At<ConversionTable>>,
         } }
     };
     ({ window $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// Models that have it; `*` matches any characters.
+            /// Models that have this item, value, code or message; `*` matches any characters.
             pub models: Option<Vec<At<String>>>,
-            /// First firmware that has it.
+            /// First firmware version that has this item, value, code or message.
             pub since: Option<String>,
-            /// First firmware without it.
+            /// First firmware version that does not have this item, value, code or message.
             pub until: Option<String>,
         } }
     };
     ({ orig $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// Name or label in the manual's language.
+            /// Name in the language of the manual.
             pub orig: Option<String>,
         } }
     };
@@ -125,23 +125,23 @@ macro_rules! table {
     ({ cite $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// Page or line of the manual.
+            /// Page or line of the manual, or several pages or lines.
             pub cite: Option<OneOrMany<NumberOrText>>,
         } }
     };
     ({ doubt $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// Ambiguity in the manual, and the assumption.
+            /// Ambiguity in the manual, and the assumption of the table.
             pub doubt: Option<OneOrMany<DoubtTable>>,
-            /// Several ambiguities.
+            /// Several ambiguities in the manual, each with an assumption.
             pub doubts: Option<OneOrMany<DoubtTable>>,
         } }
     };
     ({ allow $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// Diagnostics that the ambiguity explains; they are suppressed.
+            /// Codes of diagnostics that an ambiguity explains; the compiler suppresses these diagnostics.
             pub allow: Option<Vec<At<String>>>,
         } }
     };
@@ -270,52 +270,52 @@ tables! {
         pub factor: Option<f64>,
         /// Physical value of raw 0.
         pub offset: Option<f64>,
-        /// Item whose value divides.
+        /// Item by whose value the raw value is divided.
         pub by: Option<At<String>>,
-        /// Item whose value multiplies.
+        /// Item by whose value the raw value is multiplied.
         pub times: Option<At<String>>,
-        /// Numerator: physical = this / raw.
+        /// Numerator of a reciprocal: physical value = numerator / raw value.
         pub reciprocal: Option<f64>,
-        /// Number of fractional bits.
+        /// Number of fractional bits of the raw value.
         pub fraction: Option<u8>,
-        /// Constant of the model that the fraction refers to.
+        /// Constant of the model by which the fraction is multiplied.
         pub of: Option<At<String>>,
-        /// Item with the exponent.
+        /// Item that contains the exponent.
         pub exponent: Option<At<String>>,
-        /// Base of the exponent: 10 (default) or 2.
+        /// Base of the power: 10 (default) or 2.
         pub base: Option<u8>,
     }
 
-    /// Ambiguity in the manual, and the assumption.
+    /// Ambiguity in the manual, and the assumption of the table.
     pub struct DoubtTable {
-        /// Printed text; both sides of a contradiction.
+        /// Text that the manual prints; in case of a contradiction, both statements.
         pub says: String,
-        /// Assumption.
+        /// Assumption that the table makes.
         pub chose: String,
         /// Reason for the assumption.
         pub why: String,
         /// Page or line of the ambiguity.
         pub cite: Option<OneOrMany<NumberOrText>>,
-        /// Result of a wrong assumption: `hazard`, `value` or `print`.
+        /// Consequence of a wrong assumption: `hazard` (damage or motion), `value` (a wrong value) or `print` (a misprint only).
         #[cfg_attr(test, schemars(transform = schema::words("hazard value print")))]
         pub severity: Option<At<String>>,
     }
 
     /// Mailbox protocols and sync managers of an EtherCAT slave.
     pub struct EtherCatTable: cite doubt {
-        /// CAN application protocol over EtherCAT, and its features.
+        /// CAN application protocol over EtherCAT (CoE): whether it is supported, or a table of its features.
         pub coe: Option<FlagOr<CoeTable>>,
-        /// ADS over EtherCAT.
+        /// Whether ADS over EtherCAT (AoE) is supported.
         pub aoe: bool,
-        /// Ethernet over EtherCAT.
+        /// Whether Ethernet over EtherCAT (EoE) is supported.
         pub eoe: bool,
-        /// File access over EtherCAT.
+        /// Whether file access over EtherCAT (FoE) is supported.
         pub foe: bool,
-        /// Servo profile over EtherCAT.
+        /// Whether the servo drive profile over EtherCAT (SoE) is supported.
         pub soe: bool,
-        /// Vendor-specific protocol over EtherCAT.
+        /// Whether a vendor-specific protocol over EtherCAT (VoE) is supported.
         pub voe: bool,
-        /// Sync managers.
+        /// Sync managers of the slave.
         pub sync_managers: Vec<At<SyncManagerTable>>,
     }
 
@@ -325,7 +325,7 @@ tables! {
         pub sdo_info: bool,
         /// Whether the PDO assignment is writable (0x1C12, 0x1C13).
         pub pdo_assign: bool,
-        /// Whether the PDO mapping is writable.
+        /// Whether the PDO mapping objects are writable.
         pub pdo_config: bool,
         /// Whether masters read the PDO assignment from the device.
         pub pdo_upload: bool,
@@ -335,11 +335,11 @@ tables! {
         pub segmented_sdo: bool,
     }
 
-    /// Sync manager.
+    /// Sync manager of an EtherCAT slave.
     pub struct SyncManagerTable: cite doubt {
-        /// Number.
+        /// Number of the sync manager.
         pub number: Option<u8>,
-        /// `mailbox_out`, `mailbox_in`, `outputs` or `inputs`, as seen from the master.
+        /// Purpose as seen from the master: `mailbox_out`, `mailbox_in`, `outputs` or `inputs`.
         #[cfg_attr(test, schemars(transform = schema::words(schema::PURPOSES)))]
         pub purpose: Option<At<String>>,
         /// First address in the memory of the slave controller.
@@ -350,39 +350,39 @@ tables! {
         pub min: Option<u16>,
         /// Maximum length in bytes.
         pub max: Option<u16>,
-        /// Control byte.
+        /// Control byte of the sync manager.
         pub control: Option<u8>,
     }
 
     /// Device that a table describes.
     pub struct DeviceTable: orig doc cite doubt {
-        /// Name of the device; Rust types are named after it.
+        /// Name of the device, from which the names of Rust types are derived.
         pub name: Option<At<String>>,
         /// Name of the vendor.
         pub vendor: Option<String>,
-        /// Vendor ID (CiA, ETG).
+        /// Vendor ID, assigned by the CiA or the ETG.
         pub vendor_id: Option<u32>,
-        /// Product code.
+        /// Product code of the device.
         pub product_code: Option<u32>,
-        /// Revision number.
+        /// Revision number of the device.
         pub revision: Option<u32>,
-        /// Order code.
+        /// Order code of the device.
         pub order_code: Option<String>,
-        /// `canopen`, `ethercat`, `modbus`, `profinet`, `serial`.
+        /// Buses of the device: `canopen`, `ethercat`, `modbus`, `profinet`, `serial`.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// Numbers of its device profiles.
+        /// Numbers of the device profiles that the device follows.
         pub profiles: Vec<u32>,
-        /// Node-ID range, or range of server addresses (`"1..90"`).
+        /// Range of valid node-IDs or server addresses (`"1..90"`).
         #[cfg_attr(test, schemars(transform = schema::notation("#(\\.\\.=?#)?")))]
         pub node_ids: Option<At<NumberOrText>>,
-        /// CANopen bit rates in kbit/s.
+        /// CANopen bit rates that the device supports, in kbit/s.
         pub bit_rates: Vec<u16>,
-        /// Number of RPDOs.
+        /// Number of RPDOs of the device.
         pub rx_pdos: Option<u16>,
-        /// Number of TPDOs.
+        /// Number of TPDOs of the device.
         pub tx_pdos: Option<u16>,
-        /// Granularity of PDO mapping in bits.
+        /// Granularity of the PDO mapping in bits.
         pub granularity: Option<u8>,
         /// Whether layer setting services (LSS) are supported.
         pub lss: bool,
@@ -390,22 +390,22 @@ tables! {
 
     /// Manual that a table was transcribed from.
     pub struct ManualTable: doc {
-        /// Title.
+        /// Title of the manual.
         pub title: Option<String>,
-        /// Edition: number or date.
+        /// Edition of the manual: a number or date.
         pub edition: Option<String>,
-        /// Language (BCP 47).
+        /// Language of the manual as a BCP 47 tag.
         pub language: Option<String>,
-        /// Unit of `cite`: `page` or `line`.
+        /// Unit of the numbers in `cite`: `page` or `line`.
         #[cfg_attr(test, schemars(transform = schema::words("page line")))]
         pub cites: Option<At<String>>,
-        /// Titles of sections and tables, by first page or line.
+        /// Titles of sections and tables, each with its first page or line.
         pub sections: Entries<String>,
     }
 
-    /// Devices of an overlay, and its reason.
+    /// Devices that an overlay changes, and the reason for the overlay.
     pub struct OverlayTable: doc {
-        /// Devices to change.
+        /// Devices or modules that the overlay changes.
         pub applies = "for": Option<AppliesTable>,
         /// Reason for the overlay.
         pub why: Option<String>,
@@ -413,19 +413,19 @@ tables! {
 
     /// Devices that an overlay changes; omitted keys match any device.
     pub struct AppliesTable {
-        /// Vendor ID.
+        /// Vendor ID of the devices.
         pub vendor_id: Option<u32>,
-        /// Product code.
+        /// Product code of the devices.
         pub product_code: Option<u32>,
-        /// Revision number.
+        /// Revision number of the devices.
         pub revision: Option<u32>,
-        /// Name or order code; `*` matches any characters.
+        /// Name, order code or identifier of the devices; `*` matches any characters.
         pub device: Option<String>,
-        /// Modules to change, by name, identifier or ident number; in GSDML also submodules.
+        /// Modules that the overlay changes, by name, identifier or ident number; on PROFINET also submodules, by name.
         pub module: Option<String>,
     }
 
-    /// Name, number and devices of a profile.
+    /// Name and number of a profile, and the devices that follow it.
     pub struct ProfileTable: doc {
         /// Name of the profile.
         pub name: Option<String>,
@@ -433,185 +433,185 @@ tables! {
         pub number: Option<u32>,
         /// Object that identifies devices with this profile.
         pub when: Option<At<NumberOrText>>,
-        /// PROFINET: API number of submodules with this profile.
+        /// PROFINET: API number of the submodules that follow the profile.
         pub api: Option<u32>,
-        /// The only buses of the profile.
+        /// Buses on which the profile applies.
         pub buses: Option<Vec<At<String>>>,
-        /// Index offset of each further axis, for 0x6000 to 0x67FF.
+        /// Index offset from one axis to the next, for objects from 0x6000 to 0x67FF.
         pub axis_index: Option<u16>,
     }
 
-    /// Model, or firmware version.
+    /// Model or firmware version of the device.
     pub struct ModelTable: orig doc cite doubt {
-        /// Name.
+        /// Name of the model.
         pub name: Option<At<String>>,
-        /// Product code.
+        /// Product code of the model.
         pub product_code: Option<u32>,
-        /// Revision number.
+        /// Revision number of the model.
         pub revision: Option<u32>,
-        /// Order code.
+        /// Order code of the model.
         pub order_code: Option<String>,
-        /// Constants of the model, such as the reference of fractions.
+        /// Constants of the model, to which scale factors refer.
         pub constants: Entries<Literal>,
     }
 
-    /// Choice that the manual leaves open.
+    /// Option for a fact that the manual does not state.
     pub struct OptionTable: doc cite doubt {
-        /// Choices, each with the value that replaces `$name`.
+        /// Choices of the option, each with the value that replaces `$name` in the table.
         pub choices: Entries<Literal>,
-        /// Default choice.
+        /// Default choice of the option.
         pub default: Option<At<String>>,
     }
 
-    /// Meaning of a register number on each bus.
+    /// Rules that convert a register number to an address on each bus.
     pub struct SpaceTable: doc {
-        /// Bits per number. Default: 1 for coils and discrete inputs, otherwise 16.
+        /// Number of bits that one register number addresses. Default: 1 for coils and discrete inputs, otherwise 16.
         pub bits: Option<u8>,
-        /// Whether a shorter value fills all bits of its numbers, with sign extension or zeros.
+        /// Whether a value that is shorter than its registers is extended to all bits, with sign extension or zeros.
         pub extend: bool,
-        /// Modbus addresses.
+        /// Rule for Modbus addresses.
         pub modbus: Option<ModbusRule>,
-        /// CANopen objects.
+        /// Rule for CANopen objects.
         pub canopen: Option<ObjectRule>,
-        /// EtherCAT objects (CoE).
+        /// Rule for EtherCAT objects (CoE).
         pub ethercat: Option<ObjectRule>,
-        /// Whether the number is a parameter number of a command protocol; a table names the messages that transfer it.
+        /// Whether `reg` is a parameter number of a command protocol; or a table with the messages that transfer the parameter.
         pub parameter: Option<FlagOr<ParameterMessages>>,
-        /// Whether the number is an address in the memory of an EtherCAT slave controller.
+        /// Whether `reg` is an address in the memory of an EtherCAT slave controller.
         pub esc: bool,
-        /// Window through which the value is reached, or several windows.
+        /// Window through which the driver accesses the value, or several windows.
         pub indirect: Option<OneOrMany<IndirectRule>>,
     }
 
     /// Messages that transfer the parameters of a space.
     pub struct ParameterMessages {
-        /// Message that reads a value.
+        /// Message that reads a parameter.
         pub read: Option<At<String>>,
-        /// Message that writes a value.
+        /// Message that writes a parameter.
         pub write: Option<At<String>>,
-        /// Message that stores values in non-volatile memory.
+        /// Message that stores parameters in non-volatile memory.
         pub store: Option<At<String>>,
-        /// Byte order of a 32-bit value; `A` is the most significant byte.
+        /// Byte order of 32-bit values; `A` is the most significant byte.
         pub order: Option<At<String>>,
     }
 
-    /// Modbus addresses of the registers of a space.
+    /// Rule for the Modbus addresses of a space.
     pub struct ModbusRule {
-        /// `holding`, `input`, `coil` or `discrete`.
+        /// Modbus table of the registers: `holding`, `input`, `coil` or `discrete`.
         #[cfg_attr(test, schemars(transform = schema::words("holding input coil discrete")))]
         pub table: Option<At<String>>,
-        /// First number in the manual.
+        /// First register number in the manual.
         pub first: Option<i64>,
-        /// Offset added to get the wire address.
+        /// Offset that is added to the register number to get the wire address.
         pub add: Option<i64>,
-        /// Word order of longer values: `high_first` or `low_first`.
+        /// Word order of values with several registers: `high_first` or `low_first`.
         #[cfg_attr(test, schemars(transform = schema::words("high_first low_first")))]
         pub order: Option<At<String>>,
-        /// Whether `order` is an assumption because the manual states none.
+        /// Whether `order` is an assumption, because the manual does not state the word order.
         pub order_assumed: bool,
-        /// Printed prefix of each number: `R` for `R01`.
+        /// Prefix of the register numbers in the manual: `R` for `R01`.
         pub prefix: Option<String>,
-        /// Minimum number of printed digits: 2 for `R01`.
+        /// Minimum number of digits of the register numbers in the manual: 2 for `R01`.
         pub digits: Option<u8>,
-        /// Whether the bytes of a word are swapped.
+        /// Whether the device sends the low byte of each word first.
         pub swap: bool,
-        /// Supported function codes (`[3, 6, 16]`).
+        /// Function codes that the device supports (`[3, 6, 16]`).
         pub functions: Option<At<Vec<u8>>>,
         /// Maximum number of registers or bits that one request reads.
         pub max_read: Option<At<u16>>,
         /// Maximum number of registers or bits that one request writes.
         pub max_write: Option<At<u16>>,
-        /// Whether longer values are read and written in several requests.
+        /// Whether the driver transfers a value in several requests if it exceeds the limit of one request.
         pub split: Option<bool>,
     }
 
-    /// Object of a register.
+    /// Rule for the object of a register.
     pub struct ObjectRule {
-        /// Offset added to the register number to get the index.
+        /// Offset that is added to the register number to get the index.
         pub index: Option<At<i64>>,
-        /// Sub-index.
+        /// Sub-index of the object.
         pub sub: Option<At<u8>>,
     }
 
-    /// Window: access to a value through other items.
+    /// Window: items through which the driver accesses the registers of a space.
     pub struct IndirectRule {
-        /// Buses of the window. Default: all buses of its items.
+        /// Buses on which the window exists. Default: all buses of its items.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// Valid numbers, such as `"0x8000..0x8FFF"`. Default: all.
+        /// Register numbers for which the window is valid, such as `"0x8000..0x8FFF"`. Default: all numbers.
         pub numbers: Option<At<String>>,
-        /// Offset added to the number of a row.
+        /// Offset that is added to `reg` to get the number that the driver writes.
         pub add: Option<i64>,
-        /// Item that takes the number.
+        /// Item to which the driver writes the register number.
         pub write_address: Option<At<String>>,
-        /// Item through which the value is read, or a table.
+        /// Item through which the driver reads the value, or a table.
         pub read: Option<At<TextOr<WindowTable>>>,
-        /// Item through which the value is written, or a table.
+        /// Item through which the driver writes the value, or a table.
         pub write: Option<At<TextOr<WindowTable>>>,
-        /// Whether the device resets the number to 0 when done. Default: as in the row of the number item.
+        /// Whether the device resets the register number to 0 after the transfer. Default: `clears` of the item with the number.
         pub clears: Option<bool>,
-        /// Time in ms that the device needs if it does not reset the number.
+        /// Time in ms that the transfer takes, if the device does not reset the register number.
         pub wait: Option<u32>,
-        /// Maximum time in ms until the device resets the number.
+        /// Maximum time in ms until the device resets the register number.
         pub timeout: Option<u32>,
         /// Procedure that describes the sequence.
         pub procedure: Option<At<String>>,
     }
 
-    /// Reading or writing through a window.
+    /// Items and times for reading or writing through a window.
     pub struct WindowTable {
-        /// Item that takes the number. Default: `write_address`.
+        /// Item to which the driver writes the register number. Default: `write_address`.
         pub address: Option<At<String>>,
-        /// Item with the value.
+        /// Item through which the driver reads or writes the value.
         pub value: Option<At<String>>,
-        /// First item to write: `address` or `value`.
+        /// Item that the driver writes first: `address` or `value`.
         #[cfg_attr(test, schemars(transform = schema::words("address value")))]
         pub first: Option<At<String>>,
-        /// Whether the device resets the number to 0 when done.
+        /// Whether the device resets the register number to 0 after the transfer.
         pub clears: Option<bool>,
-        /// Time in ms that the device needs if it does not reset the number.
+        /// Time in ms that the transfer takes, if the device does not reset the register number.
         pub wait: Option<u32>,
-        /// Maximum time in ms until the device resets the number.
+        /// Maximum time in ms until the device resets the register number.
         pub timeout: Option<u32>,
         /// Procedure that describes the sequence.
         pub procedure: Option<At<String>>,
     }
 
-    /// Chapter: a group of rows.
+    /// Chapter: a group of rows, such as a chapter of the manual.
     pub struct ChapterTable: orig doc cite doubt {
-        /// Title.
+        /// Title of the chapter.
         pub title: Option<String>,
-        /// Space of the register numbers.
+        /// Space that converts the register numbers of the chapter.
         pub space: Option<At<String>>,
-        /// Default keys of rows.
+        /// Keys that apply to all rows of the chapter.
         pub defaults: Option<At<Row>>,
-        /// Registers by name.
+        /// Rows of registers, by name.
         pub registers: Entries<Row>,
-        /// Objects by index and sub-index (`0x6040`, `"0x1018:1"`, `"0x1400..0x1403:1"`).
+        /// Rows of objects, by index and sub-index (`0x6040`, `"0x1018:1"`, `"0x1400..0x1403:1"`).
         #[cfg_attr(test, schemars(transform = schema::keys(schema::OBJECTS)))]
         pub objects: Entries<Row>,
     }
 
-    /// One item of the device.
+    /// Description of one item of the device: a register, object or parameter.
     pub struct Row: meaning window orig doc cite doubt allow {
-        /// Register number, or range of numbers (`"63-64"`).
+        /// Register number, or range of register numbers (`"63-64"`).
         #[cfg_attr(test, schemars(transform = schema::notation("#( *[-–] *#)?")))]
         pub reg: Option<At<NumberOrText>>,
-        /// Object and sub-index (`"0x2000:1"`).
+        /// Index and sub-index of the object (`"0x2000:1"`).
         #[cfg_attr(test, schemars(transform = schema::notation("#(:#)?")))]
         pub obj: Option<At<NumberOrText>>,
         /// Address in the memory of an EtherCAT slave controller.
         pub esc: Option<At<u16>>,
-        /// Access rights of the slave's processor to that memory: `ro`, `rw` or `wo`.
+        /// Access rights of the slave's processor to the memory of the slave controller: `ro`, `rw` or `wo`.
         #[cfg_attr(test, schemars(transform = schema::words("ro rw wo")))]
         pub pdi: Option<At<String>>,
-        /// Length in bytes at `esc`. Without `esc`: printed length, which is compared with the type.
+        /// Length in bytes at `esc`. Without `esc`: length that the manual prints; the compiler compares this length with the type.
         pub length: Option<At<u16>>,
-        /// Name in an ASCII protocol.
+        /// Name of the item in an ASCII protocol.
         pub ascii: Option<String>,
-        /// Parameter number.
+        /// Parameter number of the item in a command protocol.
         pub param: Option<At<u32>>,
-        /// Name of an object or sub-entry.
+        /// Name of the object or sub-entry.
         pub name: Option<At<String>>,
         /// Object code: `var`, `array`, `record` or `domain`.
         #[cfg_attr(test, schemars(transform = schema::words("var array record domain")))]
@@ -625,93 +625,93 @@ tables! {
         /// PDO direction, as seen from the device: `rx`, `tx`, `both` or `no`.
         #[cfg_attr(test, schemars(transform = schema::words("rx tx both no")))]
         pub pdo: Option<At<String>>,
-        /// Default value; a list if the row describes several objects.
+        /// Default value as a raw value; a list if the row describes several objects.
         pub default: Option<At<OneOrMany<Literal>>>,
-        /// The only valid value.
+        /// Value that the item always has.
         pub fixed: Option<At<Literal>>,
-        /// The only valid values, and ranges (`"3..7"`).
+        /// Valid values and ranges of values (`"3..7"`); all other values are invalid.
         pub allowed: Option<At<Vec<Literal>>>,
         /// Physical value of raw 0.
         pub offset: Option<f64>,
-        /// Raw value to whose multiples the device rounds.
+        /// Increment: the device rounds written raw values to multiples of this value.
         pub step: Option<At<Literal>>,
-        /// Differences between models or buses.
+        /// Differences on some models or buses.
         pub variants: Option<Vec<At<VariantTable>>>,
-        /// Storage: `true` (non-volatile), `false` (volatile), or the command that stores the value.
+        /// Storage: `true` (non-volatile), `false` (volatile), or the name of the command that stores the value.
         pub save: Option<FlagOrText>,
-        /// When a write takes effect, if not immediately.
+        /// Event after which a written value takes effect, if not immediately.
         pub effective: Option<String>,
-        /// Writable only while these items have one of these values.
+        /// Conditions: the value is writable only while these items have one of these values.
         pub when: Option<Conditions>,
-        /// The only values that may be written, and ranges (`"3..7"`).
+        /// Values and ranges of values that may be written (`"3..7"`).
         pub writable: Option<At<Vec<Literal>>>,
-        /// Whether the device resets the value to 0.
+        /// Whether the device resets the value to 0 after a write.
         pub clears: Option<bool>,
-        /// Whether it can be written only once.
+        /// Whether the value can be written only once.
         pub once: Option<bool>,
-        /// Other effects of a write.
+        /// Other effects of writing the value.
         pub effects: Option<Words>,
-        /// Replacement.
+        /// Item that replaces this item.
         pub replaced_by: Option<At<String>>,
-        /// Required hardware or software options.
+        /// Hardware or software options that the item requires.
         pub needs: Option<Words>,
-        /// The only buses on which it exists.
+        /// Buses on which the item exists.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
         /// Whether each axis has its own item.
         pub per_axis: Option<bool>,
-        /// Item with the upper half of the number; this is the lower half.
+        /// Item that contains the upper half of the number; this item contains the lower half.
         pub upper: Option<At<String>>,
-        /// Item with the same quantity in another scale; the defaults are compared.
+        /// Item for the same quantity in another scale; the compiler compares the default values of both items.
         pub same_quantity: Option<At<String>>,
-        /// Item with the same value at another address.
+        /// Item that accesses the same value at another address.
         pub same_as: Option<At<String>>,
-        /// Whether it is for the vendor or a tool only.
+        /// Whether the item is only for the vendor or the tools of the vendor.
         pub hidden: Option<bool>,
-        /// Number of repetitions, or the item with the number of valid ones.
+        /// Number of repetitions, or the item that contains the number of valid repetitions.
         pub count: Option<At<NumberOrText>>,
-        /// Number of rows if `count` is an item.
+        /// Maximum number of repetitions, required if `count` names an item.
         pub max_count: Option<u32>,
-        /// Distance of the register numbers of two repetitions.
+        /// Difference between the register numbers of successive repetitions.
         pub stride: Option<u32>,
-        /// Bits of the register that the row describes (`"7-0"`).
+        /// Bits of the register that contain the value (`"7-0"`).
         #[cfg_attr(test, schemars(transform = schema::notation(schema::BITS)))]
         pub part: Option<At<NumberOrText>>,
-        /// Word order: `high_first` or `low_first`.
+        /// Word order of the value: `high_first` or `low_first`.
         #[cfg_attr(test, schemars(transform = schema::words("high_first low_first")))]
         pub order: Option<At<String>>,
-        /// Whether the bytes of a word are swapped.
+        /// Whether the device sends the low byte of each word first.
         pub swap: Option<bool>,
-        /// Whether the sub-index exists without a meaning.
+        /// Whether the sub-index exists, but has no meaning.
         pub reserved: Option<bool>,
-        /// Whether it does not always exist.
+        /// Whether the sub-index does not always exist.
         pub optional: Option<bool>,
-        /// Source of `doc` if not the manual: `CiA 402, 17.3.7`, or `name` if it spells out the printed name.
+        /// Source of `doc`, if it is not the manual: a standard (`CiA 402, 17.3.7`), or `name` if `doc` only spells out the printed name.
         pub doc_from: Option<At<String>>,
-        /// Repetition elsewhere in the manual, which is compared with the row.
+        /// Facts about the item in other parts of the manual; the compiler compares these facts with the row.
         pub summary: Option<At<OneOrMany<SummaryTable>>>,
-        /// In an overlay: reason for the row.
+        /// In an overlay: reason for the change.
         pub why: Option<String>,
-        /// In an overlay: adds an object that does not exist yet.
+        /// In an overlay: whether the row adds an object that the description does not contain.
         pub add: Option<bool>,
-        /// In an overlay: removes the object.
+        /// In an overlay: whether the row removes the object.
         pub remove: Option<bool>,
     }
 
-    /// Differences on some models or buses; omitted keys are as in the row.
+    /// Facts that differ on some models or buses; the row contains all other facts.
     pub struct VariantTable: doc cite {
-        /// Models; `*` matches any characters.
+        /// Models to which the variant applies; `*` matches any characters.
         pub models: Option<Vec<At<String>>>,
-        /// Buses.
+        /// Buses to which the variant applies.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// Integer type with another width on these buses.
+        /// Integer type on the buses of the variant, if it has another width there.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
-        /// Access rights on buses that allow less.
+        /// Access rights on the buses of the variant, if they are more restrictive there.
         #[cfg_attr(test, schemars(transform = schema::words("ro rw wo")))]
         pub access: Option<At<String>>,
-        /// The only valid values, and ranges.
+        /// Valid values and ranges of values; all other values are invalid.
         pub allowed: Option<At<Vec<Literal>>>,
         /// Default value.
         pub default: Option<At<Literal>>,
@@ -719,142 +719,142 @@ tables! {
         pub min: Option<At<Literal>>,
         /// Maximum raw value.
         pub max: Option<At<Literal>>,
-        /// Raw value to whose multiples the device rounds.
+        /// Increment: the device rounds written raw values to multiples of this value.
         pub step: Option<At<Literal>>,
-        /// Scale factor (physical = raw × scale), or the rule for it.
+        /// Scale factor (physical value = raw value × scale), or another rule that converts raw values.
         pub scale: Option<At<Scaling>>,
     }
 
     /// Condition on some bits of an item.
     pub struct ConditionTable {
-        /// Bits that are compared.
+        /// Bits that the condition compares.
         pub mask: Option<u64>,
-        /// Value of the bits, or a list of values.
+        /// Value that these bits must have, or a list of values.
         pub value: Option<OneOrMany<Literal>>,
     }
 
-    /// Repetition of a row elsewhere in the manual: an overview, a table of contents or the text.
+    /// Facts about an item in another part of the manual: in an overview, a table of contents or the text.
     pub struct SummaryTable: cite {
-        /// Printed data type.
+        /// Data type in that part of the manual.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
-        /// Printed access rights.
+        /// Access rights in that part of the manual.
         pub access: Option<At<String>>,
-        /// Printed PDO direction.
+        /// PDO direction in that part of the manual.
         pub pdo: Option<At<String>>,
-        /// Printed object code.
+        /// Object code in that part of the manual.
         #[cfg_attr(test, schemars(transform = schema::words("var array record domain")))]
         pub code: Option<At<String>>,
-        /// Printed name.
+        /// Name in that part of the manual.
         pub name: Option<At<String>>,
         /// Number of sub-indices, including sub-index 0.
         pub subs: Option<At<u32>>,
-        /// Length in bytes.
+        /// Length in bytes in that part of the manual.
         pub length: Option<At<u32>>,
-        /// Printed minimum.
+        /// Minimum in that part of the manual.
         pub min: Option<At<Literal>>,
-        /// Printed maximum.
+        /// Maximum in that part of the manual.
         pub max: Option<At<Literal>>,
-        /// Printed default value.
+        /// Default value in that part of the manual.
         pub default: Option<At<Literal>>,
     }
 
-    /// Unit with a scale.
+    /// Unit with a scale factor.
     pub struct UnitTable: doc {
         /// Symbol of the physical unit.
         pub symbol: Option<String>,
-        /// Scale factor: physical = raw × scale + offset.
+        /// Scale factor (physical value = raw value × scale + offset), or another rule that converts raw values.
         pub scale: Option<At<Scaling>>,
         /// Physical value of raw 0.
         pub offset: Option<f64>,
-        /// Conversion to a machine unit.
+        /// Conversion of physical values to a machine unit.
         pub machine: Option<MachineUnitTable>,
         /// Unit as the manual prints it.
         pub orig: Option<String>,
     }
 
-    /// Machine unit: the physical value, multiplied and divided by numbers of `[given]`.
+    /// Machine unit: the physical value, multiplied and divided by properties of `[given]`.
     pub struct MachineUnitTable {
-        /// Symbol.
+        /// Symbol of the machine unit.
         pub unit: Option<At<String>>,
-        /// Numbers that multiply.
+        /// Properties by which the physical value is multiplied.
         pub times: Vec<At<String>>,
-        /// Numbers that divide.
+        /// Properties by which the physical value is divided.
         pub over: Vec<At<String>>,
     }
 
-    /// Number that depends on the machine.
+    /// Property of the machine that conversions to machine units use.
     pub struct GivenTable: doc cite doubt {
-        /// Symbol of the unit.
+        /// Symbol of the unit of the property.
         pub unit: Option<At<String>>,
-        /// Value on models that have a fixed one.
+        /// Models on which the property has a fixed value, each with this value.
         pub models: Entries<Literal>,
     }
 
     /// Enumeration: named values of an integer.
     pub struct EnumTable: orig doc cite doubt allow {
-        /// Integer type; required only if no row implies it.
+        /// Integer type of the values; required only if no row implies it.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub base: Option<At<String>>,
-        /// Whether the device never has an unlisted value.
+        /// Whether the device never uses an unlisted value.
         pub closed: bool,
-        /// Values, and ranges of values (`"3..7"`).
+        /// Values and ranges of values (`"3..7"`), each with a name or a table.
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub values: ValueEntries,
     }
 
-    /// Named value.
+    /// Named value of an enumeration.
     pub struct ValueTable: window orig doc cite doubt {
-        /// Short English phrase, from which the identifier is derived.
+        /// Name of the value: a short English phrase, from which the Rust identifier is derived.
         pub name: Option<String>,
         /// Zone of reserved or vendor-specific values: `reserved` or `vendor`.
         #[cfg_attr(test, schemars(transform = schema::words("reserved vendor")))]
         pub zone: Option<At<String>>,
-        /// The only buses on which it exists.
+        /// Buses on which the value exists.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// It exists only while these items have one of these values.
+        /// Conditions: the value exists only while these items have one of these values.
         pub when: Option<Conditions>,
-        /// Replacement, as text.
+        /// Name of the value that replaces this value.
         pub replaced_by: Option<String>,
     }
 
-    /// Named bits of an integer.
+    /// Named bits and bit fields of an integer.
     pub struct BitsTable: orig doc cite doubt allow {
-        /// Integer type; required only if no row implies it.
+        /// Integer type of the bits; required only if no row implies it.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub base: Option<At<String>>,
-        /// Address of the byte with bits 0 to 7, if the manual counts bits in each byte (`"0x221:3-2"`).
+        /// Address of the byte with bits 0 to 7, if the manual counts the bits of each byte from 0 (`"0x221:3-2"`).
         pub address: Option<u32>,
-        /// Bits, and ranges of bits (`"3-2"`); a list if other items select the meaning.
+        /// Bits and ranges of bits (`"3-2"`); a list of meanings if other items select the meaning.
         #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS_OF_BYTES)))]
         pub at: BitEntries,
     }
 
-    /// Meaning of bits.
+    /// Meaning of a bit or bit field.
     pub struct BitTable: window orig doc cite doubt {
-        /// Short English phrase, from which the identifier is derived.
+        /// Name of the bits: a short English phrase, from which the Rust identifier is derived.
         pub name: Option<String>,
         /// Whether the name applies while the bit is 0.
         pub inverted: bool,
-        /// Whether the bits are a number.
+        /// Whether the bit field contains a number.
         pub number: bool,
-        /// Meaning of the values.
+        /// Names of the values of the bit field.
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub values: Option<ValueEntries>,
-        /// Meaning of the values, as a name of `[enums]`.
+        /// Name of an enumeration that names the values of the bit field.
         pub enumeration = "enum": Option<At<String>>,
-        /// The bits have no meaning; write 0, 1, or the value read (`keep`).
+        /// Value to write to bits without meaning: 0, 1, or the value that was read before (`keep`).
         pub reserved: Option<NumberOrText>,
-        /// Edge or event that triggers the command: `rising`, `falling`, `toggle` or `self_clearing`.
+        /// Edge or event that starts the command: `rising`, `falling`, `toggle` or `self_clearing`.
         #[cfg_attr(test, schemars(transform = schema::words(schema::TRIGGERS)))]
         pub trigger: Option<At<String>>,
-        /// The meaning applies while these items have one of these values.
+        /// Conditions: the bits have this meaning only while these items have one of these values.
         pub when: Option<Conditions>,
-        /// Access rights, if they differ from the row.
+        /// Access rights to the bits, if they differ from the access rights of the row.
         #[cfg_attr(test, schemars(transform = schema::words("ro rw wo const rwr rww")))]
         pub access: Option<At<String>>,
-        /// Replacement, as text.
+        /// Name of the bits that replace these bits.
         pub replaced_by: Option<String>,
     }
 
@@ -862,23 +862,23 @@ tables! {
     pub struct AxesTable: doc cite doubt {
         /// Number of axes.
         pub count: u8,
-        /// Models with this number of axes; `*` matches any characters.
+        /// Models that have this number of axes; `*` matches any characters.
         pub models: Option<Vec<At<String>>>,
-        /// Rules; the first that contains an object applies.
+        /// Rules that derive objects; if several rules contain an object, the first one applies.
         pub rules: Vec<At<AxisRuleTable>>,
     }
 
-    /// Rule that derives the object of the next axis.
+    /// Rule that derives the objects of the next axis.
     pub struct AxisRuleTable {
-        /// Objects (`"0x6000..0x67FF"`).
+        /// Objects of the first axis to which the rule applies (`"0x6000..0x67FF"`).
         #[cfg_attr(test, schemars(transform = schema::notation("#(\\.\\.=?#)?")))]
         pub objects: Option<At<NumberOrText>>,
-        /// Offset added to the index.
+        /// Offset that is added to the index for each further axis.
         pub index: Option<u16>,
         /// `axis`: the sub-index is the axis number.
         #[cfg_attr(test, schemars(transform = schema::words("axis")))]
         pub sub: Option<String>,
-        /// Offset added to the sub-index.
+        /// Offset that is added to the sub-index for each further axis.
         pub sub_stride: Option<u8>,
     }
 
@@ -886,90 +886,90 @@ tables! {
     pub struct PdoTable: doc cite doubt allow {
         /// Index of the mapping object.
         pub index: Option<At<u16>>,
-        /// Name.
+        /// Name of the PDO.
         pub name: Option<String>,
         /// Direction as seen from the device: `rx` or `tx`.
         #[cfg_attr(test, schemars(transform = schema::words("rx tx")))]
         pub direction: Option<At<String>>,
-        /// Entries: `"0x6040:0/16"`, `"item"`, `"pad/8"`, or `"? name/16"` (`"? name/i16"`) if the manual gives no object.
+        /// Entries: an object (`"0x6040:0/16"`), an item name, padding (`"pad/8"`), or a field without an object (`"? name/16"`, `"? name/i16"`).
         pub entries: Vec<At<String>>,
-        /// Printed length in bytes, or a list of printed lengths; compared with the entries.
+        /// Length in bytes that the manual prints, or a list of such lengths; the compiler compares each length with the entries.
         pub length: Option<At<OneOrMany<u32>>>,
-        /// Maximum length in bytes of a variable mapping.
+        /// Maximum length in bytes of a PDO with variable mapping.
         pub max: Option<u16>,
         /// Whether the entries cannot be changed.
         pub fixed: bool,
-        /// Whether it must be assigned.
+        /// Whether the PDO must be assigned.
         pub mandatory: bool,
         /// Sync manager of the default assignment.
         pub sm: Option<At<u8>>,
-        /// Whether it is assigned by default.
+        /// Whether the PDO is assigned by default.
         pub default: bool,
-        /// PDOs that cannot be assigned together with it (`0x1702`, `"0x1600..0x1603"`).
+        /// PDOs that cannot be assigned together with this PDO (`0x1702`, `"0x1600..0x1603"`).
         pub excludes: Vec<NumberOrText>,
-        /// The only buses with this mapping: `canopen`, `ethercat`.
+        /// Buses on which the PDO has this mapping: `canopen`, `ethercat`.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
     }
 
-    /// Fixed process image.
+    /// Process image whose layout the manual prints.
     pub struct ImageTable: doc cite doubt {
-        /// Name.
+        /// Name of the image.
         pub name: Option<String>,
         /// Direction as seen from the device: `rx` or `tx`.
         #[cfg_attr(test, schemars(transform = schema::words("rx tx")))]
         pub direction: Option<At<String>>,
-        /// Length in bytes.
+        /// Length of the image in bytes.
         pub bytes: Option<u32>,
-        /// Byte order: `big` (default) or `little`.
+        /// Byte order of the fields: `big` (default) or `little`.
         #[cfg_attr(test, schemars(transform = schema::words("big little")))]
         pub order: Option<At<String>>,
-        /// Fields by item name; a field that is not an item of the table needs a `type`.
+        /// Fields of the image, by item name; a field that is not an item of the table needs a `type`.
         pub fields: Entries<ImageField>,
     }
 
-    /// Field of a process image; its key is the item.
+    /// Field of a process image; the key of the field is the name of an item.
     pub struct ImageField: meaning orig doc cite doubt {
-        /// First byte.
+        /// Number of the first byte of the field.
         pub at: Option<u32>,
-        /// First bit in that byte.
+        /// First bit of the field in its first byte.
         pub bit: Option<u8>,
-        /// Data type, if it differs from the item.
+        /// Data type of the field, if it differs from the type of the item.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
     }
 
-    /// Table of codes.
+    /// Table of codes, such as error codes or alarms.
     pub struct CodesTable: doc cite {
-        /// Names of further columns after code and meaning.
+        /// Titles of further columns next to code and name.
         pub columns: Vec<String>,
-        /// Printed prefix of each number: `F` for `F125`.
+        /// Prefix of the codes in the manual: `F` for `F125`.
         pub prefix: Option<String>,
-        /// Whether all codes must have different cells.
+        /// Whether no two codes may have the same cells.
         pub distinct: bool,
-        /// Diagnostics that an ambiguity explains; they are suppressed.
+        /// Codes of diagnostics that an ambiguity explains; the compiler suppresses these diagnostics.
         pub allow: Option<Vec<At<String>>>,
-        /// The only buses with these codes.
+        /// Buses on which these codes apply.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// Codes, and ranges of codes.
+        /// Codes and ranges of codes, each with a name or a table.
         #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
         pub rows: Entries<TextOr<CodeTableRow>>,
     }
 
-    /// Code.
+    /// Code with a name and further cells.
     pub struct CodeTableRow: window orig doc cite doubt {
-        /// Name.
+        /// Name of the code.
         pub name: Option<String>,
-        /// Cells of the further columns.
+        /// Contents of the further columns.
         pub cells: Vec<At<Literal>>,
     }
 
-    /// State machine.
+    /// State machine of the device.
     pub struct MachineTable: doc cite doubt {
-        /// Item with the state.
+        /// Item that contains the state.
         pub status: Option<At<String>>,
-        /// Item with the commands.
+        /// Item to which commands are written.
         pub control: Option<At<String>>,
         /// States as bit patterns of `status`, or the name of an enumeration.
         pub states: Option<At<TextOr<Entries<PatternTable>>>>,
@@ -977,137 +977,137 @@ tables! {
         pub initial: Option<At<String>>,
         /// Commands as bit patterns of `control`.
         pub commands: Entries<PatternTable>,
-        /// Transitions.
+        /// Transitions between the states.
         pub transitions: Vec<At<TransitionTable>>,
         /// Outcome of each command in each state.
         pub matrix: Option<At<MatrixTable>>,
     }
 
-    /// State-command matrix.
+    /// State-command matrix: outcomes of commands by state.
     pub struct MatrixTable: doc cite doubt {
-        /// States of the columns.
+        /// States of the columns, in order.
         pub states: Vec<At<String>>,
-        /// Notes of cells.
+        /// Notes to which cells refer, by number.
         pub notes: Entries<String>,
-        /// Rows: messages or commands, each with one cell per state.
+        /// Rows of the matrix, by message or command; each row has one cell per state.
         pub rows: Entries<MatrixRow>,
     }
 
-    /// Outcome of a command in each state.
+    /// Row of a state-command matrix: outcomes of a command in each state.
     pub struct MatrixRow: doc cite doubt {
-        /// Messages or commands of the row, if its name is none; empty if it is not described elsewhere.
+        /// Messages or commands of the row, if its name is not one; empty if only the matrix describes the command.
         pub commands: Option<Vec<At<String>>>,
         /// One outcome per state: `same`, `refused`, `?`, the next state, or `"a > b"` if `b` follows `a` automatically.
         /// Several outcomes are separated by `or`.
         pub cells: Vec<At<TextOr<MatrixCell>>>,
-        /// Models that have it; `*` matches any characters.
+        /// Models that have the command; `*` matches any characters.
         pub models: Option<Vec<At<String>>>,
-        /// First firmware that has it.
+        /// First firmware version that has the command.
         pub since: Option<String>,
     }
 
-    /// Cell with more than an outcome.
+    /// Cell of a state-command matrix with an outcome and further facts.
     pub struct MatrixCell: cite {
-        /// Outcome, as in a plain cell.
+        /// Outcome, with the same notation as in a cell without further facts.
         pub to: Option<At<String>>,
-        /// Note of the table.
+        /// Number of a note of the matrix.
         pub note: Option<At<NumberOrText>>,
         /// Condition of the outcome, in your own words.
         pub doc: Option<String>,
     }
 
-    /// Bit pattern.
+    /// Bit pattern of a state or command.
     pub struct PatternTable: orig doc cite {
-        /// Bits that are compared.
+        /// Bits that belong to the pattern.
         pub mask: Option<u32>,
         /// Value of these bits.
         pub value: Option<u32>,
     }
 
-    /// Transition between states.
+    /// Transition between two states.
     pub struct TransitionTable: doc cite {
-        /// Number in the manual.
+        /// Number of the transition in the manual.
         pub number: Option<u16>,
-        /// State before, or a list of states. Default: any state.
+        /// State before the transition, or a list of states. Default: any state.
         pub from: Option<At<OneOrMany<String>>>,
-        /// State after.
+        /// State after the transition.
         pub to: Option<At<String>>,
-        /// Command or message that causes it; omitted for automatic transitions.
+        /// Command or message that causes the transition; automatic transitions have none.
         pub command: Option<At<String>>,
     }
 
-    /// Sequence of steps.
+    /// Procedure: a sequence of steps.
     pub struct ProcedureTable: orig doc cite doubt allow {
-        /// Names of the caller's arguments, which steps write with `argument`.
+        /// Names of the arguments that the caller passes, and that steps write with `argument`.
         pub arguments: Vec<At<String>>,
-        /// Steps, in order.
+        /// Steps of the procedure, in order.
         pub steps: Vec<At<StepTable>>,
     }
 
     /// Number that is split over several items.
     pub struct CompositeTable: orig doc cite doubt {
-        /// Items with the digits, most significant first.
+        /// Items that contain the digits, most significant first.
         pub parts: Vec<At<String>>,
-        /// Radix: each part is less than this.
+        /// Base of the digits: each part is less than this number.
         pub base: Option<u16>,
-        /// Item with the sign.
+        /// Item that contains the sign.
         pub sign: Option<At<String>>,
-        /// Value of the sign item for negative numbers; otherwise it is 0.
+        /// Value of the sign item for negative numbers; the value for all other numbers is 0.
         pub negative: Option<u16>,
         /// Unit of the number.
         pub unit: Option<String>,
     }
 
-    /// Step.
+    /// Step of a procedure.
     pub struct StepTable: doc {
-        /// Item to which `value` or `argument` is written.
+        /// Item to which the step writes `value` or `argument`.
         pub write: Option<At<String>>,
-        /// Item that is read; its value is the result of the procedure.
+        /// Item that the step reads; its value is the result of the procedure.
         pub read: Option<At<String>>,
-        /// Item to wait for.
+        /// Item whose value the step waits for.
         pub wait: Option<At<String>>,
-        /// The only bits that are written or compared.
+        /// Bits that the step writes or compares; by default, all bits.
         pub mask: Option<At<u64>>,
-        /// Value to write or to wait for.
+        /// Value that the step writes or waits for.
         pub value: Option<Literal>,
-        /// Argument of the procedure to write.
+        /// Argument of the procedure that the step writes.
         pub argument: Option<At<String>>,
-        /// Timeout in ms.
+        /// Maximum time in ms that the step waits for the value.
         pub timeout: Option<At<u32>>,
-        /// Delay in ms.
+        /// Time in ms that the step waits.
         pub delay: Option<u32>,
-        /// Message to send.
+        /// Message that the step sends.
         pub send: Option<At<String>>,
-        /// `rx` or `tx`: one exchange of process data.
+        /// Direction of the process data that the step exchanges once: `rx` or `tx`.
         #[cfg_attr(test, schemars(transform = schema::words("rx tx")))]
         pub exchange: Option<At<String>>,
-        /// Manual action.
+        /// Action that a person performs.
         pub manual: Option<String>,
     }
 
-    /// Modbus frame that the manual prints: node, function code and data, with or without CRC.
+    /// Modbus request and reply that the manual prints: node, function code and data, with or without CRC.
     pub struct FrameTable: doc cite doubt {
         /// Bytes of the request.
         pub request: At<Vec<u8>>,
         /// Bytes of the reply.
         pub reply: At<Vec<u8>>,
-        /// Diagnostics that the ambiguities explain; they are suppressed.
+        /// Codes of diagnostics that an ambiguity explains; the compiler suppresses these diagnostics.
         pub allow: Option<Vec<At<String>>>,
     }
 
-    /// Conversion that the manual prints.
+    /// Raw value and corresponding physical value that the manual prints.
     pub struct ConversionTable: doc cite {
         /// Raw value.
         pub raw: Option<i64>,
         /// Physical value.
         pub value: Option<f64>,
-        /// Unit of the physical value, if it is the machine unit.
+        /// Unit of the physical value, if it is the machine unit instead of the unit of the item.
         pub unit: Option<At<String>>,
-        /// Numbers of `[given]` in the example.
+        /// Properties of the machine in the example (names of `[given]` with their values).
         pub given: Entries<f64>,
-        /// Model whose constants apply.
+        /// Model whose constants the example uses.
         pub model: Option<At<String>>,
-        /// Value of the item that the scale depends on.
+        /// Value of the item on which the scale depends.
         pub by: Option<f64>,
     }
 }
@@ -1115,7 +1115,7 @@ tables! {
 // Command protocols.
 #[cfg(feature = "messages")]
 tables! {
-    /// Delimiters and check of frames.
+    /// Delimiters and checksum of frames.
     pub struct FramingTable: doc cite doubt {
         /// First byte of a frame.
         pub start: Option<u8>,
@@ -1123,56 +1123,56 @@ tables! {
         pub end: Option<u8>,
         /// Byte that precedes an escaped byte.
         pub escape: Option<u8>,
-        /// Value that is XORed with an escaped byte.
+        /// Value with which an escaped byte is XORed.
         pub escape_xor: u8,
-        /// Bytes that are escaped.
+        /// Bytes that are escaped in the data.
         pub escaped: Vec<u8>,
-        /// Algorithm of the check.
+        /// Algorithm of the checksum.
         #[cfg_attr(test, schemars(transform = schema::words(schema::CHECKS)))]
         pub check: Option<At<String>>,
-        /// Initial value of the check.
+        /// Initial value of the checksum.
         pub seed: u32,
-        /// First message field that the check covers. Default: the byte after `start`.
+        /// First message field that the checksum covers. Default: the byte after `start`.
         pub check_from: Option<At<String>>,
-        /// Whether the check is escaped, too.
+        /// Whether the checksum is escaped, too.
         pub check_escaped: Option<bool>,
-        /// Maximum number of data bytes per frame, without start, end, escapes and check.
+        /// Maximum number of data bytes per frame, without start byte, end byte, escape bytes and checksum.
         pub max_data: Option<u16>,
-        /// Request field with the device address.
+        /// Request field that contains the device address.
         pub address: Option<At<String>>,
     }
 
-    /// Request and its reply.
+    /// Request and the corresponding reply.
     pub struct MessageTable: window orig doc cite doubt allow {
-        /// Name.
+        /// Name of the message.
         pub name: Option<At<String>>,
         /// Fields of the request.
         pub request: Vec<At<FieldTable>>,
         /// Fields of the reply.
         pub reply: Vec<At<FieldTable>>,
-        /// When the order completes: `immediate`, `reply`, `{ poll = "item" }` or `{ delay = 100 }`.
+        /// Event that completes the order: `immediate`, `reply`, `{ poll = "item" }` or `{ delay = 100 }`.
         pub completion: Option<At<TextOr<CompletionTable>>>,
         /// States in which the device accepts the message.
         pub accepted_in: Vec<At<String>>,
-        /// Frames that the manual prints; they are compared with the fields.
+        /// Frames that the manual prints; the compiler compares these frames with the fields.
         pub examples: Vec<At<ExampleTable>>,
-        /// Required values of other items.
+        /// Values that other items must have when the message is sent.
         pub when: Option<Conditions>,
-        /// Approximate time in ms of a late reply.
+        /// Approximate time in ms until a late reply arrives.
         pub reply_time: Option<u32>,
-        /// The reply has this form after this message.
+        /// Message after which the reply to an identical request has this form.
         pub after: Option<At<String>>,
-        /// Whether the reply has this form after power-on, too.
+        /// Whether the reply also has this form after power-on.
         pub default: bool,
-        /// Message that replaces the reply if the device refuses.
+        /// Message that the device sends instead of the reply if it refuses the request.
         pub error: Option<At<String>>,
-        /// Other effects.
+        /// Other effects of the message.
         pub effects: Option<Words>,
-        /// Replacement.
+        /// Message that replaces this message.
         pub replaced_by: Option<At<String>>,
     }
 
-    /// Printed request and reply.
+    /// Request and reply that the manual prints.
     pub struct ExampleTable: doc cite doubt {
         /// Bytes of the request.
         pub request: At<Vec<u8>>,
@@ -1180,66 +1180,66 @@ tables! {
         pub reply: At<Vec<u8>>,
     }
 
-    /// When an order completes.
+    /// Event that completes an order.
     pub struct CompletionTable {
-        /// Item or reply field that indicates completion; a bit name follows after a dot.
+        /// Item or reply field that indicates completion; the name of a bit may follow after a dot.
         pub poll: Option<At<String>>,
-        /// Bits that are compared.
+        /// Bits of the item that are compared with `value`.
         pub mask: Option<u64>,
         /// Value that indicates completion. Default: any value except 0.
         pub value: Option<Literal>,
-        /// Whether the reply to the order already shows the value: until the order completes, it has another value.
+        /// Whether the reply to the order already contains the polled value, which differs from `value` until the order completes.
         pub in_reply: bool,
-        /// Delay in ms after which the order is complete.
+        /// Time in ms after which the order is complete.
         pub delay: Option<u32>,
     }
 
     /// Field of a message.
     pub struct FieldTable: meaning orig doc cite doubt {
-        /// Printed number of the first byte; numbers must be contiguous from field to field.
+        /// Number of the first byte of the field in the manual; the numbers must be contiguous from field to field.
         pub at: Option<At<u16>>,
         /// Constant bytes.
         pub bytes: Option<Vec<u8>>,
-        /// The only value of a `field`; without `field`, constant bits of a partial byte with the width of `type`.
+        /// Value that the named field always has; without `field`, constant bits that fill a part of a byte.
         pub fixed: Option<At<Literal>>,
-        /// Name of a value.
+        /// Name of the value in the field.
         pub field: Option<At<String>>,
-        /// Data type.
+        /// Data type of the field.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
-        /// Byte order; `A` is the most significant byte.
+        /// Byte order of the value in the frame; `A` is the most significant byte.
         pub order: Option<At<String>>,
         /// Physical value of raw 0.
         pub offset: Option<f64>,
-        /// The value is the number of bytes from the named field to the end of the frame.
+        /// Named field: the value is the number of bytes from there to the end of the frame.
         pub counts: Option<At<String>>,
-        /// Copy of this request field; with `part`, of some of its bytes.
+        /// Request field that the reply repeats; with `part`, the reply repeats only some bytes.
         pub echo: Option<At<String>>,
-        /// Bytes of the echoed field (`"1..3"`); 0 is the first on the wire.
+        /// Bytes of the repeated field (`"1..3"`); byte 0 is the first byte on the wire.
         pub part: Option<At<NumberOrText>>,
-        /// Copy of these request bytes (`"3..5"`); 0 is the first data byte.
+        /// Bytes of the request that the reply repeats (`"3..5"`); byte 0 is the first data byte.
         pub copy: Option<At<NumberOrText>>,
-        /// Number of an item in this space, with this `type`.
+        /// Space whose parameter number the field contains.
         pub code: Option<At<String>>,
-        /// Value of the preceding `code` of this space.
+        /// Space of the preceding `code` field: the field contains the value of that parameter.
         pub value_of: Option<At<String>>,
-        /// As many zero bytes as the value of the preceding `code` of this space has.
+        /// Space of the preceding `code` field: zero bytes in place of the value of that parameter.
         pub zeros_for: Option<At<String>>,
-        /// Number of bytes without meaning.
+        /// Number of bytes that have no meaning.
         pub pad: Option<u8>,
-        /// Repeated fields.
+        /// Group of fields that is repeated.
         pub repeat: Option<RepeatTable>,
-        /// Whether the field is all following bytes.
+        /// Whether the field contains all bytes that follow in the frame.
         pub rest: bool,
     }
 
-    /// Repeated fields.
+    /// Group of fields that is repeated in a message.
     pub struct RepeatTable {
-        /// Field with the number of repetitions. Default: to the end of the frame.
+        /// Field that contains the number of repetitions. Default: the group is repeated to the end of the frame.
         pub count: Option<At<String>>,
         /// Maximum number of repetitions.
         pub max: Option<u16>,
-        /// Fields.
+        /// Fields of the group.
         pub fields: Vec<At<FieldTable>>,
     }
 }
@@ -1248,52 +1248,52 @@ tables! {
 tables! {
     /// Register table, overlay or profile.
     pub struct Document {
-        /// Format version: 1.
+        /// Version of the table format: 1.
         #[cfg_attr(test, schemars(extend("const" = 1)))]
         pub lexibus: Option<At<u32>>,
-        /// The device that the table describes.
+        /// Device that the table describes.
         pub device: Option<At<DeviceTable>>,
-        /// Devices of the overlay, and its reason.
+        /// Devices that the overlay changes, and the reason for the overlay.
         pub overlay: Option<At<OverlayTable>>,
-        /// Name, number and devices of the profile.
+        /// Name and number of the profile, and the devices that follow it.
         pub profile: Option<At<ProfileTable>>,
         /// Manual that the table was transcribed from.
         pub manual: Option<At<ManualTable>>,
         /// Models of a family that share the table.
         pub models: Vec<At<ModelTable>>,
-        /// Mailbox and sync managers of an EtherCAT slave.
+        /// Mailbox protocols and sync managers of an EtherCAT slave.
         pub ethercat: Option<At<EtherCatTable>>,
-        /// Choice that the manual leaves open.
+        /// Options for facts that the manual does not state.
         pub options: Entries<OptionTable>,
-        /// Default keys of rows.
+        /// Keys that apply to all rows of the file.
         pub defaults: Option<At<Row>>,
-        /// Meaning of a register number on each bus.
+        /// Spaces, which convert a register number to an address on each bus.
         pub spaces: Entries<SpaceTable>,
-        /// Rows, in the order of the manual.
+        /// Chapters with the rows, in the order of the manual.
         pub chapters: Vec<At<ChapterTable>>,
         /// Units with a scale, by name.
         pub units: Entries<UnitTable>,
-        /// Numbers that depend on the machine, such as the pitch of a screw.
+        /// Properties of the machine, such as the pitch of a screw.
         pub given: Entries<GivenTable>,
-        /// Named values.
+        /// Enumerations, by name.
         pub enums: Entries<EnumTable>,
-        /// Named bits.
+        /// Named bits and bit fields, by name.
         pub bits: Entries<BitsTable>,
         /// Rules that derive the objects of further axes from the first axis.
         pub axes: Option<At<AxesTable>>,
-        /// Process data objects that do not follow from the defaults of mapping objects.
+        /// Process data objects whose entries do not follow from the default values of the mapping objects.
         pub pdos: Vec<At<PdoTable>>,
-        /// Fixed process images.
+        /// Process images whose layout the manual prints.
         pub images: Vec<At<ImageTable>>,
         /// Tables of codes: emergency codes, alarms, abort codes.
         pub codes: Entries<CodesTable>,
         /// State machines.
         pub machines: Entries<MachineTable>,
-        /// Sequences of steps.
+        /// Procedures: sequences of steps.
         pub procedures: Entries<ProcedureTable>,
         /// Numbers that are split over several items.
         pub composites: Entries<CompositeTable>,
-        /// How frames of a command protocol are delimited and checked.
+        /// Delimiters and checksum of the frames of a command protocol.
         pub framing: Option<At<FramingTable>>,
         /// Requests and replies of a command protocol.
         pub messages: Vec<At<MessageTable>>,
