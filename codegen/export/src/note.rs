@@ -63,9 +63,9 @@ macro_rules! kinds {
 
 kinds! {
     /// A fact that was given as an option and is not used.
-    GivenFact = "given-fact", "fact given as an option left out: the file has no field for it";
+    GivenFact = "given-fact", "value of an option left out: the file has no field for it";
     /// A configured value, such as ParameterValue or Denotation, in an EDS.
-    Configuration = "configuration", "configuration of one device left out: only a DCF has fields for it";
+    Configuration = "configuration", "configured value left out: only a DCF has a field for it";
     /// A unit, scale, sentinel or step.
     Quantity = "unit", "unit or scale left out";
     /// A type with named values.
@@ -73,7 +73,7 @@ kinds! {
     /// A type with named bits.
     BitField = "bit-field", "bit field written as its integer type";
     /// A record or array in one entry.
-    Structure = "structure", "array or record in one entry written as raw bytes";
+    Structure = "structure", "array or record in a single entry written as raw bytes";
     /// An integer whose width does not exist in the format.
     Widened = "widened-type", "integer written with the next wider type of the format";
     /// A type that the format does not have, or that is not defined.
@@ -89,9 +89,9 @@ kinds! {
     /// A default or limit that does not fit its type.
     Value = "value", "value left out: its type cannot hold it";
     /// A limit of an integer that is not an integer.
-    RoundedLimit = "rounded-limit", "limit of an integer rounded to an integer";
+    RoundedLimit = "rounded-limit", "fractional minimum or maximum of an integer rounded";
     /// `$NODEID` minus a number.
-    NegativeFormula = "negative-formula", "formula with a negative number: CiA 306 does not define it";
+    NegativeFormula = "negative-formula", "formula with a negative number written, although CiA 306 does not define it";
     /// Directions of PDO mapping that don't follow from the access type.
     Mapping = "pdo-mapping", "direction of PDO mapping written as access type rwr or rww";
     /// Directions of PDO mapping that no access type expresses.
@@ -109,7 +109,7 @@ kinds! {
     /// A name or text in another language.
     Language = "language", "text in another language left out";
     /// The name of a value that differs from the name of its object.
-    Name = "name", "name of a value left out: its object has another name";
+    Name = "name", "name of a value left out: the file contains only the name of its object";
     /// An ambiguity in the manual.
     Doubt = "doubt", "ambiguity in the manual left out";
     /// The category of an object.
@@ -117,13 +117,13 @@ kinds! {
     /// An address on another bus.
     Binding = "binding", "address on another bus left out";
     /// An object that exists on EtherCAT only.
-    CoeOnly = "coe-only", "object that exists on EtherCAT only left out";
+    CoeOnly = "coe-only", "EtherCAT-only object left out";
     /// An item outside of the object dictionary.
     NotAnObject = "not-an-object", "item outside of the object dictionary left out";
     /// A sub-index 0 that an object made of registers requires.
-    Completed = "completed", "sub-index 0 without a register added";
+    Completed = "completed", "sub-index 0 added to an object that consists of registers";
     /// A second object or entry at the same address.
-    Duplicate = "duplicate", "repeated object or entry left out";
+    Duplicate = "duplicate", "object or entry left out: another one has the same address";
     /// An extension attribute for which the format has no key.
     Extension = "extension", "extension attribute left out: the format has no field for it";
     /// A module.
@@ -133,7 +133,7 @@ kinds! {
     /// A setting of another bus.
     OtherBus = "other-bus", "settings of another bus left out";
     /// A further axis, whose objects follow from those of the first axis.
-    Axis = "axis", "further axis left out: the file has the objects of the first axis";
+    Axis = "axis", "additional axis left out: the file contains only the objects of the first axis";
     /// A PROFINET submodule, message, code table, state machine, procedure or variant.
     OtherPart = "other-part", "message, code table, state machine, procedure, variant or submodule left out";
     /// A setting of the device or of one of its objects.
@@ -143,33 +143,33 @@ kinds! {
     /// A text with a line break.
     LineBreak = "line-break", "line break in a text written as a space";
     /// A text that isn't ASCII.
-    NotAscii = "not-ascii", "line that isn't ASCII: the file has to be UTF-8";
-    /// A line of over 255 characters.
-    LongLine = "long-line", "line of over 255 characters";
+    NotAscii = "not-ascii", "line with characters other than ASCII: the file is encoded in UTF-8";
+    /// A line longer than 255 characters.
+    LongLine = "long-line", "line longer than 255 characters";
     /// A value that never changes.
     Constant = "constant", "constant written as a read-only value";
     /// A named range of values.
     ValueRange = "value-range", "range of values of an enumeration written as its first value";
     /// A name that must be unique.
-    Renamed = "renamed", "repeated name made unique";
+    Renamed = "renamed", "repeated name replaced by a unique name";
     /// A type without a fixed length.
     UnknownLength = "unknown-length", "type of unknown length written with a length of 0";
     /// An object of a CAN service, or one that exists on CANopen only.
-    CanObject = "can-object", "object that exists on CANopen only, or describes CAN services (COB-ID, SYNC, heartbeat), left out";
+    CanObject = "can-object", "CANopen-only object, or object for CAN services (COB-ID, SYNC, heartbeat), left out";
     /// An object without entries.
     EmptyObject = "empty-object", "object without entries left out";
     /// An incomplete group of facts.
-    Incomplete = "incomplete", "facts left out: the format requires others that are missing";
+    Incomplete = "incomplete", "facts left out: the format requires further facts that are missing";
     /// A spelling that the schema does not allow.
-    Spelling = "spelling", "word or number left out: the schema does not allow its form";
+    Spelling = "spelling", "word or number left out: the schema does not allow its notation";
     /// A device of another vendor.
-    OtherVendor = "other-vendor", "device or module of another vendor left out: a file has one vendor";
+    OtherVendor = "other-vendor", "device or module of another vendor left out: a file contains only one vendor";
     /// A control character.
     Control = "control-character", "control character removed from a text";
     /// A missing text in a file that has a text list.
     MissingText = "missing-text", "missing text of an element replaced by its name";
     /// A field of a process image that overlaps another field or isn't byte-aligned.
-    Layout = "layout", "unaligned field of cyclic data written as octets or bits";
+    Layout = "layout", "overlapping or unaligned field of cyclic data written as octets or bits";
     /// An item that is in no process image.
     NotInData = "not-in-data", "item outside of the cyclic data left out";
     /// A little-endian number.

@@ -14,11 +14,11 @@ options! {
         product_code: u32 = "product-code",
         /// Revision number, as in object 0x1018.
         revision: u32 = "revision",
-        /// Order code (the text of Type).
+        /// Order code (the text of the element Type).
         order_code: String = "order-code",
-        /// Kind of each port: up to four letters, Y (MII), K (LVDS), H (enhanced) or blank (none).
+        /// Kind of each port, one letter for each of up to four ports: Y (MII), K (LVDS), H (enhanced) or blank (none).
         physics: String = "physics",
-        /// Key of the group in a list of devices; also the name of the group if the source does not have it.
+        /// Key of the group that contains the device; also the name of the group if the source has no name.
         group: String = "group",
         /// Start address and length in bytes of the receive mailbox, such as 0x1000:128.
         mailbox_out: Area = "mailbox-out",
@@ -28,7 +28,7 @@ options! {
         outputs: Area = "outputs",
         /// Start address of the inputs in the memory of the slave controller, with an optional length, such as 0x1180:8.
         inputs: Area = "inputs",
-        /// CoE features if the source has no mailbox, such as sdo-info,pdo-assign,pdo-config,complete-access.
+        /// CoE features, for a source without a mailbox, such as sdo-info,pdo-assign,pdo-config,complete-access.
         coe: Coe = "coe",
         /// Size of the EEPROM in bytes.
         eeprom_size: u32 = "eeprom-size",

@@ -19,9 +19,9 @@ options! {
         main_family: String = "main-family",
         /// Product family, as named by the vendor.
         product_family: String = "product-family",
-        /// Date of the file, YYYYMMDD; part of the file name.
+        /// Date of the file in the form YYYYMMDD; also part of the file name.
         date: String = "date",
-        /// Name of station of a new device (DNS_CompatibleName).
+        /// Default name of station of the device (DNS_CompatibleName).
         dns_name: String = "dns-name",
         /// PROFINET version of the device, such as V2.35.
         pnio_version: String = "pnio-version",
@@ -29,7 +29,7 @@ options! {
         module_ident: u32 = "module-ident",
         /// Ident number of the submodule with the process data.
         submodule_ident: u32 = "submodule-ident",
-        /// Whether all data of one direction are consistent; otherwise each item is.
+        /// Whether all inputs, and all outputs, are consistent as a whole; otherwise only each data item is consistent.
         consistent: bool = "consistent",
         /// Subslot of the submodule with the process data.
         subslot: u16 = "subslot",
@@ -37,13 +37,13 @@ options! {
         min_device_interval: u16 = "min-device-interval",
         /// Last part of the object UUID (ObjectUUID_LocalIndex).
         object_uuid_index: u16 = "object-uuid-index",
-        /// Maximum length of the controller's inputs in bytes, with provider and consumer status (MaxInputLength).
+        /// Maximum length of the controller's inputs in bytes, including provider and consumer status (MaxInputLength).
         max_input_length: u16 = "max-input-length",
-        /// Maximum length of the controller's outputs in bytes, with provider and consumer status (MaxOutputLength).
+        /// Maximum length of the controller's outputs in bytes, including provider and consumer status (MaxOutputLength).
         max_output_length: u16 = "max-output-length",
         /// Whether the name of station cannot be transferred with a storage medium (NameOfStationNotTransferable).
         name_not_transferable: bool = "name-not-transferable",
-        /// Whether a controller can read and write without an IO relation (DeviceAccessSupported).
+        /// Whether a controller can access the device without an IO application relation (DeviceAccessSupported).
         device_access: bool = "device-access",
         /// Whether a controller can check the device ID (CheckDeviceID_Allowed).
         check_device_id: bool = "check-device-id",
@@ -55,7 +55,7 @@ options! {
         hardware_release: String = "hardware-release",
         /// Software release.
         software_release: String = "software-release",
-        /// Ident number of the interface submodule; without it, the file has no interface and no ports.
+        /// Ident number of the interface submodule; without this key, the file has no interface and no ports.
         interface_ident: u32 = "interface-ident",
         /// Name of the interface, such as X1.
         interface_name: String = "interface-name",
@@ -63,11 +63,11 @@ options! {
         supported_protocols: String = "supported-protocols",
         /// Real-time classes of the interface, such as RT_CLASS_1 (SupportedRT_Classes).
         rt_classes: String = "rt-classes",
-        /// Start-up modes, such as Legacy;Advanced.
+        /// Supported start-up modes, such as Legacy;Advanced.
         startup_modes: String = "startup-modes",
-        /// Send clock factors in units of 31.25 µs, such as 32 or 32 64 128.
+        /// Supported send clock factors in units of 31.25 µs, such as 32 or 32 64 128.
         send_clocks: Numbers = "send-clocks",
-        /// Reduction ratios, such as 1 2 4 8.
+        /// Supported reduction ratios, such as 1 2 4 8.
         reduction_ratios: Numbers = "reduction-ratios",
         /// Number of ports.
         ports: u16 = "ports",
