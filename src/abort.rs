@@ -3,8 +3,8 @@
 use core::error;
 use core::fmt;
 
-/// Reason why a device refused an SDO transfer (CiA 301 7.2.4.3.17). Any number is allowed; the codes of the standard
-/// have a text.
+/// Reason why a device refused an SDO transfer (CiA 301 7.2.4.3.17). Any code is allowed; [`text`](Self::text)
+/// describes the codes of the standard.
 ///
 /// ```
 /// use lexibus::AbortCode;
@@ -23,7 +23,7 @@ macro_rules! codes {
                 pub const $name: Self = Self($code);
             )*
 
-            /// Returns the text of the code, or `None` if the standard doesn't define the code.
+            /// Returns the standard's description of the code, or `None` if the standard doesn't define the code.
             #[must_use]
             pub const fn text(self) -> Option<&'static str> {
                 match self.0 {

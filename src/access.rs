@@ -1,18 +1,18 @@
-//! Access rights as types: an access that the device doesn't allow doesn't compile.
+//! Access rights as types. An access that the device doesn't allow causes a compile-time error.
 
-/// Read-only (`ro`).
+/// Read-only access (`ro`).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Ro;
 
-/// Write-only (`wo`).
+/// Write-only access (`wo`).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Wo;
 
-/// Read and write (`rw`, `rwr`, `rww`).
+/// Read and write access (`rw`, `rwr`, `rww`).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Rw;
 
-/// Read-only, with a value that never changes (`const`).
+/// Read-only access to a value that never changes (`const`).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Const;
 

@@ -1,4 +1,4 @@
-//! Access to an item through a client.
+//! Reads and writes of an item through a client.
 
 mod fixed;
 mod octets;
@@ -18,13 +18,13 @@ use crate::value_error::LengthError;
 /// Reads and writes one [`Item`] through one client. [`Item::at`] creates it.
 ///
 /// The access rights `A`, the location `L` and the bus of the client `C` determine which methods compile. The value
-/// type `V` determines their arguments. Methods without a suffix need a [`Client`]. Methods that end in `_async` need
-/// an [`AsyncClient`] and do the same without blocking.
+/// type `V` determines the types of their arguments. Methods without a suffix need a [`Client`]. Methods with the
+/// suffix `_async` need an [`AsyncClient`] and don't block.
 ///
 /// # Errors
 ///
-/// Every method returns the errors of the client (see [`Client::read`]) and those that its own documentation lists. A
-/// reply of the wrong length is always an [`Error::Length`], never a panic.
+/// Every method returns the errors of the client (see [`Client::read`]) and the errors that its own documentation
+/// lists. If a reply has the wrong length, the method returns [`Error::Length`] and doesn't panic.
 pub struct Accessor<'c, C, V: Value, A, L> {
     client: &'c mut C,
     item: Item<V, A, L>,
@@ -53,7 +53,7 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
     }
 }
 
-/// Defines the byte transfers, blocking and async.
+/// Defines the methods that transfer bytes, blocking and async.
 macro_rules! transfers {
     ($Client:ident $fetch:ident $read:ident $send:ident $write:ident $($async:ident $await:ident)?) => {
         impl<C: $Client, V: Value, A, L> Accessor<'_, C, V, A, L> {
@@ -89,7 +89,7 @@ where
     }
 }
 
-/// Returns the first `length` bytes of `buffer`. A client may report more bytes than the buffer has.
+/// Returns the first `length` bytes of `buffer`, or an error if a client reports more bytes than the buffer has.
 #[inline]
 fn filled(buffer: &[u8], length: usize) -> Result<&[u8], LengthError> {
     buffer.get(..length).ok_or(LengthError { expected: buffer.len(), actual: length })

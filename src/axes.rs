@@ -1,4 +1,4 @@
-//! Further axes of a device: the same objects at other addresses.
+//! Further axes of a device: the objects of the first axis at other addresses.
 
 use core::time::Duration;
 
@@ -25,40 +25,40 @@ use crate::error::Error;
 pub struct Axes {
     /// The number of axes.
     pub count: u8,
-    /// Rules by index range. The first range that contains an index applies.
+    /// Address rules by index range. The first range that contains an index applies.
     pub ranges: &'static [AxisRange],
-    /// Objects within these ranges that all axes share, in ascending order.
+    /// Objects within these ranges that all axes share, in ascending order of address.
     pub shared: &'static [Object],
 }
 
-/// A range of indices and its rule for the next axis.
+/// Range of indices, with the rule for the addresses on the next axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AxisRange {
     /// First index of the range.
     pub first: u16,
     /// Last index of the range.
     pub last: u16,
-    /// Rule for the next axis.
+    /// Rule for the addresses on the next axis.
     pub step: AxisStep,
 }
 
-/// Rule that maps an object of one axis to the next axis.
+/// Rule that converts the address of an object on one axis to its address on the next axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisStep {
-    /// Adds this number to the index (CiA 402-2: 0x800).
+    /// The next axis adds this number to the index (CiA 402-2: 0x800).
     Index(u16),
-    /// Uses the axis number as the sub-index.
+    /// The axis number is the sub-index.
     SubIndex,
-    /// Adds this number to the sub-index.
+    /// The next axis adds this number to the sub-index.
     SubIndexStride(u8),
 }
 
 impl Axes {
-    /// Returns the address at which axis `axis` (from 1) has the first axis' `object`. Shared objects and objects
-    /// outside all ranges keep their address.
+    /// Returns the address of the first axis' `object` on axis `axis` (from 1). Shared objects and objects outside all
+    /// ranges have the same address on every axis.
     ///
-    /// Returns `None` if the axis doesn't exist, or doesn't have the object. With [`AxisStep::SubIndex`], only
-    /// sub-index 1 belongs to an axis.
+    /// Returns `None` if the axis doesn't exist or doesn't have the object. With [`AxisStep::SubIndex`], only the
+    /// objects at sub-index 1 belong to an axis.
     #[must_use]
     pub fn object(&self, axis: u8, object: Object) -> Option<Object> {
         if axis == 0 || axis > self.count {
@@ -77,7 +77,7 @@ impl Axes {
                 Some(Object { index, sub_index })
             }
             AxisStep::SubIndex => (sub_index == 1).then_some(Object { index, sub_index: axis }),
-            // Sub-index 0 is the number of entries of all axes.
+            // Sub-index 0 contains the number of entries, which all axes share.
             AxisStep::SubIndexStride(_) if sub_index == 0 => Some(object),
             AxisStep::SubIndexStride(step) => {
                 let sub_index = sub_index.checked_add(step.checked_mul(further)?)?;
@@ -87,10 +87,10 @@ impl Axes {
     }
 }
 
-/// Client for one axis of a device: replaces the address of each object of the first axis by the address for this axis.
-/// The method `axis` of generated devices creates it.
+/// Client for one axis of a device. The client replaces the address of each object of the first axis by the object's
+/// address on this axis. The method `axis` of generated devices creates this client.
 ///
-/// Only CANopen and EtherCAT have axes, because manuals give such rules for object dictionaries only.
+/// Only CANopen and EtherCAT have further axes, because address rules exist only for object dictionaries.
 #[derive(Debug)]
 pub struct Axis<C> {
     client: C,
@@ -99,8 +99,8 @@ pub struct Axis<C> {
 }
 
 impl<C> Axis<C> {
-    /// Creates the client for axis `number`, from 1. Every access returns [`Error::NoSuchAxis`] if the device doesn't
-    /// have this axis.
+    /// Creates the client for axis `number`, from 1. If the device doesn't have this axis, every access returns
+    /// [`Error::NoSuchAxis`].
     pub const fn new(client: C, axes: &'static Axes, number: u8) -> Self {
         Self { client, axes, number }
     }
@@ -116,7 +116,7 @@ impl<C> Axis<C> {
     }
 }
 
-/// A bus with rules for the addresses of further axes: CANopen and EtherCAT.
+/// A bus with address rules for further axes: CANopen or CANopen over EtherCAT.
 #[diagnostic::on_unimplemented(
     message = "{Self} has no rule for the addresses of further axes",
     label = "this client's bus has no further axes",

@@ -2,16 +2,16 @@
 
 use core::fmt;
 
-/// Writes a bit field for `Debug`: the flags that are set, the fields with their values, and all other set bits in
-/// hexadecimal. Generated code calls it.
+/// Formats a bit field for `Debug`. The output contains the flags that are set and the fields with their values. All
+/// other set bits follow in hexadecimal. Generated code calls this function.
 ///
-/// `layout` is the name of the type and then, after a space each, `name:mask` of every field with the mask in hexadecimal.
-/// A mask of one bit is a flag, of several bits a number. `!name:mask` is a flag that is set if its bit is 0. `?name:mask`
-/// takes its value from `values`, in order.
+/// `layout` is the name of the type, followed by `name:mask` for every field, separated by spaces. Masks are
+/// hexadecimal. A mask of one bit is a flag, a mask of several bits is a number. `!name:mask` is a flag that is set if
+/// its bit is 0. `?name:mask` formats the next element of `values` instead of the bits.
 ///
 /// # Errors
 ///
-/// Those of the formatter.
+/// Returns the errors of the formatter.
 ///
 /// ```
 /// use core::fmt;
@@ -55,7 +55,7 @@ pub fn debug_bits(f: &mut fmt::Formatter<'_>, raw: u64, layout: &str, values: &[
     entries.f.write_str(if entries.any { " }" } else { "" })
 }
 
-/// What is between the braces.
+/// Writer of the entries between the braces.
 struct Entries<'f, 'a> {
     f: &'f mut fmt::Formatter<'a>,
     any: bool,
@@ -76,19 +76,20 @@ impl Entries<'_, '_> {
     }
 }
 
-/// Access to the bits of an integer for generated code: a call of these functions compiles faster than operators do.
+/// Defines functions that access the bits of an integer. Generated code calls them because calls compile faster than
+/// operators.
 macro_rules! bits {
     ($($module:ident $native:ident)*) => {
         $(
             #[doc(hidden)]
             pub mod $module {
-                /// Whether a bit of the mask is set.
+                /// Returns whether any bit of the mask is set.
                 #[inline]
                 pub const fn flag(bits: $native, mask: $native) -> bool {
                     bits & mask != 0
                 }
 
-                /// The bits, with those of the mask set or cleared.
+                /// Returns `bits` with all bits of the mask set or cleared.
                 #[inline]
                 #[must_use]
                 pub const fn with_flag(bits: $native, mask: $native, value: bool) -> $native {
@@ -99,13 +100,14 @@ macro_rules! bits {
                     }
                 }
 
-                /// The number in the bits of the mask, which are next to each other.
+                /// Returns the number in the bits of the mask. The bits of the mask must be adjacent.
                 #[inline]
                 pub const fn field(bits: $native, mask: $native) -> $native {
                     (bits & mask) >> (mask.trailing_zeros() & ($native::BITS - 1))
                 }
 
-                /// The bits, with the low bits of a number in those of the mask, which are next to each other.
+                /// Returns `bits` with the low bits of `value` in the bits of the mask. The bits of the mask must be
+                /// adjacent.
                 #[inline]
                 #[must_use]
                 pub const fn with_field(bits: $native, mask: $native, value: $native) -> $native {

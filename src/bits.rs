@@ -6,7 +6,7 @@
 use crate::pdo::{from_bytes, mask};
 use crate::value_error::LengthError;
 
-/// Checks that `data` has at least `bits` bits.
+/// Checks that `data` contains at least `bits` bits.
 ///
 /// # Errors
 ///
@@ -27,7 +27,7 @@ pub const fn check_length(data: &[u8], bits: usize) -> Result<(), LengthError> {
 pub const fn get(data: &[u8], bit: usize, width: u32) -> u64 {
     let rest = skip(data, bit / 8);
     let shift = (bit % 8) as u32;
-    // If offset and width are constants, the compiler reduces this to one load of the bytes of the field.
+    // If offset and width are constants, the compiler reduces this `match` to one load of the bytes of the field.
     match shift.saturating_add(width).div_ceil(8) {
         1 => {
             if let Some(bytes) = rest.first_chunk() {
@@ -71,7 +71,7 @@ pub const fn put<const N: usize>(buffer: [u8; N], bit: usize, width: u32, value:
     out
 }
 
-/// Returns the bytes of `words`, each word with its lowest byte first. Bytes after the last word are 0.
+/// Returns the bytes of `words`. Each word starts with its lowest byte. Bytes after the last word are 0.
 #[must_use]
 #[inline]
 pub const fn from_words<const W: usize, const N: usize>(words: [u64; W]) -> [u8; N] {
@@ -208,7 +208,7 @@ pub const fn put_bits<const N: usize>(buffer: [u8; N], bit: usize, width: usize,
     out
 }
 
-/// Returns how many of the `left` bits that remain to be copied are in the first eight bytes of `bytes`.
+/// Returns how many of the `left` remaining bits are in the first eight bytes of `bytes`.
 #[inline]
 const fn part(bytes: &[u8], left: usize) -> u32 {
     let word = if bytes.len() < 8 { 8 * bytes.len() } else { 64 };
@@ -245,13 +245,13 @@ const fn put_first<const N: usize>(buffer: [u8; N], first: usize, count: usize, 
     out
 }
 
-/// Returns the bits that `byte` adds above a word that was shifted right by `shift` bits, 0 to 7.
+/// Returns the bits of `byte` that follow the remaining bits of a word after a right shift by `shift` bits, 0 to 7.
 #[inline]
 const fn above(byte: u64, shift: u32) -> u64 {
     byte << 1 << (63 - shift)
 }
 
-/// Returns the bits that `word` loses when it is shifted left by `shift` bits, 0 to 7.
+/// Returns the bits that are shifted out of `word` by a left shift of `shift` bits, 0 to 7.
 #[inline]
 const fn beyond(word: u64, shift: u32) -> u64 {
     word >> 1 >> (63 - shift)

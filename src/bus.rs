@@ -10,7 +10,7 @@ pub trait Bus {
     /// Address of a value on this bus.
     type Address: Copy + fmt::Debug;
 
-    /// Name of the bus for messages.
+    /// Name of the bus, for error messages.
     const NAME: &'static str;
 }
 
@@ -28,24 +28,25 @@ macro_rules! buses {
 }
 
 buses! {
-    /// CANopen: SDO transfers over CAN (CiA 301 7.2.4).
+    /// CANopen over CAN: SDO transfers (CiA 301 7.2.4).
     CanOpen: Object, "CANopen";
-    /// CANopen over EtherCAT: SDO transfers in the mailbox.
+    /// CANopen over EtherCAT (CoE): SDO transfers in the mailbox.
     CoE: Object, "CANopen over EtherCAT";
-    /// Modbus RTU or TCP: registers and single bits.
+    /// Modbus RTU or Modbus TCP: registers and single bits.
     Modbus: Register, "Modbus";
     /// PROFINET: acyclic records.
     Profinet: Record, "PROFINET";
-    /// A serial protocol with parameter numbers.
+    /// A serial protocol that reads and writes numbered parameters.
     Serial: Parameter, "serial";
-    /// A fixed process image, as in the cyclic data of PROFINET, with fields at fixed bit offsets.
+    /// A fixed process image, such as the cyclic data of PROFINET. The fields of the image have fixed bit offsets.
     ProcessImage: ImageField, "process image";
-    /// The memory of an EtherCAT slave controller (ETG.1000.4). A master reads and writes it by address, without a
+    /// The memory of an EtherCAT slave controller (ETG.1000.4). A master accesses the memory by address, without a
     /// mailbox.
     Esc: EscMemory, "EtherCAT slave controller";
 }
 
-/// An entry of an object dictionary. `Display` writes index and sub-index in hexadecimal, for example `0x6040:00`.
+/// Address of an entry of an object dictionary. `Display` writes index and sub-index in hexadecimal, for example
+/// `0x6040:00`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Object {
     /// Index of the object.
@@ -68,7 +69,7 @@ impl fmt::Display for Object {
     }
 }
 
-/// A value in a PROFINET record.
+/// Address of a value in a PROFINET record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Record {
     /// Application process identifier (API).
@@ -81,18 +82,18 @@ pub struct Record {
     pub index: u16,
     /// Byte offset of the value in the record.
     pub offset: u16,
-    /// Whether the value is a text or a byte string. Numbers have their most significant byte first.
+    /// Whether the value is a text or a byte string. Otherwise, it is a number with the most significant byte first.
     pub is_bytes: bool,
 }
 
 impl Record {
-    /// Creates the address of a number at byte offset `offset` of a record in API 0.
+    /// Creates the address of a number at byte offset `offset` of a record. The API is 0.
     #[must_use]
     pub const fn new(slot: u16, subslot: u16, index: u16, offset: u16) -> Self {
         Self { api: 0, slot, subslot, index, offset, is_bytes: false }
     }
 
-    /// Returns the same address in another application process (API).
+    /// Returns the same address with another application process identifier (API).
     #[must_use]
     pub const fn of_api(self, api: u32) -> Self {
         Self { api, ..self }
@@ -111,8 +112,8 @@ impl Record {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Parameter(pub u32);
 
-/// A byte range in the memory of an EtherCAT slave controller. Numbers have their least significant byte first
-/// (ETG.1000.4).
+/// Address of a byte range in the memory of an EtherCAT slave controller. Numbers have their least significant byte
+/// first (ETG.1000.4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct EscMemory {
     /// Address of the first byte.

@@ -1,4 +1,4 @@
-//! Tables of codes: alarms, emergency codes, abort codes.
+//! Tables of codes, such as alarms, emergency codes and abort codes.
 
 /// A row of a code table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,14 +9,14 @@ pub struct Code {
     pub last: i64,
     /// Name of the code.
     pub name: &'static str,
-    /// Cause and remedy; empty if the device description has none.
+    /// Cause of the code and remedy; empty if the device description has none.
     pub text: &'static str,
-    /// Cells of the other columns, in the order of the table.
+    /// Cells of the additional columns, in column order.
     pub cells: &'static [Cell],
 }
 
 impl Code {
-    /// Creates a row.
+    /// Creates a row of a code table.
     #[must_use]
     pub const fn new(first: i64, last: i64, name: &'static str, text: &'static str, cells: &'static [Cell]) -> Self {
         Self { first, last, name, text, cells }
@@ -36,7 +36,7 @@ pub enum Cell {
     Text(&'static str),
 }
 
-/// A code of a table as a Rust type. Generated code has an enumeration with this trait for each table.
+/// A code of a table as a Rust type. Generated code implements this trait with one enumeration per table.
 ///
 /// ```
 /// use lexibus::codes::{Code, CodeTable};
@@ -91,7 +91,7 @@ pub trait CodeTable: Copy {
     /// Returns the code as an integer.
     fn raw(self) -> Self::Raw;
 
-    /// Returns the row of the code, or `None` if the table doesn't contain it.
+    /// Returns the row of the code, or `None` if the table has no such row.
     fn row(self) -> Option<&'static Code> {
         find(Self::codes(), self.raw().into())
     }

@@ -2,22 +2,22 @@
 
 use crate::value_error::OutOfRange;
 
-/// Encoding of one number in `N` items: digits in a base, the most significant digit first, and optionally a sign in
-/// another item.
+/// Encoding of one number in `N` items that contain its digits, the most significant digit first. Another item can
+/// contain the sign.
 ///
-/// The items are read and written one after the other. Between two writes, the device has a mix of the old and the new
-/// number.
+/// A client accesses the items one after the other. Between two writes, the device has some digits of the old number
+/// and some of the new one.
 ///
 /// ```
 /// use lexibus::Composite;
 ///
-/// // Pulses per revolution, with the hundreds in one parameter and the units in the next:
+/// // Pulses per revolution: one parameter contains the hundreds, the next one contains the units.
 /// const PULSES: Composite<2> = Composite::new(100);
 /// assert_eq!(PULSES.join([40, 96]), Ok(4096));
 /// assert_eq!(PULSES.split(4096), Ok([40, 96]));
 /// assert!(PULSES.split(10_000).is_err());
 ///
-/// // Ten thousands, hundreds and units, and a sign that is 1 for negative numbers:
+/// // Ten thousands, hundreds, units, and a sign item that is 1 for negative numbers.
 /// const OFFSET: Composite<3> = Composite::signed(100, 1);
 /// assert_eq!(OFFSET.join_signed(1, [1, 23, 45]), Ok(-12_345));
 /// assert_eq!(OFFSET.split_signed(-12_345), Ok((1, [1, 23, 45])));
@@ -29,14 +29,14 @@ pub struct Composite<const N: usize> {
 }
 
 impl<const N: usize> Composite<N> {
-    /// Creates an unsigned encoding in this base; digits are 0 to `base` - 1. Every number is out of range if the base
-    /// is below 2.
+    /// Creates an unsigned encoding with this base. Digits are 0 to `base` - 1. If the base is below 2, every number is
+    /// out of range.
     #[must_use]
     pub const fn new(base: u16) -> Self {
         Self { base, negative: None }
     }
 
-    /// Creates an encoding with a sign item, which has the value `negative` for negative numbers and 0 otherwise.
+    /// Creates an encoding with a sign item. The sign is `negative` for negative numbers and 0 for all others.
     #[must_use]
     pub const fn signed(base: u16, negative: u16) -> Self {
         Self { base, negative: Some(negative) }
@@ -46,7 +46,7 @@ impl<const N: usize> Composite<N> {
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] if a digit isn't below the base, or the number needs more than 32 bits.
+    /// Returns [`OutOfRange`] if a digit isn't below the base, or if the number needs more than 32 bits.
     pub const fn join(&self, digits: [u16; N]) -> Result<u32, OutOfRange> {
         let mut number: u32 = 0;
         let mut at = 0;
@@ -70,7 +70,7 @@ impl<const N: usize> Composite<N> {
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] if the number has more than `N` digits.
+    /// Returns [`OutOfRange`] if the number has more than `N` digits.
     pub const fn split(&self, number: u32) -> Result<[u16; N], OutOfRange> {
         let mut digits = [0; N];
         let (mut rest, mut at) = (number, N);
@@ -89,8 +89,8 @@ impl<const N: usize> Composite<N> {
     ///
     /// # Errors
     ///
-    /// The errors of [`join`](Self::join), and [`OutOfRange`] if the sign is invalid or the absolute value doesn't fit in an
-    /// `i32`.
+    /// Returns the errors of [`join`](Self::join), and [`OutOfRange`] if the sign is invalid or the absolute value
+    /// doesn't fit in an `i32`.
     pub const fn join_signed(&self, sign: u16, digits: [u16; N]) -> Result<i32, OutOfRange> {
         let amount = match self.join(digits) {
             Ok(amount) if amount <= i32::MAX as u32 => amount as i32,
@@ -103,11 +103,12 @@ impl<const N: usize> Composite<N> {
         }
     }
 
-    /// Returns sign and digits of a number.
+    /// Returns the sign and the digits of a number.
     ///
     /// # Errors
     ///
-    /// The errors of [`split`](Self::split), and [`OutOfRange`] if the number is negative and the encoding has no sign.
+    /// Returns the errors of [`split`](Self::split), and [`OutOfRange`] if the number is negative and the encoding has
+    /// no sign.
     pub const fn split_signed(&self, number: i32) -> Result<(u16, [u16; N]), OutOfRange> {
         let sign = match (number < 0, self.negative) {
             (false, _) => 0,

@@ -60,7 +60,7 @@ pub enum DataType {
     Domain,
     /// An integer of 1 to 16 bits that shares its bytes with other values in a PDO (BIT1 … BIT16 of ETG.1000.6).
     Bits(u8),
-    /// Bytes whose meaning the device description doesn't give.
+    /// Bytes whose meaning is not in the device description.
     Opaque,
 }
 

@@ -23,7 +23,7 @@ pub struct Emergency {
 }
 
 impl Emergency {
-    /// Returns the message in `data`, or `None` if `data` isn't eight bytes long.
+    /// Decodes an emergency message, or returns `None` if `data` isn't eight bytes long.
     #[must_use]
     pub const fn from_bytes(data: &[u8]) -> Option<Self> {
         match *data {
@@ -41,15 +41,13 @@ impl Emergency {
         [low, high, self.register, a, b, c, d, e]
     }
 
-    /// Returns whether the message reports that one error or all errors are gone (codes 0x0000 to 0x00FF, CiA 301
-    /// 7.2.7.1).
+    /// Returns whether one error or all errors have been cleared (codes 0x0000 to 0x00FF, CiA 301 7.2.7.1).
     #[must_use]
     pub const fn is_reset(&self) -> bool {
         self.code <= 0xFF
     }
 
-    /// Returns the code as a variant of one of the device's tables, for example of the type `codes::Emergency` of
-    /// generated bindings.
+    /// Returns the code as a variant of the code table `T`. For example, `T` is the generated type `codes::Emergency`.
     #[must_use]
     pub fn alarm<T: CodeTable>(&self) -> T
     where

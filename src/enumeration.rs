@@ -5,10 +5,10 @@ use crate::range::Range;
 use crate::value::{Fixed, Value};
 use crate::value_error::{LengthError, OutOfRange};
 
-/// An enumeration of a device: an integer with named values. Bit fields, whose bits have names, implement it too.
+/// An integer with named values. Bit fields, whose bits have names, also implement this trait.
 ///
-/// Generated enumerations have a variant for all other values, so reading doesn't fail if the device is newer than its
-/// description. A type with this trait is the [`Value`] of an item:
+/// Generated enumerations have a variant for all other values, so a value that isn't in the device description can
+/// still be read. A type with this trait is the [`Value`] of an item:
 ///
 /// ```
 /// use lexibus::{Enumeration, Fixed};
@@ -50,11 +50,10 @@ pub trait Enumeration: Copy + 'static {
     /// Returns the variant for an integer.
     fn from_native(native: <Self::Base as Value>::Native) -> Self;
 
-    /// Returns the integer that is written to an item. Reserved bits of a bit field have the values that the device
-    /// requires.
+    /// Returns the integer to write to an item. Reserved bits of a bit field have the values that the device requires.
     fn native(self) -> <Self::Base as Value>::Native;
 
-    /// Returns the integer for a PDO, with all bits unchanged.
+    /// Returns the integer for a PDO. All bits are unchanged.
     fn as_is(self) -> <Self::Base as Value>::Native {
         self.native()
     }
@@ -81,7 +80,8 @@ impl<E: Enumeration> Fixed for E {
     /// Compares the integers of the value and of the limits.
     #[inline]
     fn in_range(value: E, range: &Range<E>) -> bool {
-        // Not a recursive call: the compiler wouldn't inline it, and couldn't evaluate a constant range.
+        // The comparison is not a recursive call, because the compiler could neither inline it nor evaluate a constant
+        // range.
         let within = |base: Range<_>| <E::Base as Fixed>::in_range(value.native(), &base);
         match *range {
             Range::Full => true,

@@ -1,10 +1,10 @@
-//! EtherCAT: description of a slave for the master, PDO assignment and process image.
+//! EtherCAT: device description for the master, PDO assignment and process image.
 //!
 //! Generated bindings describe a slave as a constant [`Device`] with sync managers, PDOs, start-up commands and slots.
-//! An [`Assignment`] of PDOs computes the layout of the process image and the commands that configure it. A
+//! An [`Assignment`] of PDOs computes the layout of the process image and the start-up commands for this layout. A
 //! [`SlotPlan`] does the same for a modular device and its modules. None of these types allocates.
 //!
-//! "Inputs" and "outputs" are those of the master: a TxPDO of the slave is an input.
+//! The terms "inputs" and "outputs" are from the master's point of view: a TxPDO of the slave is an input.
 
 mod assignment;
 mod clock;
@@ -28,14 +28,14 @@ pub use sync_manager::{Fmmu, FmmuPurpose, SyncManager, SyncManagerPurpose};
 
 use crate::identity::Identity;
 
-/// Description of a slave for the master.
+/// Description of a slave, used by the master.
 #[derive(Clone, Copy, Debug)]
 pub struct Device {
     /// Identity: vendor, product and revision.
     pub identity: Identity,
     /// Sync managers in ascending order of their numbers.
     pub sync_managers: &'static [SyncManager],
-    /// PDOs, first those of the outputs, then those of the inputs.
+    /// PDOs of the slave: first the output PDOs, then the input PDOs.
     pub pdos: &'static [PdoInfo],
     /// Indices of the PDOs that are assigned by default, in the order of the process image.
     pub default_pdos: &'static [u16],
@@ -46,14 +46,14 @@ pub struct Device {
 }
 
 impl Device {
-    /// Returns the initialization commands of the device itself for a state transition.
+    /// Returns the initialization commands of the device for a state transition, without those of its modules.
     pub fn init_commands(&self, transition: Transition) -> impl Iterator<Item = StartupCommand> {
         let commands = self.mailbox.coe.map_or(&[][..], |coe| coe.init_commands);
         let due = commands.iter().filter(move |command| command.transitions.contains(transition));
         due.map(move |command| StartupCommand::of_init(command, transition, depends_on::Growth::default()))
     }
 
-    /// Returns the PDO with this index of its mapping object.
+    /// Returns the PDO whose mapping object has this index.
     #[must_use]
     pub fn pdo(&self, index: u16) -> Option<&'static PdoInfo> {
         self.pdos.iter().find(|pdo| pdo.index == index)
@@ -65,9 +65,9 @@ impl Device {
         self.sync_managers.iter().find(|manager| manager.number == number)
     }
 
-    /// Returns the number of the sync manager for a PDO: the one that the PDO names, otherwise the first one for its
-    /// direction. If the description lists no sync managers, this is the one that another PDO of the same direction
-    /// names.
+    /// Returns the number of the sync manager for a PDO. This is the default sync manager of the PDO, otherwise the
+    /// first one for the PDO's direction. If the description lists no sync managers, the default sync manager of
+    /// another PDO with the same direction is used.
     #[must_use]
     pub fn sync_manager_of(&self, pdo: &PdoInfo) -> Option<u8> {
         let purpose = match pdo.direction {
@@ -85,7 +85,7 @@ impl Device {
 }
 
 impl Device {
-    /// Returns the first sync manager that a PDO of this direction names.
+    /// Returns the default sync manager of the first PDO with this direction.
     fn named_by_others(&self, direction: Direction) -> Option<u8> {
         self.pdos.iter().filter(|pdo| pdo.direction == direction).find_map(|pdo| pdo.sync_manager)
     }

@@ -1,4 +1,4 @@
-//! Request and reply protocols: message exchange and numbered parameters.
+//! Request and reply protocols, which exchange messages or access numbered parameters.
 
 use crate::bus::{Parameter, Serial};
 use crate::client::{AsyncClient, Client};
@@ -6,15 +6,16 @@ use crate::error::Error;
 use crate::message::{answer, Answer, AsyncMessageClient, Message, MessageClient, Station, WriteError, Writer};
 use crate::value_error::LengthError;
 
-/// Sends a request to one device and blocks until the reply. Protocols with requests and replies use it.
+/// Sends a request to one device and blocks until the reply arrives. Clients of request and reply protocols use this
+/// trait.
 ///
-/// Requests and replies are the data of a message without the framing on the line. The feature `serial` has an
-/// implementation for any byte stream. An implementation for a test:
+/// Requests and replies contain the data of a message, without the framing on the line. The feature `serial` provides
+/// an implementation for any byte stream. This example implements the trait for a test:
 ///
 /// ```
 /// use lexibus::{Error, Exchange, LengthError};
 ///
-/// /// A device that returns a status byte and then the request.
+/// /// A device whose reply is a status byte and a copy of the request.
 /// struct Echo;
 ///
 /// impl Exchange for Echo {
@@ -43,17 +44,17 @@ pub trait Exchange {
     ///
     /// # Errors
     ///
-    /// [`Error::Client`] if the line fails or no reply arrives. [`Error::Length`] if `request` is too long for the
-    /// protocol or the reply is longer than `reply`.
+    /// Returns [`Error::Client`] if the line fails or no reply arrives. Returns [`Error::Length`] if `request` is too
+    /// long for the protocol or the reply is longer than `reply`.
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 }
 
-/// Sends a request to one device and receives the reply without blocking. The rules of [`Exchange`] apply.
+/// Sends a request to one device and receives the reply without blocking, under the same rules as [`Exchange`].
 ///
 /// ```
 /// use lexibus::{AsyncExchange, Error};
 ///
-/// /// A device that returns an empty reply.
+/// /// A device whose replies are empty.
 /// struct Silent;
 ///
 /// impl AsyncExchange for Silent {
@@ -73,20 +74,20 @@ pub trait AsyncExchange {
     ///
     /// # Errors
     ///
-    /// The errors of [`Exchange::exchange`].
+    /// Returns the errors of [`Exchange::exchange`].
     async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 }
 
-/// Messages of a protocol that read and write numbered parameters.
+/// Messages of a protocol that reads and writes numbered parameters.
 ///
-/// Values have their least significant byte first, as in a [`Client`]. Implementations convert them if the protocol
-/// uses another byte order.
+/// The least significant byte of a value comes first, as in a [`Client`]. If the protocol uses another byte order, the
+/// implementation converts the values.
 ///
 /// ```
 /// use lexibus::message::WriteError;
 /// use lexibus::{Error, LengthError, Parameter, ParameterMessages};
 ///
-/// /// Parameter number and value, big-endian. The reply starts with the parameter number too.
+/// /// Messages contain the parameter number and the value, both big-endian. The reply repeats the parameter number.
 /// struct Messages;
 ///
 /// impl ParameterMessages for Messages {
@@ -123,7 +124,7 @@ pub trait ParameterMessages {
     ///
     /// # Errors
     ///
-    /// If the request doesn't fit, or no message reads the parameter.
+    /// Returns an error if the request doesn't fit into `request`, or if no message reads the parameter.
     fn read_request(&self, parameter: Parameter, length: usize, request: &mut [u8]) -> Result<usize, WriteError>;
 
     /// Writes the value in the reply to the start of `value` and returns its length.
@@ -145,22 +146,22 @@ pub trait ParameterMessages {
     ///
     /// # Errors
     ///
-    /// If the request doesn't fit, or no message writes the parameter.
+    /// Returns an error if the request doesn't fit into `request`, or if no message writes the parameter.
     fn write_request(&self, parameter: Parameter, value: &[u8], request: &mut [u8]) -> Result<usize, WriteError>;
 
     /// Checks that the reply confirms the write request.
     ///
     /// # Errors
     ///
-    /// The errors of [`read_reply`](Self::read_reply).
+    /// Returns the errors of [`read_reply`](Self::read_reply).
     fn write_reply<E>(&self, parameter: Parameter, request: &[u8], reply: &[u8]) -> Result<(), Error<E>>;
 }
 
-/// Client for a device with a request and reply protocol, over the exchange `X`. `N` is the length of the longest
-/// message in bytes.
+/// Client for a device with a request and reply protocol. Messages are sent through the exchange `X`. `N` is the length
+/// of the longest message in bytes.
 ///
-/// It is a [`Client`] of [`Serial`], or an [`AsyncClient`], if `M` implements [`ParameterMessages`]. It is a
-/// [`MessageClient`] if `M` is a [`Station`].
+/// The client implements [`Client`] of [`Serial`], or [`AsyncClient`], if `M` implements [`ParameterMessages`]. The
+/// client implements [`MessageClient`] if `M` is a [`Station`].
 #[derive(Clone, Debug)]
 pub struct Parameters<X, M, const N: usize> {
     exchange: X,
@@ -186,7 +187,8 @@ impl<X, M, const N: usize> Parameters<X, M, N> {
     }
 }
 
-/// Returns the first `length` bytes of `buffer`. Implementations of the traits may return more than the buffer has.
+/// Returns the first `length` bytes of `buffer`, or an error if an implementation reports more bytes than the buffer
+/// has.
 fn filled(buffer: &[u8], length: usize) -> Result<&[u8], LengthError> {
     buffer.get(..length).ok_or(LengthError::new(buffer.len(), length))
 }

@@ -1,6 +1,6 @@
 //! Additional properties of an item.
 
-/// Set of properties of an item, which can be tested in constants.
+/// Set of properties of an item. Constants can test the properties.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Flags(u8);
 
@@ -8,10 +8,10 @@ impl Flags {
     /// The empty set.
     pub const NONE: Self = Self(0);
 
-    /// The item can be mapped into an RPDO, which the device receives (CiA 301 7.5.2.36).
+    /// The item can be mapped into an RPDO, a PDO that the device receives (CiA 301 7.5.2.36).
     pub const RPDO: Self = Self(1);
 
-    /// The item can be mapped into a TPDO, which the device transmits (CiA 301 7.5.2.38).
+    /// The item can be mapped into a TPDO, a PDO that the device transmits (CiA 301 7.5.2.38).
     pub const TPDO: Self = Self(1 << 1);
 
     /// The item can be mapped into RPDOs and TPDOs.

@@ -1,13 +1,13 @@
 //! Framing of messages in a byte stream.
 //!
-//! [`Framing`] is the trait. [`Delimited`] implements it for protocols with start and end bytes, and is a constant with
-//! delimiters, escape bytes and check. None of them allocates or performs I/O; the feature `serial` connects them to a
-//! stream of `embedded-io`.
+//! [`Framing`] is a trait for framing protocols. [`Delimited`] implements the trait for protocols with start and end
+//! bytes. A [`Delimited`] is a constant with delimiters, escape bytes and checksum. None of these types allocates or
+//! performs I/O. The feature `serial` applies framing to a byte stream of `embedded-io`.
 //!
 //! ```
 //! use lexibus::framing::{Check, Delimited, Framing};
 //!
-//! /// STX, data, check, ETX. The bytes 0x02, 0x03 and 0x1B in the data are sent as 0x1B and their complement.
+//! /// STX, data, checksum, ETX. In the data, 0x02, 0x03 and 0x1B are sent as 0x1B and their complement.
 //! const FRAMING: Delimited = Delimited::new(Some(0x02), 0x03)
 //!     .with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B])
 //!     .with_check(Check::Xor(0xFF))
@@ -37,7 +37,7 @@ pub use delimited::{Delimited, DelimitedDecoder, Escape};
 
 /// Framing of messages in a byte stream.
 ///
-/// A custom protocol, here a length byte and the data, without a check:
+/// Implement this trait for a custom protocol. Here, a frame is a length byte and the data, without a checksum:
 ///
 /// ```
 /// use lexibus::framing::{FrameError, Framing};
@@ -45,7 +45,7 @@ pub use delimited::{Delimited, DelimitedDecoder, Escape};
 ///
 /// struct Counted;
 ///
-/// /// Number of bytes that are missing, and number of bytes received.
+/// /// Number of missing bytes, and number of received bytes.
 /// struct Progress(u8, usize);
 ///
 /// impl Framing for Counted {
@@ -84,25 +84,26 @@ pub use delimited::{Delimited, DelimitedDecoder, Escape};
 /// assert_eq!(data[..2], [7, 8]);
 /// ```
 pub trait Framing {
-    /// State of a partly received frame.
+    /// State of the decoder after a part of a frame.
     type Decoder;
 
     /// Writes the frame for `data` to the start of `frame` and returns its length.
     ///
     /// # Errors
     ///
-    /// If `data` is too long for the protocol, or the frame is longer than `frame`.
+    /// Returns an error if `data` is too long for the protocol, or if the frame doesn't fit into `frame`.
     fn encode(&self, data: &[u8], frame: &mut [u8]) -> Result<usize, LengthError>;
 
     /// Returns a decoder that waits for the start of a frame.
     fn decoder(&self) -> Self::Decoder;
 
-    /// Decodes the next byte of the stream. Writes the data of the frame to `data`, which must be the same buffer for
-    /// all bytes of a frame. Returns the length of the data if `byte` is the last byte of the frame.
+    /// Decodes the next byte of the stream and writes the decoded data to `data`. Pass the same buffer for all bytes of
+    /// a frame. Returns the length of the data if `byte` is the last byte of the frame, otherwise `None`.
     ///
     /// # Errors
     ///
-    /// If the frame is invalid. The decoder then waits for the next frame, which `byte` may have started.
+    /// Returns an error if the frame is invalid. The decoder then waits for the next frame. `byte` can be the first
+    /// byte of that frame.
     fn decode(&self, decoder: &mut Self::Decoder, byte: u8, data: &mut [u8]) -> Result<Option<usize>, FrameError>;
 }
 
@@ -130,11 +131,11 @@ pub enum FrameError {
     Interrupted,
     /// The data are longer than the protocol or the buffer allows.
     TooLong,
-    /// The frame is shorter than its check.
+    /// The frame is shorter than its checksum.
     TooShort,
-    /// The byte after the escape byte isn't valid.
+    /// The byte after the escape byte is invalid.
     Escape,
-    /// The check doesn't match the data.
+    /// The checksum doesn't match the data.
     Check,
 }
 

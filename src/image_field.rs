@@ -8,8 +8,8 @@ use crate::value_error::LengthError;
 /// Byte order of a field.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ImageOrder {
-    /// A number with its most significant byte first, as in PROFINET. A field that isn't a whole number of bytes is a
-    /// part of such a number.
+    /// A number with its most significant byte first, as in PROFINET. A field with a part of a byte is a bit field in
+    /// such a number.
     #[default]
     BigEndian,
     /// A number with its least significant byte first, as in EtherCAT.
@@ -20,12 +20,13 @@ pub enum ImageOrder {
 
 /// A bit field in a fixed process image.
 ///
-/// A [`Client`](crate::Client) uses the least significant byte first; an image has its own byte order:
+/// Values in a [`Client`](crate::Client) have their least significant byte first. In an image, each field has its own
+/// byte order:
 ///
 /// ```
 /// use lexibus::ImageField;
 ///
-/// // Four bytes from byte offset 3 on, an input of the controller.
+/// // An input of the controller: four bytes from byte offset 3 on.
 /// const POSITION: ImageField = ImageField::input(8 * 3, 32);
 /// let mut image = [0; 32];
 /// POSITION.put(&mut image, &(-2_i32).to_le_bytes())?;
@@ -38,11 +39,11 @@ pub enum ImageOrder {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ImageField {
-    /// Whether the field is an output of the controller, which the device receives. Otherwise, it is an input, which
-    /// the device sends.
+    /// Whether the field is an output of the controller, which the device receives. Otherwise, the field is an input,
+    /// which the device sends.
     pub is_output: bool,
     /// Bit offset: eight times the offset of the first byte, plus the number of unused bits below the field. In a
-    /// big-endian field, these are bits of the last byte; in a little-endian field, bits of the first byte.
+    /// big-endian field, the unused bits are in the last byte. In a little-endian field, they are in the first byte.
     pub bit: u32,
     /// Length in bits; 64 at most for a number.
     pub bits: u16,
@@ -51,13 +52,13 @@ pub struct ImageField {
 }
 
 impl ImageField {
-    /// Creates a big-endian number that the device sends.
+    /// Creates a big-endian input field, which the device sends.
     #[must_use]
     pub const fn input(bit: u32, bits: u16) -> Self {
         Self { is_output: false, bit, bits, order: ImageOrder::BigEndian }
     }
 
-    /// Creates a big-endian number that the device receives.
+    /// Creates a big-endian output field, which the device receives.
     #[must_use]
     pub const fn output(bit: u32, bits: u16) -> Self {
         Self { is_output: true, bit, bits, order: ImageOrder::BigEndian }
@@ -69,7 +70,7 @@ impl ImageField {
         Self { order, ..self }
     }
 
-    /// Returns the length of the value in bytes, outside the image.
+    /// Returns the length of the value in bytes, as used outside the image.
     #[must_use]
     pub const fn byte_len(&self) -> usize {
         match self.order {
@@ -82,7 +83,7 @@ impl ImageField {
         (self.bit / 8) as usize
     }
 
-    /// Returns the length of the field in bits, 64 at most.
+    /// Returns the length of the field in bits, at most 64.
     const fn width(&self) -> u32 {
         if self.bits > 64 {
             64
@@ -100,12 +101,12 @@ impl ImageField {
         }
     }
 
-    /// Reads the field from `image`, writes the value to the start of `buffer`, the least significant byte first, and
-    /// returns its length in bytes.
+    /// Reads the field from `image` and writes the value to the start of `buffer`. The least significant byte comes
+    /// first. Returns the length of the value in bytes.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if the image ends before the end of the field.
+    /// Returns [`LengthError`] if the image ends before the end of the field.
     pub fn get(&self, image: &[u8], buffer: &mut [u8]) -> Result<usize, LengthError> {
         self.check(image)?;
         let (at, shift) = (self.first_byte(), self.bit % 8);
@@ -123,12 +124,13 @@ impl ImageField {
         Ok(self.byte_len())
     }
 
-    /// Writes the value in `data`, the least significant byte first, to the field and leaves all other bits unchanged.
-    /// A text that is shorter than its field is padded with 0.
+    /// Writes the value in `data` to the field. The least significant byte of `data` comes first. All other bits of the
+    /// image keep their values. A text that is shorter than its field is padded with zeros.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if the image ends before the end of the field, or `data` has another length.
+    /// Returns [`LengthError`] if the image ends before the end of the field, or if the length of `data` doesn't match
+    /// the field.
     pub fn put(&self, image: &mut [u8], data: &[u8]) -> Result<(), LengthError> {
         self.check(image)?;
         let is_short_text = self.order == ImageOrder::Bytes && data.len() < self.byte_len();

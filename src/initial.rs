@@ -4,10 +4,10 @@ use crate::enumeration::Enumeration;
 use crate::node_id::NodeId;
 use crate::value::Value;
 
-/// Initial value after power-on, as the device description gives it.
+/// Initial value after power-on, according to the device description.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Initial<T> {
-    /// The description gives no value.
+    /// The initial value is not in the device description.
     #[default]
     Unknown,
     /// A fixed value.
@@ -17,7 +17,7 @@ pub enum Initial<T> {
 }
 
 impl Initial<&'static [u8]> {
-    /// Creates the initial value of a byte string from a byte string literal. Converts the array reference to a slice.
+    /// Creates the initial value of a byte string from a byte string literal.
     #[must_use]
     pub const fn bytes(bytes: &'static [u8]) -> Self {
         Self::Value(bytes)
@@ -25,8 +25,8 @@ impl Initial<&'static [u8]> {
 }
 
 impl<T: AddNodeId> Initial<T> {
-    /// Returns the value on the device with this node-ID. Returns `None` if the value is unknown or doesn't fit its
-    /// type.
+    /// Returns the initial value on the device with this node-ID. Returns `None` if the value is unknown or doesn't fit
+    /// its type.
     #[must_use]
     pub fn resolve(&self, node: NodeId) -> Option<T> {
         match *self {
@@ -37,9 +37,9 @@ impl<T: AddNodeId> Initial<T> {
     }
 }
 
-/// Integers to which [`Initial::resolve`] can add a node-ID. Newtypes over integers may implement it too.
+/// Integers to which [`Initial::resolve`] can add a node-ID. You can implement this trait for newtypes of integers.
 pub trait AddNodeId: Copy {
-    /// Returns the sum, or `None` if it doesn't fit.
+    /// Returns the sum of the integer and the node-ID, or `None` if the type can't represent the sum.
     #[must_use]
     fn add_node_id(self, node: NodeId) -> Option<Self>;
 }
@@ -48,7 +48,7 @@ macro_rules! add_node_id {
     ($($integer:ty)*) => {$(
         impl AddNodeId for $integer {
             fn add_node_id(self, node: NodeId) -> Option<Self> {
-                // A node-ID is 127 at most, so it fits every integer type.
+                // A node-ID is at most 127, so it fits every integer type.
                 self.checked_add(node.get() as $integer)
             }
         }

@@ -1,4 +1,4 @@
-//! Handle of one value of a device.
+//! Handle of a single value on a device.
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -18,8 +18,8 @@ use crate::value_error::OutOfRange;
 /// One value of a device: an entry of its object dictionary, a register or a parameter.
 ///
 /// `V` is the type of the value. `A` is the access right: [`Ro`](crate::Ro), [`Wo`](crate::Wo), [`Rw`](crate::Rw) or
-/// [`Const`](crate::Const). `L` is the [`Location`](crate::Location), whose type determines the buses on which the item
-/// exists.
+/// [`Const`](crate::Const). `L` is the [`Location`](crate::Location) of the item. The type of the location determines
+/// the buses on which the item exists.
 pub struct Item<V: Value, A, L> {
     location: L,
     name: &'static str,
@@ -31,8 +31,8 @@ pub struct Item<V: Value, A, L> {
 }
 
 impl<V: Value, A, L> Item<V, A, L> {
-    /// Creates an item. `name` is the name in the device description, `range` the values that can be written, and
-    /// `unit` is empty if the value has none.
+    /// Creates an item. `name` is the name in the device description. `range` contains the values that can be written.
+    /// `unit` is empty if the value has no unit.
     #[must_use]
     pub const fn new(
         location: L,
@@ -45,7 +45,7 @@ impl<V: Value, A, L> Item<V, A, L> {
         Self { location, name, range, initial, unit, flags, types: PhantomData }
     }
 
-    /// Returns the location: the route on each bus.
+    /// Returns the location of the item, with its route on each bus.
     #[must_use]
     pub const fn location(&self) -> &L {
         &self.location
@@ -69,19 +69,20 @@ impl<V: Value, A, L> Item<V, A, L> {
         &self.initial
     }
 
-    /// Returns the unit of the value, or of the physical value if the type is a [`Quantity`]; empty if there is none.
+    /// Returns the unit of the value; empty if there is none. For a [`Quantity`], this is the unit of the physical
+    /// value.
     #[must_use]
     pub const fn unit(&self) -> &'static str {
         self.unit
     }
 
-    /// Returns additional properties of the item.
+    /// Returns the additional properties of the item.
     #[must_use]
     pub const fn flags(&self) -> Flags {
         self.flags
     }
 
-    /// Returns the item with the range and the initial value of one model of the device.
+    /// Returns the item with the range and the initial value that apply to one model of the device.
     #[must_use]
     pub const fn of_model(self, range: Range<V::Native>, initial: Initial<V::Native>) -> Self
     where
@@ -112,7 +113,8 @@ impl<V: Quantity<Other = ()>, A, L> Item<V, A, L> {
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] if the raw value is outside the item's range, doesn't fit its type, or has a special meaning.
+    /// Returns [`OutOfRange`] if the raw value is outside the item's range, doesn't fit its type, or has a special
+    /// meaning.
     pub fn raw(&self, physical: f64) -> Result<V::Native, OutOfRange> {
         self.checked(V::raw(physical, ())?)
     }
@@ -130,7 +132,8 @@ impl<V: Quantity<Other = f64>, A, L> Item<V, A, L> {
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] if the raw value is outside the item's range, doesn't fit its type, or has a special meaning.
+    /// Returns [`OutOfRange`] if the raw value is outside the item's range, doesn't fit its type, or has a special
+    /// meaning.
     pub fn raw_by(&self, physical: f64, other: f64) -> Result<V::Native, OutOfRange> {
         self.checked(V::raw(physical, other)?)
     }
@@ -141,8 +144,9 @@ where
     Exponential<B, BASE, BITS>: Quantity<Native = B::Native, Other = f64>,
     B: Value,
 {
-    /// Returns the mantissa and the exponent of a physical value, with the first exponent for which the mantissa is in
-    /// range. The lowest exponent gives the highest resolution. The exponent has to be written to another item.
+    /// Converts a physical value to a mantissa and an exponent. Tries `exponents` in order and returns the first one
+    /// with a mantissa in the item's range. The lowest exponent gives the highest resolution. Write the exponent to its
+    /// own item.
     ///
     /// ```
     /// use lexibus::{Exponential, Flags, Initial, Item, OnSerial, OutOfRange, Range, Rw};
@@ -156,7 +160,7 @@ where
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] if the mantissa is out of range for all `exponents`.
+    /// Returns [`OutOfRange`] if the mantissa is out of range for every element of `exponents`.
     pub fn mantissa_and_exponent(
         &self,
         physical: f64,
@@ -172,7 +176,7 @@ where
 macro_rules! objects {
     ($location:ty, $on:ident: $object:ident, $with_default:ident, $flagged:ident, $flagged_with_default:ident) => {
         impl<V: Value, A> Item<V, A, $location> {
-            /// Creates an entry of the object dictionary without further properties.
+            /// Creates an entry of the object dictionary with default properties.
             #[must_use]
             pub const fn $object(index: u16, sub_index: u8, name: &'static str) -> Self {
                 Self::new(<$location>::$on(index, sub_index), name, Range::Full, Initial::Unknown, "", Flags::NONE)
@@ -225,14 +229,14 @@ objects!(
 macro_rules! registers {
     ($location:ty, $on:ident, ($($argument:ident: $ty:ty),*)) => {
         impl<V: Value, A> Item<V, A, $location> {
-            /// Creates a register without range and unit.
+            /// Creates an item in a register, without range and unit.
             #[must_use]
             pub const fn register($($argument: $ty,)* register: Register, name: &'static str, flags: Flags) -> Self {
                 let location = <$location>::$on($($argument,)* register);
                 Self::new(location, name, Range::Full, Initial::Unknown, "", flags)
             }
 
-            /// Creates a register with range and unit.
+            /// Creates an item in a register, with range and unit.
             #[must_use]
             pub const fn register_within(
                 $($argument: $ty,)*
@@ -255,7 +259,7 @@ registers!(OnCoEAndModbus, register, (index: u16, sub_index: u8));
 registers!(OnCanOpenCoEAndModbus, register, (index: u16, sub_index: u8));
 
 impl<V: Value, A> Item<V, A, OnCoE> {
-    /// Returns the same entry with `offset` added to the index, for a module in another slot.
+    /// Returns the same entry with `offset` added to the index. Use it for a module in another slot.
     #[must_use]
     pub const fn shifted(self, offset: u16) -> Self {
         let object = self.location.coe;
@@ -264,7 +268,7 @@ impl<V: Value, A> Item<V, A, OnCoE> {
     }
 }
 
-// Derived implementations would require `V: Copy` and `A: Copy`.
+// Implemented by hand because derived implementations would require `V: Copy` and `A: Copy`.
 impl<V: Value, A, L: Copy> Copy for Item<V, A, L> {}
 
 impl<V: Value, A, L: Copy> Clone for Item<V, A, L> {

@@ -1,8 +1,9 @@
 //! Runtime of Lexibus, the object-dictionary compiler.
 //!
-//! Generated bindings describe every value of a fieldbus device as a `const` [`Item`] with its type, its access rights
-//! and its address on each [`Bus`]. A [`Client`] or an [`AsyncClient`] transfers the bytes. [`Item::at`] combines item
-//! and client into an [`Accessor`], whose methods `read` and `write` exist only if the device and the bus allow them.
+//! Generated bindings describe every value of a fieldbus device as a `const` [`Item`]. An item has a type, access
+//! rights and an address on each [`Bus`]. A [`Client`] or an [`AsyncClient`] transfers the bytes. [`Item::at`] combines
+//! an item and a client into an [`Accessor`]. The accessor's methods `read` and `write` exist only if the device and
+//! the bus allow them.
 //!
 //! The crate is `no_std`, doesn't allocate, contains no `unsafe` code and has no dependencies in its default build.
 //!
@@ -23,7 +24,7 @@
 //! const STATUSWORD: Item<u16, Ro, OnCanOpen> =
 //!     Item::new(OnCanOpen::canopen(0x6041, 0x00), "Statusword", Range::Full, Initial::Unknown, "", Flags::TPDO);
 //!
-//! // A bus library implements this; here, a device that stores its last write:
+//! // A bus library implements this trait. Here, it is implemented for a device that stores its last write:
 //! struct Echo([u8; 4]);
 //!
 //! impl Client for Echo {
@@ -50,7 +51,7 @@
 //! assert_eq!(TARGET_POSITION.at(&mut client).read()?, 100_000);
 //! assert_eq!(STATUSWORD.at(&mut client).read()?, 0x86A0);
 //!
-//! // 300,000 is outside the declared range, so nothing is sent:
+//! // 300,000 is outside the range of the item, so nothing is sent:
 //! let refused = TARGET_POSITION.at(&mut client).write(300_000);
 //! assert_eq!(refused, Err(Error::OutOfRange(OutOfRange)));
 //! # Ok::<(), Error<core::convert::Infallible>>(())
@@ -77,19 +78,19 @@
 //!
 //! No feature is on by default.
 //!
-//! | feature | adds |
+//! | feature | description |
 //! |---|---|
-//! | `macros` | the macro `dictionary!`, which compiles a device description during the build |
-//! | `std` | `sim`: simulated devices; a [`Client::wait`] that sleeps |
+//! | `macros` | macro `dictionary!`, which compiles a device description during the build |
+//! | `std` | `sim`: simulated devices; [`Client::wait`] with a default implementation that sleeps |
 //! | `canopen` | `clients::canopen`: SDO, NMT, heartbeat, emergencies and PDOs over any CAN interface; needs an allocator |
 //! | `socketcan`, `socketcan-tokio` | `clients::canopen` over SocketCAN on Linux, blocking and async |
-//! | `ethercat` | `clients::ethercat`: objects of SubDevices with `ethercrab`; needs Rust 1.85 |
+//! | `ethercat` | `clients::ethercat`: objects of EtherCAT SubDevices through `ethercrab`; needs Rust 1.85 |
 //! | `modbus` | `clients::modbus`: RTU and TCP with `tokio-modbus` |
-//! | `serial` | `clients::serial`: messages over any stream of `embedded-io` |
-//! | `serde`, `defmt` | traits of these crates for the value types of generated code |
+//! | `serial` | `clients::serial`: messages over any byte stream of `embedded-io` |
+//! | `serde`, `defmt` | implementations of the traits of these crates for the value types of generated code |
 //!
-//! [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md) starts with an introduction and has a
-//! chapter for each format and each bus.
+//! [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md) starts with an introduction. The book
+//! has a chapter for each format and each bus.
 //!
 //! Clauses such as "CiA 301 7.1.6.5" refer to CiA 301 version 4.2.0.
 

@@ -1,4 +1,4 @@
-//! Locations: the routes of an item on all of its buses.
+//! Locations: the routes to an item on all of its buses.
 
 use crate::bus::{
     Bus, CanOpen, CoE, Esc, EscMemory, Modbus, Object, Parameter, ProcessImage, Profinet, Record, Serial,
@@ -7,38 +7,38 @@ use crate::image_field::ImageField;
 use crate::register::Register;
 use crate::route::Route;
 
-/// Location of an item: a route on each bus on which it exists. [`location!`](crate::location!) declares location
-/// types.
+/// Location of an item: one route for each bus on which the item exists. [`location!`](crate::location!) declares
+/// location types.
 ///
-/// The runtime declares those of common combinations of buses, for example [`OnCanOpenAndCoE`]. Generated code declares
-/// the others.
+/// This crate declares the location types of common combinations of buses, for example [`OnCanOpenAndCoE`]. Generated
+/// code declares all other location types.
 pub trait Location: Copy {
-    /// Calls `visit` with the route on each bus.
+    /// Calls `visit` with the route of each bus.
     fn for_each_route(&self, visit: &mut dyn FnMut(&dyn Route));
 }
 
-/// Route of an item on bus `B`. A location implements this trait for each bus on which its items exist.
+/// Route to an item on bus `B`. A location implements this trait for each bus on which its items exist.
 #[diagnostic::on_unimplemented(
     message = "this item doesn't exist on `{B}`",
     label = "the client's bus is `{B}`, on which the device doesn't have this item",
     note = "`{Self}` lists the buses on which the item exists"
 )]
 pub trait On<B: Bus> {
-    /// A [`ReadRoute`](crate::ReadRoute), a [`WriteRoute`](crate::WriteRoute) or both.
+    /// Type of the route: a [`ReadRoute`](crate::ReadRoute), a [`WriteRoute`](crate::WriteRoute) or both.
     type Route: Copy;
 
-    /// Returns the item's route on bus `B`.
+    /// Returns the route to the item on bus `B`.
     fn route(&self) -> Self::Route;
 }
 
 /// Declares a location type: a struct with one field for each bus on which its items exist. Each field declares the bus
-/// and the type of the route, usually the address type of the bus.
+/// and the type of the route. The route is usually an address of the bus.
 ///
 /// ```
 /// use lexibus::{CanOpen, Modbus, Object, On, Register, Resized};
 ///
 /// lexibus::location! {
-///     /// An object whose width differs from the register.
+///     /// Object with another width than the register.
 ///     pub struct OnCanOpenResizedAndModbus {
 ///         canopen: CanOpen => Resized<Object>,
 ///         modbus: Modbus => Register,
@@ -52,7 +52,7 @@ pub trait On<B: Bus> {
 /// assert_eq!(On::<Modbus>::route(&TARGET_POSITION).address, 0x8009);
 /// ```
 ///
-/// An access through a client for another bus doesn't compile:
+/// An access through a client for any other bus causes a compile-time error:
 ///
 /// ```compile_fail,E0277
 /// # use lexibus::{Client, Flags, Initial, Item, Modbus, OnCanOpen, Range, Ro};
@@ -77,7 +77,7 @@ macro_rules! location {
         }
 
         impl $name {
-            /// Creates the location with these routes, in the order of the fields.
+            /// Creates a location from one route per bus, in the order of the fields.
             #[must_use]
             #[allow(dead_code)]
             pub const fn new($($field: $route),*) -> Self {
@@ -134,7 +134,7 @@ location! {
     pub struct OnCanOpenCoEAndModbus { canopen: CanOpen => Object, coe: CoE => Object, modbus: Modbus => Register }
 }
 location! {
-    /// Location of an item that exists only on PROFINET, as a part of a record.
+    /// Location of an item that exists only on PROFINET, in a record.
     pub struct OnProfinet { profinet: Profinet => Record }
 }
 location! {
@@ -200,7 +200,8 @@ impl OnCoEAndModbus {
 }
 
 impl OnCanOpenCoEAndModbus {
-    /// Creates the location of an object, the same on CANopen and EtherCAT, that is also a Modbus register.
+    /// Creates the location of an object that is also a Modbus register. The object has the same address on CANopen and
+    /// EtherCAT.
     #[must_use]
     pub const fn register(index: u16, sub_index: u8, register: Register) -> Self {
         let object = Object { index, sub_index };
@@ -209,7 +210,7 @@ impl OnCanOpenCoEAndModbus {
 }
 
 impl OnProfinet {
-    /// Creates the location of a part of a PROFINET record.
+    /// Creates the location of a value in a PROFINET record.
     #[must_use]
     pub const fn record(part: Record) -> Self {
         Self { profinet: part }

@@ -1,6 +1,6 @@
-//! State machines: the shortest path from one state to another.
+//! State machines: computes the shortest path from one state to another.
 
-/// A transition of a device's state machine. States are numbers.
+/// A transition of a device's state machine. States are represented by numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Transition<C> {
     from: u8,
@@ -9,39 +9,39 @@ pub struct Transition<C> {
 }
 
 impl<C> Transition<C> {
-    /// Creates a transition by a command, or an automatic transition if `command` is `None`.
+    /// Creates a transition that `command` triggers, or an automatic transition if `command` is `None`.
     #[must_use]
     pub const fn new(from: u8, to: u8, command: Option<C>) -> Self {
         Self { from, to, command }
     }
 }
 
-/// Next step of a device toward a state.
+/// Next step on the path of a device to a target state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Step<C> {
-    /// Nothing: the device is in the state.
+    /// The device is already in the target state.
     Reached,
-    /// Send this command.
+    /// Send this command to the device.
     Command(C),
-    /// Wait: the device changes its state automatically.
+    /// Wait until the device changes its state automatically.
     Wait,
-    /// No sequence of commands reaches the state.
+    /// No sequence of transitions leads to the target state.
     Unreachable,
 }
 
-/// Maximum number of transitions; the others are ignored.
+/// Maximum number of transitions. Further transitions are ignored.
 const MAX_TRANSITIONS: usize = 128;
 
 impl<C: Copy> Step<C> {
-    /// Returns the first step of the shortest path from `state` to `target`. If several paths have the same length, one
-    /// that starts with a command is preferred.
+    /// Returns the first step of the shortest path from `state` to `target`. If several paths have the same length, a
+    /// path that starts with a command is preferred.
     #[must_use]
     pub fn toward(transitions: &[Transition<C>], state: u8, target: u8) -> Self {
         if state == target {
             return Step::Reached;
         }
         let transitions = &transitions[..transitions.len().min(MAX_TRANSITIONS)];
-        // One bit for each transition from which the target can be reached in at most the current number of steps.
+        // Bit set of the transitions from which the target can be reached in at most the current number of steps.
         let mut leads: u128 = 0;
         loop {
             let mut more = leads;
@@ -78,8 +78,8 @@ impl<C: Copy> Step<C> {
 mod tests {
     use super::*;
 
-    /// 0 changes to 1 automatically. `u` and `d` change between 1, 2 and 3. `r` changes 4 to 0, and no transition leads
-    /// to 4.
+    /// State 0 changes to state 1 automatically. The commands `u` and `d` change between the states 1, 2 and 3. The
+    /// command `r` changes state 4 to state 0. No transition leads to state 4.
     const TRANSITIONS: &[Transition<char>] = &[
         Transition::new(0, 1, None),
         Transition::new(1, 2, Some('u')),

@@ -1,9 +1,9 @@
 //! Requests and replies of a command protocol as types.
 //!
-//! Generated bindings have a [`Message`] type for every request, and a type for its reply. [`Call`] sends a message
-//! through a [`MessageClient`], for example [`Parameters`](crate::Parameters) over an [`Exchange`](crate::Exchange).
-//! Nothing allocates: lists in requests are slices, and lists in replies are read from the reply's bytes one element at
-//! a time.
+//! Generated bindings have a [`Message`] type for every request, and a type for the reply to the request. [`Call`]
+//! sends a message through a [`MessageClient`], for example [`Parameters`](crate::Parameters) over an
+//! [`Exchange`](crate::Exchange). This module doesn't allocate. Lists in requests are slices. Lists in replies are
+//! decoded from the bytes of the reply, one element at a time.
 //!
 //! ```
 //! use lexibus::message::{Completion, Message, Reader, Reply, WriteError, Writer};
@@ -78,46 +78,46 @@ pub use writer::{check, WriteError, Writer};
 
 /// A request to a device.
 pub trait Message {
-    /// Type of the reply: the raw bytes if the device description declares none.
+    /// Type of the reply. If the device description declares no reply, this type is a slice of the raw bytes.
     type Reply<'r>: Reply<'r>;
 
-    /// Type of the reply if the device refuses the request; [`Infallible`] if it has no such reply.
+    /// Type of the device's refusal; [`Infallible`] if the device never refuses the request.
     type Refusal: for<'r> Reply<'r>;
 
     /// Name of the request in the device description.
     const NAME: &'static str;
 
-    /// When the device has completed the request.
+    /// Specifies when the device has completed the request.
     const COMPLETION: Completion;
 
-    /// Writes the data of the request to the device with this station address. Protocols without station addresses
+    /// Writes the data of the request for the device with this station address. Protocols without station addresses
     /// ignore `station`.
     ///
     /// # Errors
     ///
-    /// If a field is outside its limits, or the data don't fit.
+    /// Returns an error if a field is outside its limits, or if the data don't fit into the buffer.
     fn write(&self, station: u32, to: &mut Writer<'_>) -> Result<(), WriteError>;
 }
 
 /// The reply to a [`Message`]. A program reads it; a simulated device writes it.
 pub trait Reply<'r>: Sized {
-    /// Whether any data match this reply. The data are then checked for a refusal first.
+    /// Whether this reply accepts any data. If so, the data are checked for a refusal first.
     const IS_ANYTHING: bool = false;
 
-    /// Reads the reply to a request. Returns `None` if the data don't match the reply as a whole. Parts that repeat the
-    /// request are compared with it.
+    /// Decodes the reply to a request. Returns `None` unless all data match the reply. Parts of the reply that repeat
+    /// the request must be equal to the request.
     fn read(request: &[u8], from: &mut Reader<'r>) -> Option<Self>;
 
     /// Writes the data of the reply to a request.
     ///
     /// # Errors
     ///
-    /// If a field is outside its limits, the data don't fit, or the request is shorter than the part that the reply
-    /// repeats.
+    /// Returns an error if a field is outside its limits, or if the data don't fit into the buffer. Also returns an
+    /// error if the request is shorter than the part that the reply repeats.
     fn write(&self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError>;
 }
 
-/// The refusal of a device that never refuses.
+/// Refusal type of requests that a device never refuses.
 impl Reply<'_> for Infallible {
     fn read(_: &[u8], _: &mut Reader<'_>) -> Option<Self> {
         None
@@ -128,7 +128,7 @@ impl Reply<'_> for Infallible {
     }
 }
 
-/// A reply of any bytes.
+/// Raw bytes, as the reply to a request without a declared reply.
 impl<'r> Reply<'r> for &'r [u8] {
     const IS_ANYTHING: bool = true;
 
@@ -141,50 +141,52 @@ impl<'r> Reply<'r> for &'r [u8] {
     }
 }
 
-/// The device's side of a [`Message`], for simulators and tests: reads a request.
+/// Decodes a [`Message`] on the device's side. Simulators and tests use this trait.
 pub trait Request<'r>: Message + Sized {
-    /// Reads the station address and the request. Returns `None` if the data are another request. The station address
-    /// is 0 if the protocol has none.
+    /// Decodes the station address and the request. Returns `None` if the data contain another request. The station
+    /// address is 0 if the protocol has no station addresses.
     ///
-    /// Values are not checked against their limits. Limits are checked only when a request is written.
+    /// Values are not checked against their limits. Limits are checked only when a request is encoded.
     fn parse(from: &mut Reader<'r>) -> Option<(u32, Self)>;
 }
 
-/// Reads the reply to the request `M`.
+/// Decodes the reply to the request `M`.
 ///
 /// # Errors
 ///
-/// [`Error::Refused`] if the device refuses, [`Error::UnexpectedReply`] if the data are another reply.
+/// Returns [`Error::Refused`] if the device refuses the request, [`Error::UnexpectedReply`] if the data contain another
+/// reply.
 pub fn read<'r, M: Message, E>(request: &[u8], reply: &'r [u8]) -> Result<M::Reply<'r>, Error<E>> {
     answer::<E, M>(request, reply).map_err(Failure::into_error)
 }
 
-/// When a device has completed a request.
+/// Specifies when a device has completed a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Completion {
-    /// Before it sends the reply.
+    /// The device completes the request before it sends the reply.
     Immediate,
-    /// When it sends the reply, which may take a long time.
+    /// The device sends the reply when the request is completed, which may take a long time.
     Reply,
-    /// When a field of a later reply, or an item, reports it. Replies with this field have the method `is_complete`.
+    /// A field of a later reply, or an item, indicates the completion. Replies with such a field have the method
+    /// `is_complete`.
     Polled,
-    /// After this time in milliseconds.
+    /// The device completes the request after this time in milliseconds.
     Delayed(u32),
 }
 
-/// A request that determines the meaning of later requests. Generated devices offer these requests only after the
+/// A request that determines the meaning of later requests. Generated devices offer these later requests only after the
 /// selector was sent.
 ///
-/// [`Call::select`] sends it and returns the device with these requests.
+/// [`Call::select`] sends the selector and returns the device that offers these requests.
 pub trait Selector: Message {
-    /// Type of the device with a client `C`.
+    /// Type of the device that offers the requests, with a client `C`.
     type Device<C>;
 
     /// Creates the device over `client`. The device must have received this request.
     fn device<C>(client: C) -> Self::Device<C>;
 }
 
-/// State of a device whose last [`Selector`] is unknown, or that has received none.
+/// Type state of a device whose last [`Selector`] is unknown, or that has received no selector.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Unselected;

@@ -1,4 +1,4 @@
-//! Runs futures that are ready at once, without a runtime. For tests.
+//! Runs futures that are ready at the first poll, without an async runtime. Used by tests.
 
 use core::future::Future;
 use core::pin::pin;

@@ -1,4 +1,4 @@
-//! `serde` for byte strings of any length. The traits of `serde` support arrays of at most 32 elements.
+//! `serde` support for byte arrays of any length. The traits of `serde` support only arrays of at most 32 elements.
 
 use core::fmt;
 
@@ -10,7 +10,7 @@ use serde::{Deserializer, Serializer};
 ///
 /// # Errors
 ///
-/// The errors of the serializer.
+/// Returns the errors of the serializer.
 pub fn serialize<S: Serializer, const N: usize>(bytes: &[u8; N], serializer: S) -> Result<S::Ok, S::Error> {
     let mut tuple = serializer.serialize_tuple(N)?;
     for byte in bytes {
@@ -23,7 +23,7 @@ pub fn serialize<S: Serializer, const N: usize>(bytes: &[u8; N], serializer: S) 
 ///
 /// # Errors
 ///
-/// The errors of the deserializer, and an error if there are fewer than `N` bytes.
+/// Returns the errors of the deserializer, or an error if the input has fewer than `N` bytes.
 pub fn deserialize<'de, D: Deserializer<'de>, const N: usize>(deserializer: D) -> Result<[u8; N], D::Error> {
     struct Bytes<const N: usize>;
 

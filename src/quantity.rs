@@ -13,16 +13,16 @@ mod sealed {
 
 /// A native integer or floating-point type. This trait is sealed.
 pub trait Number: Copy + sealed::Sealed {
-    /// Converts the number to `f64`; integers above 2⁵³ lose their lowest bits.
+    /// Converts the number to `f64`. Integers above 2⁵³ lose their lowest bits.
     #[must_use]
     fn real(self) -> f64;
 
-    /// Converts the number to an integer; fractions are cut off.
+    /// Converts the number to an integer and discards the fraction.
     #[must_use]
     fn integer(self) -> i128;
 
-    /// Returns the nearest number of the type, with halves rounded away from zero. Returns `None` if `real` is beyond
-    /// the limits of the type or NaN.
+    /// Returns the number of this type that is nearest to `real`. Halves are rounded away from zero. Returns `None` if
+    /// `real` is NaN or outside the limits of the type.
     #[must_use]
     fn nearest(real: f64) -> Option<Self>;
 }
@@ -44,7 +44,7 @@ macro_rules! integers {
 
             #[inline]
             fn nearest(real: f64) -> Option<Self> {
-                // Both limits are exact as `f64`, except the upper limit of 64-bit types, which is rounded up to a
+                // The limits of the type are exact as `f64`. Only the upper limits of 64-bit types are rounded up to a
                 // power of two.
                 let low = Self::MIN as f64;
                 if !((real >= low || real > low - 0.5) && real < Self::MAX as f64 + 0.5) {
@@ -89,12 +89,12 @@ macro_rules! reals {
 
 reals! { f32 f64 }
 
-/// Type of a number with a physical value. [`Accessor::read_scaled`](crate::Accessor::read_scaled) and
-/// [`Item::physical`](crate::Item::physical) use it.
+/// Type of a number that has a physical value. The trait is used by
+/// [`Accessor::read_scaled`](crate::Accessor::read_scaled) and [`Item::physical`](crate::Item::physical).
 ///
-/// [`read`](crate::Accessor::read) and [`write`](crate::Accessor::write) still use the raw value.
+/// The methods [`read`](crate::Accessor::read) and [`write`](crate::Accessor::write) still use the raw value.
 pub trait Quantity: Fixed {
-    /// Type of the physical value: `f64`, or `Option<f64>` if a raw value has a special meaning.
+    /// Type of the physical value: `f64`, or `Option<f64>` if some raw value has a special meaning.
     type Physical: Copy + Into<Option<f64>>;
 
     /// Type of the value that determines the scale: `()` for a constant scale, otherwise `f64`.
@@ -108,7 +108,7 @@ pub trait Quantity: Fixed {
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] if the raw value doesn't fit the type, or has a special meaning.
+    /// Returns [`OutOfRange`] if the raw value doesn't fit the type or has a special meaning.
     fn raw(physical: f64, other: Self::Other) -> Result<Self::Native, OutOfRange>;
 }
 
@@ -123,16 +123,16 @@ pub trait Quantity: Fixed {
 /// ```
 pub struct Scaled<B, const NUM: i64, const DEN: i64 = 1, const OFFSET: i64 = 0>(PhantomData<B>);
 
-/// Reciprocal scaling: physical = `NUM` / `DEN` / raw. Raw value 0 is read as infinity and can't be written.
+/// Reciprocal scaling: physical = `NUM` / `DEN` / raw. The raw value 0 is read as infinity and can't be written.
 pub struct Reciprocal<B, const NUM: i64, const DEN: i64 = 1>(PhantomData<B>);
 
 /// Fraction of another value: physical = raw / 2^`BITS` × the other value.
 pub struct Fraction<B, const BITS: u32>(PhantomData<B>);
 
-/// Scaling by another value: physical = raw × `NUM` / `DEN` / the other value.
+/// Scaling with a divisor from another item: physical = raw × `NUM` / `DEN` / the other value.
 pub struct PerItem<B, const NUM: i64, const DEN: i64 = 1>(PhantomData<B>);
 
-/// Mantissa with the exponent in another item: physical = raw / 2^`BITS` × `BASE`^exponent. The exponent is an integer.
+/// Mantissa whose exponent is in another item: physical = raw / 2^`BITS` × `BASE`^exponent. The exponent is an integer.
 ///
 /// ```
 /// use lexibus::{Exponential, Quantity};
@@ -143,10 +143,10 @@ pub struct PerItem<B, const NUM: i64, const DEN: i64 = 1>(PhantomData<B>);
 /// ```
 pub struct Exponential<B, const BASE: u32 = 10, const BITS: u32 = 0>(PhantomData<B>);
 
-/// A quantity whose raw value `RAW` isn't a number, for example 0xFFFF for "no sensor".
+/// A quantity in which the raw value `RAW` isn't a number. For example, 0xFFFF can mean "no sensor".
 pub struct OrNone<V, const RAW: i128>(PhantomData<V>);
 
-/// Implements `Value` and `Fixed` with the encoding of the base type.
+/// Implements `Value` and `Fixed` with the encoding of the base type `B`.
 macro_rules! like_its_base {
     ([$($generics:tt)*] $quantity:ty, $base:ident) => {
         impl<$($generics)*> Value for $quantity {
@@ -181,7 +181,7 @@ fn nearest<N: Number>(real: f64) -> Result<N, OutOfRange> {
     N::nearest(real).ok_or(OutOfRange)
 }
 
-/// Implements a quantity over a number from its two conversions: raw to physical, and physical to raw.
+/// Implements a quantity for a number type from two conversions: raw to physical, and physical to raw.
 macro_rules! quantity {
     (
         [$($generics:tt)*] $quantity:ty, $Other:ty:
@@ -283,7 +283,7 @@ where
 }
 
 const fn one_shifted(bits: u32) -> f64 {
-    // 63 bits are more than the mantissa of an `f64` has.
+    // The mantissa of an `f64` has fewer than 63 bits.
     (1_u64 << if bits > 63 { 63 } else { bits }) as f64
 }
 
@@ -295,7 +295,8 @@ fn scaled_by_power(number: f64, base: u32, exponent: f64) -> f64 {
     }
 }
 
-/// Returns `base`^`exponent`. `powi` needs the standard library. 2^1100 is beyond the range of `f64`.
+/// Returns `base`^`exponent` without `powi`, which needs the standard library. The exponent is limited because 2^1100
+/// exceeds the range of `f64`.
 fn power(base: u32, exponent: f64) -> f64 {
     (0..exponent.min(1100.0) as u32).fold(1.0, |power, _| power * f64::from(base))
 }

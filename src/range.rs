@@ -1,6 +1,6 @@
 //! Ranges of values that an item accepts.
 
-/// Range of values, including both limits.
+/// Range of values. The range includes its first and its last value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Range<T: 'static> {
     /// All values of the type.
@@ -10,14 +10,14 @@ pub enum Range<T: 'static> {
     From(T),
     /// This value and all lower values.
     To(T),
-    /// All values from the first to the second one.
+    /// All values from the first to the second value.
     Between(T, T),
-    /// Several values or ranges: the first and the last value of each.
+    /// The union of several ranges, each with its first and last value.
     OneOf(&'static [(T, T)]),
 }
 
 impl<T: PartialOrd> Range<T> {
-    /// Returns whether the range contains `value`. Only [`Range::Full`] contains NaN.
+    /// Returns whether the range contains `value`. NaN is only in [`Range::Full`].
     #[must_use]
     #[inline]
     pub fn contains(&self, value: T) -> bool {

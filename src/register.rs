@@ -4,21 +4,21 @@ use crate::pdo::mask;
 use crate::value::byte_len;
 use crate::value_error::LengthError;
 
-/// The four tables of Modbus.
+/// The four address tables of Modbus.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum RegisterTable {
-    /// Holding registers (4x): functions 3, 6, 16 and 22.
+    /// Holding registers (4x), accessed by the functions 3, 6, 16 and 22.
     #[default]
     Holding,
-    /// Input registers (3x): function 4.
+    /// Input registers (3x), accessed by function 4.
     Input,
-    /// Coils (0x), single bits: functions 1, 5 and 15.
+    /// Coils (0x), which are single bits, accessed by the functions 1, 5 and 15.
     Coil,
-    /// Discrete inputs (1x), single bits: function 2.
+    /// Discrete inputs (1x), which are single bits, accessed by function 2.
     DiscreteInput,
 }
 
-/// Order of the registers of a value.
+/// Order of the registers of one value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum WordOrder {
     /// A number with its most significant word at the lowest address.
@@ -26,7 +26,7 @@ pub enum WordOrder {
     HighFirst,
     /// A number with its least significant word at the lowest address.
     LowFirst,
-    /// A text or a byte string. The first byte is the upper half of the register at the lowest address.
+    /// A text or a byte string. The upper half of the register at the lowest address contains the first byte.
     Bytes,
 }
 
@@ -41,8 +41,8 @@ pub struct RegisterPart {
 
 /// One or more consecutive registers or bits of a Modbus table.
 ///
-/// A [`Client`](crate::Client) uses bytes, the least significant byte first; Modbus transmits words.
-/// [`Register::decode`] and [`Register::encode`] convert between them:
+/// A [`Client`](crate::Client) uses bytes, the least significant byte first. Modbus transmits words.
+/// [`Register::decode`] and [`Register::encode`] convert between the two forms:
 ///
 /// ```
 /// use lexibus::Register;
@@ -63,24 +63,25 @@ pub struct Register {
     pub table: RegisterTable,
     /// Wire address of the first register, zero-based.
     pub address: u16,
-    /// Number of 16-bit registers of the value; number of bits for coils and discrete inputs.
+    /// Number of 16-bit registers that contain the value. For coils and discrete inputs, this is the number of bits.
     pub count: u16,
-    /// Word order.
+    /// Order of the registers.
     pub order: WordOrder,
     /// Whether the two bytes of each register are swapped.
     pub bytes_swapped: bool,
-    /// Bit field that forms the value, or `None` if the value is the whole number. A write has to read the other bits
-    /// first.
+    /// Bit field of the number that forms the value, or `None` if the value is the whole number. To write a bit field,
+    /// a client first reads the registers.
     pub part: Option<RegisterPart>,
     /// Number of 16-bit registers per address: 1 on most devices, 2 on devices with one address per 32-bit register. On
-    /// these, the next 32-bit value is at `address + 1`, two words later.
+    /// the latter, a 32-bit value at `address` is followed by the next value at `address + 1`.
     pub words_per_address: u8,
-    /// Whether a number with fewer bytes than its registers is sign-extended. Otherwise, it is padded with zeros.
+    /// Whether a number with fewer bytes than its registers is sign-extended. Otherwise, the number is padded with
+    /// zeros.
     pub sign_extended: bool,
 }
 
 impl Register {
-    /// Creates a number of `count` registers or bits, with the most significant word first.
+    /// Creates a number in `count` registers or bits, with the most significant word first.
     #[must_use]
     pub const fn new(table: RegisterTable, address: u16, count: u16) -> Self {
         Self {
@@ -95,19 +96,19 @@ impl Register {
         }
     }
 
-    /// Creates a value of one holding register.
+    /// Creates a value in one holding register.
     #[must_use]
     pub const fn holding(address: u16) -> Self {
         Self::new(RegisterTable::Holding, address, 1)
     }
 
-    /// Creates a number of `count` holding registers, with the most significant word first.
+    /// Creates a number in `count` holding registers, with the most significant word first.
     #[must_use]
     pub const fn high_first(address: u16, count: u16) -> Self {
         Self::new(RegisterTable::Holding, address, count)
     }
 
-    /// Creates a number of `count` holding registers, with the least significant word first.
+    /// Creates a number in `count` holding registers, with the least significant word first.
     #[must_use]
     pub const fn low_first(address: u16, count: u16) -> Self {
         Self { order: WordOrder::LowFirst, ..Self::new(RegisterTable::Holding, address, count) }
@@ -125,7 +126,7 @@ impl Register {
         Self { bytes_swapped: true, ..self }
     }
 
-    /// Returns the field of `bits` bits of the number, from bit `first` on.
+    /// Returns the bit field of the number with `bits` bits and bit offset `first`.
     #[must_use]
     pub const fn part(self, first: u8, bits: u8) -> Self {
         Self { part: Some(RegisterPart { first, bits }), ..self }
@@ -138,7 +139,7 @@ impl Register {
     }
 
     /// Returns the same registers for a signed number with fewer bytes than the registers. A write fills the upper
-    /// bytes with copies of the sign bit.
+    /// bytes with the sign bit.
     ///
     /// ```
     /// use lexibus::Register;
@@ -174,8 +175,8 @@ impl Register {
         }
     }
 
-    /// Returns the number of words before the value at the first address. The lower half of a 32-bit register, for
-    /// example, is its second word if the most significant word comes first.
+    /// Returns the number of words in the first address that precede the value. For example, the lower half of a 32-bit
+    /// register is the second word if the most significant word comes first.
     pub(crate) const fn skipped(&self) -> usize {
         match self.order {
             WordOrder::HighFirst => (self.addresses() as usize * self.step() as usize) - self.count as usize,
@@ -183,17 +184,19 @@ impl Register {
         }
     }
 
-    /// Decodes the value in `words`, writes it to the start of `buffer` and returns its length in bytes. Numbers have
-    /// their least significant byte first; texts start with their first byte.
+    /// Decodes the value in `words`, writes it to the start of `buffer` and returns its length in bytes. A number
+    /// starts with its least significant byte, a text with its first byte.
     ///
-    /// A number that is longer than `buffer` loses its upper bytes, for example a one-byte value in a register. A text
-    /// isn't cut off: the returned length is that of the whole text, as [`Client::read`](crate::Client::read) requires.
+    /// If a number is longer than `buffer`, its upper bytes are discarded, for example those of a one-byte value in a
+    /// register. A text isn't truncated. The returned length is that of the whole text, as
+    /// [`Client::read`](crate::Client::read) requires.
     ///
-    /// Coils and discrete inputs don't need this method: Modbus packs them with the first bit lowest, as in `buffer`.
+    /// Coils and discrete inputs don't need this method. Modbus packs bits into bytes with the first bit lowest, as in
+    /// `buffer`.
     ///
     /// # Errors
     ///
-    /// [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count). The same error if the value is
+    /// Returns [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count), or if the value is
     /// a bit field in a number of more than four words.
     pub fn decode(&self, words: &[u16], buffer: &mut [u8]) -> Result<usize, LengthError> {
         self.check(words)?;
@@ -211,14 +214,15 @@ impl Register {
         Ok(if self.order == WordOrder::Bytes { length } else { length.min(buffer.len()) })
     }
 
-    /// Encodes the value in `data`, in the format of [`decode`](Register::decode), into `words`. Missing bytes are 0,
-    /// or copies of the sign bit if the register is [`sign_extended`](Register::sign_extended). If the value is a
-    /// [`part`](Register::part), only its bits change, and `words` must contain the current registers.
+    /// Encodes the value in `data` into `words`, in the format of [`decode`](Register::decode). Missing bytes are 0. If
+    /// the register is [`sign_extended`](Register::sign_extended), missing bytes are filled with the sign bit. If the
+    /// value is a [`part`](Register::part), `words` must contain the current registers, and only the bits of the part
+    /// change.
     ///
     /// # Errors
     ///
-    /// [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count), or `data` is longer than
-    /// `words`. The same error if the value is a bit field in a number of more than four words.
+    /// Returns [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count), or if `data` is
+    /// longer than `words`. The same error occurs if the value is a bit field in a number of more than four words.
     pub fn encode(&self, data: &[u8], words: &mut [u16]) -> Result<(), LengthError> {
         self.check(words)?;
         let count = words.len();
@@ -254,8 +258,8 @@ impl Register {
         }
     }
 
-    /// Returns the position, among `count` words, of the word with significance `at`. For texts, `at` is the word's
-    /// position in the text.
+    /// Returns the position of a word among the `count` words of a value. For a number, `at` is the significance of the
+    /// word. For a text, `at` is the position of the word in the text.
     const fn position(&self, at: usize, count: usize) -> usize {
         match self.order {
             WordOrder::HighFirst => count - 1 - at,
@@ -280,8 +284,8 @@ impl Register {
         }
     }
 
-    /// Returns whether the upper half of a word comes first in the value. This is so for texts, and for numbers with
-    /// swapped bytes.
+    /// Returns whether the upper half of a word comes first in the value. This applies to texts without swapped bytes
+    /// and to numbers with swapped bytes.
     const fn is_big_endian(&self) -> bool {
         matches!(self.order, WordOrder::Bytes) != self.bytes_swapped
     }
@@ -353,7 +357,7 @@ mod tests {
         let mut words = [0xFFFF; 2];
         assert_eq!(text.encode(b"A", &mut words), Ok(()));
         assert_eq!(words, [0x4100, 0]);
-        // The caller detects by the length that the text doesn't fit.
+        // The caller compares the length with its buffer and detects that the text doesn't fit.
         assert_eq!(text.decode(&[0x4142, 0x4344], &mut [0; 3]), Ok(4));
     }
 

@@ -1,4 +1,4 @@
-//! Routes: how the value of an item is transferred on one bus, directly at its address or indirectly.
+//! Routes: transfers of an item's value on one bus, directly to an address or indirectly.
 
 use crate::bus::{Bus, EscMemory, Object, Parameter, Record};
 use crate::client::{AsyncClient, Client};
@@ -10,7 +10,7 @@ pub use limited::Limited;
 pub use resized::Resized;
 pub use window::{Handshake, ReadWindow, Through, WriteWindow};
 
-/// Provides the address of a route to tools. A route through a window has none.
+/// Provides the address of a route to tools. A route through a window has no address.
 pub trait Route {
     /// Returns the entry of the object dictionary, on CANopen or on CANopen over EtherCAT.
     fn object(&self) -> Option<Object> {
@@ -22,7 +22,7 @@ pub trait Route {
         None
     }
 
-    /// Returns whether the width of the value on this bus differs from the width of the item.
+    /// Returns whether the value on this bus has another width than the item.
     fn is_resized(&self) -> bool {
         false
     }
@@ -45,7 +45,7 @@ impl Route for Parameter {}
 impl Route for ImageField {}
 impl Route for EscMemory {}
 
-/// A route that is a plain address on bus `B`.
+/// A route that consists of an address on bus `B`.
 #[diagnostic::on_unimplemented(
     message = "this item has no direct address on `{B}`",
     label = "on the client's bus, this item is accessed through a window or has another width"
@@ -55,25 +55,25 @@ pub trait Direct<B: Bus>: Copy {
     fn address(self) -> B::Address;
 }
 
-/// A route that can read a value. Every address is a direct route. [`Split`], [`Resized`], [`Limited`] and [`Through`]
-/// are built from addresses and from each other.
+/// A route that can read a value. Every address is a route. [`Split`], [`Resized`], [`Limited`] and [`Through`] are
+/// routes that contain other routes.
 #[diagnostic::on_unimplemented(
     message = "this item can't be read on `{B}`",
     label = "the client's bus has no route that reads this item"
 )]
 pub trait ReadRoute<B: Bus>: Copy {
-    /// Reads the value to the start of `buffer` and returns its length, as [`Client::read`] does.
+    /// Reads the value into the start of `buffer` and returns its length, as [`Client::read`] does.
     ///
     /// # Errors
     ///
-    /// The errors of the client and of the route.
+    /// Returns the errors of the client and of the route.
     fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>>;
 
     /// Reads the value without blocking, as [`read`](Self::read) does.
     ///
     /// # Errors
     ///
-    /// The errors of the client and of the route.
+    /// Returns the errors of the client and of the route.
     #[allow(async_fn_in_trait)]
     async fn read_async<C: AsyncClient<Bus = B>>(
         &self,
@@ -92,19 +92,19 @@ pub trait WriteRoute<B: Bus>: Copy {
     ///
     /// # Errors
     ///
-    /// The errors of the client and of the route.
+    /// Returns the errors of the client and of the route.
     fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>>;
 
     /// Writes the value without blocking, as [`write`](Self::write) does.
     ///
     /// # Errors
     ///
-    /// The errors of the client and of the route.
+    /// Returns the errors of the client and of the route.
     #[allow(async_fn_in_trait)]
     async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>>;
 }
 
-/// Defines the methods of a [`ReadRoute`] that reads through `self.$route`.
+/// Defines the methods of a [`ReadRoute`] that delegates to `self.$route`.
 macro_rules! read_by {
     ($route:tt) => {
         #[inline]
@@ -168,18 +168,19 @@ mod limited;
 mod resized;
 mod window;
 
-/// Direction of a [`Split`] that doesn't exist on its bus.
+/// Marks the direction in which a [`Split`] allows no access.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Closed;
 
-/// Route that reads on one route and writes on another. An access in a [`Closed`] direction doesn't compile.
+/// Route with different routes for reading and for writing. An access in a [`Closed`] direction causes a compile-time
+/// error.
 ///
 /// ```
 /// use lexibus::{CanOpen, Closed, Object, ReadRoute, Split, WriteRoute};
 ///
-/// // CiA 402 has different objects for writing and for reading the mode of operation.
+/// // In CiA 402, the mode of operation has one object for writing and another one for reading.
 /// const MODE: Split<Object, Object> = Split { read: Object::new(0x6061, 0), write: Object::new(0x6060, 0) };
-/// // A value that can only be read.
+/// // This value is read-only.
 /// const STATUS: Split<Object, Closed> = Split::reading(Object::new(0x6041, 0));
 ///
 /// fn both_ways(_: impl ReadRoute<CanOpen> + WriteRoute<CanOpen>) {}
@@ -196,7 +197,7 @@ pub struct Split<R, W> {
 }
 
 impl<R, W> Split<R, W> {
-    /// Creates a route that reads on `read` and writes on `write`.
+    /// Creates a route that uses `read` for reading and `write` for writing.
     #[must_use]
     pub const fn new(read: R, write: W) -> Self {
         Self { read, write }
@@ -204,7 +205,7 @@ impl<R, W> Split<R, W> {
 }
 
 impl<R> Split<R, Closed> {
-    /// Creates a route that can only read.
+    /// Creates a read-only route.
     #[must_use]
     pub const fn reading(read: R) -> Self {
         Self { read, write: Closed }
@@ -212,7 +213,7 @@ impl<R> Split<R, Closed> {
 }
 
 impl<W> Split<Closed, W> {
-    /// Creates a route that can only write.
+    /// Creates a write-only route.
     #[must_use]
     pub const fn writing(write: W) -> Self {
         Self { read: Closed, write }

@@ -1,16 +1,17 @@
-//! All items of a device as data, for programs that list or search items at run time, and for simulated devices.
+//! All items of a device as data. Programs use this table to list or search items at run time, simulated devices to
+//! store values.
 
 use crate::bus::Object;
 use crate::data_type::DataType;
 use crate::flags::Flags;
 use crate::register::Register;
 
-/// One item: an entry of the object dictionary, a register, or both.
+/// One item: an entry of the object dictionary, a Modbus register, or both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
-    /// Address in the object dictionary; `None` if the item is only a register.
+    /// Address in the object dictionary; `None` if the item exists only as a register.
     pub object: Option<Object>,
-    /// Register on Modbus; `None` if the item is only an object.
+    /// Modbus register; `None` if the item exists only as an object.
     pub register: Option<Register>,
     /// Name in the device description.
     pub name: &'static str,
@@ -18,7 +19,7 @@ pub struct Entry {
     pub data_type: DataType,
     /// Access rights.
     pub access: AccessRights,
-    /// Additional properties.
+    /// Additional properties of the item.
     pub flags: Flags,
     /// Initial value after power-on.
     pub initial: RawInitial,
@@ -33,31 +34,31 @@ pub struct Entry {
 /// Access rights of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum AccessRights {
-    /// Read-only (`ro`).
+    /// Read-only access (`ro`).
     ReadOnly,
-    /// Write-only (`wo`).
+    /// Write-only access (`wo`).
     WriteOnly,
-    /// Read and write (`rw`, `rwr`, `rww`).
+    /// Read and write access (`rw`, `rwr`, `rww`).
     ReadWrite,
-    /// Read-only, with a value that never changes (`const`).
+    /// Read-only access to a value that never changes (`const`).
     Constant,
 }
 
-/// Initial value after power-on, in the encoding of the device.
+/// Initial value after power-on, encoded as on the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RawInitial {
-    /// The device description gives no value.
+    /// The initial value is not in the device description.
     Unknown,
-    /// A fixed value.
+    /// Bytes of a fixed value.
     Bytes(&'static [u8]),
-    /// The node-ID plus this number.
+    /// The initial value is the sum of the node-ID and this number.
     NodeId(u64),
 }
 
-/// Inclusive limit of a range.
+/// Limit of a range. The limit belongs to the range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
-    /// The limit of the data type.
+    /// The limit is that of the data type.
     Unlimited,
     /// Limit of a signed integer.
     Signed(i64),
@@ -67,8 +68,8 @@ pub enum Bound {
     Real(f64),
 }
 
-/// Returns the entry at `index` and `sub_index`. `entries` must be in ascending order of their objects, as generated
-/// tables are.
+/// Returns the entry at `index` and `sub_index`. `entries` must be sorted by index and sub-index, as in generated
+/// tables.
 #[must_use]
 pub fn find(entries: &[Entry], index: u16, sub_index: u8) -> Option<&Entry> {
     let object = Some(Object::new(index, sub_index));

@@ -1,4 +1,4 @@
-//! Types of texts and byte strings with a variable length.
+//! Types of texts and byte strings with variable length.
 
 use core::char::decode_utf16;
 use core::fmt::{self, Write};
@@ -23,7 +23,7 @@ pub struct OctetString;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Domain;
 
-/// Bytes whose meaning the device description doesn't give.
+/// Bytes whose meaning is not in the device description.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Opaque;
 
@@ -60,7 +60,7 @@ pub(crate) fn encode_visible(text: &str) -> Result<&[u8], TextError> {
     }
 }
 
-/// Writes `text` as UTF-16 to the start of `scratch` and returns this part.
+/// Encodes `text` as UTF-16 at the start of `scratch` and returns the encoded part.
 pub(crate) fn encode_utf16<'s>(text: &str, scratch: &'s mut [u8]) -> Result<&'s [u8], LengthError> {
     let (expected, actual) = (text.encode_utf16().count() * 2, scratch.len());
     let room = scratch.get_mut(..expected).ok_or(LengthError { expected, actual })?;
@@ -70,7 +70,7 @@ pub(crate) fn encode_utf16<'s>(text: &str, scratch: &'s mut [u8]) -> Result<&'s 
     Ok(room)
 }
 
-/// UTF-16 text from a device, checked for validity. `Display` writes the text.
+/// UTF-16 text from a device. The code units are valid. `Display` writes the text.
 ///
 /// ```
 /// use lexibus::Utf16;
@@ -85,11 +85,12 @@ pub struct Utf16<'b> {
 }
 
 impl<'b> Utf16<'b> {
-    /// Creates the text in `bytes`, the low byte of each code unit first, up to the first NUL.
+    /// Creates the text from `bytes`, which contain the low byte of each code unit first. The text ends before the
+    /// first NUL.
     ///
     /// # Errors
     ///
-    /// [`TextError`] if the number of bytes is odd or half of a surrogate pair is missing.
+    /// Returns [`TextError`] if the number of bytes is odd or one half of a surrogate pair is missing.
     pub fn new(bytes: &'b [u8]) -> Result<Self, TextError> {
         let length = units(bytes).take_while(|&unit| unit != 0).count() * 2;
         let text = Self { bytes: &bytes[..length] };
@@ -99,7 +100,7 @@ impl<'b> Utf16<'b> {
 
     /// Returns the characters of the text.
     pub fn chars(&self) -> impl Iterator<Item = char> + 'b {
-        // `new` checked every code unit, so none is dropped.
+        // `new` checked every code unit, so the filter discards nothing.
         decode_utf16(units(self.bytes)).filter_map(Result::ok)
     }
 }

@@ -1,4 +1,4 @@
-//! Value types, and the encoding of those with a fixed size.
+//! Value types of items, and the encoding of types with a fixed size.
 
 use crate::data_type::DataType;
 use crate::range::Range;
@@ -6,39 +6,39 @@ use crate::value_error::{LengthError, OutOfRange};
 
 /// The type of an item's value.
 pub trait Value {
-    /// Type of the value in Rust code.
+    /// Rust type of the value.
     type Native: Copy + 'static;
 
-    /// Type in the object dictionary.
+    /// Data type in the object dictionary.
     const DATA_TYPE: DataType;
 }
 
-/// A type of at most 64 bits with a fixed length in bytes and the least significant byte first (CiA 301 7.1.4).
+/// A type of at most 64 bits with a fixed length. The encoding starts with the least significant byte (CiA 301 7.1.4).
 ///
-/// Generated newtypes and enumerations implement it through their integer type.
+/// Generated newtypes and enumerations implement this trait with the encoding of their integer type.
 pub trait Fixed: Value {
-    /// Size in bits, 1 to 64. The encoding is rounded up to whole bytes.
+    /// Size in bits, 1 to 64. The encoding has the next whole number of bytes.
     const BITS: u32;
 
     /// Encodes `native` at the start of `buffer` and returns the length in bytes.
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] if `native` doesn't fit in [`BITS`](Fixed::BITS) bits.
+    /// Returns [`OutOfRange`] if `native` doesn't fit in [`BITS`](Fixed::BITS) bits.
     fn encode(native: Self::Native, buffer: &mut [u8; 8]) -> Result<usize, OutOfRange>;
 
-    /// Decodes a value from exactly as many bytes as its encoding has.
+    /// Decodes a value. `bytes` must have exactly the length of the encoding.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if `bytes` has another length.
+    /// Returns [`LengthError`] if `bytes` has another length.
     fn decode(bytes: &[u8]) -> Result<Self::Native, LengthError>;
 
     /// Returns whether `range` contains `value`.
     fn in_range(value: Self::Native, range: &Range<Self::Native>) -> bool;
 }
 
-/// Writes the low `bits` bits of `raw`, rounded up to whole bytes, to the start of `buffer` and returns the length in
+/// Writes the low `bits` bits of `raw` to the start of `buffer`, rounded up to whole bytes. Returns the length in
 /// bytes.
 #[inline]
 pub(crate) fn encode_raw(raw: u64, bits: u32, buffer: &mut [u8; 8]) -> usize {
@@ -46,7 +46,7 @@ pub(crate) fn encode_raw(raw: u64, bits: u32, buffer: &mut [u8; 8]) -> usize {
     byte_len(bits)
 }
 
-/// Reads `bits` bits from a slice with exactly as many bytes as these need.
+/// Decodes `bits` bits. The slice must have exactly the number of bytes that these bits occupy.
 #[inline]
 pub(crate) fn decode_raw(bytes: &[u8], bits: u32) -> Result<u64, LengthError> {
     let expected = byte_len(bits);
@@ -56,7 +56,7 @@ pub(crate) fn decode_raw(bytes: &[u8], bits: u32) -> Result<u64, LengthError> {
     Ok(crate::pdo::from_bytes(bytes))
 }
 
-/// Returns the number of bytes of `bits` bits, 8 at most.
+/// Returns the number of bytes for `bits` bits, at most 8.
 #[inline]
 pub(crate) const fn byte_len(bits: u32) -> usize {
     match bits {
@@ -70,7 +70,7 @@ impl Value for bool {
     const DATA_TYPE: DataType = DataType::Boolean;
 }
 
-/// One byte, 0 or 1. Every value except 0 is read as `true`.
+/// One byte with the value 0 or 1. Every value except 0 is read as `true`.
 impl Fixed for bool {
     const BITS: u32 = 1;
 

@@ -3,7 +3,7 @@
 use core::error;
 use core::fmt;
 
-/// A number of bytes other than the expected one.
+/// The number of bytes differs from the expected number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LengthError {
     /// Length of the value, or maximum length of the buffer, in bytes.
@@ -13,18 +13,18 @@ pub struct LengthError {
 }
 
 impl LengthError {
-    /// Creates the error for `actual` bytes instead of `expected`.
+    /// Creates the error for a length of `actual` bytes where `expected` bytes were required.
     #[must_use]
     pub const fn new(expected: usize, actual: usize) -> Self {
         Self { expected, actual }
     }
 }
 
-/// A value outside the declared range of its item, or outside the range of its type.
+/// A value is outside the declared range of its item, or outside the range of its type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct OutOfRange;
 
-/// Text with characters that its type doesn't allow, or bytes that aren't valid text.
+/// Text contains characters that its type doesn't allow, or bytes are no valid text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TextError;
 

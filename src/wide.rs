@@ -1,4 +1,4 @@
-//! Integer types for widths that Rust doesn't have.
+//! Integer types with widths that Rust doesn't provide.
 
 use crate::data_type::DataType;
 use crate::pdo::{mask, sign_extend};
@@ -6,7 +6,7 @@ use crate::range::Range;
 use crate::value::{decode_raw, encode_raw, Fixed, Value};
 use crate::value_error::{LengthError, OutOfRange};
 
-/// An unsigned integer of `BITS` bits, 1 to 63. Any other width doesn't compile:
+/// An unsigned integer of `BITS` bits, 1 to 63. Any other width causes a compile-time error:
 ///
 /// ```compile_fail,E0080
 /// const _: u64 = lexibus::Uint::<64>::MAX.get();
@@ -16,7 +16,7 @@ use crate::value_error::{LengthError, OutOfRange};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "u64", into = "u64"))]
 pub struct Uint<const BITS: u32>(u64);
 
-/// A signed integer of `BITS` bits, 1 to 63, in two's complement. Any other width doesn't compile.
+/// A signed integer of `BITS` bits, 1 to 63, in two's complement. Any other width causes a compile-time error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "i64", into = "i64"))]
@@ -30,10 +30,10 @@ const fn checked_width(bits: u32) -> u32 {
 impl<const BITS: u32> Uint<BITS> {
     const WIDTH: u32 = checked_width(BITS);
 
-    /// Minimum, 0.
+    /// Minimum value, 0.
     pub const MIN: Self = Self::from_raw(0);
 
-    /// Maximum.
+    /// Maximum value.
     pub const MAX: Self = Self::from_raw(u64::MAX);
 
     /// Creates the integer. Returns `None` if `value` doesn't fit in `BITS` bits.
@@ -48,7 +48,7 @@ impl<const BITS: u32> Uint<BITS> {
         }
     }
 
-    /// Returns the number.
+    /// Returns the value.
     #[must_use]
     #[inline]
     pub const fn get(self) -> u64 {
@@ -62,7 +62,7 @@ impl<const BITS: u32> Uint<BITS> {
         Self(raw & mask(Self::WIDTH))
     }
 
-    /// Returns the bits of the number in the low `BITS` bits; the others are 0.
+    /// Returns the low `BITS` bits of the integer's representation. All other bits are 0.
     #[must_use]
     #[inline]
     pub const fn raw(self) -> u64 {
@@ -73,10 +73,10 @@ impl<const BITS: u32> Uint<BITS> {
 impl<const BITS: u32> Int<BITS> {
     const WIDTH: u32 = checked_width(BITS);
 
-    /// Minimum.
+    /// Minimum value.
     pub const MIN: Self = Self::from_raw(1 << (Self::WIDTH - 1));
 
-    /// Maximum.
+    /// Maximum value.
     pub const MAX: Self = Self::from_raw(mask(Self::WIDTH - 1));
 
     /// Creates the integer. Returns `None` if `value` doesn't fit in `BITS` bits.
@@ -91,21 +91,22 @@ impl<const BITS: u32> Int<BITS> {
         }
     }
 
-    /// Returns the number.
+    /// Returns the value.
     #[must_use]
     #[inline]
     pub const fn get(self) -> i64 {
         self.0
     }
 
-    /// Creates the integer from the low `BITS` bits of `raw`; the highest of these is the sign. Ignores the other bits.
+    /// Creates the integer from the low `BITS` bits of `raw`. The highest of these bits is the sign. Ignores the other
+    /// bits.
     #[must_use]
     #[inline]
     pub const fn from_raw(raw: u64) -> Self {
         Self(sign_extend(raw, Self::WIDTH))
     }
 
-    /// Returns the bits of the number in the low `BITS` bits; the others are 0.
+    /// Returns the low `BITS` bits of the integer's representation. All other bits are 0.
     #[must_use]
     #[inline]
     pub const fn raw(self) -> u64 {

@@ -72,7 +72,7 @@ fn what_is_not_selected_is_not_linked() {
         compilation.rust(&RustOptions::default()).expect("bindings")
     };
     let drive = of("dictionaries/demo-drive.eds", "0x6040..0x6060");
-    assert!(drive.contains("Carried by [`RxPdo1`](pdo::RxPdo1)") && !drive.contains("MODES_OF_OPERATION_DISPLAY"));
+    assert!(drive.contains("Mapped in [`RxPdo1`](pdo::RxPdo1)") && !drive.contains("MODES_OF_OPERATION_DISPLAY"));
     let press = of("tests/data/press.toml", "0x2008");
     document("selected", &[&drive, &press]).unwrap_or_else(|message| panic!("{message}"));
 }
@@ -88,8 +88,8 @@ fn references_are_links() {
         (
             "tests/data/press.toml",
             &[
-                "    /// Constant: [`objects::CONTROL`]. Values: [`Control`](types::Control).",
-                "    /// View of [`Control`] with the bits that apply while [mode](super::objects::MODE) is press (1).",
+                "    /// Constant: [`objects::CONTROL`]. Type of the value: [`Control`](types::Control).",
+                "    /// View of [`Control`] with the bits that are defined while [mode](super::objects::MODE) is press (1).",
                 "    /// States of ram, read from [status](super::objects::STATUS).",
                 "    /// | [`Ready`](Self::Ready) | `xxxx xxxx xxxx x001` |",
                 "    /// Physical value = raw × 0.5 / [gain](GAIN) N, 0x200C:01, Modbus 12 (holding; wire 12; FC 3), INTEGER16, read-only.",
@@ -99,20 +99,20 @@ fn references_are_links() {
         (
             "tests/data/hoist.toml",
             &[
-                "    /// Has this meaning after [Select load](messages::SelectLoad).",
-                "    /// Has this meaning after [Select load](SelectLoad).",
+                "    /// The message has this meaning after [Select load](messages::SelectLoad).",
+                "    /// The message has this meaning after [Select load](SelectLoad).",
                 "    /// Replaced by [Go](messages::Go).",
-                "    /// Sends [`messages::Go`].",
+                "    /// Sends the message [`messages::Go`].",
             ],
         ),
         (
             "tests/data/one-drive.toml",
-            &["    /// On CANopen: [Read address](super::objects::reading::READ_ADDRESS) selects an item by its number, and \
-               [Read value](super::objects::reading::READ_VALUE) returns its value."],
+            &["    /// Window on CANopen: [Read address](super::objects::reading::READ_ADDRESS) receives the number of an item, and \
+               [Read value](super::objects::reading::READ_VALUE) returns the value of this item."],
         ),
         (
             "dictionaries/eco.toml",
-            &["    /// Layout: [`pdo::Velocity`](super::pdo::Velocity).", "    /// Constant: [`objects::P1`]. Part of [`PULSES_PER_TURN`]."],
+            &["    /// The layout is that of [`pdo::Velocity`](super::pdo::Velocity).", "    /// Constant: [`objects::P1`]. Part of [`PULSES_PER_TURN`]."],
         ),
         (
             "dictionaries/demo-drive.eds",
@@ -178,7 +178,7 @@ fn no_text_breaks_out_of_its_cell() {
     assert_eq!(bits.iter().map(Vec::len).collect::<Vec<_>>(), [3; 4], "{bits:#?}");
     assert_eq!(bits[0][2], r"x || y. `|` \| $[`mode`] &lt;script&gt; &amp;#124; https://x.y.");
     assert!(bits[2][2].contains("enum.StatusM.html"), "the values of a field are linked: {bits:#?}");
-    assert_eq!(bits[3][1..], ["reserved", "Written as 0."]);
+    assert_eq!(bits[3][1..], ["reserved", "The value 0 is written."]);
 }
 
 /// Time limit for documenting descriptions of the corpus.

@@ -176,7 +176,7 @@ fn words_that_are_no_command() {
 fn conditions_on_bits() {
     let text = a(", when = { b = { mask = 4, value = 0 } }");
     assert_eq!(reported(&text), [""; 0]);
-    assert!(rust(&text).contains("Can be written only while [b](B) \\& 0x4 is 0."));
+    assert!(rust(&text).contains("The value can be written only while [b](B) \\& 0x4 is 0."));
     is_wrong(", when = { b = { mask = 4, value = 1 } }", "never true");
     is_wrong(", when = { b = { mask = 4 } }", "never true");
     is_wrong(", when = { b = [1, { mask = 4 }] }", "one table with `mask` and `value`");
@@ -185,7 +185,8 @@ fn conditions_on_bits() {
     assert_eq!(reported(&values), [""; 0]);
     let text = rust(&values);
     assert!(
-        text.contains("Only on CANopen.") && text.contains("Valid only while [b](super::objects::B) is 3."),
+        text.contains("Available only on CANopen.")
+            && text.contains("This value is valid only while [b](super::objects::B) is 3."),
         "{text}"
     );
     let never = values.replace("b = 3", "b = { mask = 4, value = 8 }");

@@ -158,7 +158,7 @@ fn numbers_in_several_items() {
     assert_eq!(reported(&text), [""; 0]);
     let code = rust(&text);
     for part in [
-        "/// offset, split into [high](objects::HIGH), [low](objects::LOW) to the base 100. [sign](objects::SIGN) is 2 if the number is negative. Unit: pulse. From the marker.",
+        "/// offset: a number in base 100, with its digits in [high](objects::HIGH), [low](objects::LOW). [sign](objects::SIGN) is 2 if the number is negative. Unit: pulse. From the marker.",
         "pub const OFFSET: rt::Composite<2> = rt::Composite::signed(100, 2);",
         "rt::Composite<2> = rt::Composite::new(16);",
     ] {

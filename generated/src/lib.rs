@@ -1,16 +1,16 @@
-//! Typed bindings of the drives that Lexibus ships: a module and a feature a drive.
+//! Typed bindings of the drives that Lexibus ships. Each drive has a module and a cargo feature.
 //!
-//! The modules are generated from the descriptions in the repository's folder `dictionaries`, and checked in. The documentation shows all of
-//! them, whatever the features.
+//! The modules are generated from the descriptions in the folder `dictionaries` of the repository. This documentation contains all
+//! modules, regardless of the enabled features.
 //!
 //! | feature | module | drive |
 //! |---|---|---|
 //! | `akd` | [`akd`] | Kollmorgen AKD servo drives, on EtherCAT |
-//! | `demo-drive` | [`demo_drive`] | an imaginary CiA 402 drive, to try things on |
+//! | `demo-drive` | [`demo_drive`] | an imaginary CiA 402 drive, for experiments |
 //! | `hsd` | [`hsd`] | HSD SM137 and SM140 positioning motors, on RS-485 |
 //! | `vector-step` | [`vector_step`] | AEC Vector Step stepper drives, on CANopen, EtherCAT and Modbus |
 //! | `eco` | [`eco`] | Eco drives, on CANopen, EtherCAT, Modbus and PROFINET |
-//! | `table` | – | adds `ENTRIES`, a table of all entries, to each module |
+//! | `table` | – | all drives: adds the table `ENTRIES` of all items to each module |
 //!
 //! ```
 //! # #[cfg(feature = "demo-drive")] {

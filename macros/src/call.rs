@@ -1,4 +1,4 @@
-//! Parsing of the macro's arguments.
+//! Parser of the macro's arguments.
 
 use lexibus_codegen::compile::{self, Options};
 use lexibus_codegen::diagnostics::Levels;
@@ -97,7 +97,7 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options, overlays: &mut V
     Ok(())
 }
 
-/// Parses `true`, `false`, or the name of the cargo feature that enables the code.
+/// Parses a value that is `true`, `false`, or the name of the cargo feature that enables the code.
 fn presence(input: ParseStream<'_>) -> syn::Result<Presence> {
     if input.peek(LitBool) {
         let always = input.parse::<LitBool>()?.value;

@@ -1,6 +1,6 @@
 //! The macro `dictionary!`: generates a typed Rust module from a device description at compile time.
 //!
-//! The runtime crate re-exports it with the feature `macros`. Use it from there:
+//! The feature `macros` of the runtime crate re-exports the macro. Use the macro through the runtime crate:
 //!
 //! ```
 //! lexibus::dictionary! {
@@ -35,7 +35,7 @@ use syn::LitStr;
 /// }
 /// ```
 ///
-/// The path is relative to the folder of the calling crate. Options follow in braces:
+/// The path is relative to the folder of the calling crate. Options follow the path in braces:
 ///
 /// ```
 /// # use lexibus::dictionary;
@@ -56,12 +56,12 @@ use syn::LitStr;
 /// }
 /// ```
 ///
-/// `overlay: "../dictionaries/drive.overlay.toml"` applies a table that corrects or extends the description. It may be
-/// repeated.
+/// `overlay: "../dictionaries/drive.overlay.toml"` applies a table that corrects or extends the description. The option
+/// may be repeated.
 ///
-/// Errors and warnings are reported at the path and quote the line of the description. Warnings appear as uses of a
-/// deprecated constant, because a macro can't report warnings otherwise. If your crate denies warnings, put
-/// `#[allow(deprecated)]` on the module. Cargo and editors detect changes of the file.
+/// Diagnostics are reported at the path argument and quote the line of the description. A macro on stable Rust can't
+/// report warnings, so a warning appears as the use of a deprecated constant. If your crate denies warnings, put
+/// `#[allow(deprecated)]` on the module. Cargo and editors detect changes of the description file.
 #[proc_macro]
 pub fn dictionary(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     let call = syn::parse_macro_input!(input as Call);
@@ -83,14 +83,14 @@ fn expand(call: &Call) -> syn::Result<TokenStream> {
     let fail = |error| syn::Error::new(call.path.span(), format!("the generated code is not valid Rust: {error}"));
     let content: TokenStream = text.parse().map_err(fail)?;
     let warnings = warnings(&compilation, call.path.span());
-    // The names of referenced files are full paths. Overlays are at the end of the list.
+    // The names of referenced files are full paths. Overlays are at the end of the list of sources.
     let referred = compilation.sources.len().saturating_sub(call.overlays.len());
     let others = compilation.sources.iter().take(referred).skip(1).map(Source::name);
     let named = std::iter::once(&call.path).chain(&call.overlays).map(|path| absolute(&path.value()));
     let tracked = named.map(|path| path.to_string_lossy().into_owned()).chain(others.map(str::to_owned));
     let tracked = tracked.map(|path| LitStr::new(&path, Span::call_site()));
     let (attributes, visibility, name) = (&call.attributes, &call.visibility, &call.name);
-    // A module without a doc comment would fail `missing_docs` in the caller's crate.
+    // Without a doc comment, the module would fail the lint `missing_docs` in the calling crate.
     let documented = attributes.iter().any(|attribute| attribute.path().is_ident("doc"));
     let documentation = (!documented).then(|| format!(" Bindings generated from `{}`.", call.path.value()));
     let documentation = documentation.map(|text| quote!(#[doc = #text]));
@@ -105,7 +105,8 @@ fn expand(call: &Call) -> syn::Result<TokenStream> {
     })
 }
 
-/// Reads a file. Diagnostics and the header use the path in the call: an absolute path would depend on the machine.
+/// Reads a file. Diagnostics and the header contain the path from the call, because an absolute path would depend on
+/// the machine.
 fn read(path: &LitStr) -> syn::Result<Source> {
     let place = absolute(&path.value());
     let fail = |error| syn::Error::new(path.span(), format!("can't read {}: {error}", place.display()));
@@ -123,7 +124,7 @@ fn absolute(path: &str) -> PathBuf {
 /// Maximum number of diagnostics that are shown individually.
 const MAX_SHOWN: usize = 16;
 
-/// Uses a deprecated constant for each warning: stable Rust has no other way for a macro to report warnings.
+/// Uses a deprecated constant for each warning, because macros on stable Rust can't report warnings.
 fn warnings(compilation: &Compilation, span: Span) -> Vec<TokenStream> {
     let list = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Warning);
     let mut notes: Vec<String> = list.clone().take(MAX_SHOWN).map(|warning| compilation.one_line(warning)).collect();
@@ -164,7 +165,7 @@ mod tests {
 
     use super::*;
 
-    /// Paths relative to the folder of this crate.
+    /// Paths of dictionaries, relative to the folder of this crate.
     const DICTIONARIES: [&str; 10] = [
         "../dictionaries/demo-drive.eds",
         "../dictionaries/aec-vector-step.toml",
@@ -178,7 +179,7 @@ mod tests {
         "../codegen/tests/quirks_eds/everything.dcf",
     ];
 
-    /// `cli/tests/cli.rs` compares the output of the command line with that of the build script.
+    /// The test `cli/tests/cli.rs` compares the output of the command line with the output of the build script.
     #[test]
     fn the_macro_and_the_build_script_give_the_same_bytes() {
         for path in DICTIONARIES {

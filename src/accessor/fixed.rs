@@ -1,4 +1,4 @@
-//! Access to values of a fixed size.
+//! Reads and writes of values with a fixed size.
 
 use super::{filled, Accessor};
 use crate::access::{Readable, Writable};
@@ -15,7 +15,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] if the length that the device sends isn't the length of the type.
+    /// Returns [`Error::Length`] if the device sends a value whose length differs from the length of the type.
     #[inline]
     pub fn read(&mut self) -> Result<V::Native, Error<C::Error>>
     where
@@ -33,7 +33,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] if the length that the device sends isn't the length of the type.
+    /// Returns [`Error::Length`] if the device sends a value whose length differs from the length of the type.
     pub async fn read_async(&mut self) -> Result<V::Native, Error<C::Error>>
     where
         A: Readable,
@@ -50,7 +50,8 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     ///
     /// # Errors
     ///
-    /// [`Error::OutOfRange`] if the value is outside the item's range or doesn't fit its type. Nothing is sent then.
+    /// Returns [`Error::OutOfRange`] if the value is outside the item's range or doesn't fit its type. In this case,
+    /// nothing is sent.
     #[inline]
     pub fn write(&mut self, value: V::Native) -> Result<(), Error<C::Error>>
     where
@@ -67,7 +68,8 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     ///
     /// # Errors
     ///
-    /// [`Error::OutOfRange`] if the value is outside the item's range or doesn't fit its type. Nothing is sent then.
+    /// Returns [`Error::OutOfRange`] if the value is outside the item's range or doesn't fit its type. In this case,
+    /// nothing is sent.
     pub async fn write_async(&mut self, value: V::Native) -> Result<(), Error<C::Error>>
     where
         A: Writable,
@@ -80,13 +82,13 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     }
 }
 
-/// Returns the part of `buffer` that a value of type `V` needs.
+/// Returns the part of `buffer` that can hold a value of type `V`.
 #[inline]
 fn room<V: Fixed>(buffer: &mut [u8; 8]) -> &mut [u8] {
     &mut buffer[..byte_len(V::BITS)]
 }
 
-/// Decodes the value in `room`. `length` is the length that the client reported.
+/// Decodes the value in `room`. `length` is the length that the client reported in bytes.
 #[inline]
 fn decode<V: Fixed, E>(room: &[u8], length: usize) -> Result<V::Native, Error<E>> {
     if length != room.len() {

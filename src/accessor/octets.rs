@@ -1,4 +1,4 @@
-//! Access to byte strings.
+//! Reads and writes of byte strings.
 
 use super::Accessor;
 use crate::access::{Readable, Writable};
@@ -15,11 +15,11 @@ macro_rules! octets {
         $($async:ident $await:ident)?
     ) => {
         impl<C, A, L> Accessor<'_, C, $marker, A, L> {
-            /// Reads the bytes into `buffer` and returns the part that the device sent.
+            /// Reads the byte string into `buffer` and returns the received bytes.
             ///
             /// # Errors
             ///
-            /// [`Error::Length`] if the device sends more than `buffer` holds.
+            /// Returns [`Error::Length`] if the byte string is longer than `buffer`.
             pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
             where
                 A: Readable,
@@ -29,11 +29,11 @@ macro_rules! octets {
                 self.$fetch(buffer)$(.$await)?
             }
 
-            /// Writes the bytes.
+            /// Writes the byte string.
             ///
             /// # Errors
             ///
-            /// Only the errors of the client.
+            /// Returns only the errors of the client.
             pub $($async)? fn $write(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
             where
                 A: Writable,

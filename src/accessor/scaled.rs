@@ -1,4 +1,4 @@
-//! Access to values with a physical value.
+//! Reads and writes of physical values.
 
 use super::Accessor;
 use crate::access::{Readable, Writable};
@@ -15,11 +15,12 @@ macro_rules! scaled {
         $write_scaled_by:ident $($async:ident $await:ident)?
     ) => {
         impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
-            /// Reads the physical value in the item's unit: an `f64`, or `None` if the raw value has a special meaning.
+            /// Reads the physical value in the item's unit. The type is `f64`, or `Option<f64>` if some raw value has a
+            /// special meaning. Then, `None` means that the device sent this raw value.
             ///
             /// # Errors
             ///
-            /// The errors of [`read`](Accessor::read).
+            /// Returns the errors of [`read`](Accessor::read).
             pub $($async)? fn $read_scaled(&mut self) -> Result<V::Physical, Error<C::Error>>
             where
                 A: Readable,
@@ -29,12 +30,12 @@ macro_rules! scaled {
                 self.$read()$(.$await)?.map(|raw| V::physical(raw, ()))
             }
 
-            /// Writes the raw value that is nearest to `physical`, a value in the item's unit.
+            /// Writes the raw value that is nearest to `physical`. `physical` is a value in the item's unit.
             ///
             /// # Errors
             ///
-            /// [`Error::OutOfRange`] if the raw value is outside the item's range, doesn't fit its type, or has a
-            /// special meaning. Nothing is sent then.
+            /// Returns [`Error::OutOfRange`] if the raw value is outside the item's range, doesn't fit its type, or has
+            /// a special meaning. In this case, nothing is sent.
             pub $($async)? fn $write_scaled(&mut self, physical: f64) -> Result<(), Error<C::Error>>
             where
                 A: Writable,
@@ -45,14 +46,14 @@ macro_rules! scaled {
             }
         }
 
-        /// Methods for values whose scale depends on another value, which the caller passes. The documentation of the
-        /// item names this other value.
+        /// Methods for values whose scale depends on another value. The caller passes the other value. The
+        /// documentation of the item names it.
         impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
             /// Reads the physical value in the item's unit. `other` is the value that determines the scale.
             ///
             /// # Errors
             ///
-            /// The errors of [`read`](Accessor::read).
+            /// Returns the errors of [`read`](Accessor::read).
             pub $($async)? fn $read_scaled_by(&mut self, other: f64) -> Result<V::Physical, Error<C::Error>>
             where
                 A: Readable,
@@ -66,7 +67,7 @@ macro_rules! scaled {
             ///
             /// # Errors
             ///
-            /// The errors of [`write_scaled`](Accessor::write_scaled).
+            /// Returns the errors of [`write_scaled`](Accessor::write_scaled).
             pub $($async)? fn $write_scaled_by(&mut self, physical: f64, other: f64) -> Result<(), Error<C::Error>>
             where
                 A: Writable,

@@ -7,7 +7,8 @@ pub(super) use crate::now::now;
 use crate::value::Value;
 use crate::{AsyncClient, CanOpen, Client, Error, Flags, Initial, Item, Object, OnCanOpen, Range};
 
-/// Sends `answer`, stores the bytes that are written, and reports `claimed` as the length if that is set.
+/// A device that sends `answer` and stores the bytes that are written. The device reports `claimed` as the length if
+/// `claimed` is set.
 #[derive(Default)]
 pub(super) struct Device {
     pub(super) answer: Vec<u8>,

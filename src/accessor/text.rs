@@ -1,4 +1,4 @@
-//! Access to text.
+//! Reads and writes of texts.
 
 use super::Accessor;
 use crate::access::{Readable, Writable};
@@ -12,12 +12,13 @@ use crate::text::{decode_visible, encode_utf16, encode_visible, UnicodeString, U
 macro_rules! texts {
     ($Client:ident $fetch:ident $send:ident: $read_into:ident $write:ident $($async:ident $await:ident)?) => {
         impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
-            /// Reads the text into `buffer`. The text ends at the first NUL, because devices pad texts of a fixed
+            /// Reads the text into `buffer`. The text ends before the first NUL, because devices pad texts of a fixed
             /// length with NULs.
             ///
             /// # Errors
             ///
-            /// [`Error::Length`] if the text is longer than `buffer`, [`Error::Text`] if it isn't ASCII or UTF-8.
+            /// Returns [`Error::Length`] if the text is longer than `buffer`, or [`Error::Text`] if the text is neither
+            /// ASCII nor UTF-8.
             pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b str, Error<C::Error>>
             where
                 A: Readable,
@@ -31,7 +32,7 @@ macro_rules! texts {
             ///
             /// # Errors
             ///
-            /// [`Error::Text`] if a character is outside the range 0x20 to 0x7E. Nothing is sent then.
+            /// Returns [`Error::Text`] if a character is outside the range 0x20 to 0x7E. In this case, nothing is sent.
             pub $($async)? fn $write(&mut self, text: &str) -> Result<(), Error<C::Error>>
             where
                 A: Writable,
@@ -43,11 +44,12 @@ macro_rules! texts {
         }
 
         impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
-            /// Reads the text into `buffer`, two bytes per code unit. The text ends at the first NUL.
+            /// Reads the text into `buffer`, two bytes per code unit. The text ends before the first NUL.
             ///
             /// # Errors
             ///
-            /// [`Error::Length`] if the text is longer than `buffer`, [`Error::Text`] if it isn't UTF-16.
+            /// Returns [`Error::Length`] if the text is longer than `buffer`, or [`Error::Text`] if the text isn't
+            /// UTF-16.
             pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<Utf16<'b>, Error<C::Error>>
             where
                 A: Readable,
@@ -57,11 +59,11 @@ macro_rules! texts {
                 Ok(Utf16::new(self.$fetch(buffer)$(.$await)??)?)
             }
 
-            /// Writes the text. `scratch` holds the encoded text, two bytes per code unit.
+            /// Writes the text. The method encodes the text into `scratch`, two bytes per code unit.
             ///
             /// # Errors
             ///
-            /// [`Error::Length`] if `scratch` is too short. Nothing is sent then.
+            /// Returns [`Error::Length`] if `scratch` is too short. In this case, nothing is sent.
             pub $($async)? fn $write(&mut self, text: &str, scratch: &mut [u8]) -> Result<(), Error<C::Error>>
             where
                 A: Writable,

@@ -1,4 +1,4 @@
-//! PDO assignments: which PDOs are exchanged, the resulting process image, and the commands that configure it.
+//! PDO assignments: the PDOs that are exchanged, the resulting process image, and the commands that configure it.
 
 use core::fmt;
 
@@ -23,13 +23,13 @@ pub struct AssignedPdo {
     pub bit: u32,
     /// Length in bits.
     pub bits: u32,
-    /// The mapping: the one of the device description, or the one passed to [`Assignment::with_mapping`].
+    /// Mapping of the PDO: that of the device description, or the mapping passed to [`Assignment::with_mapping`].
     pub mapping: &'static [MappedEntry],
 }
 
 /// A valid assignment of at most `N` PDOs of a device.
 ///
-/// The PDOs of one sync manager are packed without gaps, in the order in which they are assigned.
+/// The PDOs of one sync manager are packed without gaps, in the order of their assignment.
 #[derive(Clone, Copy, Debug)]
 pub struct Assignment<const N: usize = 32> {
     device: &'static Device,
@@ -45,11 +45,11 @@ pub enum AssignmentError {
     Unknown(u16),
     /// The PDO is assigned more than once.
     Twice(u16),
-    /// At least one of the two PDOs excludes the other.
+    /// One of the two PDOs excludes the other one.
     Conflict(u16, u16),
-    /// A mandatory PDO is missing.
+    /// A mandatory PDO is not assigned.
     Missing(u16),
-    /// The device has no sync manager for the PDO.
+    /// The device has no sync manager for this PDO.
     NoSyncManager(u16),
     /// The process data exceed the maximum length of the sync manager.
     TooLong {
@@ -60,9 +60,9 @@ pub enum AssignmentError {
         /// Maximum length in bytes.
         max: usize,
     },
-    /// The number of PDOs exceeds `N`, or the number for one sync manager exceeds 255.
+    /// More than `N` PDOs are assigned, or more than 255 PDOs to one sync manager.
     TooMany,
-    /// The device doesn't allow a change to the mapping of the PDO.
+    /// The mapping of this PDO is read-only.
     Fixed(u16),
 }
 
@@ -88,21 +88,20 @@ impl fmt::Display for AssignmentError {
 impl core::error::Error for AssignmentError {}
 
 impl<const N: usize> Assignment<N> {
-    /// Creates the assignment that is active by default.
+    /// Creates the default assignment of the device.
     ///
     /// # Errors
     ///
-    /// See [`AssignmentError`]. The default assignment is valid unless the device description contradicts itself or
-    /// `N` is too small.
+    /// Returns an [`AssignmentError`] if the device description contradicts itself, or if `N` is too small.
     pub fn by_default(device: &'static Device) -> Result<Self, AssignmentError> {
         Self::new(device, device.default_pdos)
     }
 
-    /// Creates an assignment of the PDOs with these indices, in this order.
+    /// Creates an assignment of the PDOs whose mapping objects have these indices, in this order.
     ///
     /// # Errors
     ///
-    /// See [`AssignmentError`].
+    /// Returns an [`AssignmentError`] if the assignment is invalid.
     pub fn new(device: &'static Device, pdos: &[u16]) -> Result<Self, AssignmentError> {
         let mut assignment = Self { device, assigned: [None; N], len: 0 };
         for &index in pdos {
@@ -116,14 +115,14 @@ impl<const N: usize> Assignment<N> {
         Ok(assignment)
     }
 
-    /// Replaces the mapping of one PDO by a custom one: `P` is a struct declared with [`pdo!`](crate::pdo!). The
-    /// offsets of the PDOs after it change accordingly.
+    /// Replaces the mapping of one PDO by a custom mapping. `P` is a struct declared with [`pdo!`](crate::pdo!). The
+    /// offsets of all following PDOs change accordingly.
     ///
     /// # Errors
     ///
     /// - [`AssignmentError::Unknown`] if the PDO isn't assigned.
     /// - [`AssignmentError::Fixed`] if its mapping is read-only.
-    /// - [`AssignmentError::TooLong`] if the process data become too long.
+    /// - [`AssignmentError::TooLong`] if the process data exceed the maximum length of the sync manager.
     pub fn with_mapping<P: Pdo>(mut self) -> Result<Self, AssignmentError> {
         let configures = self.device.mailbox.coe.is_some_and(|coe| coe.pdo_config);
         let mut assigned = self.assigned.iter_mut().flatten();
@@ -179,7 +178,7 @@ impl<const N: usize> Assignment<N> {
         self.assigned.iter().copied().flatten()
     }
 
-    /// Returns the PDO with this index, or `None` if it isn't assigned.
+    /// Returns the PDO whose mapping object has this index, or `None` if the PDO isn't assigned.
     #[must_use]
     pub fn find(&self, index: u16) -> Option<AssignedPdo> {
         self.pdos().find(|assigned| assigned.pdo.index == index)
@@ -197,20 +196,20 @@ impl<const N: usize> Assignment<N> {
         self.bits(sync_manager).div_ceil(8) as usize
     }
 
-    /// Returns the commands to send in Pre-Operational before the request for Safe-Operational.
+    /// Returns the start-up commands. Send them in Pre-Operational before you request Safe-Operational.
     ///
-    /// These are the device's own commands for the transitions IP and PS, then the [`commands`](Self::commands) of the
-    /// assignment.
+    /// The device's own commands for the transitions IP and PS come first. The [`commands`](Self::commands) of the
+    /// assignment follow.
     pub fn startup(&self) -> impl Iterator<Item = StartupCommand> + '_ {
         let commands =
             [Transition::IP, Transition::PS].into_iter().flat_map(|transition| self.device.init_commands(transition));
         commands.chain(self.commands().map(|write| StartupCommand::of_write(Transition::PS, write)))
     }
 
-    /// Returns the SDO writes that configure the assignment in Pre-Operational (ETG.1000.6 5.6.7.4).
+    /// Returns the SDO writes that configure the assignment (ETG.1000.6 5.6.7.4). Send them in Pre-Operational.
     ///
-    /// They clear the assignment, write all mappings that aren't fixed, then write the assignment. Writes to
-    /// read-only objects are left out.
+    /// The writes clear the assignment, write all writable mappings, and then write the assignment. Writes to read-only
+    /// objects are left out.
     pub fn commands(&self) -> impl Iterator<Item = SdoWrite> + '_ {
         let coe = self.device.mailbox.coe;
         let assigns = coe.is_some_and(|coe| coe.pdo_assign);
@@ -249,8 +248,8 @@ impl super::SyncManager {
     }
 }
 
-/// Returns the writes of a mapping: clear, entries, count. `growth` is added to the indices of slot-dependent
-/// objects.
+/// Returns the writes of a mapping in this order: clear the mapping, write the entries, write their number. `growth` is
+/// added to the indices of slot-dependent objects.
 pub(super) fn mapping_writes(
     index: u16,
     mapping: &'static [crate::MappedEntry],
@@ -264,7 +263,8 @@ pub(super) fn mapping_writes(
     core::iter::once(SdoWrite::new_u8(index, 0, 0)).chain(entries).chain(core::iter::once(count))
 }
 
-/// Returns the writes of an assignment object: entries, then count. Empty if no PDO is assigned.
+/// Returns the writes of an assignment object: first the entries, then their number. Returns no writes if no PDO is
+/// assigned.
 pub(super) fn assignment_writes<I: Iterator<Item = u16>>(
     object: u16,
     indices: impl Fn() -> I,
@@ -303,7 +303,7 @@ mod tests {
         assert_eq!(one, AssignmentError::TooMany);
     }
 
-    /// A custom mapping: the statusword and a gap of 5 bits, or of 50 if `LONG`.
+    /// A custom mapping of the statusword and a gap. The gap has 5 bits, or 50 bits if `LONG` is true.
     struct Custom<const INDEX: u16, const LONG: bool>;
 
     impl<const INDEX: u16, const LONG: bool> Pdo for Custom<INDEX, LONG> {
@@ -350,7 +350,7 @@ mod tests {
             [
                 SdoWrite::new_u8(0x1C12, 0, 0),
                 SdoWrite::new_u8(0x1C13, 0, 0),
-                // 0x1600 is fixed, 0x1A00 is not.
+                // The mapping of 0x1600 is fixed, that of 0x1A00 is writable.
                 SdoWrite::new_u8(0x1A00, 0, 0),
                 SdoWrite::new_u32(0x1A00, 1, 0x6041_0010),
                 SdoWrite::new_u8(0x1A00, 0, 1),
@@ -380,7 +380,7 @@ mod tests {
         static CUSTOM: Device = Device { mailbox: Mailbox { coe: Some(COE), ..Mailbox::NONE }, ..DRIVE };
         let assignment = Assignment::<8>::by_default(&CUSTOM).unwrap();
         let commands: Vec<_> = assignment.startup().map(|command| (command.object.index, command.transition)).collect();
-        // This device allows no writes to the assignment.
+        // The assignment of this device is read-only.
         assert_eq!(commands, [(0x2001, Transition::IP), (0x6060, Transition::PS)]);
         let assignment = Assignment::<8>::by_default(&DRIVE).unwrap();
         assert_eq!(assignment.startup().count(), assignment.commands().count());

@@ -7,7 +7,7 @@ pub struct ClockMode {
     pub name: &'static str,
     /// Description; may be empty.
     pub description: &'static str,
-    /// Value of register 0x0980, which activates the sync and latch units. 0 disables the distributed clock.
+    /// Value of register 0x0980, which activates the sync and latch units. The value 0 disables the distributed clocks.
     pub assign_activate: u16,
     /// Cycle time of Sync0.
     pub cycle_sync0: ClockTime,
@@ -19,24 +19,24 @@ pub struct ClockMode {
     pub shift_sync1: ClockTime,
 }
 
-/// A time of a clock mode: a constant plus an optional multiple or fraction of the cycle time.
+/// A time of a clock mode: the sum of a constant and an optional multiple or fraction of the cycle time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct ClockTime {
-    /// Constant part in ns.
+    /// Constant part of the time in ns.
     pub nanoseconds: i32,
-    /// Factor of the cycle time. A negative factor divides the cycle time by its absolute value; 0 means no
-    /// dependency.
+    /// Factor of the cycle time. A negative factor divides the cycle time by its absolute value. The value 0 means that
+    /// the time doesn't depend on the cycle time.
     pub factor: i32,
 }
 
 impl ClockTime {
-    /// Creates a time from its two parts.
+    /// Creates a time from the constant part and the factor.
     #[must_use]
     pub const fn new(nanoseconds: i32, factor: i32) -> Self {
         Self { nanoseconds, factor }
     }
 
-    /// Returns the time in ns for a cycle time of `cycle` ns. For Sync1, pass the cycle time of Sync0.
+    /// Returns the time in ns if the cycle time is `cycle` ns. For Sync1, pass the cycle time of Sync0.
     #[must_use]
     pub const fn of_cycle(self, cycle: u32) -> i64 {
         let part = match self.factor {

@@ -1,25 +1,26 @@
-//! Object and PDO indices that depend on the slot of a module.
+//! Dependency of object and PDO indices on the slot of a module.
 
-/// What the index of a module's object or PDO depends on (`DependOnSlot` and `DependOnSlotGroup` of ETG.2000).
+/// Dependency of the index of a module's object or PDO on the slot (`DependOnSlot` and `DependOnSlotGroup` of
+/// ETG.2000).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DependsOn {
     /// The index is the same in every slot.
     #[default]
     Nothing,
-    /// The index increases with the slot number.
+    /// The index increases by an increment per slot.
     Slot,
-    /// The index increases with the slot group number.
+    /// The index increases by an increment per slot group.
     SlotGroup,
-    /// The index increases with both numbers.
+    /// The index increases by an increment per slot and an increment per slot group.
     Both,
 }
 
 /// Offsets that are added to the indices of a module in its slot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Growth {
-    /// Offset of indices that depend on the slot.
+    /// Offset of indices that depend on the slot number.
     pub slot: u16,
-    /// Offset of indices that depend on the slot group.
+    /// Offset of indices that depend on the slot group number.
     pub group: u16,
 }
 

@@ -6,17 +6,17 @@ use super::depends_on::DependsOn;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Transition {
-    /// Init to Pre-Operational.
+    /// The transition from Init to Pre-Operational.
     IP = 1,
-    /// Pre-Operational to Safe-Operational.
+    /// The transition from Pre-Operational to Safe-Operational.
     PS = 2,
-    /// Safe-Operational to Operational.
+    /// The transition from Safe-Operational to Operational.
     SO = 4,
-    /// Safe-Operational to Pre-Operational.
+    /// The transition from Safe-Operational to Pre-Operational.
     SP = 8,
-    /// Operational to Pre-Operational.
+    /// The transition from Operational to Pre-Operational.
     OP = 16,
-    /// Operational to Safe-Operational.
+    /// The transition from Operational to Safe-Operational.
     OS = 32,
 }
 
@@ -28,7 +28,7 @@ impl Transitions {
     /// The empty set.
     pub const NONE: Transitions = Transitions(0);
 
-    /// Creates a set from a list.
+    /// Creates a set from a list of transitions.
     #[must_use]
     pub const fn of(list: &[Transition]) -> Self {
         let mut bits = 0;
@@ -56,11 +56,11 @@ pub struct InitCommand {
     pub index: u16,
     /// Sub-index of the object.
     pub sub_index: u8,
-    /// Whether complete access is used: one transfer for all sub-indices.
+    /// Whether complete access is used, which transfers all sub-indices at once.
     pub complete_access: bool,
-    /// What the index depends on, if the command belongs to a module.
+    /// Slot dependency of the index, if the command belongs to a module.
     pub depends_on: DependsOn,
-    /// Bytes of the value.
+    /// Bytes of the value to write.
     pub data: &'static [u8],
 }
 
@@ -97,7 +97,7 @@ pub struct Mailbox {
 }
 
 impl Mailbox {
-    /// A slave without mailbox.
+    /// Mailbox of a slave that supports no mailbox protocol.
     pub const NONE: Mailbox = Mailbox { coe: None, aoe: false, eoe: false, foe: false, soe: false, voe: false };
 }
 

@@ -4,35 +4,36 @@ use super::depends_on::DependsOn;
 use super::mailbox::{InitCommand, Transitions};
 use super::pdo::PdoInfo;
 
-/// The slots of a modular device and the modules for them (ETG.5001.1).
+/// The slots of a modular device, and the modules that can be plugged into them (ETG.5001.1).
 #[derive(Clone, Copy, Debug)]
 pub struct Slots {
-    /// The slots in order. Slot numbers start at 0; each entry takes as many numbers as its maximum count of modules.
+    /// The slots in ascending order of their numbers, which start at 0. Each entry describes as many slots as its
+    /// maximum number of modules.
     pub slots: &'static [Slot],
-    /// The available modules.
+    /// The modules that can be plugged in.
     pub modules: &'static [&'static Module],
-    /// Groups of modules in the order of the process image. If empty, modules are ordered by slot.
+    /// Groups of modules in the order of the process image. If the list is empty, modules are ordered by slot.
     pub pdo_groups: &'static [PdoGroup],
-    /// Transitions during which the master writes the module idents to 0xF030. Empty if it doesn't write them.
+    /// Transitions during which the master writes the module idents to 0xF030. Empty if the master doesn't write them.
     pub download_idents: Transitions,
 }
 
-/// A slot, or a row of similar slots.
+/// A slot, or a series of similar slots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slot {
     /// Name of the slot.
     pub name: &'static str,
-    /// Minimum number of modules.
+    /// Minimum number of modules in the series.
     pub min: u16,
-    /// Maximum number of modules.
+    /// Maximum number of modules in the series.
     pub max: u16,
-    /// The modules that are allowed; if empty, all are.
+    /// Rules for the modules that the slot accepts. If the list is empty, the slot accepts every module.
     pub fits: &'static [Fit],
-    /// Ident of the default module.
+    /// Ident of the default module, if there is one.
     pub default: Option<u32>,
-    /// Index increments per slot.
+    /// Increments of the slot-dependent indices per slot.
     pub increments: Increments,
-    /// The slot group, if the slot belongs to one.
+    /// The slot group that the slot belongs to, if any.
     pub group: Option<SlotGroup>,
 }
 
@@ -41,36 +42,36 @@ pub struct Slot {
 pub struct SlotGroup {
     /// Number of the group.
     pub number: u16,
-    /// Index increments per slot group.
+    /// Increments of the slot-dependent indices per slot group.
     pub increments: Increments,
 }
 
-/// Index increments.
+/// Increments of object and PDO indices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Increments {
-    /// Increment for the objects of a module.
+    /// Increment of the object indices of a module.
     pub index: u16,
-    /// Increment for the PDOs of a module.
+    /// Increment of the PDO indices of a module.
     pub pdo: u16,
 }
 
 /// A rule for the modules that a slot accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
-    /// The module with this ident.
+    /// The slot accepts the module with this ident.
     Ident(u32),
-    /// Every module of this class.
+    /// The slot accepts every module of this class.
     Class(&'static str),
 }
 
 /// A group of modules whose process data are contiguous.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PdoGroup {
-    /// Alignment of the group's process data in bytes; 0 = no alignment.
+    /// Alignment of the group's process data in bytes; 0 if the data are not aligned.
     pub alignment: u16,
-    /// Index of the padding RxPDO in front of the group, if there is one.
+    /// Index of the RxPDO that pads the process data in front of the group, if there is one.
     pub rx_pdo: Option<u16>,
-    /// Index of the padding TxPDO in front of the group, if there is one.
+    /// Index of the TxPDO that pads the process data in front of the group, if there is one.
     pub tx_pdo: Option<u16>,
 }
 
@@ -81,15 +82,15 @@ pub struct Module {
     pub ident: u32,
     /// Name of the module.
     pub name: &'static str,
-    /// Module class, which slots refer to; may be empty.
+    /// Module class, which slots refer to; empty if the module has none.
     pub class: &'static str,
-    /// Position of the module's group in [`Slots::pdo_groups`].
+    /// Index of the module's group in [`Slots::pdo_groups`].
     pub pdo_group: u16,
-    /// PDOs of the module, outputs first.
+    /// PDOs of the module, output PDOs first.
     pub pdos: &'static [PdoInfo],
     /// Initialization commands of the module.
     pub init_commands: &'static [InitCommand],
-    /// Ranges of slot-dependent objects. Other objects have the same index in every slot.
+    /// Ranges of slot-dependent objects. All other objects have the same index in every slot.
     pub objects: &'static [SlotObjects],
 }
 
@@ -100,7 +101,7 @@ pub struct SlotObjects {
     pub first: u16,
     /// Last index.
     pub last: u16,
-    /// What the indices depend on.
+    /// Slot dependency of the indices.
     pub depends_on: DependsOn,
 }
 
@@ -121,7 +122,7 @@ impl SlotGroup {
 }
 
 impl SlotObjects {
-    /// Creates a range from `first` to `last`, inclusive.
+    /// Creates a range from `first` to `last`. Both limits belong to the range.
     #[must_use]
     pub const fn new(first: u16, last: u16, depends_on: DependsOn) -> Self {
         Self { first, last, depends_on }
@@ -129,7 +130,7 @@ impl SlotObjects {
 }
 
 impl Module {
-    /// Returns what the index of an object depends on.
+    /// Returns the slot dependency of an object index.
     #[must_use]
     pub fn depends_on(&self, index: u16) -> DependsOn {
         let range = self.objects.iter().find(|range| (range.first..=range.last).contains(&index));

@@ -3,12 +3,12 @@
 use super::depends_on::DependsOn;
 use crate::pdo::MappedEntry;
 
-/// Direction of process data, as seen by the master.
+/// Direction of process data from the master's point of view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
-    /// Master to slave: an RxPDO.
+    /// From master to slave: an RxPDO.
     Output,
-    /// Slave to master: a TxPDO.
+    /// From slave to master: a TxPDO.
     Input,
 }
 
@@ -19,38 +19,38 @@ pub struct PdoInfo {
     pub index: u16,
     /// Direction of the PDO.
     pub direction: Direction,
-    /// Length in bits.
+    /// Length of the PDO in bits.
     pub bits: u32,
-    /// The default sync manager; `None` if the PDO is not assigned by default.
+    /// Number of the default sync manager; `None` if the PDO is not assigned by default.
     pub sync_manager: Option<u8>,
-    /// Sync managers that the PDO must not be assigned to.
+    /// Numbers of the sync managers that the PDO must not be assigned to.
     pub excluded_sync_managers: &'static [u8],
     /// Whether the mapping is read-only.
     pub fixed: bool,
     /// Whether the PDO must be assigned.
     pub mandatory: bool,
-    /// What the index of the PDO depends on.
+    /// Slot dependency of the PDO's index.
     pub depends_on: DependsOn,
-    /// Indices of PDOs that must not be assigned together with this one.
+    /// Indices of PDOs that must not be assigned together with this PDO.
     pub excludes: &'static [u16],
-    /// The mapped entries. Each entry has its own slot dependency.
+    /// The mapped entries. Each entry has a slot dependency of its own.
     pub mapping: &'static [MappedEntry],
 }
 
 impl PdoInfo {
-    /// Returns whether the two PDOs exclude each other.
+    /// Returns whether one of the two PDOs excludes the other one.
     #[must_use]
     pub fn conflicts_with(&self, other: &PdoInfo) -> bool {
         self.excludes.contains(&other.index) || other.excludes.contains(&self.index)
     }
 
-    /// Returns whether the mapping fits into a mapping object: at most 254 entries of at most 255 bits.
+    /// Returns whether the mapping can be written: it isn't fixed and has at most 254 entries of at most 255 bits.
     #[must_use]
     pub fn is_writable(&self) -> bool {
         self.holds(self.mapping)
     }
 
-    /// Returns whether `mapping` fits into the mapping object.
+    /// Returns whether `mapping` can be written to the mapping object.
     pub(super) fn holds(&self, mapping: &[MappedEntry]) -> bool {
         !self.fixed && mapping.len() <= 254 && mapping.iter().all(|entry| entry.bits <= 255)
     }

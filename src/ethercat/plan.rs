@@ -1,4 +1,4 @@
-//! Slot plans: which modules are plugged, the resulting process image, and the commands that configure it.
+//! Slot plans: the plugged modules, the resulting process image, and the commands that configure it.
 
 use core::fmt;
 
@@ -14,7 +14,7 @@ use crate::pdo::{MappedEntry, SdoWrite};
 /// Index of the configured module ident list (ETG.5001.1).
 const MODULE_IDENTS: u16 = 0xF030;
 
-/// The modules in the slots of a modular device with at most `N` slots.
+/// A plan of the modules in the slots of a modular device. The device has at most `N` slots.
 ///
 /// ```ignore
 /// let mut plan = SlotPlan::<16>::new(&coupler::DEVICE)?;
@@ -33,11 +33,11 @@ pub struct SlotPlan<const N: usize> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// The device has no slots, or more than `N`.
+    /// The device has no slots, or more than `N` slots.
     Slots,
-    /// The slot number doesn't exist.
+    /// The device has no slot with this number.
     NoSuchSlot(u16),
-    /// The slot already has a module.
+    /// The slot with this number already has a module.
     Taken(u16),
     /// The slot doesn't accept the module.
     DoesNotFit {
@@ -46,10 +46,10 @@ pub enum PlanError {
         /// Ident of the module.
         ident: u32,
     },
-    /// A slot has fewer modules than its minimum. The value is the first free slot number.
+    /// A series of slots has fewer modules than its minimum. The value is the number of the first free slot.
     Empty(u16),
-    /// A list object has too few sub-indices: an assignment (0x1C10 and following), the module idents (0xF030), or
-    /// the mapping of a padding PDO.
+    /// A list object has too few sub-indices. List objects are assignments (0x1C10 and following), the module idents
+    /// (0xF030), and the mapping of a padding PDO.
     TooMany {
         /// Index of the list object.
         index: u16,
@@ -90,7 +90,7 @@ impl core::error::Error for PlanError {}
 pub struct SlotPdo {
     /// Slot of the module; `None` if the PDO belongs to the device itself.
     pub slot: Option<u16>,
-    /// Index of the PDO, including the offset of the slot.
+    /// Index of the PDO in this slot.
     pub index: u16,
     /// Number of the sync manager.
     pub sync_manager: u8,
@@ -103,9 +103,9 @@ pub struct SlotPdo {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Content {
-    /// A PDO, and the index offsets of the slot-dependent objects that it maps.
+    /// A PDO, with the index offsets of the slot-dependent objects in its mapping.
     Pdo(&'static PdoInfo, Growth),
-    /// Padding in front of a group of modules.
+    /// Padding in front of the PDOs of a group of modules.
     Gap,
 }
 
@@ -114,7 +114,7 @@ impl<const N: usize> SlotPlan<N> {
     ///
     /// # Errors
     ///
-    /// [`PlanError::Slots`] if the device has no slots or more than `N`.
+    /// Returns [`PlanError::Slots`] if the device has no slots or more than `N` slots.
     pub fn new(device: &'static Device) -> Result<Self, PlanError> {
         let plan = Self { device, modules: [None; N] };
         let count: usize = plan.slots().iter().map(|slot| usize::from(slot.max)).sum();
@@ -124,11 +124,11 @@ impl<const N: usize> SlotPlan<N> {
         }
     }
 
-    /// Creates a plan with the default modules.
+    /// Creates a plan with the default module of each slot.
     ///
     /// # Errors
     ///
-    /// The errors of [`SlotPlan::new`] and [`SlotPlan::plug`].
+    /// Returns the errors of [`SlotPlan::new`] and [`SlotPlan::plug`].
     pub fn by_default(device: &'static Device) -> Result<Self, PlanError> {
         let mut plan = Self::new(device)?;
         for number in 0..plan.count() {
@@ -145,7 +145,8 @@ impl<const N: usize> SlotPlan<N> {
     ///
     /// # Errors
     ///
-    /// [`PlanError::NoSuchSlot`], [`PlanError::DoesNotFit`] or [`PlanError::Taken`].
+    /// Returns [`PlanError::NoSuchSlot`], [`PlanError::DoesNotFit`] or [`PlanError::Taken`] if the module can't be
+    /// plugged.
     pub fn plug(&mut self, slot: u16, module: &'static Module) -> Result<(), PlanError> {
         let group = self.slot(slot).ok_or(PlanError::NoSuchSlot(slot))?;
         if !group.takes(module) {
@@ -161,23 +162,23 @@ impl<const N: usize> SlotPlan<N> {
         }
     }
 
-    /// Removes the module from a slot and returns it.
+    /// Removes the module from a slot. Returns this module, or `None` if the slot was empty.
     pub fn unplug(&mut self, slot: u16) -> Option<&'static Module> {
         self.modules.get_mut(usize::from(slot))?.take()
     }
 
-    /// Returns the module in a slot.
+    /// Returns the module in a slot, or `None` if the slot is empty.
     #[must_use]
     pub fn module(&self, slot: u16) -> Option<&'static Module> {
         self.modules.get(usize::from(slot)).copied().flatten()
     }
 
-    /// Checks that every slot has its minimum of modules and that all data fit into their sync managers and list
-    /// objects.
+    /// Checks that every slot has its minimum number of modules. Also checks that all data fit into their sync managers
+    /// and list objects.
     ///
     /// # Errors
     ///
-    /// [`PlanError::Empty`], [`PlanError::TooLong`] or [`PlanError::TooMany`].
+    /// Returns [`PlanError::Empty`], [`PlanError::TooLong`] or [`PlanError::TooMany`] if the plan is invalid.
     pub fn check(&self) -> Result<(), PlanError> {
         let mut first = 0;
         for slot in self.slots() {
@@ -199,16 +200,16 @@ impl<const N: usize> SlotPlan<N> {
         room_for(MODULE_IDENTS, self.plugged().last().map_or(0, |(_, slot)| usize::from(slot) + 1))
     }
 
-    /// Returns the offset that a slot adds to the index of an object of its module. `index` is the one for slot 0.
-    /// Returns `None` if the slot is empty.
+    /// Returns the offset of an object index of the module in a slot. `index` is the object's index in slot 0. Returns
+    /// `None` if the slot is empty.
     #[must_use]
     pub fn index_offset(&self, slot: u16, index: u16) -> Option<u16> {
         let depends_on = self.module(slot)?.depends_on(index);
         Some(self.objects(slot).of(depends_on))
     }
 
-    /// Returns the PDOs of a sync manager in the order of the process image: PDOs of the device, then PDOs of the
-    /// modules by group and slot.
+    /// Returns the PDOs of a sync manager in the order of the process image. The PDOs of the device come first. The
+    /// PDOs of the modules follow, sorted by group and slot.
     pub fn pdos(&self, sync_manager: u8) -> impl Iterator<Item = SlotPdo> + '_ {
         let manager = self.device.sync_manager(sync_manager);
         let pdos = manager.into_iter().flat_map(move |manager| {
@@ -219,7 +220,7 @@ impl<const N: usize> SlotPlan<N> {
         });
         let mut bit: u32 = 0;
         pdos.filter_map(move |(slot, index, content, bits)| {
-            // For a gap, `bits` holds the alignment; the length depends on its offset.
+            // For a gap, `bits` is the alignment. The length of the gap depends on its offset.
             let bits = if content == Content::Gap { bit.next_multiple_of(bits.max(1)) - bit } else { bits };
             let placed = SlotPdo { slot, index, sync_manager, bit, bits, content };
             bit = bit.saturating_add(bits);
@@ -227,7 +228,7 @@ impl<const N: usize> SlotPlan<N> {
         })
     }
 
-    /// Returns a PDO of the module in a slot. `index` is the one for slot 0, as in the device description.
+    /// Returns a PDO of the module in a slot. `index` is the PDO's index in slot 0, as in the device description.
     #[must_use]
     pub fn pdo(&self, slot: u16, index: u16) -> Option<SlotPdo> {
         let is_it = |placed: &SlotPdo| match placed.content {
@@ -244,14 +245,14 @@ impl<const N: usize> SlotPlan<N> {
         end.div_ceil(8) as usize
     }
 
-    /// Returns the commands to send in Pre-Operational before the request for Safe-Operational: those of the
-    /// transitions IP and PS.
+    /// Returns the start-up commands for the transitions IP and PS. Send them in Pre-Operational before you request
+    /// Safe-Operational.
     pub fn startup(&self) -> impl Iterator<Item = StartupCommand> + '_ {
         self.commands(Transition::IP).chain(self.commands(Transition::PS))
     }
 
-    /// Returns the commands of a transition in order: module idents, commands of the device, commands of the modules,
-    /// then PDO mappings and assignment.
+    /// Returns the commands of a transition in this order: module idents, commands of the device, commands of the
+    /// modules, PDO mappings, and PDO assignment.
     pub fn commands(&self, transition: Transition) -> impl Iterator<Item = StartupCommand> + '_ {
         let of_write = move |write| StartupCommand::of_write(transition, write);
         let downloads = self.device.slots.is_some_and(|slots| slots.download_idents.contains(transition));
@@ -271,7 +272,7 @@ impl<const N: usize> SlotPlan<N> {
     ///
     /// # Errors
     ///
-    /// The first error of `visit`, which ends the iteration.
+    /// Returns the first error of `visit`, which ends the iteration.
     pub fn try_for_each_command<E>(
         &self,
         transition: Transition,
@@ -292,7 +293,7 @@ impl<const N: usize> SlotPlan<N> {
         self.slots().iter().map(|slot| slot.max).fold(0, u16::saturating_add)
     }
 
-    /// Returns the slot entry that a slot number belongs to.
+    /// Returns the slot entry that describes the slot with this number.
     fn slot(&self, number: u16) -> Option<&'static Slot> {
         let mut first: u16 = 0;
         self.slots().iter().find(|slot| {
@@ -306,7 +307,7 @@ impl<const N: usize> SlotPlan<N> {
         self.modules.iter().zip(0..).filter_map(|(module, slot)| Some(((*module)?, slot)))
     }
 
-    /// Returns the groups of modules; a single `None` if the device has no groups.
+    /// Returns the groups of modules, or a single `None` if the device has no groups.
     fn groups(&self) -> impl Iterator<Item = Option<u16>> {
         let count = self.device.slots.map_or(0, |slots| slots.pdo_groups.len()) as u16;
         (count == 0).then_some(None).into_iter().chain((0..count).map(Some))
@@ -354,7 +355,8 @@ impl<const N: usize> SlotPlan<N> {
         self.growth(slot, |increments| increments.index)
     }
 
-    /// Returns the numbers of the slot and its group, multiplied by their increments.
+    /// Returns the offsets of indices in a slot: the slot number and the group number, each multiplied by its
+    /// increment.
     fn growth(&self, slot: u16, increment: impl Fn(Increments) -> u16) -> Growth {
         let Some(place) = self.slot(slot) else { return Growth::default() };
         let group = place.group.map_or(0, |group| increment(group.increments).wrapping_mul(group.number));
@@ -387,7 +389,8 @@ impl<const N: usize> SlotPlan<N> {
 }
 
 impl SlotPdo {
-    /// Returns the writes of the mapping if it is writable. The mapping of a gap follows from its length.
+    /// Returns the writes of the PDO's mapping, or no writes if the mapping is read-only. The mapping of a gap follows
+    /// from the length of the gap.
     fn mapping(&self) -> impl Iterator<Item = SdoWrite> {
         let (index, bits) = (self.index, self.bits);
         let writes = match self.content {
@@ -401,7 +404,7 @@ impl SlotPdo {
     }
 }
 
-/// Returns the writes that map a gap, in entries of at most 255 bits.
+/// Returns the writes of the mapping of a gap. Each entry of the mapping has at most 255 bits.
 fn gap_writes(index: u16, bits: u32) -> impl Iterator<Item = SdoWrite> {
     const MOST: u32 = u8::MAX as u32;
     let count = bits.div_ceil(MOST).min(MOST);
@@ -412,7 +415,7 @@ fn gap_writes(index: u16, bits: u32) -> impl Iterator<Item = SdoWrite> {
     count_of(0).chain((0..count).map(entry)).chain(count_of(count))
 }
 
-/// Checks that a list object has enough sub-indices.
+/// Checks that a list object has enough sub-indices for `count` entries.
 fn room_for(index: u16, count: usize) -> Result<(), PlanError> {
     if count > usize::from(u8::MAX) {
         return Err(PlanError::TooMany { index, count });

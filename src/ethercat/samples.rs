@@ -1,4 +1,4 @@
-//! Sample devices for the tests.
+//! Example devices for the tests.
 
 use super::*;
 use crate::pdo::MappedEntry;
@@ -82,7 +82,7 @@ pub(crate) static INPUTS: Module = Module {
     name: "Inputs",
     class: "di",
     pdo_group: 1,
-    // The mapping is writable. Its last entry maps an object of the coupler.
+    // The mapping is writable. The last entry of the mapping contains an object of the coupler.
     pdos: &[PdoInfo {
         depends_on: DependsOn::Slot,
         fixed: false,
@@ -116,7 +116,7 @@ pub(crate) static INPUTS: Module = Module {
 pub(crate) static WIDE: Module =
     Module { ident: 3, name: "Wide", class: "", pdo_group: 0, pdos: &[], init_commands: &[], objects: &[] };
 
-/// A coupler with one slot for outputs, and five slots of group 2 for modules of both classes.
+/// A coupler with two kinds of slots. One slot accepts outputs. Five slots of group 2 accept modules of both classes.
 pub(crate) static COUPLER: Device = Device {
     identity: NOBODY,
     sync_managers: &[manager(2, SyncManagerPurpose::Outputs, None), manager(3, SyncManagerPurpose::Inputs, None)],

@@ -10,11 +10,11 @@ use crate::pdo::SdoWrite;
 /// A value that the master writes to an object during a state transition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StartupCommand {
-    /// The transition.
+    /// The transition during which the value is written.
     pub transition: Transition,
     /// The object to write.
     pub object: Object,
-    /// Whether complete access is used: all sub-indices from `object` on in one transfer.
+    /// Whether complete access is used, which transfers all sub-indices from `object` on at once.
     pub complete_access: bool,
     /// The value.
     pub data: StartupData,
@@ -25,7 +25,7 @@ pub struct StartupCommand {
 pub enum StartupData {
     /// An integer of at most 8 bytes.
     Number(SdoWrite),
-    /// Bytes from the device description.
+    /// Bytes of a value in the device description.
     Bytes(&'static [u8]),
 }
 
@@ -36,7 +36,8 @@ impl StartupCommand {
         Self { transition, object: write.object(), complete_access: false, data: StartupData::Number(write) }
     }
 
-    /// Creates a command from an initialization command. `growth` is added to a slot-dependent index.
+    /// Creates a command from an initialization command of the device description. `growth` is added to a
+    /// slot-dependent index.
     pub(super) fn of_init(command: &InitCommand, transition: Transition, growth: Growth) -> Self {
         let index = command.index.wrapping_add(growth.of(command.depends_on));
         Self {
@@ -58,12 +59,12 @@ impl StartupCommand {
 
     /// Writes the value through a CoE client.
     ///
-    /// [`Client`] has no complete access. For a command with complete access, only the bytes are sent; use the
-    /// client's own functions for it instead.
+    /// [`Client`] doesn't support complete access. If the command uses complete access, this method sends only the
+    /// bytes. In this case, use the functions of the bus library instead.
     ///
     /// # Errors
     ///
-    /// The errors of the client.
+    /// Returns the errors of the client.
     pub fn send<C: Client<Bus = CoE>>(&self, client: &mut C) -> Result<(), Error<C::Error>> {
         client.write(self.object, self.data())
     }
@@ -72,7 +73,7 @@ impl StartupCommand {
     ///
     /// # Errors
     ///
-    /// The errors of the client.
+    /// Returns the errors of the client.
     pub async fn send_async<C: AsyncClient<Bus = CoE>>(&self, client: &mut C) -> Result<(), Error<C::Error>> {
         client.write(self.object, self.data()).await
     }
@@ -93,7 +94,7 @@ impl StartupCommand {
 ///
 /// # Errors
 ///
-/// The first error of the client. The remaining commands are not sent.
+/// Returns the first error of the client. The remaining commands are not sent.
 pub fn configure<C: Client<Bus = CoE>>(
     client: &mut C,
     commands: impl IntoIterator<Item = StartupCommand>,
@@ -105,7 +106,7 @@ pub fn configure<C: Client<Bus = CoE>>(
 ///
 /// # Errors
 ///
-/// The first error of the client. The remaining commands are not sent.
+/// Returns the first error of the client. The remaining commands are not sent.
 pub async fn configure_async<C: AsyncClient<Bus = CoE>>(
     client: &mut C,
     commands: impl IntoIterator<Item = StartupCommand>,

@@ -3,13 +3,13 @@
 /// Purpose of a sync manager.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SyncManagerPurpose {
-    /// Mailbox, master to slave.
+    /// Mailbox data from master to slave.
     MailboxOut,
-    /// Mailbox, slave to master.
+    /// Mailbox data from slave to master.
     MailboxIn,
-    /// Process data, master to slave.
+    /// Process data from master to slave.
     Outputs,
-    /// Process data, slave to master.
+    /// Process data from slave to master.
     Inputs,
 }
 
@@ -32,20 +32,20 @@ pub struct SyncManager {
     pub control: u8,
     /// Whether the sync manager is enabled.
     pub enable: bool,
-    /// Whether it is enabled only in Operational.
+    /// Whether the sync manager is enabled only in Operational.
     pub op_only: bool,
 }
 
 /// Purpose of an FMMU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FmmuPurpose {
-    /// Process data, master to slave.
+    /// Process data from master to slave.
     Outputs,
-    /// Process data, slave to master.
+    /// Process data from slave to master.
     Inputs,
-    /// Mailbox state.
+    /// Status of the mailbox.
     MailboxState,
-    /// Unknown: the device description doesn't say.
+    /// The purpose is not in the device description.
     Other,
 }
 
@@ -54,8 +54,8 @@ pub enum FmmuPurpose {
 pub struct Fmmu {
     /// Purpose.
     pub purpose: FmmuPurpose,
-    /// The sync manager that it maps, if known.
+    /// Number of the sync manager that the FMMU maps, if known.
     pub sync_manager: Option<u8>,
-    /// Whether it is enabled only in Operational.
+    /// Whether the FMMU is enabled only in Operational.
     pub op_only: bool,
 }

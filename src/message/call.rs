@@ -1,4 +1,4 @@
-//! Calls: sending a message and receiving its reply.
+//! Calls: send a message and receive the reply.
 
 use core::error;
 use core::fmt;
@@ -6,7 +6,7 @@ use core::fmt;
 use super::{Message, Reader, Reply, Selector};
 use crate::error::Error;
 
-/// The station address of the device that messages are sent to.
+/// A protocol with the station address of the device that receives the messages.
 pub trait Station {
     /// Returns the station address; 0 for protocols without station addresses.
     fn station(&self) -> u32;
@@ -22,11 +22,11 @@ pub trait MessageClient {
     ///
     /// # Errors
     ///
-    /// [`Failure::Refused`] if the device answers with a refusal, otherwise [`Failure::Error`].
+    /// Returns [`Failure::Refused`] if the device replies with a refusal, or [`Failure::Error`] for any other failure.
     fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, Self::Error, M>;
 }
 
-/// An asynchronous client that sends messages to one device. The counterpart of [`MessageClient`].
+/// An asynchronous client that sends messages to one device, as [`MessageClient`] does.
 #[allow(async_fn_in_trait)]
 pub trait AsyncMessageClient {
     /// Communication error of the client.
@@ -36,19 +36,19 @@ pub trait AsyncMessageClient {
     ///
     /// # Errors
     ///
-    /// The errors of [`MessageClient::call`].
+    /// Returns the errors of [`MessageClient::call`].
     async fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, Self::Error, M>;
 }
 
-/// The result of sending a message `M`: a reply `T` or a [`Failure`]. `E` is the client's own error.
+/// The result of sending the message `M`: a reply `T` or a [`Failure`]. `E` is the error type of the client.
 pub type Answer<T, E, M> = Result<T, Failure<E, <M as Message>::Refusal>>;
 
-/// Reasons why a message has no reply. `E` is the client's own error, `R` the refusal of the device.
+/// Reasons why a message has no reply. `E` is the error type of the client. `R` is the type of the device's refusal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Failure<E, R> {
     /// The device refused the request.
     Refused(R),
-    /// Any other error.
+    /// The message failed for any other reason.
     Error(Error<E>),
 }
 
@@ -100,7 +100,7 @@ pub(crate) fn answer<'r, E, M: Message>(request: &[u8], reply: &'r [u8]) -> Answ
     }
 }
 
-/// A message and the client to send it through.
+/// A message and the client that sends the message.
 #[derive(Debug)]
 #[must_use = "nothing is sent before `send` or `send_async`"]
 pub struct Call<'c, C, M> {
@@ -138,12 +138,13 @@ macro_rules! calls {
                 self.client.call(&self.message)$(.$await)?
             }
 
-            /// Sends the message and returns the device with the messages whose meaning it selects. The returned
-            /// device borrows the client, so no other selection can be sent while it is in use.
+            /// Sends the message and returns the device with the messages whose meaning this message selects. The
+            /// returned device borrows the client. Therefore, no other selection can be sent while this device is in
+            /// use.
             ///
             /// # Errors
             ///
-            /// The errors of [`send`](Self::send).
+            /// Returns the errors of [`send`](Self::send).
             pub $($async)? fn $select(self) -> Answer<M::Device<&'c mut C>, C::Error, M>
             where
                 M: Selector,

@@ -8,7 +8,7 @@ use crate::bus::Parameter;
 use crate::error::Error;
 use crate::value_error::{LengthError, OutOfRange};
 
-/// One occurrence of a group of repeated fields.
+/// One occurrence of a group of repeated fields in a message.
 pub trait Group: Copy {
     /// Length in bytes.
     const LENGTH: usize;
@@ -17,14 +17,15 @@ pub trait Group: Copy {
     ///
     /// # Errors
     ///
-    /// [`WriteError::OutOfRange`] if a field is out of range, [`WriteError::Length`] if the buffer is too short.
+    /// Returns [`WriteError::OutOfRange`] if a field is out of range, or [`WriteError::Length`] if the buffer is too
+    /// short.
     fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError>;
 
-    /// Reads the fields; returns `None` if the data don't match.
+    /// Reads the fields of the group; returns `None` if the data don't match.
     fn read(from: &mut Reader<'_>) -> Option<Self>;
 }
 
-/// A list of [`Group`]s. Stores a slice for sending, and undecoded bytes after receiving.
+/// A list of [`Group`]s. A list for sending contains a slice, and a received list contains undecoded bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct List<'a, G> {
     source: Source<'a, G>,
@@ -56,7 +57,7 @@ impl<G: Copy> Source<'_, G> {
 }
 
 impl<'a, G: Group> List<'a, G> {
-    /// Creates a list from received bytes. Returns `None` unless they are a whole number of valid groups.
+    /// Creates a list from received bytes. Returns `None` unless the bytes are a whole number of valid groups.
     #[must_use]
     pub fn received(bytes: &'a [u8]) -> Option<Self> {
         let mut whole = bytes.chunks(G::LENGTH.max(1));
@@ -89,7 +90,8 @@ impl<'a, G: Group> List<'a, G> {
     ///
     /// # Errors
     ///
-    /// [`WriteError::OutOfRange`] if a field is out of range, [`WriteError::Length`] if the buffer is too short.
+    /// Returns [`WriteError::OutOfRange`] if a field is out of range, or [`WriteError::Length`] if the buffer is too
+    /// short.
     pub fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError> {
         self.iter().try_for_each(|group| group.write(to))
     }
@@ -138,21 +140,22 @@ impl<G: Group> Iterator for ListIter<'_, G> {
 
 impl<G: Group> FusedIterator for ListIter<'_, G> {}
 
-/// A list of parameters and their values. Stores a slice for sending, and undecoded bytes after receiving.
+/// A list of parameters and their values. A list for sending contains a slice, and a received list contains undecoded
+/// bytes.
 ///
-/// The length of a value depends on the type of its parameter.
+/// The type of a parameter determines the length of its value.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings<'a> {
     source: Source<'a, Setting>,
     rule: SettingsRule,
 }
 
-/// The encoding of parameters in a message.
+/// The encoding of parameter numbers and values in a message.
 #[derive(Clone, Copy, Debug)]
 pub struct SettingsRule {
     /// Length of a parameter number in bits.
     pub code_bits: u32,
-    /// Byte order of values; see [`Reader::value`].
+    /// Byte order of the values; see [`Reader::value`].
     pub order: &'static [u8],
     /// Ranges of parameters in ascending order: first number, last number, length of a value in bytes.
     pub lengths: &'static [(u32, u32, u8)],
@@ -171,7 +174,7 @@ impl SettingsRule {
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if the value has another length than the parameter's type.
+    /// Returns [`LengthError`] if the length of the value differs from the length of the parameter's type.
     pub fn takes(&self, setting: &Setting) -> Result<bool, LengthError> {
         match self.length(setting.parameter) {
             None => Ok(false),
@@ -184,8 +187,8 @@ impl SettingsRule {
     ///
     /// # Errors
     ///
-    /// [`WriteError::OutOfRange`] if the number has more bits than the field, [`WriteError::Length`] if the buffer is
-    /// too short.
+    /// Returns [`WriteError::OutOfRange`] if the number has more bits than the field, or [`WriteError::Length`] if the
+    /// buffer is too short.
     pub fn write_code(&self, parameter: Parameter, to: &mut Writer<'_>) -> Result<(), WriteError> {
         match self.code_bits < 32 && parameter.0 >> self.code_bits != 0 {
             true => Err(OutOfRange.into()),
@@ -202,8 +205,8 @@ impl SettingsRule {
     ///
     /// # Errors
     ///
-    /// [`WriteError::OutOfRange`] if the number has more bits than the field. [`WriteError::Length`] if the value has
-    /// another length than the parameter's type, or if the buffer is too short.
+    /// Returns [`WriteError::OutOfRange`] if the number has more bits than the field. Returns [`WriteError::Length`] if
+    /// the buffer is too short, or if the length of the value differs from the length of the parameter's type.
     pub fn write(&self, setting: &Setting, to: &mut Writer<'_>) -> Result<(), WriteError> {
         self.takes(setting)?;
         self.put(setting, to)
@@ -221,25 +224,26 @@ impl SettingsRule {
         Some(Setting::new(parameter, from.value(self.order, length)?, length))
     }
 
-    /// Reads a parameter number and a value that extends to the last `tail` bytes.
+    /// Reads a parameter number and a value. The value ends before the last `tail` bytes of the data.
     pub fn read_to(&self, from: &mut Reader<'_>, tail: usize) -> Option<Setting> {
         let parameter = self.read_code(from)?;
         let length = from.left().checked_sub(tail)?;
         Some(Setting::new(parameter, from.value(self.order, length)?, length))
     }
 
-    /// Writes a parameter number and zeros instead of the value.
+    /// Writes a parameter number. Writes zeros instead of the parameter's value.
     ///
     /// # Errors
     ///
-    /// [`WriteError::NoMessage`] if the parameter doesn't exist, [`WriteError::Length`] if the buffer is too short.
+    /// Returns [`WriteError::NoMessage`] if the parameter doesn't exist, or [`WriteError::Length`] if the buffer is too
+    /// short.
     pub fn write_blank(&self, parameter: Parameter, to: &mut Writer<'_>) -> Result<(), WriteError> {
         let length = self.length(parameter).ok_or(WriteError::NoMessage)?;
         self.write_code(parameter, to)?;
         to.padding(length)
     }
 
-    /// Reads a parameter number and skips the value.
+    /// Reads a parameter number and skips the value of the parameter.
     pub fn read_blank(&self, from: &mut Reader<'_>) -> Option<Parameter> {
         let parameter = self.read_code(from)?;
         from.skip(self.length(parameter)?)?;
@@ -250,7 +254,7 @@ impl SettingsRule {
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] if the lengths differ.
+    /// Returns [`Error::Length`] if the length of `value` differs from that of the received value.
     pub fn copy<E>(&self, bytes: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
         let found =
             Reader::new(bytes).value(self.order, bytes.len()).ok_or(LengthError::new(value.len(), bytes.len()))?;
@@ -284,9 +288,9 @@ impl<'a> Settings<'a> {
     ///
     /// # Errors
     ///
-    /// - [`WriteError::NoMessage`] if a parameter doesn't exist: the device couldn't locate the next one.
-    /// - [`WriteError::Length`] if a value has another length than the parameter's type, or if the buffer is too
-    ///   short.
+    /// - [`WriteError::NoMessage`] if a parameter doesn't exist. The device couldn't locate the next parameter.
+    /// - [`WriteError::Length`] if the buffer is too short, or if the length of a value differs from the length of the
+    ///   parameter's type.
     pub fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError> {
         self.iter().try_for_each(|setting| match self.rule.takes(&setting)? {
             true => self.rule.put(&setting, to),
@@ -381,7 +385,7 @@ mod tests {
         assert_eq!(RULE.takes(&setting(0x105, &[1, 2])), Ok(true));
         assert_eq!(RULE.takes(&setting(0x10C, &[1, 2])), Err(LengthError::new(4, 2)));
         assert_eq!(RULE.takes(&setting(0x106, &[1, 2])), Ok(false));
-        // Settings that the device would misread are not sent.
+        // Settings that the device would misinterpret are not sent.
         let written = |settings: &[Setting]| Settings::sent(settings, RULE).write(&mut Writer::new(&mut [0; 16]));
         assert_eq!(written(&[setting(0x106, &[1, 2])]), Err(WriteError::NoMessage));
         assert_eq!(written(&[setting(0x10C, &[1, 2])]), Err(LengthError::new(4, 2).into()));

@@ -1,4 +1,4 @@
-//! Reactions of a device to a message, by state.
+//! Reactions of a device to a message in each state.
 
 /// A reaction to a message. `S` is the type of the device's states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -7,7 +7,7 @@ pub enum Outcome<S: 'static> {
     Refused,
     /// The device executes the message and stays in its state.
     Unchanged,
-    /// The device enters the first of these states, then passes to the following ones automatically.
+    /// The device enters the first of these states, and then the following states automatically.
     States(&'static [S]),
 }
 
@@ -19,14 +19,14 @@ pub struct StateOutcomes<S: 'static> {
 }
 
 impl<S> StateOutcomes<S> {
-    /// Creates the reactions for `state`; an empty list if the device description doesn't state them.
+    /// Creates the reactions for `state`. The list is empty if the device description doesn't state the reactions.
     #[must_use]
     pub const fn new(state: S, outcomes: &'static [Outcome<S>]) -> Self {
         Self { state, outcomes }
     }
 }
 
-/// The possible reactions to a message in each state of a device. Generated messages have it as a constant.
+/// The possible reactions to a message in each state of a device. Generated messages provide this table as a constant.
 ///
 /// ```
 /// use lexibus::message::{Outcome, Outcomes, StateOutcomes};
@@ -46,14 +46,14 @@ impl<S> StateOutcomes<S> {
 ///
 /// assert_eq!(JOG.accepts(State::Alarm), Some(false));
 /// assert_eq!(JOG.accepts(State::Stopped), Some(true));
-/// // In this state, the reaction depends on more than the state.
+/// // In this state, the reaction also depends on other conditions.
 /// assert_eq!((JOG.accepts(State::Jogging), JOG.of(State::Jogging).len()), (None, 2));
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Outcomes<S: 'static>(&'static [StateOutcomes<S>]);
 
 impl<S> Outcomes<S> {
-    /// Creates a row of the table of commands and states.
+    /// Creates the reactions of one message, with one element per state.
     #[must_use]
     pub const fn new(states: &'static [StateOutcomes<S>]) -> Self {
         Self(states)
@@ -61,14 +61,14 @@ impl<S> Outcomes<S> {
 }
 
 impl<S: PartialEq> Outcomes<S> {
-    /// Returns the possible reactions in `state`. Empty if the device description doesn't state them.
+    /// Returns the possible reactions in `state`, or an empty slice if the device description doesn't state them.
     #[must_use]
     pub fn of(&self, state: S) -> &'static [Outcome<S>] {
         self.0.iter().find(|row| row.state == state).map_or(&[], |row| row.outcomes)
     }
 
-    /// Returns whether the device accepts the message in `state`; `None` if that is unknown or depends on more than
-    /// the state.
+    /// Returns whether the device accepts the message in `state`. Returns `None` if the answer is unknown or depends on
+    /// other conditions.
     #[must_use]
     pub fn accepts(&self, state: S) -> Option<bool> {
         let outcomes = self.of(state);

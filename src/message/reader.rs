@@ -3,7 +3,7 @@
 /// Reads the fields of a message in order.
 ///
 /// Numbers are big-endian unless a byte order is given. Bit fields start at the most significant bit. All methods
-/// return `None` if the data are too short or don't match.
+/// return `None` if the data are too short or don't match the expected data.
 #[derive(Clone, Copy, Debug)]
 pub struct Reader<'r> {
     data: &'r [u8],
@@ -11,11 +11,12 @@ pub struct Reader<'r> {
     bits: usize,
 }
 
-/// Returns the significance of the byte at position `at` of a value of `length` bytes: 0 is the least significant
-/// byte.
+/// Returns the significance of the byte at position `at` in a value of `length` bytes. The least significant byte has
+/// the significance 0.
 ///
-/// `order` lists the bytes of the longest values in wire order; 0 is the most significant byte. Shorter values have
-/// their low bytes in this order. Values are big-endian if they are longer or `order` is empty.
+/// `order` lists the bytes of the longest possible value in wire order, with 0 for the most significant byte. A shorter
+/// value consists of the low bytes of such a value, in this order. A value is big-endian if it is longer than `order`
+/// or if `order` is empty.
 pub(super) fn significance(order: &[u8], length: usize, at: usize) -> usize {
     let big_endian = length.saturating_sub(1).saturating_sub(at);
     let Some(missing) = order.len().checked_sub(length) else { return big_endian };
@@ -31,7 +32,7 @@ impl<'r> Reader<'r> {
         Self { data, bits: 0 }
     }
 
-    /// Returns the number of unread bytes, without a partly read one.
+    /// Returns the number of unread bytes. A partly read byte doesn't count.
     #[must_use]
     pub fn left(&self) -> usize {
         self.data.len().saturating_sub(self.bits.div_ceil(8))
@@ -50,40 +51,40 @@ impl<'r> Reader<'r> {
         self.bytes(count).map(|_| ())
     }
 
-    /// Reads bytes that must equal `expected`.
+    /// Reads bytes and checks that they equal `expected`.
     pub fn constant(&mut self, expected: &[u8]) -> Option<()> {
         (self.bytes(expected.len())? == expected).then_some(())
     }
 
-    /// Reads `count` bytes that must equal those of the request from `first` on.
+    /// Reads `count` bytes and checks that they equal the bytes of the request from `first` on.
     pub fn echo(&mut self, request: &[u8], first: usize, count: usize) -> Option<()> {
         self.constant(request.get(first..first.checked_add(count)?)?)
     }
 
-    /// Reads `count` bytes and compares them with those of the request from `first` on, as far as the request
-    /// reaches.
+    /// Reads `count` bytes and compares them with the bytes of the request from `first` on. If the request is shorter,
+    /// the remaining bytes are not compared.
     pub fn copy(&mut self, request: &[u8], first: usize, count: usize) -> Option<()> {
         let expected = request.get(first..).unwrap_or_default();
         self.bytes(count)?.iter().zip(expected).all(|(byte, expected)| byte == expected).then_some(())
     }
 
-    /// Reads a number of `width` bits that must equal `expected`.
+    /// Reads a number of `width` bits and checks that the number equals `expected`.
     pub fn fixed(&mut self, width: u32, expected: u64) -> Option<()> {
         (self.number(width)? == expected).then_some(())
     }
 
-    /// Reads a number in the byte order `order` that must equal `expected`.
+    /// Reads a number in the byte order `order` and checks that the number equals `expected`.
     pub fn fixed_in(&mut self, order: &[u8], expected: u64) -> Option<()> {
         (self.ordered(order)? == expected).then_some(())
     }
 
-    /// Checks that `length` is the number of bytes from `first` to the end of the data.
+    /// Checks that `length` equals the number of bytes from `first` to the end of the data.
     pub fn counted(&self, first: usize, length: u64) -> Option<()> {
         let rest = self.data.len().checked_sub(first)?;
         (u64::try_from(rest) == Ok(length)).then_some(())
     }
 
-    /// Reads a big-endian number of `width` bits, at most 64.
+    /// Reads a big-endian number of `width` bits. `width` is at most 64.
     pub fn number(&mut self, width: u32) -> Option<u64> {
         let (mut left, mut number) = (width.min(64), 0_u64);
         while left > 0 {
@@ -98,7 +99,7 @@ impl<'r> Reader<'r> {
         Some(number)
     }
 
-    /// Reads a number in the byte order `order`, in which 0 is the most significant byte.
+    /// Reads a number in the byte order `order`. The most significant byte has the number 0 in `order`.
     pub fn ordered(&mut self, order: &[u8]) -> Option<u64> {
         let bytes = self.bytes(order.len())?;
         let last = order.len().saturating_sub(1);
@@ -109,10 +110,11 @@ impl<'r> Reader<'r> {
         Some(number)
     }
 
-    /// Reads a value of `length` bytes, at most 8. Returns it in little-endian byte order.
+    /// Reads a value of `length` bytes and returns the value in little-endian byte order. `length` is at most 8.
     ///
-    /// `order` lists the bytes of the longest values in wire order; 0 is the most significant byte. Shorter values
-    /// have their low bytes in this order. Values are big-endian if they are longer or `order` is empty.
+    /// `order` lists the bytes of the longest possible value in wire order, with 0 for the most significant byte. A
+    /// shorter value consists of the low bytes of such a value, in this order. A value is big-endian if it is longer
+    /// than `order` or if `order` is empty.
     pub fn value(&mut self, order: &[u8], length: usize) -> Option<[u8; 8]> {
         let mut value = [0; 8];
         let bytes = self.bytes(length)?;
@@ -122,7 +124,7 @@ impl<'r> Reader<'r> {
         Some(value)
     }
 
-    /// Reads all bytes except the last `tail`.
+    /// Reads all bytes except the last `tail` bytes.
     pub fn but(&mut self, tail: usize) -> Option<&'r [u8]> {
         self.bytes(self.left().checked_sub(tail)?)
     }
@@ -157,7 +159,7 @@ mod tests {
         assert_eq!(of(&[3, 2, 1, 0], 2)[..2], [0, 1]);
         assert_eq!(of(&[], 4), [3, 2, 1, 0]);
         assert_eq!(of(&[1, 0], 4), [3, 2, 1, 0]);
-        // An empty order.
+        // Values with an empty `order` are big-endian.
         assert_eq!(of(&[5, 9], 2)[..2], [1, 0]);
     }
 

@@ -6,9 +6,10 @@ use core::marker::PhantomData;
 use crate::quantity::Quantity;
 use crate::value_error::OutOfRange;
 
-/// The scale of a message field: converts between raw and physical values. Generated messages have it as a constant.
+/// The scale of a message field, which converts between raw and physical values. Generated messages provide the scale
+/// as a constant.
 ///
-/// The documentation of the constant names the unit.
+/// The documentation of this constant names the unit.
 ///
 /// ```
 /// use lexibus::message::Scale;
@@ -46,7 +47,7 @@ impl<Q: Quantity> Scale<Q> {
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] if the type can't represent the raw value.
+    /// Returns [`OutOfRange`] if the type can't represent the raw value.
     pub fn raw(self, physical: f64) -> Result<Q::Native, OutOfRange>
     where
         Q: Quantity<Other = ()>,
@@ -54,7 +55,7 @@ impl<Q: Quantity> Scale<Q> {
         Q::raw(physical, ())
     }
 
-    /// Converts a raw value to the physical value, with a scale that depends on the value `other`.
+    /// Converts a raw value to the physical value. The scale depends on the value `other`.
     #[must_use]
     pub fn physical_by(self, raw: Q::Native, other: f64) -> Q::Physical
     where
@@ -63,11 +64,11 @@ impl<Q: Quantity> Scale<Q> {
         Q::physical(raw, other)
     }
 
-    /// Converts a physical value to the nearest raw value, with a scale that depends on the value `other`.
+    /// Converts a physical value to the nearest raw value. The scale depends on the value `other`.
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] if the type can't represent the raw value.
+    /// Returns [`OutOfRange`] if the type can't represent the raw value.
     pub fn raw_by(self, physical: f64, other: f64) -> Result<Q::Native, OutOfRange>
     where
         Q: Quantity<Other = f64>,

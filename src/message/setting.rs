@@ -1,4 +1,4 @@
-//! A parameter and its value, for messages that carry several.
+//! A parameter and its value, for messages with several parameters.
 
 use crate::access::Writable;
 use crate::bus::{Parameter, Serial};
@@ -33,17 +33,17 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// Creates a setting from the first `length` bytes of a little-endian value. `length` is limited to 8.
+    /// Creates a setting from the first `length` bytes of a little-endian value. A `length` above 8 is reduced to 8.
     #[must_use]
     pub fn new(parameter: Parameter, value: [u8; 8], length: usize) -> Self {
         let length = length.min(8);
         let mut bytes = [0; 8];
         bytes[..length].copy_from_slice(&value[..length]);
-        // `length` is at most 8.
+        // `length` is at most 8, so the conversion is lossless.
         Self { parameter, value: bytes, length: length as u8 }
     }
 
-    /// Creates a setting from little-endian bytes; returns `None` for more than 8.
+    /// Creates a setting from little-endian bytes; returns `None` if there are more than 8 bytes.
     #[must_use]
     pub fn of(parameter: Parameter, bytes: &[u8]) -> Option<Self> {
         let mut value = [0; 8];
@@ -59,11 +59,11 @@ impl Setting {
 }
 
 impl<V: Fixed, A: Writable, L: On<Serial, Route = Parameter>> Item<V, A, L> {
-    /// Creates a setting of this parameter, for a message that carries several.
+    /// Creates a setting of this parameter, for a message with several parameters.
     ///
     /// # Errors
     ///
-    /// [`OutOfRange`] if the value is outside the parameter's range or doesn't fit its type.
+    /// Returns [`OutOfRange`] if the value is outside the parameter's range or doesn't fit its type.
     pub fn setting(&self, value: V::Native) -> Result<Setting, OutOfRange> {
         if !V::in_range(value, self.range()) {
             return Err(OutOfRange);
@@ -79,7 +79,8 @@ impl Setting {
     ///
     /// # Errors
     ///
-    /// [`Error::UnexpectedReply`] if the setting is for another parameter, [`Error::Length`] if the lengths differ.
+    /// Returns [`Error::UnexpectedReply`] if the setting is for another parameter, or [`Error::Length`] if the lengths
+    /// differ.
     pub fn copy<E>(&self, parameter: Parameter, value: &mut [u8]) -> Result<usize, Error<E>> {
         match self.parameter == parameter {
             true => copy(self.value(), value),
@@ -87,14 +88,15 @@ impl Setting {
         }
     }
 
-    /// Returns the value as the type of `item`; `None` if the setting is for another parameter or the length differs.
+    /// Returns the value as the type of `item`. Returns `None` if the setting is for another parameter or the length
+    /// differs.
     #[must_use]
     pub fn value_of<V: Fixed, A, L: On<Serial, Route = Parameter>>(&self, item: &Item<V, A, L>) -> Option<V::Native> {
         (item.location().route() == self.parameter).then(|| V::decode(self.value()).ok())?
     }
 }
 
-/// Copies a value of the same length.
+/// Copies a value, or returns an error if the lengths differ.
 pub(super) fn copy<E>(from: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
     if from.len() != value.len() {
         return Err(LengthError::new(value.len(), from.len()).into());

@@ -19,7 +19,7 @@ pub struct Writer<'b> {
     bits: usize,
 }
 
-/// Reasons why a message can't be encoded. Nothing has been sent.
+/// Reasons why a message can't be encoded. In all cases, nothing has been sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -27,7 +27,7 @@ pub enum WriteError {
     OutOfRange(OutOfRange),
     /// The data exceed the buffer or the maximum length of the protocol.
     Length(LengthError),
-    /// The protocol has no message for this access to the parameter.
+    /// The protocol has no message that reads or writes the parameter.
     NoMessage,
 }
 
@@ -62,7 +62,7 @@ impl error::Error for WriteError {}
 ///
 /// # Errors
 ///
-/// [`WriteError::OutOfRange`] if it isn't.
+/// Returns [`WriteError::OutOfRange`] if the value is outside its limits.
 #[inline]
 pub fn check<V: Fixed>(value: V::Native, range: &Range<V::Native>) -> Result<(), WriteError> {
     match V::in_range(value, range) {
@@ -108,27 +108,27 @@ impl<'b> Writer<'b> {
     ///
     /// # Errors
     ///
-    /// [`WriteError::Length`] if the buffer is too short.
+    /// Returns [`WriteError::Length`] if the buffer is too short.
     pub fn bytes(&mut self, bytes: &[u8]) -> Result<(), WriteError> {
         self.room(bytes.len())?.copy_from_slice(bytes);
         Ok(())
     }
 
-    /// Writes `count` padding bytes of value 0.
+    /// Writes `count` padding bytes. Padding bytes are 0.
     ///
     /// # Errors
     ///
-    /// [`WriteError::Length`] if the buffer is too short.
+    /// Returns [`WriteError::Length`] if the buffer is too short.
     pub fn padding(&mut self, count: usize) -> Result<(), WriteError> {
         self.room(count)?.fill(0);
         Ok(())
     }
 
-    /// Writes the low `width` bits of a number, at most 64, in big-endian order.
+    /// Writes the low `width` bits of a number in big-endian byte order. `width` is at most 64.
     ///
     /// # Errors
     ///
-    /// [`WriteError::Length`] if the buffer is too short.
+    /// Returns [`WriteError::Length`] if the buffer is too short.
     pub fn number(&mut self, width: u32, number: u64) -> Result<(), WriteError> {
         let mut left = width.min(64);
         while left > 0 {
@@ -145,11 +145,11 @@ impl<'b> Writer<'b> {
         Ok(())
     }
 
-    /// Writes a number in the byte order `order`, in which 0 is the most significant byte.
+    /// Writes a number in the byte order `order`. The most significant byte has the number 0 in `order`.
     ///
     /// # Errors
     ///
-    /// [`WriteError::Length`] if the buffer is too short.
+    /// Returns [`WriteError::Length`] if the buffer is too short.
     pub fn ordered(&mut self, order: &[u8], number: u64) -> Result<(), WriteError> {
         let last = order.len().saturating_sub(1);
         let room = self.room(order.len())?;
@@ -159,11 +159,12 @@ impl<'b> Writer<'b> {
         Ok(())
     }
 
-    /// Writes a little-endian value in the byte order `order`; see [`Reader::value`](super::Reader::value).
+    /// Converts a little-endian value to the byte order `order` and writes it; see
+    /// [`Reader::value`](super::Reader::value).
     ///
     /// # Errors
     ///
-    /// [`WriteError::Length`] if the buffer is too short.
+    /// Returns [`WriteError::Length`] if the buffer is too short.
     pub fn value(&mut self, order: &[u8], value: &[u8]) -> Result<(), WriteError> {
         let room = self.room(value.len())?;
         for (at, to) in room.iter_mut().enumerate() {
@@ -173,21 +174,21 @@ impl<'b> Writer<'b> {
         Ok(())
     }
 
-    /// Writes `count` bytes of the request, from `first` on.
+    /// Writes `count` bytes of the request, starting with the byte at `first`.
     ///
     /// # Errors
     ///
-    /// [`WriteError::Length`] if the buffer or the request is too short.
+    /// Returns [`WriteError::Length`] if the buffer or the request is too short.
     pub fn echo(&mut self, request: &[u8], first: usize, count: usize) -> Result<(), WriteError> {
         self.bytes(part(request, first, count)?)
     }
 
-    /// Checks that the `count` bytes written at `at` equal those of the request at `first`: a reply must name the
-    /// parameter of its request.
+    /// Checks that the `count` written bytes at `at` equal the bytes of the request at `first`. With this check, a
+    /// reply can only contain the parameter of its request.
     ///
     /// # Errors
     ///
-    /// [`WriteError::OutOfRange`] if they differ, [`WriteError::Length`] if the request is too short.
+    /// Returns [`WriteError::OutOfRange`] if the bytes differ, or [`WriteError::Length`] if the request is too short.
     pub fn same(&self, at: usize, request: &[u8], first: usize, count: usize) -> Result<(), WriteError> {
         let expected = part(request, first, count)?;
         match self.written().get(at..at.saturating_add(count)) == Some(expected) {
@@ -196,11 +197,11 @@ impl<'b> Writer<'b> {
         }
     }
 
-    /// Overwrites the length field at `at` with the number of bytes from `first` on, in the byte order `order`.
+    /// Writes the number of bytes from `first` on into the length field at `at`, in the byte order `order`.
     ///
     /// # Errors
     ///
-    /// [`WriteError::OutOfRange`] if the number doesn't fit the field.
+    /// Returns [`WriteError::OutOfRange`] if the number doesn't fit into the field.
     pub fn length(&mut self, at: usize, order: &[u8], first: usize) -> Result<(), WriteError> {
         let (length, bits) = (self.len().saturating_sub(first) as u64, self.bits);
         let room = 8 * order.len() as u32;
@@ -213,11 +214,12 @@ impl<'b> Writer<'b> {
         written
     }
 
-    /// Writes `count` bytes of the request from `first` on, padded with 0 if the request is shorter.
+    /// Writes `count` bytes of the request, starting with the byte at `first`. If the request is shorter, writes zeros
+    /// instead of the missing bytes.
     ///
     /// # Errors
     ///
-    /// [`WriteError::Length`] if the buffer is too short.
+    /// Returns [`WriteError::Length`] if the buffer is too short.
     pub fn copy(&mut self, request: &[u8], first: usize, count: usize) -> Result<(), WriteError> {
         let copied = request.get(first..).unwrap_or_default();
         self.room(count)?
@@ -228,7 +230,7 @@ impl<'b> Writer<'b> {
     }
 }
 
-/// Returns `count` bytes of the request, from `first` on.
+/// Returns `count` bytes of the request, starting with the byte at `first`.
 fn part(request: &[u8], first: usize, count: usize) -> Result<&[u8], LengthError> {
     let end = first.saturating_add(count);
     request.get(first..end).ok_or(LengthError::new(end, request.len()))

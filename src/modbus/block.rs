@@ -9,7 +9,7 @@ use crate::route::Direct;
 use crate::value::{byte_len, Fixed};
 use crate::value_error::LengthError;
 
-/// An item that can be part of a [`Block`]: a readable [`Item`] with a Modbus register or bit and a type of fixed
+/// An item that can be part of a [`Block`]: a readable [`Item`] that has a Modbus register or bit and a type of fixed
 /// size.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` can't be read in a Modbus block",
@@ -22,14 +22,14 @@ pub trait BlockItem {
     /// Length of the value in bytes, at most 8.
     const LENGTH: usize;
 
-    /// Returns the register.
+    /// Returns the register of the item.
     fn register(&self) -> Register;
 
     /// Decodes a value from little-endian bytes.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if the number of bytes isn't the length of the value.
+    /// Returns [`LengthError`] if the number of bytes isn't the length of the value.
     fn decode(&self, bytes: &[u8]) -> Result<Self::Native, LengthError>;
 }
 
@@ -63,9 +63,9 @@ impl<T: BlockItem> BlockItem for &T {
 
 /// `N` items that are read together: a tuple of up to 12 items, or an array of items.
 ///
-/// A tuple of items gives a tuple of values, an array of items an array of values, in the same order. The order of
-/// the addresses doesn't matter. Values are raw, as from [`Accessor::read`](crate::Accessor::read); use
-/// [`Item::physical`] to scale them.
+/// A tuple of items is read as a tuple of values, an array of items as an array of values. The values have the order of
+/// the items, and the addresses may be in any order. The values are raw, as from
+/// [`Accessor::read`](crate::Accessor::read). Use [`Item::physical`] to scale them.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a Modbus block",
     label = "expected a tuple of up to 12 readable Modbus items, or an array of them"
@@ -80,15 +80,15 @@ pub trait Block<const N: usize> {
     /// Returns the register of each item.
     fn registers(&self) -> [Register; N];
 
-    /// Decodes the values. Each one uses as many of its 8 bytes as it needs.
+    /// Decodes the values. Each value starts at the first of its 8 bytes and may need fewer bytes.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if a value needs another number of bytes than its item declares.
+    /// Returns [`LengthError`] if the length of a value differs from the length that its item declares.
     fn values(&self, bytes: &[[u8; 8]; N]) -> Result<Self::Values, LengthError>;
 }
 
-/// Reading an empty array is a [`LengthError`].
+/// An array of items. Reading an empty array returns a [`LengthError`].
 impl<T: BlockItem, const N: usize> Block<N> for [T; N] {
     type Values = [T::Native; N];
 

@@ -10,7 +10,7 @@ use crate::bus::Modbus;
 use crate::client::{AsyncClient, Client, Timed};
 use crate::error::Error;
 
-/// A client that reads several items at once.
+/// A client that reads several items with one call.
 ///
 /// The provided methods use [`Client::read`]. Implement [`limits`](Self::limits) if you know the [`Limits`] of the
 /// device:
@@ -39,15 +39,14 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         &Limits::STANDARD
     }
 
-    /// Reads items with as few requests as the device allows. The [module documentation](super) explains what one
-    /// request can read. A request fails as a whole if the device lacks one of its items.
+    /// Reads items with as few requests as the device allows. The [module documentation](super) describes which items
+    /// one request can read. If the device doesn't have one of the items, the whole request fails.
     ///
     /// # Errors
     ///
     /// - The errors of [`Client::read`].
-    /// - [`Error::Length`] if an item is longer than one request may read; nothing is sent then. Also if an item's
-    ///   type has
-    ///   another length than its registers.
+    /// - [`Error::Length`] if an item is longer than the device allows in one request. In this case, nothing is sent.
+    ///   The same error occurs if the length of an item's type differs from the length of its registers.
     fn read_block<const N: usize, B: Block<N>>(&mut self, block: B) -> Result<B::Values, Error<Self::Error>>
     where
         Self: Sized,
@@ -62,10 +61,10 @@ pub trait RegisterClient: Client<Bus = Modbus> {
     }
 }
 
-/// An asynchronous client that reads several items at once. The counterpart of [`RegisterClient`].
+/// An asynchronous client that reads several items with one call, as [`RegisterClient`] does.
 #[allow(async_fn_in_trait)]
 pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
-    /// Returns the limits of the device's requests.
+    /// Returns the limits of the device's requests; by default [`Limits::STANDARD`].
     fn limits(&self) -> &Limits {
         &Limits::STANDARD
     }
@@ -74,7 +73,7 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     ///
     /// # Errors
     ///
-    /// The errors of [`RegisterClient::read_block`].
+    /// Returns the errors of [`RegisterClient::read_block`].
     async fn read_block_async<const N: usize, B: Block<N>>(&mut self, block: B) -> Result<B::Values, Error<Self::Error>>
     where
         Self: Sized,

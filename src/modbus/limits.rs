@@ -2,12 +2,13 @@
 
 use crate::register::RegisterTable;
 
-/// The requests that a device supports, per table. Generated bindings have the constant `MODBUS`.
+/// The requests that a device supports, for each Modbus table. Generated bindings contain them as the constant
+/// `MODBUS`.
 ///
 /// ```
 /// use lexibus::modbus::{Limits, Span, TableLimits};
 ///
-/// // Functions 3 and 6 only, at most 8 registers per read request, no register at address 4:
+/// // Only functions 3 and 6, at most 8 registers per read request, and no register at address 4:
 /// const MODBUS: Limits = Limits {
 ///     holding: TableLimits {
 ///         functions: &[3, 6],
@@ -21,31 +22,31 @@ use crate::register::RegisterTable;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Limits {
-    /// Holding registers (4x).
+    /// Limits for holding registers (4x).
     pub holding: TableLimits,
-    /// Input registers (3x).
+    /// Limits for input registers (3x).
     pub input: TableLimits,
-    /// Coils (0x).
+    /// Limits for coils (0x).
     pub coil: TableLimits,
-    /// Discrete inputs (1x).
+    /// Limits for discrete inputs (1x).
     pub discrete: TableLimits,
 }
 
 /// The requests that a device supports for one table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TableLimits {
-    /// Supported function codes. Empty if the device description doesn't list them: all functions of the table are
-    /// assumed.
+    /// Supported function codes. If the list is empty, the device description doesn't state them, and clients assume
+    /// all functions of the table.
     pub functions: &'static [u8],
     /// Maximum number of registers or bits in a read request.
     pub max_read: u16,
     /// Maximum number of registers or bits in a write request.
     pub max_write: u16,
-    /// Whether a value that exceeds one request is transferred in several. Such a transfer isn't atomic: the device
-    /// or the reader may see parts of the old and the new value.
+    /// Whether a value that exceeds one request is split into several requests. Such a transfer isn't atomic. The
+    /// device or the client may see a mix of the old and the new value.
     pub split: bool,
-    /// Addresses that a request may include together with their neighbors. They exist on every model, and reading
-    /// them has no side effects.
+    /// Addresses that a request can include between the addresses of items. These addresses exist on every model, and
+    /// reading them has no side effects.
     pub readable: &'static [Span],
 }
 
@@ -67,7 +68,7 @@ impl Span {
         Self { first, last, words_per_address: 1 }
     }
 
-    /// Sets the number of registers per address.
+    /// Returns the same range with `words` registers per address.
     #[must_use]
     pub const fn words_per_address(self, words: u8) -> Self {
         Self { words_per_address: words, ..self }
@@ -91,7 +92,7 @@ impl TableLimits {
         Self { functions: &[], max_read, max_write, split: false, readable: &[] }
     }
 
-    /// Returns whether the table supports a function. True if the device description doesn't list functions.
+    /// Returns whether the table supports a function. Returns true if the device description doesn't list functions.
     #[must_use]
     pub const fn takes(&self, function: u8) -> bool {
         self.functions.is_empty() || self.names(function)
@@ -112,7 +113,7 @@ impl TableLimits {
 }
 
 impl Limits {
-    /// The limits of the Modbus specification (MODBUS Application Protocol V1.1b3, 6.1 to 6.12).
+    /// The limits in the Modbus specification (MODBUS Application Protocol V1.1b3, 6.1 to 6.12).
     pub const STANDARD: Self = Self {
         holding: TableLimits::HOLDING,
         input: TableLimits::INPUT,
@@ -120,7 +121,7 @@ impl Limits {
         discrete: TableLimits::DISCRETE,
     };
 
-    /// Returns the limits of a table.
+    /// Returns the limits of a Modbus table.
     #[must_use]
     pub const fn of(&self, table: RegisterTable) -> &TableLimits {
         match table {
@@ -131,15 +132,15 @@ impl Limits {
         }
     }
 
-    /// Returns the maximum number of registers or bits in a read request: the limit of the device or of the
-    /// specification, whichever is lower.
+    /// Returns the maximum number of registers or bits in a read request. The lower of the device's limit and the
+    /// specification's limit applies.
     #[must_use]
     pub const fn max_read(&self, table: RegisterTable) -> u16 {
         smaller(self.of(table).max_read, Self::STANDARD.of(table).max_read)
     }
 
-    /// Returns the maximum number of registers or bits in a write request: the limit of the device or of the
-    /// specification, whichever is lower.
+    /// Returns the maximum number of registers or bits in a write request. The lower of the device's limit and the
+    /// specification's limit applies.
     #[must_use]
     pub const fn max_write(&self, table: RegisterTable) -> u16 {
         smaller(self.of(table).max_write, Self::STANDARD.of(table).max_write)

@@ -1,7 +1,7 @@
-//! Reading several Modbus values at once, and the limits of a device's requests.
+//! Reads of several Modbus values at once, and the limits of a device's requests.
 //!
-//! [`Item::at`](crate::Item::at) reads one value per request. For cyclic reads, use [`RegisterClient::read_block`]:
-//! it reads any number of values with as few requests as the device allows.
+//! [`Item::at`](crate::Item::at) reads one value per request. For cyclic reads, use [`RegisterClient::read_block`].
+//! This method reads any number of values with as few requests as the device allows.
 //!
 //! ```
 //! use lexibus::modbus::RegisterClient;
@@ -13,7 +13,7 @@
 //! const SPEED: RegisterItem<i16> = RegisterItem::register(Register::holding(11), "Speed", Flags::NONE);
 //! const POSITION: RegisterItem<i32> = RegisterItem::register(Register::low_first(12, 2), "Position", Flags::NONE);
 //!
-//! // A test client: the registers of the device and the number of requests.
+//! // A client for tests, which contains the registers of the device and counts the requests.
 //! struct Registers([u16; 16], usize);
 //!
 //! impl Client for Registers {
@@ -42,12 +42,13 @@
 //! # Ok::<(), Error<core::convert::Infallible>>(())
 //! ```
 //!
-//! # What one request reads
+//! # Items in one request
 //!
-//! One request reads values of the same table at consecutive addresses. Addresses between them are included if the
-//! [`Limits`] of the device allow it; generated bindings have these as `MODBUS`. A request never exceeds the device's
-//! limit and never includes an undescribed address. The values of one request are consistent as far as the device
-//! updates its registers together; the values of two requests aren't. [`Plan`] computes the requests as a constant.
+//! One request reads values of the same table at consecutive addresses. Addresses between the values are included if
+//! the [`Limits`] of the device allow it. Generated bindings contain these limits as the constant `MODBUS`. A request
+//! never exceeds the device's limit and never includes an address that isn't described. The values of one request are
+//! consistent if the device updates its registers together. The values of different requests are not consistent.
+//! [`Plan`] can compute the requests at compile time.
 
 mod block;
 mod client;

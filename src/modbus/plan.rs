@@ -6,15 +6,15 @@ use super::limits::Limits;
 use crate::register::{Register, RegisterTable, WordOrder};
 use crate::value_error::LengthError;
 
-/// The minimum number of requests that read `N` items.
+/// A plan that reads `N` items with the minimum number of requests.
 ///
-/// The plan needs no allocation. For constant items, the compiler computes it.
+/// The plan doesn't allocate. If the items are constants, the plan can be a constant.
 ///
 /// ```
 /// use lexibus::modbus::{Limits, Plan};
 /// use lexibus::Register;
 ///
-/// // The values of a cycle are consistent only if one request reads them:
+/// // The values of one cycle are consistent only if a single request reads all of them:
 /// const CYCLE: [Register; 3] = [Register::low_first(12, 2), Register::holding(10), Register::holding(11)];
 /// const _: () = assert!(matches!(Plan::new(CYCLE, &Limits::STANDARD), Ok(plan) if plan.len() == 1));
 ///
@@ -23,12 +23,12 @@ use crate::value_error::LengthError;
 /// # Ok::<(), lexibus::LengthError>(())
 /// ```
 ///
-/// The register of an item is in `location().modbus`.
+/// The register of an item is the field `modbus` of its location.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan<const N: usize> {
     /// The first `len` entries are the requests.
     requests: [Register; N],
-    /// Position of each item's request; `N` while unknown.
+    /// Index of the request for each item; `N` if the request isn't known yet.
     request_of: [usize; N],
     len: usize,
 }
@@ -38,8 +38,8 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// [`LengthError`], in bytes, if an item has no registers, or if it exceeds one request and may not be
-    /// [split](super::TableLimits::split).
+    /// Returns [`LengthError`], in bytes, if an item has no registers. The same error occurs if an item exceeds one
+    /// request and the device doesn't allow a [split](super::TableLimits::split).
     pub const fn new(items: [Register; N], limits: &Limits) -> Result<Self, LengthError> {
         let mut at = 0;
         while at < N {
@@ -67,8 +67,8 @@ impl<const N: usize> Plan<N> {
         Ok(plan)
     }
 
-    /// Returns the requests. The request for a single item is the item's own register. Requests for several items
-    /// return bits or words in address order ([`WordOrder::LowFirst`]).
+    /// Returns the requests. The request for a single item is the register of this item. Requests for several items
+    /// return bits or words in the order of their addresses ([`WordOrder::LowFirst`]).
     #[must_use]
     pub const fn requests(&self) -> &[Register] {
         self.requests.split_at(self.len).0
@@ -86,13 +86,13 @@ impl<const N: usize> Plan<N> {
         self.len == 0
     }
 
-    /// Returns the position of each item's request.
+    /// Returns the index of the request for each item.
     pub(super) const fn request_of(&self) -> &[usize; N] {
         &self.request_of
     }
 
-    /// Returns the item at which the next request begins: of the items compatible with the first unassigned one, the
-    /// one with the lowest address.
+    /// Returns the item at which the next request begins. This is the item with the lowest address among those that are
+    /// compatible with the first unassigned item.
     const fn leftmost(&self, items: &[Register; N]) -> Option<usize> {
         let (mut at, mut found) = (0, N);
         while at < N {
@@ -110,13 +110,13 @@ impl<const N: usize> Plan<N> {
         }
     }
 
-    /// Returns the end address of the request that begins with item `first`: it includes further items over readable
-    /// addresses, up to the limit.
+    /// Returns the end address of the request that begins with item `first`. The request includes further items, and
+    /// readable addresses between them, up to the limit.
     const fn reach(&self, items: &[Register; N], first: usize, limits: &Limits) -> u32 {
         let start = items[first];
         let max = limits.max_read(start.table);
         if start.count > max {
-            // Items that are split are read alone.
+            // A value that is split into several requests is read alone.
             return start.address as u32;
         }
         let last = start.address as u32 + (max / start.step()) as u32;
@@ -143,7 +143,7 @@ impl<const N: usize> Plan<N> {
     }
 }
 
-/// Checks that the item can be read with one request, or with several if it may be split.
+/// Checks that one request can read the item, or several requests if the item may be split.
 const fn check(item: &Register, limits: &Limits) -> Result<(), LengthError> {
     let max = limits.max_read(item.table);
     if item.count == 0 || item.count > max && !limits.of(item.table).split {
@@ -154,7 +154,7 @@ const fn check(item: &Register, limits: &Limits) -> Result<(), LengthError> {
 
 /// Returns the request for the addresses from `first` up to `end`, exclusive.
 const fn joined(first: &Register, end: u32) -> Register {
-    // The request is within the limit, so the count fits.
+    // The request is within the limit, so the count fits into 16 bits.
     let count = (end - first.address as u32) as u16 * first.step();
     Register {
         order: WordOrder::LowFirst,
@@ -173,7 +173,7 @@ const fn is_alike(one: &Register, other: &Register) -> bool {
     one.table as u8 == other.table as u8 && one.step() == other.step()
 }
 
-/// Returns whether all these addresses belong to items or to readable spans.
+/// Returns whether each of these addresses belongs to an item or to a readable span.
 const fn is_known(items: &[Register], kind: &Register, addresses: Range<u32>, limits: &Limits) -> bool {
     let spans = limits.of(kind.table).readable;
     let mut address = addresses.start;
@@ -203,7 +203,7 @@ const fn is_known(items: &[Register], kind: &Register, addresses: Range<u32>, li
     true
 }
 
-/// Returns the length of a number of registers or bits in bytes.
+/// Returns the number of bytes for `count` registers or bits.
 pub(super) const fn bytes(table: RegisterTable, count: u16) -> usize {
     match table {
         RegisterTable::Coil | RegisterTable::DiscreteInput => count.div_ceil(8) as usize,
@@ -260,9 +260,9 @@ mod tests {
         requests([at(20, 1), at(9, 1)], limits(HOLDING), &[(9, 12)]);
         requests([at(22, 1), at(10, 1)], limits(HOLDING), &[(10, 1), (22, 1)]);
         requests([at(10, 1), at(30, 1)], limits(HOLDING), &[(10, 1), (30, 1)]);
-        // Other items fill the gap of undescribed addresses.
+        // The third item covers the undescribed addresses between the first two items.
         requests([at(10, 1), at(30, 1), at(21, 9)], limits(HOLDING), &[(10, 21)]);
-        // Even an item that is too long for the same request fills it.
+        // The third item covers these addresses even if it is too long for the request.
         let narrow = TableLimits { max_read: 12, ..HOLDING };
         requests([at(19, 1), at(30, 1), at(20, 11)], limits(narrow), &[(19, 12)]);
         requests([at(19, 1), at(30, 1), at(20, 12)], limits(narrow), &[(19, 12), (20, 12)]);
@@ -286,7 +286,7 @@ mod tests {
     #[test]
     fn registers_of_32_bits() {
         let wide = |address, count| at(address, count).words_per_address(2);
-        // Three registers of two words; and a single word, which is the lower half of a register and is read alone.
+        // Three registers of two words. The single word is the lower half of a register and is read alone.
         requests([wide(0x8002, 2), wide(0x8000, 2), wide(0x8001, 1)], Limits::STANDARD, &[(0x8000, 6)]);
         requests([wide(0x8002, 1), wide(0x8000, 1)], Limits::STANDARD, &[(0x8000, 1), (0x8002, 1)]);
         requests([wide(0x8002, 2), at(0x8001, 1)], Limits::STANDARD, &[(0x8002, 2), (0x8001, 1)]);

@@ -1,4 +1,4 @@
-//! The state of a block between its first request and its last response.
+//! State of a block read between the first request and the last response.
 
 use super::block::Block;
 use super::limits::Limits;
@@ -7,10 +7,10 @@ use crate::bits;
 use crate::register::{Register, RegisterTable};
 use crate::value_error::LengthError;
 
-/// Length of the longest response in bytes: 125 registers or 2000 bits.
+/// Maximum length of a response in bytes, for 125 registers or 2000 bits.
 pub(super) const MAX_BYTES: usize = 250;
 
-/// A block while it is being read.
+/// A block read that is in progress.
 pub(super) struct Reading<const N: usize> {
     items: [Register; N],
     lengths: [usize; N],
@@ -56,19 +56,20 @@ impl<const N: usize> Reading<N> {
         Ok(())
     }
 
-    /// Returns the bytes of each value after the last response.
+    /// Returns the bytes of all values. Call this function after the last response.
     pub(super) fn values(&self) -> &[[u8; 8]; N] {
         &self.values
     }
 
-    /// Returns the item of the current request if it has only one. It is read as without a block.
+    /// Returns the item of the current request if the request reads only this item. Such an item is read like an item
+    /// outside of a block.
     fn only_item(&self) -> Option<usize> {
         let mut items = (0..N).filter(|&at| self.plan.request_of()[at] == self.answered);
         items.next().filter(|_| items.next().is_none())
     }
 }
 
-/// Extracts the value of one item into `value`, which it must fill.
+/// Extracts the value of one item from a response. The value must have the length of `value`.
 fn take(answer: &[u8], request: &Register, item: &Register, value: &mut [u8]) -> Result<(), LengthError> {
     let first = usize::from(item.address.saturating_sub(request.address)) * usize::from(item.step());
     let length = match item.table {

@@ -2,9 +2,9 @@
 
 use crate::node_id::NodeId;
 
-/// The COB-ID of a PDO (CiA 301 7.5.2.35 and 7.5.2.37), which may depend on the node-ID.
+/// The COB-ID of a PDO (CiA 301 7.5.2.35 and 7.5.2.37). A COB-ID may depend on the node-ID.
 ///
-/// Bits 0 to 28 are the CAN-ID. Bit 29 selects a 29-bit CAN-ID. Bit 30 of a TPDO disallows remote requests. Bit 31
+/// Bits 0 to 28 are the CAN-ID. Bit 29 selects a 29-bit CAN-ID. In a TPDO, bit 30 disallows remote requests. Bit 31
 /// disables the PDO.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CobId {
@@ -35,14 +35,15 @@ impl CobId {
         }
     }
 
-    /// Returns whether the PDO is enabled: bit 31 is 0.
+    /// Returns whether the PDO is enabled. An enabled PDO has bit 31 = 0.
     #[must_use]
     pub const fn is_valid(self) -> bool {
         self.base >> 31 == 0
     }
 }
 
-/// Returns whether a CAN-ID is restricted for PDOs (CiA 301 7.3.5): those of NMT, SDO, heartbeat, and reserved ones.
+/// Returns whether PDOs must not use a CAN-ID (CiA 301 7.3.5). Restricted CAN-IDs are those of NMT, SDO and heartbeat,
+/// and reserved ones.
 #[cfg(any(feature = "canopen", feature = "std"))]
 pub(crate) const fn is_restricted(can_id: u32) -> bool {
     matches!(can_id, 0..=0x7F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x6FF | 0x701..)

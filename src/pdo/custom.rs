@@ -1,4 +1,5 @@
-//! Custom mappings: traits for remappable PDOs and mappable objects, and the checks of [`pdo!`](crate::pdo!).
+//! Custom mappings: traits for PDOs with a writable mapping and for mappable objects, and the checks of
+//! [`pdo!`](crate::pdo!).
 
 use core::marker::PhantomData;
 
@@ -7,15 +8,15 @@ pub use super::field::{Fields, Frame};
 use super::mapping::MappedEntry;
 use super::sdo_write::SdoWrite;
 
-/// A PDO with a writable mapping. Generated code implements it.
+/// A PDO with a writable mapping. Generated code implements this trait.
 pub trait Remappable {
     /// Direction of the PDO: [`Rpdo`] or [`Tpdo`].
     type Direction;
 
-    /// The default COB-ID: [`CobId`], [`NoCobId`] if there is none, or [`OnEtherCat`].
+    /// Type of the default COB-ID: [`CobId`], [`NoCobId`] if there is no default, or [`OnEtherCat`].
     type CobId: Identifier;
 
-    /// The default COB-ID (CiA 301 7.5.2.35); a disabled one if there is none.
+    /// The default COB-ID (CiA 301 7.5.2.35). If there is no default, this is the COB-ID of a disabled PDO.
     const COB_ID: CobId = CobId::fixed(0x8000_0000);
 
     /// Index of the mapping object.
@@ -24,35 +25,36 @@ pub trait Remappable {
     /// Maximum number of entries in the mapping object.
     const ENTRIES: usize;
 
-    /// Maximum length in bits: 64 on CANopen, the length of the sync manager on EtherCAT.
+    /// Maximum length in bits: 64 on CANopen, or the maximum length of the sync manager on EtherCAT.
     const MAX_BITS: u32 = 64;
 
-    /// Granularity of the mapping in bits (`Granularity` of CiA 306).
+    /// Granularity of the mapping in bits (`Granularity` of CiA 306). The length of each entry is a multiple of the
+    /// granularity.
     const GRANULARITY: u32 = 1;
 
-    /// Data types allowed as dummy entries (`DummyUsage` of CiA 306), one bit per type: bit 5 is UNSIGNED8, 0x0005.
-    /// Gaps on EtherCAT need no dummy entries.
+    /// Data types that are allowed as dummy entries (`DummyUsage` of CiA 306). Each bit represents one data type. For
+    /// example, bit 5 represents UNSIGNED8 (0x0005). On EtherCAT, gaps don't need dummy entries.
     const DUMMIES: u32 = 0;
 
     /// Entries that must stay in the mapping (`Fixed` of an entry, ETG.2000).
     const KEPT: &'static [MappedEntry] = &[];
 
-    /// Index of the communication object; `None` if the COB-ID is read-only, and on EtherCAT.
+    /// Index of the communication parameters. `None` on EtherCAT, and if the COB-ID is read-only.
     const COMMUNICATION: Option<u16> = None;
 
     /// Writes that set the default transmission type and timers.
     const TIMING: &'static [SdoWrite] = &[];
 }
 
-/// Direction of a PDO that the device receives.
+/// Marks a PDO that the device receives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rpdo {}
 
-/// Direction of a PDO that the device transmits.
+/// Marks a PDO that the device transmits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tpdo {}
 
-/// Both directions: for an object that any PDO can map.
+/// Marks an object that PDOs of both directions can map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnyPdo {}
 
@@ -60,11 +62,12 @@ pub enum AnyPdo {}
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoCobId {}
 
-/// Marks a PDO that exists only on EtherCAT and so has no COB-ID.
+/// Marks an EtherCAT PDO, which has no COB-ID.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnEtherCat {}
 
-/// An object that can be mapped: a field of type `F` in PDOs of direction `D`, with the mapping entry `WORD`.
+/// An object that can be mapped into PDOs of direction `D`. The field of the PDO has the type `F`. `WORD` is the
+/// mapping entry.
 ///
 /// The generated module `mappable` has a type alias for each such object.
 pub struct Mappable<F, D, const WORD: u32>(PhantomData<fn() -> (F, D)>);
@@ -74,8 +77,8 @@ pub trait Mapped {
     /// The type of the field.
     type Field;
 
-    /// Mapping entry as in the mapping object: index, sub-index and length in bits, from the most significant byte
-    /// down.
+    /// Mapping entry, encoded as in the mapping object: index, sub-index and length in bits, with the index in the most
+    /// significant bytes.
     const WORD: u32;
 
     /// Length in bits.
@@ -94,7 +97,7 @@ impl<F, D, const WORD: u32> Mapped for Mappable<F, D, WORD> {
     note = "the device receives an `Rpdo` and transmits a `Tpdo`"
 )]
 pub trait MappableInto<D> {
-    /// Evaluated to require the trait at compile time.
+    /// Generated code evaluates this constant to require the trait at compile time.
     const HOLDS: () = ();
 }
 
@@ -103,7 +106,7 @@ impl<F, const WORD: u32> MappableInto<Tpdo> for Mappable<F, Tpdo, WORD> {}
 impl<F, const WORD: u32> MappableInto<Rpdo> for Mappable<F, AnyPdo, WORD> {}
 impl<F, const WORD: u32> MappableInto<Tpdo> for Mappable<F, AnyPdo, WORD> {}
 
-/// Implemented by [`CobId`] only. Because of the lifetime, rustc checks the bound only when the method is called.
+/// A type that is [`CobId`]. Because of the lifetime, rustc checks the bound only when the method is called.
 #[diagnostic::on_unimplemented(
     message = "this PDO has no default COB-ID",
     label = "the default COB-ID is unknown",
@@ -113,7 +116,7 @@ pub trait IsCobId<'a> {}
 
 impl IsCobId<'_> for CobId {}
 
-/// Implemented by the markers of CANopen PDOs. The lifetime has the same purpose as in [`IsCobId`].
+/// A marker of a CANopen PDO. The lifetime has the same purpose as in [`IsCobId`].
 #[diagnostic::on_unimplemented(
     message = "this is an EtherCAT PDO, which has no COB-ID",
     label = "not a CANopen PDO",
@@ -124,7 +127,7 @@ pub trait IsOnCanOpen<'a> {}
 impl IsOnCanOpen<'_> for CobId {}
 impl IsOnCanOpen<'_> for NoCobId {}
 
-/// Kinds of default COB-ID: [`CobId`], [`NoCobId`] or [`OnEtherCat`].
+/// A type of default COB-ID: [`CobId`], [`NoCobId`] or [`OnEtherCat`].
 pub trait Identifier {
     /// Whether a gap needs a dummy entry.
     const NEEDS_DUMMIES: bool;
@@ -142,22 +145,22 @@ impl Identifier for OnEtherCat {
     const NEEDS_DUMMIES: bool = false;
 }
 
-/// The result of a check as a type.
+/// The result of a compile-time check, represented as a type.
 pub struct Check<const HOLDS: bool>;
 
-/// Implemented by [`Check<true>`](Check): the length of the entry is a multiple of the granularity.
+/// Implemented only by [`Check<true>`](Check). Requires that the length of the entry is a multiple of the granularity.
 #[diagnostic::on_unimplemented(
     message = "this object can't be mapped: its length is not a multiple of the granularity",
     label = "not a multiple of the device's mapping granularity"
 )]
 pub trait FitsGranularity {
-    /// Evaluated to require the trait at compile time.
+    /// Generated code evaluates this constant to require the trait at compile time.
     const HOLDS: () = ();
 }
 
 impl FitsGranularity for Check<true> {}
 
-/// Checks that [`pdo!`](crate::pdo!) makes at compile time.
+/// Checks by [`pdo!`](crate::pdo!) at compile time.
 pub mod check {
     use super::{MappedEntry, Remappable};
 
@@ -210,8 +213,8 @@ pub mod check {
     }
 }
 
-/// Returns the mapping entry for a gap of `bits` bits: a dummy entry on CANopen, padding on EtherCAT. Returns 0 if
-/// the device has no such entry.
+/// Returns the mapping entry for a gap of `bits` bits. The entry is a dummy entry on CANopen and padding on EtherCAT.
+/// Returns 0 if the device supports no such entry.
 #[must_use]
 pub const fn gap<P: Remappable>(bits: u32) -> u32 {
     if !P::CobId::NEEDS_DUMMIES && bits <= 0xFF {
@@ -243,7 +246,7 @@ const fn bits_of_type(code: u32) -> u32 {
     }
 }
 
-/// Decodes mapping entries.
+/// Decodes mapping entries from their representation in a mapping object.
 #[must_use]
 pub const fn entries<const N: usize>(words: [u32; N]) -> [MappedEntry; N] {
     let mut out = [MappedEntry::from_word(0); N];
@@ -266,9 +269,10 @@ pub const fn bits(mapping: &[MappedEntry]) -> u32 {
     bits
 }
 
-/// Returns the writes that change the mapping: clear, entries, count. `N` is the number of entries plus 2.
+/// Returns the writes that change the mapping: clear the mapping, write the entries, write their number. `N` is the
+/// number of entries plus 2.
 ///
-/// While they are sent, a CANopen PDO must be disabled, and an EtherCAT device must be in Pre-Operational.
+/// While you send these writes, a CANopen PDO must be disabled, and an EtherCAT device must be in Pre-Operational.
 #[must_use]
 pub const fn mapping_writes<P: Remappable, const N: usize>(mapping: &[MappedEntry]) -> [SdoWrite; N] {
     let clear = SdoWrite::new_u8(P::INDEX, 0, 0);
@@ -282,8 +286,8 @@ pub const fn configuration_len<P: Remappable>(mapping: &[MappedEntry]) -> usize 
     identifier + mapping.len() + 2 + P::TIMING.len()
 }
 
-/// Returns the writes that configure a CANopen PDO (CiA 301 7.5.2.36): disable, clear, map, count, timing, enable.
-/// Read-only parameters are left out.
+/// Returns the writes that configure a CANopen PDO (CiA 301 7.5.2.36). In order, they disable the PDO, clear the
+/// mapping, write the entries and their number, set the timing, and enable the PDO. Read-only parameters are left out.
 #[must_use]
 pub const fn configuration<P: Remappable, const N: usize>(mapping: &[MappedEntry], cob_id: u32) -> [SdoWrite; N] {
     let mut out = [SdoWrite::new_u8(P::INDEX, 0, 0); N];
@@ -305,7 +309,7 @@ pub const fn configuration<P: Remappable, const N: usize>(mapping: &[MappedEntry
     out
 }
 
-/// Puts the writes of a mapping into `out` from `first` on. `out` already has the write at `first`, which clears the
+/// Writes a mapping into `out` from `first` on. The element of `out` at `first` is already the write that clears the
 /// mapping.
 const fn put_mapping<P: Remappable, const N: usize>(
     mut out: [SdoWrite; N],

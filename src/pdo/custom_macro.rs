@@ -1,8 +1,9 @@
 //! The macro `pdo!`.
 //!
-//! A declarative macro needs no cargo feature and runs no code on the build machine. It looks up names in generated
-//! code: PDOs in the module `remappable`, objects in `mappable`. rustc reports an unknown name at its position.
-//! Conflicts between two parts are unimplemented traits; conflicts of the whole mapping are constants that panic.
+//! A declarative macro needs no cargo feature and runs no code on the build machine. The macro refers to names in
+//! generated code: PDOs in the module `remappable`, objects in `mappable`. If a name is unknown, rustc reports the
+//! error at its position. A conflict between two parts is an unimplemented trait. A conflict of the whole mapping is a
+//! constant that panics.
 
 /// Declares a custom mapping: a struct for a PDO with a writable mapping. The mapping is checked at compile time.
 ///
@@ -29,7 +30,7 @@
 /// assert_eq!(frame, [0x0F, 0x00, 0xE8, 0x03, 0x00, 0x00]);
 /// assert_eq!(Feedback::unpack(&[0xFE, 0xFF, 5, 0, 0, 0])?.pressure, -2);
 ///
-/// // On CANopen: disable, clear, map, count, timing, enable.
+/// // The writes for CANopen: disable the PDO, clear, write and count the mapping, set the timing, enable the PDO.
 /// # let node_id = NodeId::new(5).unwrap();
 /// for write in Fast::configuration(node_id) {
 ///     println!("{write:?}");
@@ -37,41 +38,39 @@
 /// # Ok::<(), lexibus::LengthError>(())
 /// ```
 ///
-/// The path names the PDO's struct in `pdo`, through the module of its device. PDOs without a default mapping are
-/// named the same way.
+/// The path is that of the PDO's struct in the module `pdo` of its device. PDOs without a default mapping have paths of
+/// the same form.
 ///
 /// A field has the name and value type of an accessor, such as `controlword`. For an entry of an array or a record,
-/// write a field name and the path of the entry: `pressure: analogue_inputs::input_2`. `_: 8` is a gap of 8 bits:
-/// padding on EtherCAT, a dummy entry on CANopen (CiA 301 7.4.9.2). The device must support that dummy entry.
+/// write a field name and the path of the entry: `pressure: analogue_inputs::input_2`. `_: 8` is a gap of 8 bits. On
+/// EtherCAT, a gap is padding. On CANopen, it is a dummy entry (CiA 301 7.4.9.2) that the device must support.
 ///
-/// Attributes of the struct and its fields are kept. Derive the traits that you need.
+/// The macro keeps the attributes of the struct and its fields. Derive the traits that you need.
 ///
 /// # Generated items
 ///
-/// The same as for generated PDOs: `BITS`, `LEN`, `COB_ID`, `pack`, `unpack` and an implementation of
-/// [`Pdo`](crate::Pdo). In addition:
+/// The struct has the same items as the struct of a generated PDO: `BITS`, `LEN`, `COB_ID`, `pack`, `unpack` and an
+/// implementation of [`Pdo`](crate::Pdo). In addition, the struct has these methods:
 ///
 /// - `configuration(node_id)` and `configuration_as(cob_id)` return the writes that configure a CANopen device.
-/// - `mapping_writes()` returns only the writes of the mapping. On EtherCAT, send them in Pre-Operational while the
-///   PDO isn't
-///   assigned. [`Assignment::with_mapping`](crate::ethercat::Assignment::with_mapping) includes them in the
-///   assignment.
+/// - `mapping_writes()` returns only the writes of the mapping. On EtherCAT, send these writes in Pre-Operational while
+///   the PDO isn't assigned. [`Assignment::with_mapping`](crate::ethercat::Assignment::with_mapping) includes them in
+///   the assignment.
 ///
 /// # Compile-time checks
 ///
-/// - The mapping of the PDO is writable.
-/// - Each object exists and can be mapped in the PDO's direction (`cannot find type … in module …::mappable`).
-/// - The length of each object is a multiple of the granularity.
-/// - A dummy entry exists for each gap.
-/// - The mapping has no more entries than the mapping object, and no more bits than allowed: 64 on CANopen, the
-///   length of
-///   the sync manager on EtherCAT.
-/// - All fixed entries are included (`Fixed`, ETG.2000).
+/// - The mapping of the PDO must be writable.
+/// - Each object must exist and be mappable in the PDO's direction (`cannot find type … in module …::mappable`).
+/// - The length of each object must be a multiple of the granularity.
+/// - The device must support a dummy entry for each gap.
+/// - The number of entries must not exceed the mapping object. The number of bits must not exceed 64 on CANopen, or the
+///   maximum length of the sync manager on EtherCAT.
+/// - The mapping must include all fixed entries (`Fixed`, ETG.2000).
 ///
-/// An object can be mapped if the device description says so or maps it by default. If the description is incomplete,
-/// use an overlay to set `pdo = "rx"`, `"tx"` or `"both"`.
+/// An object can be mapped if the device description allows it or maps the object by default. If the description is
+/// incomplete, use an overlay to set `pdo = "rx"`, `"tx"` or `"both"`.
 ///
-/// A mapping of more than 60 documented fields may need `#![recursion_limit = "256"]`.
+/// A mapping of more than 60 fields with doc comments may need `#![recursion_limit = "256"]`.
 #[macro_export]
 macro_rules! pdo {
     ($(#[$attribute:meta])* $visibility:vis struct $name:ident: $($segment:ident)::+ { $($body:tt)* }) => {
@@ -81,7 +80,7 @@ macro_rules! pdo {
         $crate::pdo!(@path [$(#[$attribute])* $visibility] $name [::] [$($segment)+] { $($body)* });
     };
 
-    // The path to the device precedes `pdo::Name`.
+    // The path of the device is everything before `pdo::Name`.
     (@path $head:tt $name:ident [$($device:tt)+] [pdo $pdo:ident] $body:tt) => {
         $crate::pdo!(@path $head $name [$($device)+] { $($device)+ remappable::$pdo } $body);
     };
@@ -98,8 +97,8 @@ macro_rules! pdo {
         ));
     };
 
-    // Entries one by one: `[fields] [mapping words] [bits so far] [attributes of the next field] { rest }`. A field
-    // is a `tt` because errors at an `ident` would point to the whole call.
+    // Processes one entry at a time: `[fields] [mapping words] [bits so far] [attributes of the next field] { rest }`.
+    // A field is a `tt` because errors at an `ident` would point to the whole call.
     (@entries $head:tt $name:ident $device:tt $path:ty, $fields:tt $words:tt $bits:tt [$($attributes:tt)*]
         { #[$one:meta] #[$two:meta] #[$three:meta] #[$four:meta] $($rest:tt)* }
     ) => {
@@ -163,7 +162,7 @@ macro_rules! pdo {
             /// The default COB-ID (CiA 301 7.5.2.35).
             pub const COB_ID: $crate::CobId = <$path as $crate::pdo::Remappable>::COB_ID;
 
-            /// Returns the bytes of the PDO; padding is 0.
+            /// Returns the bytes of the PDO. Unmapped bits are 0.
             #[inline]
             #[must_use]
             pub fn pack(&self) -> [u8; Self::LEN] {
@@ -172,11 +171,11 @@ macro_rules! pdo {
                     .into_bytes()
             }
 
-            /// Decodes the fields. Bytes after the mapped ones are ignored.
+            /// Decodes the fields of the PDO. Bytes after the mapped objects are ignored.
             ///
             /// # Errors
             ///
-            /// `LengthError` if `data` is shorter than the PDO.
+            /// Returns `LengthError` if `data` is shorter than the PDO.
             #[inline]
             pub fn unpack(data: &[u8]) -> ::core::result::Result<Self, $crate::LengthError> {
                 match $crate::pdo::custom::Fields::<{ Self::LEN }>::new(data) {
@@ -190,7 +189,7 @@ macro_rules! pdo {
                 }
             }
 
-            /// Returns the writes of the mapping only: clear, map, count.
+            /// Returns only the writes of the mapping: clear the mapping, write the entries, write their number.
             ///
             /// On EtherCAT, send them in Pre-Operational while the PDO is not assigned. On CANopen, the PDO must be
             /// disabled.
@@ -215,8 +214,9 @@ macro_rules! pdo {
                 >(<Self as $crate::Pdo>::MAPPING, Self::COB_ID.resolve(node_id))
             }
 
-            /// Returns the writes that configure the PDO in a CANopen device with the given COB-ID: disable, clear,
-            /// map, count, timing, enable. Read-only parameters are left out.
+            /// Returns the writes that configure the PDO in a CANopen device with the given COB-ID. In order, they
+            /// disable the PDO, clear the mapping, write the entries and their number, set the timing, and enable the
+            /// PDO. Read-only parameters are left out.
             #[must_use]
             pub const fn configuration_as(
                 cob_id: u32,

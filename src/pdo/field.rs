@@ -1,4 +1,4 @@
-//! Fields of PDOs and their conversion to and from bytes.
+//! Fields of PDOs, and their conversion to and from bytes.
 
 use crate::bits;
 use crate::enumeration::Enumeration;
@@ -8,27 +8,27 @@ use crate::value::Value;
 use crate::value_error::LengthError;
 use crate::wide::{Int, Uint};
 
-/// A type that a PDO field can have: a number, a bool, an enumeration, bit flags, a time, or bytes.
+/// A type that a PDO field can have: a number, a bool, an enumeration, a bit field, a time, or bytes.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` can't be a field of a PDO",
     label = "expected a type with a fixed number of bits"
 )]
 pub trait Field: Copy {
-    /// Returns the field as the low bits of a word. Bits above the field's length are undefined.
+    /// Returns the field in the low bits of a word. Bits above the length of the field are undefined.
     #[must_use]
     fn to_word(self) -> u64;
 
-    /// Creates the field from the low `bits` bits of `word`; the bits above are 0.
+    /// Creates the field from the low `bits` bits of `word`. All higher bits of `word` are 0.
     #[must_use]
     fn from_word(word: u64, bits: u32) -> Self;
 
-    /// Writes the field at bit offset `at` of `data`, with a length of `bits` bits.
+    /// Writes the field to `data` at bit offset `at`. The field has a length of `bits` bits.
     #[inline]
     fn put(self, data: &mut [u8], at: usize, bits: u32) {
         bits::set(data, at, bits, self.to_word());
     }
 
-    /// Reads the field at bit offset `at` of `data`, with a length of `bits` bits.
+    /// Reads the field from `data` at bit offset `at`. The field has a length of `bits` bits.
     #[must_use]
     #[inline]
     fn get(data: &[u8], at: usize, bits: u32) -> Self {
@@ -86,7 +86,7 @@ where
     }
 }
 
-/// Raw bytes, such as those of a text.
+/// Raw bytes, such as the bytes of a text.
 impl<const N: usize> Field for [u8; N] {
     #[inline]
     fn to_word(self) -> u64 {
@@ -109,23 +109,23 @@ impl<const N: usize> Field for [u8; N] {
     }
 }
 
-/// The `LEN` bytes of a PDO while fields are packed. Used by the code of [`pdo!`](crate::pdo!).
+/// The `LEN` bytes of a PDO to which fields are being added. The code of [`pdo!`](crate::pdo!) uses this type.
 ///
-/// Up to 8 bytes are handled as one word, so that the compiler can evaluate all shifts.
+/// A frame of up to 8 bytes is handled as one word, so that the compiler can evaluate all shifts.
 pub struct Frame<const LEN: usize> {
     word: u64,
     data: [u8; LEN],
 }
 
 impl<const LEN: usize> Frame<LEN> {
-    /// Creates an empty frame: all bits are 0.
+    /// Creates an empty frame, in which all bits are 0.
     #[must_use]
     #[inline]
     pub const fn new() -> Self {
         Self { word: 0, data: [0; LEN] }
     }
 
-    /// Adds a field of `bits` bits at bit offset `at`, where no field has been added before.
+    /// Adds a field of `bits` bits at bit offset `at`. No field may have been added there before.
     #[must_use]
     #[inline]
     pub fn with<F: Field>(mut self, field: F, at: u32, bits: u32) -> Self {
@@ -137,7 +137,7 @@ impl<const LEN: usize> Frame<LEN> {
         self
     }
 
-    /// Returns the packed bytes.
+    /// Returns the bytes of the frame.
     #[must_use]
     #[inline]
     pub const fn into_bytes(self) -> [u8; LEN] {
@@ -155,18 +155,18 @@ impl<const LEN: usize> Default for Frame<LEN> {
     }
 }
 
-/// The bytes of a PDO of `LEN` bytes while fields are unpacked. Used by the code of [`pdo!`](crate::pdo!).
+/// The bytes of a PDO of `LEN` bytes, from which fields are read. The code of [`pdo!`](crate::pdo!) uses this type.
 pub struct Fields<'d, const LEN: usize> {
     word: u64,
     data: &'d [u8],
 }
 
 impl<'d, const LEN: usize> Fields<'d, LEN> {
-    /// Creates the fields from `data`. Bytes after the mapped ones are ignored.
+    /// Creates the fields from the first `LEN` bytes of `data`. Further bytes are ignored.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if `data` has fewer than `LEN` bytes.
+    /// Returns [`LengthError`] if `data` has fewer than `LEN` bytes.
     #[inline]
     pub const fn new(data: &'d [u8]) -> Result<Self, LengthError> {
         if data.len() < LEN {
@@ -196,7 +196,7 @@ mod tests {
     fn travels<F: Field + PartialEq + Debug>(field: F, bits: u32, word: u64) {
         assert_eq!(field.to_word() & mask(bits), word);
         assert_eq!(F::from_word(word, bits), field);
-        // At bit 7 within a word, and in a frame longer than a word.
+        // Checks the field at bit offset 7 within a word, and in a frame that is longer than a word.
         let short = Frame::<8>::new().with(field, 7, bits).into_bytes();
         assert_eq!(short, (word << 7).to_le_bytes());
         assert_eq!(Fields::<8>::new(&short).unwrap().get::<F>(7, bits), field);

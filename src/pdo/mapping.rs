@@ -10,33 +10,33 @@ pub struct MappedEntry {
     pub index: u16,
     /// Sub-index of the mapped object.
     pub sub_index: u8,
-    /// What the index depends on, in a module of an EtherCAT slave.
+    /// Slot dependency of the index, for a module of an EtherCAT slave.
     pub depends_on: DependsOn,
-    /// Length in bits. At most 255 in a mapping object; a fixed mapping may have longer entries.
+    /// Length in bits. In a mapping object, the length is at most 255. A fixed mapping may have longer entries.
     pub bits: u32,
 }
 
 impl MappedEntry {
-    /// Creates an entry.
+    /// Creates a mapping entry.
     #[must_use]
     pub const fn new(index: u16, sub_index: u8, bits: u32) -> Self {
         Self::depending_on(index, sub_index, bits, DependsOn::Nothing)
     }
 
-    /// Creates an entry whose index depends on the slot of its module. `index` is the one for slot 0.
+    /// Creates an entry whose index depends on the slot of its module. `index` is the index in slot 0.
     #[must_use]
     pub const fn in_slot(index: u16, sub_index: u8, bits: u32) -> Self {
         Self::depending_on(index, sub_index, bits, DependsOn::Slot)
     }
 
-    /// Creates an entry whose index depends on the slot or slot group of its module.
+    /// Creates an entry whose index depends on the slot or the slot group of its module.
     #[must_use]
     pub const fn depending_on(index: u16, sub_index: u8, bits: u32, depends_on: DependsOn) -> Self {
         Self { index, sub_index, depends_on, bits }
     }
 
-    /// Returns the entry as in the mapping object: index, sub-index and length in bits, from the most significant
-    /// byte down.
+    /// Returns the entry, encoded as in the mapping object: index, sub-index and length in bits, with the index in the
+    /// most significant bytes.
     #[must_use]
     pub const fn word(self) -> u32 {
         (self.index as u32) << 16 | (self.sub_index as u32) << 8 | self.bits & 0xFF
@@ -60,7 +60,7 @@ pub trait Pdo {
     /// Index of the mapping object, 0x1600 to 0x17FF or 0x1A00 to 0x1BFF.
     const INDEX: u16;
 
-    /// Mapped entries, in the order of the bits.
+    /// Mapped entries, in ascending order of their bit offsets.
     const MAPPING: &'static [MappedEntry];
 
     /// Length in bytes.

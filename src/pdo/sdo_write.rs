@@ -1,11 +1,11 @@
-//! SDO writes of a configuration.
+//! SDO writes that configure a device.
 
 use super::word::to_bytes;
 use crate::bus::{Bus, Object};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 
-/// A write of at most 8 bytes to an object, as one step of a configuration.
+/// A write of at most 8 bytes to an object. A configuration consists of such writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SdoWrite {
     object: Object,
@@ -52,7 +52,7 @@ impl SdoWrite {
     ///
     /// # Errors
     ///
-    /// The errors of the client.
+    /// Returns the errors of the client.
     pub fn send<C: Client>(&self, client: &mut C) -> Result<(), Error<C::Error>>
     where
         C::Bus: Bus<Address = Object>,
@@ -64,7 +64,7 @@ impl SdoWrite {
     ///
     /// # Errors
     ///
-    /// The errors of the client.
+    /// Returns the errors of the client.
     pub async fn send_async<C: AsyncClient>(&self, client: &mut C) -> Result<(), Error<C::Error>>
     where
         C::Bus: Bus<Address = Object>,

@@ -1,13 +1,14 @@
-//! Big-endian fields of a byte string.
+//! Big-endian fields in a byte string.
 //!
-//! A bit field is part of the big-endian number made of the bytes that it touches. Bit 0 is the least significant bit
-//! of the last of these bytes. Reads beyond the end of the data return 0; writes there have no effect.
+//! A bit field is a part of a big-endian number. This number consists of all bytes with bits of the field. Bit 0 is the
+//! least significant bit of the last byte. A read beyond the end of the data returns 0. A write beyond the end has no
+//! effect.
 
 use crate::pdo::{mask, sign_extend};
 use crate::time::{TimeDifference, TimeOfDay};
 use crate::value_error::LengthError;
 
-/// Returns the `N` bytes from `at` on, or zeros if the data are too short.
+/// Returns the `N` bytes from `at` on. Returns zeros if the data are too short.
 #[must_use]
 #[inline]
 pub const fn bytes<const N: usize>(data: &[u8], at: usize) -> [u8; N] {
@@ -19,11 +20,11 @@ pub const fn bytes<const N: usize>(data: &[u8], at: usize) -> [u8; N] {
     [0; N]
 }
 
-/// Returns the first `N` bytes.
+/// Returns the first `N` bytes of the data.
 ///
 /// # Errors
 ///
-/// [`LengthError`] if the data are shorter.
+/// Returns [`LengthError`] if the data have fewer than `N` bytes.
 #[inline]
 pub const fn chunk<const N: usize>(data: &[u8]) -> Result<&[u8; N], LengthError> {
     match data.first_chunk() {
@@ -32,22 +33,22 @@ pub const fn chunk<const N: usize>(data: &[u8]) -> Result<&[u8; N], LengthError>
     }
 }
 
-/// Returns the first `N` bytes for writing.
+/// Returns the first `N` bytes of the data for writing.
 ///
 /// # Errors
 ///
-/// [`LengthError`] if the data are shorter.
+/// Returns [`LengthError`] if the data have fewer than `N` bytes.
 #[inline]
 pub fn chunk_mut<const N: usize>(data: &mut [u8]) -> Result<&mut [u8; N], LengthError> {
     let error = LengthError::new(N, data.len());
     data.first_chunk_mut().ok_or(error)
 }
 
-/// Writes `bytes` to the start of the data and returns the written part.
+/// Writes `bytes` to the start of the data and returns the written bytes.
 ///
 /// # Errors
 ///
-/// [`LengthError`] if the data are shorter.
+/// Returns [`LengthError`] if the data are shorter than `bytes`.
 #[inline]
 pub fn write<'d>(data: &'d mut [u8], bytes: &[u8]) -> Result<&'d [u8], LengthError> {
     let error = LengthError::new(bytes.len(), data.len());
@@ -56,7 +57,7 @@ pub fn write<'d>(data: &'d mut [u8], bytes: &[u8]) -> Result<&'d [u8], LengthErr
     Ok(to)
 }
 
-/// Writes `bytes` at offset `at`.
+/// Writes `bytes` at byte offset `at`.
 #[inline]
 pub fn put(data: &mut [u8], at: usize, bytes: &[u8]) {
     if let Some(to) = data.get_mut(at..).and_then(|rest| rest.get_mut(..bytes.len())) {
@@ -64,7 +65,7 @@ pub fn put(data: &mut [u8], at: usize, bytes: &[u8]) {
     }
 }
 
-/// Sets or clears a bit of the byte at `at`; bit 0 is the least significant one.
+/// Sets or clears a bit of the byte at `at`. Bit 0 is the least significant bit.
 #[inline]
 pub fn put_bit(data: &mut [u8], at: usize, bit: u32, value: bool) {
     if let Some(byte) = data.get_mut(at) {
@@ -73,7 +74,7 @@ pub fn put_bit(data: &mut [u8], at: usize, bit: u32, value: bool) {
     }
 }
 
-/// Returns the number of bytes that a field of `width` bits at bit offset `shift` touches, at most 8.
+/// Returns the number of bytes with bits of a field, at most 8. The field has `width` bits at bit offset `shift`.
 const fn touched(shift: u32, width: u32) -> usize {
     let bytes = shift.saturating_add(width).div_ceil(8);
     if bytes > 8 {
@@ -83,7 +84,7 @@ const fn touched(shift: u32, width: u32) -> usize {
     }
 }
 
-/// Returns the number of a field's bits in a ninth byte, if it reaches that far.
+/// Returns the number of a field's bits in a ninth byte, or `None` if the field ends before this byte.
 const fn in_ninth(shift: u32, width: u32) -> Option<u32> {
     if shift < 8 && width <= 64 && shift + width > 64 {
         Some(8 - shift)
@@ -92,7 +93,8 @@ const fn in_ninth(shift: u32, width: u32) -> Option<u32> {
     }
 }
 
-/// Reads an unsigned number of `width` bits, 1 to 64, at bit offset `shift` of the bytes from `at` on.
+/// Reads an unsigned number of `width` bits, 1 to 64. The number starts at bit offset `shift` of the bytes from `at`
+/// on.
 #[must_use]
 #[inline]
 pub const fn number(data: &[u8], at: usize, shift: u32, width: u32) -> u64 {
@@ -111,14 +113,15 @@ pub const fn number(data: &[u8], at: usize, shift: u32, width: u32) -> u64 {
 
 macro_rules! bits {
     ($($unsigned:ident $u:ty, $signed:ident $i:ty;)*) => {$(
-        /// Reads a [`number`] as an unsigned integer; bits beyond the integer's width are discarded.
+        /// Reads a [`number`] as an unsigned integer. Bits above the width of the integer are discarded.
         #[must_use]
         #[inline]
         pub const fn $unsigned(data: &[u8], at: usize, shift: u32, width: u32) -> $u {
             number(data, at, shift, width) as $u
         }
 
-        /// Reads a [`number`] as a signed integer in two's complement; bits beyond the integer's width are discarded.
+        /// Reads a [`number`] as a signed integer in two's complement. Bits above the width of the integer are
+        /// discarded.
         #[must_use]
         #[inline]
         pub const fn $signed(data: &[u8], at: usize, shift: u32, width: u32) -> $i {
@@ -134,8 +137,8 @@ bits! {
     bits_u64 u64, bits_i64 i64;
 }
 
-/// Writes the low `width` bits of `value` at bit offset `shift` of the bytes from `at` on. Other bits keep their
-/// value.
+/// Writes the low `width` bits of `value` at bit offset `shift` of the bytes from `at` on. All other bits keep their
+/// values.
 #[inline]
 pub fn put_number(data: &mut [u8], at: usize, shift: u32, width: u32, value: u64) {
     if let Some(low) = in_ninth(shift, width) {
@@ -157,8 +160,8 @@ pub fn put_number(data: &mut [u8], at: usize, shift: u32, width: u32, value: u64
     }
 }
 
-/// Reads a "TimeOfDay with date indication" (IEC 61158-6): milliseconds in the low 28 bits of 4 bytes, then days
-/// since 1984 in 2 bytes.
+/// Reads a "TimeOfDay with date indication" (IEC 61158-6). The low 28 bits of the first 4 bytes contain milliseconds.
+/// The last 2 bytes contain days since 1984.
 #[must_use]
 #[inline]
 pub const fn time_of_day(data: &[u8], at: usize) -> TimeOfDay {
@@ -166,14 +169,15 @@ pub const fn time_of_day(data: &[u8], at: usize) -> TimeOfDay {
     TimeOfDay::new(u32::from_be_bytes([a & 0x0F, b, c, d]), u16::from_be_bytes([high, low]))
 }
 
-/// Encodes a [`time_of_day`].
+/// Encodes a "TimeOfDay with date indication", the format of [`time_of_day`].
 #[must_use]
 #[inline]
 pub const fn from_time_of_day(time: TimeOfDay) -> [u8; 6] {
     from_time(time.milliseconds, time.days)
 }
 
-/// Reads a "TimeDifference with date indication" (IEC 61158-6): milliseconds in 4 bytes, then days in 2 bytes.
+/// Reads a "TimeDifference with date indication" (IEC 61158-6). The first 4 bytes contain milliseconds, the last 2
+/// bytes contain days.
 #[must_use]
 #[inline]
 pub const fn time_difference(data: &[u8], at: usize) -> TimeDifference {
@@ -181,7 +185,7 @@ pub const fn time_difference(data: &[u8], at: usize) -> TimeDifference {
     TimeDifference::new(u32::from_be_bytes([a & 0x0F, b, c, d]), u16::from_be_bytes([high, low]))
 }
 
-/// Encodes a [`time_difference`].
+/// Encodes a "TimeDifference with date indication", the format of [`time_difference`].
 #[must_use]
 #[inline]
 pub const fn from_time_difference(time: TimeDifference) -> [u8; 6] {
@@ -230,7 +234,7 @@ mod tests {
         assert_eq!(data, [0b1111_0101, 0x7F]);
     }
 
-    /// Reference implementation of [`number`], bit by bit.
+    /// Reference implementation of [`number`], which reads bit by bit.
     fn slowly(data: &[u8], at: usize, shift: u32, width: u32) -> u64 {
         let last = at + ((shift + width).div_ceil(8) as usize) - 1;
         (0..width).fold(0, |number, bit| {

@@ -1,4 +1,4 @@
-//! Access to items in the process image of a submodule.
+//! Reads and writes of items in the process image of a submodule.
 
 use core::time::Duration;
 
@@ -14,16 +14,16 @@ use crate::value_error::LengthError;
 /// Minimum time between two cycles during [`Cyclic::wait`](crate::Client::wait).
 const CYCLE: Duration = Duration::from_millis(1);
 
-/// A client for items in the cyclic data of one submodule.
+/// A client for the items in the cyclic data of one submodule.
 ///
-/// It is a [`Client`] or an [`AsyncClient`] of [`ProcessImage`] over an [`ImageClient`] `I`. `O` and `N` hold the
-/// output and input frames: arrays, vectors or borrowed bytes.
+/// `Cyclic` implements [`Client`] or [`AsyncClient`] of [`ProcessImage`] over the [`ImageClient`] `I`. `O` contains the
+/// output frame and `N` the input frame: arrays, vectors or borrowed bytes.
 ///
-/// Outputs keep the last written values. The caller sets their status, for example with
-/// [`Plan::set_status`](super::Plan::set_status). Each access exchanges the frames once: written data have been sent
-/// when the access ends, and read data are from that exchange. A program with its own cycle calls
-/// [`by_hand`](Self::by_hand) to exchange the frames only with [`cycle`](Self::cycle); several fields then go out
-/// together.
+/// Outputs keep the values that were written last. The caller sets the status of the outputs, for example with
+/// [`Plan::set_status`](super::Plan::set_status). Each access exchanges the frames once. When a write returns, the data
+/// have been sent. When a read returns, the data are from this exchange. A program with its own cycle calls
+/// [`by_hand`](Self::by_hand). Then, only [`cycle`](Self::cycle) exchanges the frames, and one cycle can send several
+/// fields together.
 ///
 /// ```
 /// use lexibus::profinet::{Cyclic, ImageClient, SubmoduleIo, IoSpan, IoStatus};
@@ -35,7 +35,7 @@ const CYCLE: Duration = Duration::from_millis(1);
 /// const ACTUAL: Item<i32, Ro, OnImage> =
 ///     Item::new(OnImage::field(ImageField::input(24, 32)), "Actual", Range::Full, Initial::Unknown, "", Flags::NONE);
 ///
-/// /// A drive without following error: 32 bytes in each direction, and their provider status.
+/// /// A drive without following error. Each direction has 32 bytes and their provider status.
 /// struct Quick;
 ///
 /// impl ImageClient for Quick {
@@ -66,13 +66,13 @@ pub struct Cyclic<I, O, N> {
 }
 
 impl<I, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O, N> {
-    /// Creates a client for the data at `submodule` in the frames that `image` exchanges.
+    /// Creates a client for the data of `submodule` in the frames that `image` exchanges.
     pub const fn new(image: I, submodule: SubmoduleIo, outputs: O, inputs: N) -> Self {
         Self { image, submodule, outputs, inputs, is_by_hand: false }
     }
 
-    /// Turns off the exchange with each access. The caller must call [`cycle`](Self::cycle) or
-    /// [`cycle_async`](Self::cycle_async). Accesses that wait still exchange frames.
+    /// Turns off the frame exchange with each access. The caller must call [`cycle`](Self::cycle) or
+    /// [`cycle_async`](Self::cycle_async). An access that waits still exchanges frames.
     #[must_use]
     pub fn by_hand(self) -> Self {
         Self { is_by_hand: true, ..self }
@@ -98,7 +98,7 @@ impl<I, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O,
         self.image
     }
 
-    /// Reads a field of the current frames.
+    /// Reads a field from the current frames.
     fn get<E>(&self, field: ImageField, buffer: &mut [u8]) -> Result<usize, Error<E>> {
         let (span, frame) = match field.is_output {
             true => (self.submodule.outputs, self.outputs.as_ref()),
@@ -112,7 +112,7 @@ impl<I, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O,
         Ok(field.get(data, buffer)?)
     }
 
-    /// Writes a field of the output frame.
+    /// Writes a field to the output frame.
     fn put<E>(&mut self, field: ImageField, data: &[u8]) -> Result<(), Error<E>> {
         if !field.is_output {
             return Err(Error::Abort(AbortCode::READ_ONLY));
@@ -125,7 +125,7 @@ fn span_of(span: Option<IoSpan>) -> Result<IoSpan, LengthError> {
     span.ok_or(LengthError::new(1, 0))
 }
 
-/// Returns the next step of a waiting time, at most [`CYCLE`].
+/// Returns the next step of a waiting time. A step is at most [`CYCLE`].
 fn step(left: &mut Duration) -> Option<Duration> {
     let step = (*left).min(CYCLE);
     *left -= step;
@@ -139,7 +139,7 @@ macro_rules! clients {
             ///
             /// # Errors
             ///
-            /// The errors of [`ImageClient::cycle`].
+            /// Returns the errors of [`ImageClient::cycle`].
             pub $($async)? fn $cycle(&mut self) -> Result<(), Error<I::Error>> {
                 self.image.cycle(self.outputs.as_ref(), self.inputs.as_mut())$(.$await)?
             }
@@ -173,7 +173,7 @@ macro_rules! clients {
                 self.$cycle()$(.$await)?
             }
 
-            /// Continues to exchange frames while waiting.
+            /// Waits and continues to exchange frames.
             $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<I::Error>> {
                 let mut left = time;
                 self.$cycle()$(.$await)??;

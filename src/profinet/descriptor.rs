@@ -1,6 +1,6 @@
-//! Device description as constant data.
+//! Device description as constants.
 
-/// A device access point (DAP): the head of a device, with the modules that it supports.
+/// A device access point (DAP): the head module of a device, with the modules that the device supports.
 #[derive(Clone, Copy, Debug)]
 pub struct Dap {
     /// Vendor ID.
@@ -9,11 +9,11 @@ pub struct Dap {
     pub device_id: u16,
     /// Slot of the device access point.
     pub slot: u16,
-    /// Ident number, name and submodules of the device access point.
+    /// The device access point as a module, with its ident number, name and submodules.
     pub module: Module,
-    /// Available slots, as ranges of first and last number.
+    /// Available slots, as ranges of the first and the last slot number.
     pub slots: &'static [(u16, u16)],
-    /// Supported modules.
+    /// Modules that the device supports.
     pub modules: &'static [ModuleUse],
     /// Maximum lengths of the cyclic data.
     pub max_lengths: IoLengths,
@@ -21,14 +21,14 @@ pub struct Dap {
     pub max_record_size: u32,
 }
 
-/// Maximum lengths of cyclic data in bytes, including provider and consumer status. `None` = unlimited.
+/// Maximum lengths of cyclic data in bytes, including provider and consumer status. `None` means unlimited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IoLengths {
-    /// Inputs.
+    /// Maximum length of the inputs.
     pub input: Option<u16>,
-    /// Outputs.
+    /// Maximum length of the outputs.
     pub output: Option<u16>,
-    /// Inputs and outputs together.
+    /// Maximum length of inputs and outputs together.
     pub data: Option<u16>,
 }
 
@@ -39,18 +39,19 @@ pub struct Module {
     pub ident: u32,
     /// Name of the module.
     pub name: &'static str,
-    /// Built-in and pluggable submodules.
+    /// Built-in submodules, and submodules that can be plugged in.
     pub submodules: &'static [SubmoduleUse],
-    /// Available subslots, as ranges of first and last number. If empty, those of the submodules.
+    /// Available subslots, as ranges of the first and the last number. If empty, the available subslots are those of
+    /// the submodules.
     pub subslots: &'static [(u16, u16)],
 }
 
-/// A module that a device supports, and its slots.
+/// A module that a device supports, and the slots for this module.
 #[derive(Clone, Copy, Debug)]
 pub struct ModuleUse {
     /// The module.
     pub module: &'static Module,
-    /// The slots for the module.
+    /// The slots that the module can occupy.
     pub places: Places,
 }
 
@@ -71,24 +72,24 @@ pub struct Submodule {
     pub api: u32,
     /// Name of the submodule.
     pub name: &'static str,
-    /// Length of the inputs in bytes, including an F-message trailer. `None` if there are no inputs.
+    /// Length of the inputs in bytes, including an F-message trailer. `None` if the submodule has no inputs.
     pub input_len: Option<u16>,
-    /// Length of the outputs in bytes, including an F-message trailer. `None` if there are no outputs.
+    /// Length of the outputs in bytes, including an F-message trailer. `None` if the submodule has no outputs.
     pub output_len: Option<u16>,
     /// Length of the provider status (IOPS) in bytes.
     pub provider_len: u8,
     /// Length of the consumer status (IOCS) in bytes.
     pub consumer_len: u8,
-    /// Parameter records with default values, in the order of transfer.
+    /// Parameter records with default values, in the order of their transfer.
     pub records: &'static [Record],
 }
 
-/// A submodule that a module supports, and its subslots.
+/// A submodule that a module supports, and the subslots for this submodule.
 #[derive(Clone, Copy, Debug)]
 pub struct SubmoduleUse {
     /// The submodule.
     pub submodule: &'static Submodule,
-    /// The subslots for the submodule.
+    /// The subslots that the submodule can occupy.
     pub places: Places,
 }
 
@@ -105,11 +106,11 @@ impl SubmoduleUse {
 pub struct Record {
     /// Index of the record.
     pub index: u16,
-    /// Position among the start-up records of the submodule; 0 = any.
+    /// Position of the record among the start-up records of the submodule; 0 means any position.
     pub transfer_sequence: u16,
     /// Name of the record.
     pub name: &'static str,
-    /// Default content.
+    /// Default content of the record.
     pub data: &'static [u8],
 }
 
@@ -121,20 +122,20 @@ impl Record {
     }
 }
 
-/// The slots of a module, or the subslots of a submodule, as ranges of first and last number. If all are empty, any
-/// slot is allowed.
+/// The slots of a module, or the subslots of a submodule, as ranges of the first and the last number. If all lists are
+/// empty, every slot is allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Places {
-    /// Where it may be plugged.
+    /// Slots or subslots into which the module or submodule can be plugged.
     pub allowed: &'static [(u16, u16)],
-    /// Where it is built in.
+    /// Slots or subslots in which the module or submodule is built in.
     pub fixed: &'static [(u16, u16)],
-    /// Where it is plugged by default.
+    /// Slots or subslots in which the module or submodule is plugged by default.
     pub used: &'static [(u16, u16)],
 }
 
 impl Places {
-    /// Creates the three lists.
+    /// Creates the lists of slots or subslots.
     #[must_use]
     pub const fn new(
         allowed: &'static [(u16, u16)],
@@ -144,13 +145,13 @@ impl Places {
         Self { allowed, fixed, used }
     }
 
-    /// Creates fixed slots only.
+    /// Creates a list of slots or subslots in which the module or submodule is built in.
     #[must_use]
     pub const fn fixed(fixed: &'static [(u16, u16)]) -> Self {
         Self::new(&[], fixed, &[])
     }
 
-    /// Creates allowed slots only.
+    /// Creates a list of slots or subslots into which the module or submodule can be plugged.
     #[must_use]
     pub const fn allowed(allowed: &'static [(u16, u16)]) -> Self {
         Self::new(allowed, &[], &[])
@@ -170,7 +171,7 @@ impl Places {
     }
 }
 
-/// Returns whether one of the ranges contains `number`.
+/// Returns whether `number` is in one of the ranges.
 pub(super) const fn contains(ranges: &[(u16, u16)], number: u16) -> bool {
     let mut at = 0;
     while at < ranges.len() {
@@ -182,7 +183,7 @@ pub(super) const fn contains(ranges: &[(u16, u16)], number: u16) -> bool {
     false
 }
 
-/// Returns all numbers of the ranges.
+/// Returns all numbers in the ranges.
 pub(super) fn numbers(ranges: &'static [(u16, u16)]) -> impl Iterator<Item = u16> {
     ranges.iter().flat_map(|&(first, last)| first..=last)
 }

@@ -6,15 +6,15 @@ use super::be::bytes;
 /// Description of a channel error type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChannelError {
-    /// Application process identifier (API) of the profile that defines the type; 0 if no profile does.
+    /// Application process identifier (API) of the profile that defines the error type; 0 if no profile defines it.
     pub api: u32,
     /// Channel error type.
     pub error_type: u16,
     /// Name of the error.
     pub name: &'static str,
-    /// Cause and remedy; may be empty.
+    /// Cause of the error and remedy; may be empty.
     pub help: &'static str,
-    /// Descriptions by extended error type.
+    /// Descriptions of the extended error types.
     pub extended: &'static [ExtendedError],
 }
 
@@ -25,12 +25,12 @@ pub struct ExtendedError {
     pub error_type: u16,
     /// Name of the error.
     pub name: &'static str,
-    /// Cause and remedy; may be empty.
+    /// Cause of the error and remedy; may be empty.
     pub help: &'static str,
 }
 
 impl ChannelError {
-    /// Creates an error type that no profile defines.
+    /// Creates a channel error type that no profile defines.
     #[must_use]
     pub const fn new(
         error_type: u16,
@@ -41,7 +41,7 @@ impl ChannelError {
         Self::of_profile(0, error_type, name, help, extended)
     }
 
-    /// Creates an error type of the profile with this application process identifier.
+    /// Creates a channel error type of the profile with this application process identifier (API).
     #[must_use]
     pub const fn of_profile(
         api: u32,
@@ -53,10 +53,10 @@ impl ChannelError {
         Self { api, error_type, name, help, extended }
     }
 
-    /// Returns the description of an error type in a submodule with this application process identifier.
+    /// Returns the description of an error type in a submodule with this application process identifier (API).
     ///
-    /// An error type of the profile takes precedence over the device's general one. `errors` must be sorted by API
-    /// and type.
+    /// An error type of the profile takes precedence over an error type without a profile. `errors` must be sorted by
+    /// API and error type.
     #[must_use]
     pub fn find(errors: &'static [ChannelError], api: u32, error_type: u16) -> Option<&'static ChannelError> {
         let find = |api| {
@@ -85,15 +85,15 @@ impl ExtendedError {
 /// The structure of a diagnosis block (UserStructureIdentifier).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum UserStructure {
-    /// 0x0000 to 0x7FFF: vendor-specific.
+    /// Vendor-specific structure: 0x0000 to 0x7FFF.
     Manufacturer(u16),
-    /// 0x8000: channel diagnosis, 6 bytes per channel.
+    /// Channel diagnosis: 0x8000, 6 bytes per channel.
     Channel,
-    /// 0x8002: extended channel diagnosis, 12 bytes per channel.
+    /// Extended channel diagnosis: 0x8002, 12 bytes per channel.
     ExtendedChannel,
-    /// 0x8003: qualified channel diagnosis, 16 bytes per channel.
+    /// Qualified channel diagnosis: 0x8003, 16 bytes per channel.
     QualifiedChannel,
-    /// Another structure, defined by a profile or reserved.
+    /// Any other structure, which is reserved or defined by a profile.
     Other(u16),
 }
 
@@ -110,7 +110,7 @@ impl UserStructure {
         }
     }
 
-    /// Returns the length of one channel's diagnosis in bytes; `None` for structures without channels.
+    /// Returns the length of one channel's diagnosis in bytes. Returns `None` if the structure has no channels.
     #[must_use]
     pub const fn channel_len(self) -> Option<usize> {
         match self {
@@ -126,31 +126,31 @@ impl UserStructure {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ChannelDiagnosis {
-    /// Channel number, 0 to 0x7FFF; 0x8000 for the whole submodule.
+    /// Channel number, 0 to 0x7FFF, or 0x8000 for the whole submodule.
     pub channel: u16,
     /// Properties of the channel and of the diagnosis.
     pub properties: ChannelProperties,
     /// Channel error type.
     pub error_type: u16,
-    /// Extended error type and its value, in extended and qualified diagnosis.
+    /// Extended error type and additional value, in extended and qualified channel diagnosis.
     pub extended: Option<ExtendedDiagnosis>,
 }
 
-/// The extended part of a diagnosis.
+/// The extended part of a channel diagnosis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ExtendedDiagnosis {
     /// Extended channel error type.
     pub error_type: u16,
-    /// Additional value; its meaning depends on the error.
+    /// Additional value. The meaning of the value depends on the error.
     pub add_value: u32,
-    /// Qualifier, with one bit per severity, in qualified diagnosis.
+    /// Qualifier with one bit per severity, in qualified channel diagnosis.
     pub qualifier: Option<u32>,
 }
 
 impl ChannelDiagnosis {
-    /// Decodes a diagnosis block. Ignores an incomplete diagnosis at the end. Returns none for a structure without
-    /// channels.
+    /// Decodes a diagnosis block. An incomplete diagnosis at the end is ignored. The iterator is empty if the structure
+    /// has no channels.
     #[must_use]
     pub const fn decode(structure: UserStructure, data: &[u8]) -> ChannelDiagnoses<'_> {
         ChannelDiagnoses { structure, data }
@@ -192,8 +192,8 @@ impl Iterator for ChannelDiagnoses<'_> {
 pub struct ChannelProperties(pub u16);
 
 impl ChannelProperties {
-    /// Returns the width of the channel in bits (bits 0 to 7): 1 to 64. `None` if it is unspecified or the diagnosis
-    /// is for the whole submodule.
+    /// Returns the width of the channel in bits (bits 0 to 7): 1 to 64. Returns `None` if the width is unspecified or
+    /// the diagnosis is for the whole submodule.
     #[must_use]
     pub const fn bits(self) -> Option<u8> {
         match self.0 & 0xFF {
@@ -250,7 +250,7 @@ pub enum Maintenance {
     Fault,
     /// Maintenance is required.
     Required,
-    /// Maintenance is demanded: more urgent than required.
+    /// Maintenance is demanded, which is more urgent than required.
     Demanded,
     /// The qualifier states the severity.
     Qualified,
@@ -263,24 +263,24 @@ pub enum ChannelSpecifier {
     AllDisappear,
     /// The diagnosis appears.
     Appears,
-    /// The diagnosis disappears; none remains on the channel.
+    /// The diagnosis disappears, and no other diagnosis remains on the channel.
     Disappears,
-    /// The diagnosis disappears; others remain on the channel.
+    /// The diagnosis disappears, and other diagnoses remain on the channel.
     DisappearsOthersRemain,
 }
 
 /// Direction of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ChannelDirection {
-    /// Vendor-specific.
+    /// Vendor-specific direction.
     Manufacturer,
-    /// An input.
+    /// The channel is an input.
     Input,
-    /// An output.
+    /// The channel is an output.
     Output,
-    /// Both input and output.
+    /// The channel is both an input and an output.
     Both,
-    /// Reserved.
+    /// Reserved value.
     Reserved(u8),
 }
 
@@ -309,7 +309,8 @@ mod tests {
 
     #[test]
     fn plain_diagnosis() {
-        // Channel 4, appears, input of 8 bits, error type 1; then an incomplete one.
+        // A diagnosis of channel 4 appears. The channel is an input of 8 bits, and the error type is 1. An incomplete
+        // diagnosis follows.
         let data = [0x00, 0x04, 0x28, 0x04, 0x00, 0x01, 0xFF];
         let all: Vec<_> = ChannelDiagnosis::decode(UserStructure::Channel, &data).collect();
         assert_eq!(all.len(), 1);

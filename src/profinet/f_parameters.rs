@@ -1,11 +1,12 @@
 //! F-parameters of PROFIsafe.
 //!
-//! The checksum F_Par_CRC has the polynomial 0x4EAB and the start value 0. It covers F_iPar_CRC, then all other
-//! fields. Layout and checksum match the default values in the GSDML files of several vendors.
+//! The checksum F_Par_CRC has the polynomial 0x4EAB and the start value 0. The checksum covers F_iPar_CRC first, and
+//! then all other fields. Layout and checksum have been compared with the default values in the GSDML files of several
+//! vendors.
 
 use crate::value_error::LengthError;
 
-/// Writes bytes at offset `$at` of an array; works in constants.
+/// Writes bytes at offset `$at` of an array. The macro can be used in constants.
 macro_rules! push {
     ($record:ident, $at:ident, $bytes:expr) => {
         let bytes = $bytes;
@@ -36,64 +37,64 @@ pub enum Sil {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FCrcLength {
-    /// 3 bytes.
+    /// A CRC of 3 bytes.
     ThreeBytes,
-    /// 2 bytes, as in the obsolete first version.
+    /// A CRC of 2 bytes, as in the obsolete first version.
     TwoBytes,
-    /// 4 bytes.
+    /// A CRC of 4 bytes.
     FourBytes,
-    /// Reserved.
+    /// Reserved value.
     Reserved,
 }
 
-/// Unit that is passivated after a fault (F_Passivation).
+/// The unit that is passivated after a fault (F_Passivation).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FPassivation {
-    /// The device or module.
+    /// The whole device or module is passivated.
     DeviceOrModule,
-    /// The channel.
+    /// Only the affected channel is passivated.
     Channel,
 }
 
-/// The F-parameters.
+/// The F-parameters of a submodule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FParameters {
     /// F_Check_iPar: whether the checksum of the i-parameters is included in the CRC of messages.
     pub check_i_par: bool,
-    /// F_SIL.
+    /// F_SIL: safety integrity level.
     pub sil: Sil,
-    /// F_CRC_Length.
+    /// F_CRC_Length: length of the CRC in an F-message trailer.
     pub crc_length: FCrcLength,
-    /// F_CRC_Seed; false for `CRC-Seed24/32`.
+    /// F_CRC_Seed. The value is false for `CRC-Seed24/32`.
     pub crc_seed: bool,
-    /// F_Passivation.
+    /// F_Passivation: unit that is passivated after a fault.
     pub passivation: FPassivation,
-    /// F_Block_ID, 0 to 7. Bit 0: the record has F_iPar_CRC. Bit 1: the record has F_WD_Time_2.
+    /// F_Block_ID, 0 to 7. Bit 0 is set if the record has F_iPar_CRC. Bit 1 is set if the record has F_WD_Time_2.
     pub block_id: u8,
-    /// F_Par_Version, 0 to 3: 1 for PROFIsafe V2.
+    /// F_Par_Version, 0 to 3. The value 1 means PROFIsafe V2.
     pub par_version: u8,
     /// F_Source_Add: address of the F-Host.
     pub source_address: u16,
     /// F_Dest_Add: address of the F-Device.
     pub destination_address: u16,
-    /// F_WD_Time in ms.
+    /// F_WD_Time: watchdog time in ms.
     pub watchdog_time: u16,
-    /// F_WD_Time_2 in ms, if the record has it.
+    /// F_WD_Time_2: second watchdog time in ms, if the record contains it.
     pub watchdog_time_2: u16,
-    /// F_iPar_CRC: checksum of the i-parameters, if the record has it.
+    /// F_iPar_CRC: checksum of the i-parameters, if the record contains it.
     pub i_par_crc: u32,
 }
 
 impl FParameters {
-    /// Returns the length of the record in bytes, 10 to 16. It depends on F_Block_ID.
+    /// Returns the length of the record in bytes, 10 to 16. The length depends on F_Block_ID.
     #[must_use]
     pub const fn len(&self) -> usize {
         10 + if self.has_i_par_crc() { 4 } else { 0 } + if self.has_watchdog_time_2() { 2 } else { 0 }
     }
 
-    /// Returns false: a record has at least 10 bytes.
+    /// Returns false because a record has at least 10 bytes.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         false
@@ -107,7 +108,7 @@ impl FParameters {
         self.block_id & 2 != 0
     }
 
-    /// Returns F_Prm_Flag1: F_Check_iPar, F_SIL, F_CRC_Length and F_CRC_Seed, from bit 1 upwards.
+    /// Returns F_Prm_Flag1. From bit 1 upwards, the byte contains F_Check_iPar, F_SIL, F_CRC_Length and F_CRC_Seed.
     #[must_use]
     pub const fn flag1(&self) -> u8 {
         (self.check_i_par as u8) << 1
@@ -116,13 +117,15 @@ impl FParameters {
             | (self.crc_seed as u8) << 6
     }
 
-    /// Returns F_Prm_Flag2: F_Passivation in bit 0, F_Block_ID in bits 3 to 5, F_Par_Version in bits 6 and 7.
+    /// Returns F_Prm_Flag2. The byte contains F_Passivation in bit 0, F_Block_ID in bits 3 to 5, and F_Par_Version in
+    /// bits 6 and 7.
     #[must_use]
     pub const fn flag2(&self) -> u8 {
         self.passivation as u8 | (self.block_id & 7) << 3 | (self.par_version & 3) << 6
     }
 
-    /// Returns F_Par_CRC. `None` if the record has F_WD_Time_2: its position in the checksum is unknown.
+    /// Returns F_Par_CRC. Returns `None` if the record has F_WD_Time_2, because the position of this field in the
+    /// checksum is unknown.
     #[must_use]
     pub const fn crc(&self) -> Option<u16> {
         if self.has_watchdog_time_2() {
@@ -138,17 +141,17 @@ impl FParameters {
         Some(crc16(crc, &self.watchdog_time.to_be_bytes()))
     }
 
-    /// Writes the record with `crc` as F_Par_CRC to `data` and returns the written bytes.
+    /// Writes the record to `data`, with `crc` as F_Par_CRC, and returns the written bytes.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if `data` has fewer than [`FParameters::len`] bytes.
+    /// Returns [`LengthError`] if `data` has fewer than [`FParameters::len`] bytes.
     pub fn encode_with_crc<'b>(&self, crc: u16, data: &'b mut [u8]) -> Result<&'b [u8], LengthError> {
         let (record, len) = self.record(crc);
         super::be::write(data, record.split_at(len).0)
     }
 
-    /// Returns the record in a buffer of maximum length, and its actual length.
+    /// Returns the record in a buffer of the maximum length, and the actual length of the record.
     pub(super) const fn record(&self, crc: u16) -> ([u8; 16], usize) {
         let mut record = [0; 16];
         let mut at = 0;
@@ -170,7 +173,7 @@ impl FParameters {
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if `data` is shorter than F_Block_ID requires.
+    /// Returns [`LengthError`] if `data` is shorter than F_Block_ID requires.
     pub fn decode(data: &[u8]) -> Result<(Self, u16), LengthError> {
         let [flag1, flag2] = super::be::bytes(data, 0);
         let word = |at| u16::from_be_bytes(super::be::bytes(data, at));
@@ -259,7 +262,7 @@ pub(super) mod tests {
     fn every_flag_is_read_as_it_is_written() {
         for (flag1, flag2) in (0..=u8::MAX).flat_map(|flag1| (0..=u8::MAX).map(move |flag2| (flag1, flag2))) {
             let parameters = FParameters::from_flags(flag1, flag2);
-            // Bits 0 and 7 of the first byte and bits 1 and 2 of the second are unused.
+            // Bits 0 and 7 of the first byte and bits 1 and 2 of the second byte are unused.
             assert_eq!((parameters.flag1(), parameters.flag2()), (flag1 & 0x7E, flag2 & 0xF9));
             let mut data = [0; 16];
             let written = parameters.encode_with_crc(0x1234, &mut data).unwrap();
@@ -290,7 +293,8 @@ pub(super) mod tests {
 
     #[test]
     fn records() {
-        // SIL 3 = 10 in bits 2 and 3; version 1 in bits 6 and 7; addresses 1 and 1; 150 ms; 48021 = 0xBB95.
+        // The bits 2 and 3 are 10, which is SIL 3. The bits 6 and 7 are 01, which is version 1. Source address and
+        // destination address are 1. The watchdog time is 150 ms. 48021 is 0xBB95.
         let bytes = [0x08, 0x40, 0x00, 0x01, 0x00, 0x01, 0x00, 0x96, 0xBB, 0x95];
         assert_eq!(FParameters::decode(&bytes), Ok((DEFAULT, 0xBB95)));
         assert_eq!(FParameters::decode(&bytes[..9]), Err(LengthError::new(10, 9)));

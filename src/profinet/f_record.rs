@@ -1,4 +1,4 @@
-//! The F-parameter record of a submodule and the allowed values.
+//! The F-parameter record of a submodule, and the allowed values of its fields.
 
 use super::f_parameters::FParameters;
 use super::record::{check, NotAllowed};
@@ -33,7 +33,7 @@ pub enum FField {
 }
 
 impl FField {
-    /// Returns the name in GSDML.
+    /// Returns the name of the field in GSDML.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -56,9 +56,9 @@ impl FField {
 /// The allowed values of an F-parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FLimit {
-    /// The parameter.
+    /// The F-parameter whose values are limited.
     pub field: FField,
-    /// Allowed ranges of first and last value, encoded as in the record.
+    /// Allowed ranges, with their first and last value, encoded as in the record.
     pub allowed: &'static [(u32, u32)],
 }
 
@@ -75,11 +75,11 @@ impl FLimit {
 pub struct FRecord<const LEN: usize> {
     /// Index of the record.
     pub index: u16,
-    /// Position among the start-up records of the submodule; 0 = any.
+    /// Position of the record among the start-up records of the submodule; 0 means any position.
     pub transfer_sequence: u16,
-    /// Default values.
+    /// Default values of the F-parameters.
     pub default: FParameters,
-    /// Allowed values. A parameter that isn't listed may have any value.
+    /// Allowed values of F-parameters. An F-parameter without an entry may have any value.
     pub limits: &'static [FLimit],
 }
 
@@ -88,7 +88,7 @@ impl<const LEN: usize> FRecord<LEN> {
     ///
     /// # Errors
     ///
-    /// [`NotAllowed`] for the first parameter that hasn't.
+    /// Returns [`NotAllowed`] for the first F-parameter whose value isn't allowed.
     pub fn check(&self, parameters: &FParameters) -> Result<(), NotAllowed> {
         if parameters.len() != LEN || parameters.block_id > 7 {
             return Err(NotAllowed { field: FField::BlockId.name() });
@@ -106,8 +106,8 @@ impl<const LEN: usize> FRecord<LEN> {
     ///
     /// # Errors
     ///
-    /// [`NotAllowed`] if a parameter has a value that isn't allowed. Also if the record has F_WD_Time_2, because the
-    /// checksum can't be computed; use [`FParameters::encode_with_crc`] then.
+    /// Returns [`NotAllowed`] if an F-parameter has a value that isn't allowed. The same error occurs if the record has
+    /// F_WD_Time_2, because the checksum can't be computed. In this case, use [`FParameters::encode_with_crc`].
     pub fn encode(&self, parameters: &FParameters) -> Result<[u8; LEN], NotAllowed> {
         self.check(parameters)?;
         let refused = NotAllowed { field: FField::BlockId.name() };
@@ -115,7 +115,7 @@ impl<const LEN: usize> FRecord<LEN> {
         Ok(Self::bytes(parameters, crc))
     }
 
-    /// Returns the default record, including F_Par_CRC; the CRC is 0 if the record has F_WD_Time_2.
+    /// Returns the default record, including F_Par_CRC. The CRC is 0 if the record has F_WD_Time_2.
     #[must_use]
     pub const fn default_bytes(&self) -> [u8; LEN] {
         match self.default.crc() {

@@ -1,4 +1,4 @@
-//! Process image: the layout of frames and the clients that exchange them.
+//! Process image: the layout of frames, and the clients that exchange frames.
 
 use core::time::Duration;
 
@@ -8,16 +8,16 @@ use crate::client::sleep;
 use crate::error::Error;
 use crate::value_error::LengthError;
 
-/// A client that exchanges the process image of one device and blocks during a cycle.
+/// A client that exchanges the process image of one device. The client blocks during a cycle.
 ///
-/// A frame is the content of an IOCR: data of submodules with their provider status, and the
-/// consumer status of the opposite direction. [`Plan::layout`] returns their offsets.
+/// A frame is the content of an IOCR. A frame contains the data of submodules with their provider status, and the
+/// consumer status of the opposite direction. [`Plan::layout`] returns the offsets of the data.
 ///
 /// ```
 /// use lexibus::profinet::ImageClient;
 /// use lexibus::{Error, LengthError};
 ///
-/// /// A device that returns its outputs as inputs.
+/// /// A device whose inputs are a copy of its outputs.
 /// struct Mirror;
 ///
 /// impl ImageClient for Mirror {
@@ -41,30 +41,30 @@ pub trait ImageClient {
     /// Communication error of the client.
     type Error;
 
-    /// Sends `outputs` in the next cycle and fills `inputs` with the last received frame.
+    /// Sends `outputs` in the next cycle and copies the last received frame to `inputs`.
     ///
-    /// [`Plan::lengths`] returns the lengths of both. A library with its own cycle copies the data and returns at
-    /// once.
+    /// [`Plan::lengths`] returns the lengths of both frames. If a bus library has its own cycle, the implementation
+    /// copies the data and returns at once.
     ///
     /// # Errors
     ///
-    /// [`Error::Client`] if the bus fails or the device is disconnected, [`Error::Length`] if a frame has another
-    /// length.
+    /// Returns [`Error::Client`] if the bus fails or the device is disconnected, or [`Error::Length`] if a frame has
+    /// another length.
     fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<Self::Error>>;
 
     /// Waits, as [`Client::wait`](crate::Client::wait) does.
     ///
-    /// [`Cyclic`](super::Cyclic) calls it with at most 1 ms between two cycles of an access that takes time.
+    /// If an access takes time, [`Cyclic`](super::Cyclic) calls this method between two cycles, with at most 1 ms.
     ///
     /// # Errors
     ///
-    /// [`Error::NoClock`] if there is no clock: the default implementation needs the feature `std`.
+    /// Returns [`Error::NoClock`] if there is no clock. The default implementation needs the feature `std`.
     fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         sleep(time)
     }
 }
 
-/// An asynchronous client that exchanges the process image of one device. The counterpart of [`ImageClient`].
+/// An asynchronous client that exchanges the process image of one device, as [`ImageClient`] does.
 ///
 /// ```
 /// use lexibus::profinet::AsyncImageClient;
@@ -87,18 +87,18 @@ pub trait AsyncImageClient {
     /// Communication error of the client.
     type Error;
 
-    /// Sends `outputs` and fills `inputs`, as [`ImageClient::cycle`] does.
+    /// Sends `outputs` and receives `inputs`, as [`ImageClient::cycle`] does.
     ///
     /// # Errors
     ///
-    /// The errors of [`ImageClient::cycle`].
+    /// Returns the errors of [`ImageClient::cycle`].
     async fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<Self::Error>>;
 
     /// Waits, as [`AsyncClient::wait`](crate::AsyncClient::wait) does.
     ///
     /// # Errors
     ///
-    /// [`Error::NoClock`] always, in the default implementation.
+    /// Returns [`Error::NoClock`] in the default implementation.
     async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         let _ = time;
         Err(Error::NoClock)
@@ -145,28 +145,29 @@ impl IoSpan {
     }
 }
 
-/// The positions of one submodule's data and status in the frames.
+/// Positions of the data and the status of one submodule in the frames.
 ///
-/// A position is `None` if the submodule has no such data. Access to it fails like access beyond the end of a frame.
+/// A position is `None` if the submodule has no such data. In this case, an access fails like an access beyond the end
+/// of the frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SubmoduleIo {
-    /// Slot.
+    /// Number of the slot.
     pub slot: u16,
-    /// Subslot.
+    /// Number of the subslot.
     pub subslot: u16,
-    /// Inputs with provider status, in the input frame. Only the status if the submodule has neither inputs nor
-    /// outputs.
+    /// Inputs with their provider status, in the input frame. If the submodule has neither inputs nor outputs, only the
+    /// status.
     pub inputs: Option<IoSpan>,
-    /// Outputs with provider status, in the output frame.
+    /// Outputs with their provider status, in the output frame.
     pub outputs: Option<IoSpan>,
-    /// Consumer status (IOCS) of the inputs, set by the controller in the output frame.
+    /// Consumer status (IOCS) of the inputs. The controller sets this status in the output frame.
     pub inputs_consumer: Option<IoSpan>,
-    /// Consumer status (IOCS) of the outputs, set by the device in the input frame.
+    /// Consumer status (IOCS) of the outputs. The device sets this status in the input frame.
     pub outputs_consumer: Option<IoSpan>,
 }
 
 impl SubmoduleIo {
-    /// Swaps the directions: a simulated device reads outputs and writes inputs.
+    /// Returns the positions with swapped directions, for a simulated device, which reads outputs and writes inputs.
     #[must_use]
     pub const fn of_device(self) -> Self {
         Self {
@@ -178,38 +179,40 @@ impl SubmoduleIo {
         }
     }
 
-    /// Reads the inputs `T` of the submodule and their provider status from the input frame.
+    /// Reads the inputs `T` of the submodule and the provider status of the inputs from the input frame.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if the inputs have another length than `T`, or if the frame is too short.
+    /// Returns [`LengthError`] if the length of the inputs differs from the length of `T`, or if the frame is too
+    /// short.
     pub fn read<T: IoData>(&self, inputs: &[u8]) -> Result<WithStatus<T>, LengthError> {
         WithStatus::read(object::<T>(self.inputs)?.of(inputs)?)
     }
 
-    /// Writes the outputs `T` of the submodule and their provider status to the output frame.
+    /// Writes the outputs `T` of the submodule and the provider status of the outputs to the output frame.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if the outputs have another length than `T`, or if the frame is too short.
+    /// Returns [`LengthError`] if the length of the outputs differs from the length of `T`, or if the frame is too
+    /// short.
     pub fn write<T: IoData>(&self, outputs: &mut [u8], data: T, provider: IoStatus) -> Result<(), LengthError> {
         WithStatus { data, provider }.write(object::<T>(self.outputs)?.of_mut(outputs)?)
     }
 
-    /// Returns the device's consumer status of the outputs from the input frame; [`IoStatus::BAD`] if there are no
-    /// outputs.
+    /// Returns the device's consumer status of the outputs from the input frame. Returns [`IoStatus::BAD`] if the
+    /// submodule has no outputs.
     #[must_use]
     pub fn consumer(&self, inputs: &[u8]) -> IoStatus {
         let status = self.outputs_consumer.and_then(|span| span.of(inputs).ok());
         IoStatus::from_bytes(status.unwrap_or_default())
     }
 
-    /// Writes the controller's consumer status of the inputs to the output frame. Has no effect if the submodule has
-    /// no inputs.
+    /// Writes the controller's consumer status of the inputs to the output frame. This method has no effect if the
+    /// submodule has no inputs.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if the frame is too short.
+    /// Returns [`LengthError`] if the frame is too short.
     pub fn set_consumer(&self, outputs: &mut [u8], status: IoStatus) -> Result<(), LengthError> {
         if let Some(span) = self.inputs_consumer {
             status.write(span.of_mut(outputs)?);
@@ -218,13 +221,13 @@ impl SubmoduleIo {
     }
 }
 
-/// Returns the span if it has the length of `T`.
+/// Returns the span if its length matches the length of `T`.
 fn object<T: IoData>(span: Option<IoSpan>) -> Result<IoSpan, LengthError> {
     let error = LengthError::new(WithStatus::<T>::LEN, span.map_or(0, |span| span.length));
     span.filter(|span| span.length == WithStatus::<T>::LEN).ok_or(error)
 }
 
-/// Returns the next `length` bytes of a frame.
+/// Returns the span of the next `length` bytes of a frame.
 fn take(end: &mut usize, length: usize) -> Option<IoSpan> {
     let span = IoSpan { offset: *end, length };
     *end += length;
@@ -232,10 +235,10 @@ fn take(end: &mut usize, length: usize) -> Option<IoSpan> {
 }
 
 impl<const N: usize> Plan<N> {
-    /// Returns the positions of all data and status in the frames, ordered by slot and subslot.
+    /// Returns the positions of all data and status in the frames, sorted by slot and subslot.
     ///
-    /// The controller chooses the positions and sends them to the device when it connects. This layout has no gaps;
-    /// its lengths are [`Plan::lengths`].
+    /// The controller chooses the positions and sends them to the device when it connects. The layout that this method
+    /// returns has no gaps. [`Plan::lengths`] returns the lengths of the frames.
     pub fn layout(&self) -> impl Iterator<Item = SubmoduleIo> + '_ {
         self.expected().scan((0, 0), |(inputs, outputs), submodule| {
             let (provider, consumer) = (usize::from(submodule.provider_len), usize::from(submodule.consumer_len));
@@ -259,17 +262,17 @@ impl<const N: usize> Plan<N> {
         })
     }
 
-    /// Returns the positions of one submodule's data and status; `None` if the subslot is empty.
+    /// Returns the positions of the data and the status of one submodule. Returns `None` if the subslot is empty.
     #[must_use]
     pub fn submodule_io(&self, slot: u16, subslot: u16) -> Option<SubmoduleIo> {
         self.layout().find(|io| (io.slot, io.subslot) == (slot, subslot))
     }
 
-    /// Writes `status` to the output frame as provider status of all outputs and consumer status of all inputs.
+    /// Writes `status` to the output frame, as provider status of all outputs and as consumer status of all inputs.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if the frame is too short.
+    /// Returns [`LengthError`] if the frame is too short.
     pub fn set_status(&self, outputs: &mut [u8], status: IoStatus) -> Result<(), LengthError> {
         for (io, submodule) in self.layout().zip(self.expected()) {
             io.set_consumer(outputs, status)?;

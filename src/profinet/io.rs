@@ -1,34 +1,34 @@
-//! Cyclic data of a submodule and their status.
+//! Cyclic data of a submodule, and the status of these data.
 
 use crate::value_error::LengthError;
 
-/// The inputs or outputs of a submodule as a struct. Implemented by generated code.
+/// The inputs or outputs of a submodule as a struct. Generated code implements this trait.
 pub trait IoData: Sized {
     /// Length of the user data in bytes.
     const LEN: usize;
 
-    /// Length in bytes of the F-message trailer after the user data (PROFIsafe); 0 if there is none.
+    /// Length in bytes of the F-message trailer (PROFIsafe), which follows the user data. 0 if there is no trailer.
     const TRAILER_LEN: usize;
 
-    /// Length in bytes of the provider status after data and trailer.
+    /// Length in bytes of the provider status, which follows the user data and the trailer.
     const STATUS_LEN: usize;
 
-    /// Decodes the user data. Bytes after the last field are ignored.
+    /// Decodes the user data. Bytes after the user data are ignored.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if `data` has fewer than [`IoData::LEN`] bytes.
+    /// Returns [`LengthError`] if `data` has fewer than [`IoData::LEN`] bytes.
     fn unpack(data: &[u8]) -> Result<Self, LengthError>;
 
-    /// Writes the fields to the first [`IoData::LEN`] bytes of `data`. Bits without a field become 0.
+    /// Writes the fields to the first [`IoData::LEN`] bytes of `data`. Bits without a field are set to 0.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if `data` has fewer than [`IoData::LEN`] bytes.
+    /// Returns [`LengthError`] if `data` has fewer than [`IoData::LEN`] bytes.
     fn pack_into(&self, data: &mut [u8]) -> Result<(), LengthError>;
 }
 
-/// The status of a submodule's data, set by their provider (IOPS) or consumer (IOCS).
+/// The status of a submodule's data. The provider (IOPS) or the consumer (IOCS) of the data sets the status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -38,7 +38,7 @@ impl IoStatus {
     /// The data are valid.
     pub const GOOD: Self = Self(0x80);
 
-    /// The data are invalid, as reported by the subslot.
+    /// The data are invalid. The subslot reports this status.
     pub const BAD: Self = Self(0x00);
 
     /// Returns whether the data are valid (bit 7).
@@ -47,13 +47,14 @@ impl IoStatus {
         self.0 & 0x80 != 0
     }
 
-    /// Returns what reports invalid data (bits 5 and 6): 0 subslot, 1 slot, 2 device, 3 controller.
+    /// Returns which instance reports invalid data (bits 5 and 6): 0 the subslot, 1 the slot, 2 the device, 3 the
+    /// controller.
     #[must_use]
     pub const fn instance(self) -> u8 {
         self.0 >> 5 & 3
     }
 
-    /// Returns the status in the first byte; [`IoStatus::BAD`] if `bytes` is empty.
+    /// Returns the status in the first byte. Returns [`IoStatus::BAD`] if `bytes` is empty.
     #[must_use]
     pub const fn from_bytes(bytes: &[u8]) -> Self {
         match bytes.first() {
@@ -62,7 +63,8 @@ impl IoStatus {
         }
     }
 
-    /// Writes the status to all of `bytes`. Bit 0 of every byte except the last one means that another byte follows.
+    /// Writes the status to all of `bytes`. In every byte except the last one, bit 0 is set because another byte
+    /// follows.
     pub fn write(self, bytes: &mut [u8]) {
         let last = bytes.len().saturating_sub(1);
         for (place, byte) in bytes.iter_mut().enumerate() {
@@ -71,7 +73,7 @@ impl IoStatus {
     }
 }
 
-/// The parts of a submodule's data in a frame.
+/// The parts of a submodule's data in a frame, for reading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IoObject<'a> {
     /// User data.
@@ -83,11 +85,11 @@ pub struct IoObject<'a> {
 }
 
 impl<'a> IoObject<'a> {
-    /// Splits `object`, which begins with the user data of `T`.
+    /// Splits `object` into its parts. `object` starts with the user data of `T`.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if `object` is too short for data, trailer and status.
+    /// Returns [`LengthError`] if `object` is too short for user data, trailer and status.
     pub fn of<T: IoData>(object: &'a [u8]) -> Result<Self, LengthError> {
         let actual = object.len();
         let split = |part: &'a [u8], at| part.split_at_checked(at).ok_or(too_short::<T>(actual));
@@ -116,11 +118,11 @@ pub struct IoObjectMut<'a> {
 }
 
 impl<'a> IoObjectMut<'a> {
-    /// Splits `object`, which begins with the user data of `T`.
+    /// Splits `object` into its parts. `object` starts with the user data of `T`.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if `object` is too short for data, trailer and status.
+    /// Returns [`LengthError`] if `object` is too short for user data, trailer and status.
     pub fn of<T: IoData>(object: &'a mut [u8]) -> Result<Self, LengthError> {
         let error = too_short::<T>(object.len());
         let (data, rest) = object.split_at_mut_checked(T::LEN).ok_or(error)?;
@@ -134,7 +136,7 @@ const fn too_short<T: IoData>(actual: usize) -> LengthError {
     LengthError::new(T::LEN + T::TRAILER_LEN + T::STATUS_LEN, actual)
 }
 
-/// User data with the provider status that follows them in a frame.
+/// User data with their provider status, which follows the data in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WithStatus<T> {
@@ -145,24 +147,25 @@ pub struct WithStatus<T> {
 }
 
 impl<T: IoData> WithStatus<T> {
-    /// Length in bytes of data, F-message trailer and status.
+    /// Length in bytes of user data, F-message trailer and provider status.
     pub const LEN: usize = T::LEN + T::TRAILER_LEN + T::STATUS_LEN;
 
-    /// Reads data and status from the start of `object`.
+    /// Reads the user data and their status from the start of `object`.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if `object` has fewer than [`WithStatus::LEN`] bytes.
+    /// Returns [`LengthError`] if `object` has fewer than [`WithStatus::LEN`] bytes.
     pub fn read(object: &[u8]) -> Result<Self, LengthError> {
         let parts = IoObject::of::<T>(object)?;
         Ok(Self { data: T::unpack(parts.data)?, provider: parts.provider() })
     }
 
-    /// Writes data and status to the start of `object`. Leaves the F-message trailer to the safety layer.
+    /// Writes the user data and their status to the start of `object`. The safety layer must write the F-message
+    /// trailer.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if `object` has fewer than [`WithStatus::LEN`] bytes.
+    /// Returns [`LengthError`] if `object` has fewer than [`WithStatus::LEN`] bytes.
     pub fn write(&self, object: &mut [u8]) -> Result<(), LengthError> {
         let parts = IoObjectMut::of::<T>(object)?;
         self.data.pack_into(parts.data)?;
@@ -171,15 +174,15 @@ impl<T: IoData> WithStatus<T> {
     }
 }
 
-/// The F-message trailer (PROFIsafe): the status byte of inputs or the control byte of outputs, then a CRC of 3 or 4
-/// bytes.
+/// The F-message trailer (PROFIsafe). The trailer consists of the status byte of inputs or the control byte of outputs,
+/// and of a CRC of 3 or 4 bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FTrailer {
-    /// Status byte of inputs, control byte of outputs.
+    /// Status byte of inputs, or control byte of outputs.
     pub status: u8,
-    /// CRC2, in the low 24 bits or all 32 bits.
+    /// CRC2, in the low 24 bits or in all 32 bits.
     pub crc: u32,
 }
 
@@ -188,7 +191,7 @@ impl FTrailer {
     ///
     /// # Errors
     ///
-    /// [`LengthError`] unless there are 4 or 5 bytes.
+    /// Returns [`LengthError`] unless `bytes` has 4 or 5 bytes.
     pub const fn from_bytes(bytes: &[u8]) -> Result<Self, LengthError> {
         match *bytes {
             [status, a, b, c] => Ok(Self { status, crc: u32::from_be_bytes([0, a, b, c]) }),
@@ -201,7 +204,7 @@ impl FTrailer {
     ///
     /// # Errors
     ///
-    /// [`LengthError`] unless there are 4 or 5 bytes.
+    /// Returns [`LengthError`] unless `bytes` has 4 or 5 bytes.
     pub fn write(self, bytes: &mut [u8]) -> Result<(), LengthError> {
         let [a, b, c, d] = self.crc.to_be_bytes();
         match bytes {
@@ -217,7 +220,7 @@ impl FTrailer {
 mod tests {
     use super::*;
 
-    /// A struct with 2 bytes of user data, 4 bytes of trailer and 1 byte of status.
+    /// Outputs with 2 bytes of user data, 4 bytes of trailer and 1 byte of status.
     #[derive(Debug, PartialEq)]
     struct Safe(u16);
 

@@ -1,26 +1,26 @@
-//! PROFINET IO: cyclic data with status, parameter records, diagnosis, and plans of modules in slots.
+//! PROFINET IO: cyclic data with status, parameter records, diagnosis, and slot plans.
 //!
-//! Bindings generated from a GSDML file build on this module:
+//! Bindings that are generated from a GSDML file use this module:
 //!
 //! - [`Dap`], [`Module`] and [`Submodule`] describe a device as constants.
-//! - A [`Plan`] assigns modules to slots. It returns the expected configuration and the start-up records.
-//! - The generated structs for inputs, outputs and records of a submodule implement [`IoData`] and [`RecordData`].
+//! - A [`Plan`] assigns modules to slots. The plan returns the expected configuration and the start-up records.
+//! - The inputs, outputs and records of a submodule are generated structs. These structs implement [`IoData`] and
+//!   [`RecordData`].
 //!
-//! All numbers are big-endian. Inputs go from the device to the controller, outputs from the controller to the
-//! device.
+//! All numbers are big-endian. The device sends inputs to the controller. The controller sends outputs to the device.
 //!
-//! The bytes are transferred by a controller library. Its adapter implements [`RecordClient`] for records and
+//! A controller library transfers the bytes. An adapter to this library implements [`RecordClient`] for records and
 //! [`ImageClient`] for the process image, or [`AsyncRecordClient`] and [`AsyncImageClient`].
 //!
-//! - On top of a record client, [`RecordAccess`] reads and writes records as structs and items in records, and
-//!   [`parameter_access`] accesses PROFIdrive parameters.
-//! - On top of an image client, [`Cyclic`] reads and writes items in the data of a submodule. [`Plan::layout`]
-//!   returns the offsets of these data.
+//! - [`RecordAccess`] uses a record client to access records as structs, and items in records. [`parameter_access`]
+//!   uses a record client to access PROFIdrive parameters.
+//! - [`Cyclic`] uses an image client to access items in the data of a submodule. [`Plan::layout`] returns the offsets
+//!   of these data.
 //!
 //! ```
 //! use lexibus::profinet::{Dap, IoLengths, Module, ModuleUse, Places, Plan, PlanError, Submodule, SubmoduleUse};
 //!
-//! // Generated code for a device with one type of module, which has 4 bytes of inputs and fits slots 1 to 3:
+//! // Generated code for a device with one type of module, which has 4 bytes of inputs and fits into the slots 1 to 3:
 //! static COUNTER: Submodule = Submodule {
 //!     ident: 0x31,
 //!     api: 0,

@@ -1,7 +1,7 @@
-//! Base mode parameter access of PROFIdrive, through the records 0xB02E and 0xB02F.
+//! Base mode parameter access of PROFIdrive, which uses the records 0xB02E and 0xB02F.
 //!
-//! A request reads or changes up to [`MAX_PARAMETERS`] parameters of one axis. The controller writes the request to
-//! the record and reads the response from the same record. [`ParameterAccess`] does both over any
+//! A request reads or changes up to [`MAX_PARAMETERS`] parameters of one axis. The controller writes the request to a
+//! record. Then, the controller reads the response from the same record. [`ParameterAccess`] does both through any
 //! [`RecordClient`](super::RecordClient):
 //!
 //! ```
@@ -9,7 +9,7 @@
 //! use lexibus::profinet::RecordClient;
 //! use lexibus::Error;
 //!
-//! /// Sets two array elements of axis 1, from subindex 0 on, and returns the selected telegram (PNU 922).
+//! /// Sets two elements of an array of axis 1, from subindex 0 on. Returns the selected telegram (PNU 922).
 //! fn set_up<C: RecordClient>(client: C) -> Result<u16, Error<C::Error>> {
 //!     let mut parameters = ParameterAccess::new(client, 1, 1);
 //!     parameters.write_array(1, 2100, 0, &[15_u16, 30])?;
@@ -17,7 +17,7 @@
 //! }
 //! ```
 //!
-//! To encode requests and decode responses yourself, use [`read_request`], [`change_request`] and [`Response`]:
+//! To encode requests and decode responses in your own code, use [`read_request`], [`change_request`] and [`Response`]:
 //!
 //! ```
 //! use lexibus::profinet::parameter_access::{read_request, Answer, ParameterAddress, Response};

@@ -1,4 +1,4 @@
-//! Plans of modules and submodules in their slots.
+//! Slot plans: modules and submodules in their slots.
 
 mod records;
 
@@ -9,14 +9,14 @@ use core::fmt;
 
 use super::descriptor::{contains, numbers, Dap, Module, Submodule, SubmoduleUse};
 
-/// The submodules plugged into a device: at most `N`, including those of the device access point.
+/// A plan of the submodules of a device: at most `N` submodules, including those of the device access point.
 ///
-/// The plan checks each step against the device description. It returns the configuration that the controller expects
-/// ([`Plan::expected`]) and the start-up records ([`Plan::records`]).
+/// The plan checks each step against the device description. [`Plan::expected`] returns the configuration that the
+/// controller expects. [`Plan::records`] returns the start-up records.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan<const N: usize> {
     dap: &'static Dap,
-    /// Sorted by slot and subslot. Entries from `len` on are empty.
+    /// Entries sorted by slot and subslot. Entries from `len` on are `None`.
     entries: [Option<Entry>; N],
     len: usize,
 }
@@ -54,7 +54,7 @@ pub struct Expected {
     pub consumer_len: u8,
 }
 
-/// Reasons why a step of a plan is invalid.
+/// Reasons why the plan refuses a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PlanError {
@@ -64,7 +64,7 @@ pub enum PlanError {
     SlotTaken,
     /// The module in the slot can't be removed.
     FixedModule,
-    /// The device doesn't support the module, or not in this slot.
+    /// The device doesn't support the module, or doesn't allow it in this slot.
     ModuleNotAllowed,
     /// The slot is empty.
     EmptySlot,
@@ -74,7 +74,7 @@ pub enum PlanError {
     SubslotTaken,
     /// The submodule in the subslot can't be removed.
     FixedSubmodule,
-    /// The module doesn't support the submodule, or not in this subslot.
+    /// The module doesn't support the submodule, or doesn't allow it in this subslot.
     SubmoduleNotAllowed,
     /// The number of submodules exceeds `N`.
     Full,
@@ -84,9 +84,9 @@ pub enum PlanError {
     OutputsTooLong,
     /// Inputs and outputs together exceed the device's maximum length.
     DataTooLong,
-    /// The plan has no such record.
+    /// The plan has no record with this address.
     NoSuchRecord,
-    /// The replacement has another length than the record.
+    /// The length of the replacement differs from the length of the record.
     RecordLength,
 }
 
@@ -115,11 +115,11 @@ impl fmt::Display for PlanError {
 impl error::Error for PlanError {}
 
 impl<const N: usize> Plan<N> {
-    /// Creates a plan with the device access point and its fixed modules and submodules.
+    /// Creates a plan that contains the device access point and its fixed modules and submodules.
     ///
     /// # Errors
     ///
-    /// [`PlanError::Full`] if there are more than `N` submodules, or an error for data that exceed the maximum
+    /// Returns [`PlanError::Full`] if there are more than `N` submodules, or an error if the data exceed a maximum
     /// length.
     pub fn new(dap: &'static Dap) -> Result<Self, PlanError> {
         let mut plan = Self { dap, entries: [None; N], len: 0 };
@@ -133,11 +133,12 @@ impl<const N: usize> Plan<N> {
         Ok(plan)
     }
 
-    /// Creates a plan that also contains the modules and submodules plugged by default (`UsedInSlots` of GSDML).
+    /// Creates a plan that also contains the modules and submodules that are plugged by default (`UsedInSlots` of
+    /// GSDML).
     ///
     /// # Errors
     ///
-    /// The errors of [`Plan::new`].
+    /// Returns the errors of [`Plan::new`].
     pub fn with_defaults(dap: &'static Dap) -> Result<Self, PlanError> {
         let mut plan = Self::new(dap)?;
         for usage in dap.modules {
@@ -158,8 +159,8 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// See [`PlanError`]: the slot doesn't exist or is taken, the module isn't allowed there, or there are too many
-    /// submodules or data. The plan is then unchanged.
+    /// Returns a [`PlanError`] if the slot doesn't exist or already has a module, if the module isn't allowed in the
+    /// slot, or if there are too many submodules or data. In all cases, the plan is unchanged.
     pub fn plug(&mut self, slot: u16, module: &'static Module) -> Result<(), PlanError> {
         if let Some(entry) = self.used().find(|entry| entry.slot == slot) {
             return Err(if self.is_fixed_module(slot, entry.module) {
@@ -183,7 +184,8 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// [`PlanError::EmptySlot`] or [`PlanError::FixedModule`].
+    /// Returns [`PlanError::EmptySlot`] if the slot is empty, or [`PlanError::FixedModule`] if the module can't be
+    /// removed.
     pub fn unplug(&mut self, slot: u16) -> Result<(), PlanError> {
         let module = self.module(slot).ok_or(PlanError::EmptySlot)?;
         if self.is_fixed_module(slot, module) {
@@ -197,8 +199,9 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// See [`PlanError`]: the slot is empty, the subslot doesn't exist or is taken, the submodule isn't allowed
-    /// there, or there are too many submodules or data. The plan is then unchanged.
+    /// Returns a [`PlanError`] if the slot is empty, if the subslot doesn't exist or already has a submodule, if the
+    /// submodule isn't allowed in the subslot, or if there are too many submodules or data. In all cases, the plan is
+    /// unchanged.
     pub fn plug_submodule(&mut self, slot: u16, subslot: u16, submodule: &'static Submodule) -> Result<(), PlanError> {
         let module = self.module(slot).ok_or(PlanError::EmptySlot)?;
         if let Some(there) = self.submodules().find(|(entry, _)| entry.slot == slot && entry.subslot == subslot) {
@@ -223,7 +226,7 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// See [`PlanError`]: the subslot is empty, or the submodule can't be removed.
+    /// Returns a [`PlanError`] if the subslot is empty, or if the submodule can't be removed.
     pub fn unplug_submodule(&mut self, slot: u16, subslot: u16) -> Result<(), PlanError> {
         let at = self.submodules().find(|(entry, _)| entry.slot == slot && entry.subslot == subslot);
         if at.ok_or(PlanError::NoSuchSubslot)?.0.is_fixed {
@@ -251,7 +254,7 @@ impl<const N: usize> Plan<N> {
         self.used().find(|entry| entry.slot == slot && entry.subslot == subslot)?.submodule
     }
 
-    /// Returns the expected configuration, ordered by slot and subslot. Modules without submodules are left out.
+    /// Returns the expected configuration, sorted by slot and subslot. Modules without submodules are left out.
     pub fn expected(&self) -> impl Iterator<Item = Expected> + '_ {
         self.submodules().map(|(entry, submodule)| Expected {
             slot: entry.slot,
@@ -268,8 +271,8 @@ impl<const N: usize> Plan<N> {
 
     /// Returns the lengths of the input frame and of the output frame in bytes.
     ///
-    /// A frame contains the data of its direction with their provider status, and the consumer status of the other
-    /// direction. A submodule without data counts as having inputs of length 0.
+    /// A frame contains the data of its direction with their provider status, and the consumer status of the opposite
+    /// direction. A submodule without data counts as a submodule with inputs of length 0.
     #[must_use]
     pub fn lengths(&self) -> (u32, u32) {
         self.submodules().fold((0, 0), |(inputs, outputs), (_, submodule)| {
@@ -341,7 +344,8 @@ impl<const N: usize> Plan<N> {
         Ok(())
     }
 
-    /// Inserts an entry in order. The first submodule of a module replaces the module's own entry.
+    /// Inserts an entry at its sorted position. The first submodule of a module replaces the entry of the module
+    /// itself.
     fn insert(&mut self, entry: Entry) -> Result<(), PlanError> {
         let is_bare = |other: &&mut Entry| other.slot == entry.slot && other.submodule.is_none();
         if let Some(bare) = self.entries.iter_mut().flatten().find(is_bare) {
@@ -357,7 +361,7 @@ impl<const N: usize> Plan<N> {
         Ok(())
     }
 
-    /// Removes a submodule. After the last one, the module itself remains as an entry.
+    /// Removes a submodule. After the last submodule is removed, the module itself remains as an entry.
     fn remove(&mut self, slot: u16, subslot: u16) {
         let of_slot = self.used().filter(|entry| entry.slot == slot).count();
         if of_slot > 1 {

@@ -6,7 +6,7 @@ use core::fmt;
 use crate::from::from;
 use crate::value_error::LengthError;
 
-/// A parameter record as a struct. Implemented by generated code.
+/// A parameter record as a struct. Generated code implements this trait.
 pub trait RecordData: Sized {
     /// Index of the record.
     const INDEX: u16;
@@ -14,22 +14,22 @@ pub trait RecordData: Sized {
     /// Length in bytes.
     const LEN: usize;
 
-    /// Position among the start-up records of the submodule; 0 = any.
+    /// Position of the record among the start-up records of the submodule; 0 means any position.
     const TRANSFER_SEQUENCE: u16;
 
     /// Decodes a record.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if `data` has fewer than [`RecordData::LEN`] bytes.
+    /// Returns [`LengthError`] if `data` has fewer than [`RecordData::LEN`] bytes.
     fn decode(data: &[u8]) -> Result<Self, LengthError>;
 
     /// Writes the record to the first [`RecordData::LEN`] bytes of `data` and returns them.
     ///
     /// # Errors
     ///
-    /// [`RecordError::NotAllowed`] if a field has a value that isn't allowed, [`RecordError::Length`] if `data` is
-    /// too short. `data` is then unchanged.
+    /// Returns [`RecordError::NotAllowed`] if a field has a value that isn't allowed, or [`RecordError::Length`] if
+    /// `data` is too short. In both cases, `data` is unchanged.
     fn encode_into<'b>(&self, data: &'b mut [u8]) -> Result<&'b [u8], RecordError>;
 }
 
@@ -74,11 +74,11 @@ impl fmt::Display for NotAllowed {
 
 impl error::Error for NotAllowed {}
 
-/// Checks that `value` is in one of the `allowed` ranges, limits included.
+/// Checks that `value` is in one of the `allowed` ranges. The limits belong to the ranges.
 ///
 /// # Errors
 ///
-/// [`NotAllowed`] if it isn't.
+/// Returns [`NotAllowed`] if `value` is in none of the ranges.
 pub fn check<T: PartialOrd>(field: &'static str, value: T, allowed: &[(T, T)]) -> Result<(), NotAllowed> {
     if allowed.iter().any(|(first, last)| *first <= value && value <= *last) {
         Ok(())

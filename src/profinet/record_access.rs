@@ -1,4 +1,4 @@
-//! Typed access to records and items over a record client.
+//! Typed access to records and to items in records, through a record client.
 
 use super::record::RecordData;
 use super::record_client::{AsyncRecordClient, RecordAddress, RecordClient, SubmoduleAddress};
@@ -9,7 +9,7 @@ use crate::value_error::LengthError;
 
 /// Reads and writes records as structs, and items in records.
 ///
-/// `N` is the size of the buffer in bytes: at least the length of the longest record.
+/// `N` is the size of the buffer in bytes. The buffer must hold the longest record.
 ///
 /// ```
 /// use lexibus::profinet::{RecordAccess, RecordClient, RecordData, SubmoduleAddress};
@@ -25,11 +25,12 @@ use crate::value_error::LengthError;
 /// }
 /// ```
 ///
-/// `RecordAccess` is a [`Client`] if `C` is a [`RecordClient`], and an [`AsyncClient`] if `C` is an
-/// [`AsyncRecordClient`]. To write an item, it reads the record and writes the whole record back. No other program
-/// may write the record in between. A text is read up to the length of the caller's buffer.
+/// `RecordAccess` implements [`Client`] if `C` is a [`RecordClient`], and [`AsyncClient`] if `C` is an
+/// [`AsyncRecordClient`]. To write an item, `RecordAccess` reads the record, changes the item, and writes the whole
+/// record. No other program may write the record between the read and the write. A text is truncated to the length of
+/// the caller's buffer.
 ///
-/// A record that exceeds the buffer is a compile-time error:
+/// A record that is longer than the buffer causes a compile-time error:
 ///
 /// ```compile_fail,E0080
 /// use lexibus::profinet::{FRecord, RecordAccess, RecordClient, RecordData, SubmoduleAddress};
@@ -60,7 +61,7 @@ pub struct RecordAccess<C, const N: usize> {
 }
 
 impl<C, const N: usize> RecordAccess<C, N> {
-    /// Creates an access to the device that `client` talks to.
+    /// Creates an access to the device of `client`.
     pub const fn new(client: C) -> Self {
         Self { client, buffer: [0; N] }
     }
@@ -75,12 +76,12 @@ impl<C, const N: usize> RecordAccess<C, N> {
         self.client
     }
 
-    /// Returns the first `length` bytes of the buffer. `length` is what the client reported.
+    /// Returns the first `length` bytes of the buffer. `length` is the length that the client reported.
     fn filled(&self, length: usize) -> Result<&[u8], LengthError> {
         self.buffer.get(..length).ok_or(LengthError::new(N, length))
     }
 
-    /// Reads an item from the record of this length in the buffer.
+    /// Reads an item. The buffer contains a record of `length` bytes.
     fn part(&self, length: usize, place: Record, value: &mut [u8]) -> Result<usize, LengthError> {
         let at = usize::from(place.offset);
         let rest = self.filled(length)?.get(at..).unwrap_or_default();
@@ -91,7 +92,7 @@ impl<C, const N: usize> RecordAccess<C, N> {
         Ok(count)
     }
 
-    /// Replaces an item in the record of this length in the buffer.
+    /// Replaces an item. The buffer contains a record of `length` bytes.
     fn replace(&mut self, length: usize, place: Record, value: &[u8]) -> Result<&[u8], LengthError> {
         self.filled(length)?;
         let at = usize::from(place.offset);
@@ -103,7 +104,7 @@ impl<C, const N: usize> RecordAccess<C, N> {
     }
 }
 
-/// Copies a value between a big-endian record and a little-endian client buffer. Byte strings keep their order.
+/// Copies a value between a big-endian record and a little-endian client buffer. Byte strings keep their byte order.
 fn copy(to: &mut [u8], from: &[u8], is_bytes: bool) {
     to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
     if !is_bytes {
@@ -111,7 +112,7 @@ fn copy(to: &mut [u8], from: &[u8], is_bytes: bool) {
     }
 }
 
-/// A compile-time check of the record length.
+/// A compile-time check that a record fits into the buffer.
 struct Fits<T, const N: usize>(core::marker::PhantomData<T>);
 
 impl<T: RecordData, const N: usize> Fits<T, N> {
@@ -131,8 +132,8 @@ macro_rules! access {
             ///
             /// # Errors
             ///
-            /// The errors of [`RecordClient::read_record`], and [`Error::Length`] if the device's record is shorter
-            /// than `T`.
+            /// Returns the errors of [`RecordClient::read_record`], or [`Error::Length`] if the device's record is
+            /// shorter than `T`.
             pub $($async)? fn $read<T: RecordData>(&mut self, submodule: SubmoduleAddress) -> Result<T, Error<C::Error>> {
                 let () = Fits::<T, N>::CHECKED;
                 let length = self.client.read_record(submodule.record(T::INDEX), &mut self.buffer)$(.$await)??;
@@ -143,8 +144,8 @@ macro_rules! access {
             ///
             /// # Errors
             ///
-            /// [`Error::NotAllowed`] if a field has a value that isn't allowed; nothing is sent then. Otherwise the
-            /// errors of [`RecordClient::write_record`].
+            /// Returns [`Error::NotAllowed`] if a field has a value that isn't allowed. In this case, nothing is sent.
+            /// Otherwise, returns the errors of [`RecordClient::write_record`].
             pub $($async)? fn $write<T: RecordData>(
                 &mut self,
                 submodule: SubmoduleAddress,

@@ -1,4 +1,4 @@
-//! Record clients, implemented by adapters to controller libraries.
+//! Record clients. Adapters to controller libraries implement them.
 
 use super::plan::{Plan, RecordWrite};
 use crate::error::Error;
@@ -21,7 +21,7 @@ impl SubmoduleAddress {
         Self { api, slot, subslot }
     }
 
-    /// Returns the address of the submodule's record `index`.
+    /// Returns the address of the record of this submodule with index `index`.
     #[must_use]
     pub const fn record(self, index: u16) -> RecordAddress {
         RecordAddress { api: self.api, slot: self.slot, subslot: self.subslot, index }
@@ -50,17 +50,17 @@ impl RecordWrite<'_> {
 }
 
 impl<const N: usize> Plan<N> {
-    /// Returns the address of the submodule in `subslot` of `slot`; `None` if the subslot is empty.
+    /// Returns the address of the submodule in `subslot` of `slot`. Returns `None` if the subslot is empty.
     #[must_use]
     pub fn address(&self, slot: u16, subslot: u16) -> Option<SubmoduleAddress> {
         self.submodule(slot, subslot).map(|submodule| SubmoduleAddress::new(submodule.api, slot, subslot))
     }
 }
 
-/// A client that reads and writes records of one device and blocks until the response.
+/// A client that reads and writes records of one device. The client blocks until the response arrives.
 ///
-/// [`RecordAccess`](super::RecordAccess) uses it for typed records,
-/// [`ParameterAccess`](super::parameter_access::ParameterAccess) for PROFIdrive parameters.
+/// [`RecordAccess`](super::RecordAccess) uses this trait for typed records.
+/// [`ParameterAccess`](super::parameter_access::ParameterAccess) uses it for PROFIdrive parameters.
 ///
 /// ```
 /// use std::collections::HashMap;
@@ -95,39 +95,41 @@ impl<const N: usize> Plan<N> {
 /// # Ok::<(), Error<PnioStatus>>(())
 /// ```
 pub trait RecordClient {
-    /// Communication error of the client, including refusals of the device ([`PnioStatus`](super::PnioStatus)).
+    /// Error type of the client. The error type covers communication errors and refusals of the device
+    /// ([`PnioStatus`](super::PnioStatus)).
     type Error;
 
     /// Reads the record at `address` into `buffer` and returns the length of the record in bytes.
     ///
-    /// If the record is longer than `buffer`, implementations return its length or an error. The content of `buffer`
-    /// is then unspecified.
+    /// If the record is longer than `buffer`, implementations return the length of the record or an error. In this
+    /// case, the content of `buffer` is unspecified.
     ///
     /// # Errors
     ///
-    /// [`Error::Client`] if the bus fails or the device refuses, [`Error::Length`] if the record is too long.
+    /// Returns [`Error::Client`] if the bus fails or the device refuses the access, or [`Error::Length`] if the record
+    /// is too long.
     fn read_record(&mut self, address: RecordAddress, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
     /// Writes `data` to the record at `address`.
     ///
     /// # Errors
     ///
-    /// The errors of [`read_record`](Self::read_record).
+    /// Returns the errors of [`read_record`](Self::read_record).
     fn write_record(&mut self, address: RecordAddress, data: &[u8]) -> Result<(), Error<Self::Error>>;
 
     /// Returns whether an error of [`read_record`](Self::read_record) means that the response isn't available yet
-    /// ([`PnioStatus::is_busy`](super::PnioStatus::is_busy)). Returns false by default.
+    /// ([`PnioStatus::is_busy`](super::PnioStatus::is_busy)). The default implementation returns false.
     fn is_busy(&self, error: &Self::Error) -> bool {
         let _ = error;
         false
     }
 
-    /// Called before another attempt to read a record. Implementations may sleep for some milliseconds; the default
-    /// returns immediately.
+    /// Waits before another attempt to read a record. Implementations may sleep for some milliseconds. The default
+    /// implementation returns immediately.
     fn pause(&mut self) {}
 }
 
-/// An asynchronous client that reads and writes records of one device. The counterpart of [`RecordClient`].
+/// An asynchronous client that reads and writes records of one device, as [`RecordClient`] does.
 ///
 /// ```
 /// use lexibus::profinet::{AsyncRecordClient, PnioStatus, RecordAddress};
@@ -150,21 +152,21 @@ pub trait RecordClient {
 /// ```
 #[allow(async_fn_in_trait)]
 pub trait AsyncRecordClient {
-    /// Communication error of the client, including refusals of the device.
+    /// Error type of the client. The error type covers communication errors and refusals of the device.
     type Error;
 
     /// Reads the record at `address`, as [`RecordClient::read_record`] does.
     ///
     /// # Errors
     ///
-    /// The errors of [`RecordClient::read_record`].
+    /// Returns the errors of [`RecordClient::read_record`].
     async fn read_record(&mut self, address: RecordAddress, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
     /// Writes `data` to the record at `address`.
     ///
     /// # Errors
     ///
-    /// The errors of [`RecordClient::read_record`].
+    /// Returns the errors of [`RecordClient::read_record`].
     async fn write_record(&mut self, address: RecordAddress, data: &[u8]) -> Result<(), Error<Self::Error>>;
 
     /// Returns whether an error means that the response isn't available yet, as [`RecordClient::is_busy`] does.
@@ -173,7 +175,7 @@ pub trait AsyncRecordClient {
         false
     }
 
-    /// Called before another attempt to read a record, as [`RecordClient::pause`] is.
+    /// Waits before another attempt to read a record, as [`RecordClient::pause`] does.
     async fn pause(&mut self) {}
 }
 

@@ -3,11 +3,11 @@
 use core::error;
 use core::fmt;
 
-/// The PNIO status of a failed record access (IEC 61158-6-10): error code, error decode, error code 1 and error code
-/// 2, from the most significant byte down.
+/// The PNIO status of a failed record access (IEC 61158-6-10). From the most significant byte down, it contains error
+/// code, error decode, error code 1 and error code 2.
 ///
-/// Controller libraries return it as a 32-bit number or as four bytes. A [`RecordClient`](super::RecordClient) may
-/// use it as its error type or as a part of it.
+/// Controller libraries return the PNIO status as a 32-bit number or as four bytes. A
+/// [`RecordClient`](super::RecordClient) can use this type as its error type or as a part of it.
 ///
 /// ```
 /// use lexibus::profinet::PnioStatus;
@@ -26,33 +26,33 @@ impl PnioStatus {
         self.0.to_be_bytes()[0]
     }
 
-    /// Returns the error decode, which defines the meaning of the error codes: 0x80 for record access, 0x81 for other
-    /// services.
+    /// Returns the error decode, which determines the meaning of the error codes: 0x80 for record access, 0x81 for
+    /// other services.
     #[must_use]
     pub const fn error_decode(self) -> u8 {
         self.0.to_be_bytes()[1]
     }
 
-    /// Returns error code 1, the reason.
+    /// Returns error code 1, which is the reason for the failure.
     #[must_use]
     pub const fn error_code_1(self) -> u8 {
         self.0.to_be_bytes()[2]
     }
 
-    /// Returns error code 2, a detail of the reason.
+    /// Returns error code 2, which is a detail of the reason.
     #[must_use]
     pub const fn error_code_2(self) -> u8 {
         self.0.to_be_bytes()[3]
     }
 
-    /// Returns whether the device can't answer yet: it is busy, a resource is busy, or there is a state conflict.
+    /// Returns whether the device can't reply yet because it is busy, a resource is busy, or there is a state conflict.
     /// Drives report a state conflict while the response to a parameter request isn't available.
     #[must_use]
     pub const fn is_busy(self) -> bool {
         self.error_decode() == 0x80 && matches!(self.error_code_1(), 0xA7 | 0xB5 | 0xC2)
     }
 
-    /// Returns the meaning of error code 1, if it is the same for all devices.
+    /// Returns the meaning of error code 1. Returns `None` unless the meaning is the same for all devices.
     #[must_use]
     pub const fn text(self) -> Option<&'static str> {
         if self.error_decode() != 0x80 {

@@ -1,4 +1,4 @@
-//! Simulated device as a node on a CAN bus.
+//! A simulated device as a node on a CAN bus.
 
 mod pdo;
 mod sdo;
@@ -19,14 +19,14 @@ use crate::node_id::NodeId;
 const NMT: u16 = 0x000;
 /// COB-ID of SDO requests, without the node-ID.
 const SDO_REQUEST: u16 = 0x600;
-/// Maximum number of sent frames that are kept. Older frames are lost, as on a bus.
+/// Maximum number of sent frames that are kept. Older frames are lost, as on a real bus.
 const MOST_FRAMES: usize = 1024;
 
 /// A simulated device as a node on a CAN bus.
 ///
-/// It simulates the SDO server, NMT, heartbeat, emergency messages, and PDOs on SYNC, on change and by timer. CANopen
-/// clients use it as their port. Its clock is simulated: only [`advance`](Self::advance) and waiting for a frame move
-/// it forward, so tests never wait in real time.
+/// The node simulates the SDO server, NMT, heartbeat and emergency messages. The node transmits PDOs on SYNC, on change
+/// and by timer. CANopen clients use the node as their CAN port. The clock of the node is simulated. The clock advances
+/// only by [`advance`](Self::advance) and by waiting for a frame, so tests never wait in real time.
 ///
 /// ```
 /// use core::time::Duration;
@@ -46,7 +46,7 @@ const MOST_FRAMES: usize = 1024;
 /// # Ok::<(), lexibus::Error<core::convert::Infallible>>(())
 /// ```
 ///
-/// Not simulated: SDO block transfer, node guarding and other remote frames, LSS, and 29-bit identifiers.
+/// The node doesn't simulate SDO block transfer, remote frames (including node guarding), LSS, and 29-bit identifiers.
 #[derive(Debug)]
 pub struct CanNode {
     device: Device,
@@ -68,7 +68,7 @@ struct Heartbeat {
 }
 
 impl CanNode {
-    /// Creates a node after power-on, in Pre-operational. Its boot-up message is the first frame.
+    /// Creates a node after power-on, in Pre-operational. The first sent frame is the boot-up message.
     #[must_use]
     pub fn new(device: Device) -> Self {
         let mut node = Self {
@@ -86,7 +86,8 @@ impl CanNode {
         node
     }
 
-    /// Returns the device. Changes of its values are sent before the next frame is received.
+    /// Returns the device. If you change its values, the node sends the resulting frames before the next frame is
+    /// received.
     pub fn device(&mut self) -> &mut Device {
         &mut self.device
     }
@@ -109,14 +110,14 @@ impl CanNode {
         self.now
     }
 
-    /// Disconnects the node from the bus, or connects it. A disconnected node neither receives nor sends frames, but
-    /// its clock continues.
+    /// Disconnects the node from the bus, or connects it again. A disconnected node neither receives nor sends frames,
+    /// but its clock continues.
     pub fn set_connected(&mut self, is_connected: bool) {
         self.is_connected = is_connected;
     }
 
-    /// Returns and removes the abort codes of values in PDOs that the device refused, with the mapping objects of these
-    /// PDOs. A device doesn't report these errors on the bus.
+    /// Returns and removes the errors of received PDOs. Each error is the mapping object of a PDO and the abort code
+    /// for a value that the device refused. A real device doesn't report these errors on the bus.
     pub fn take_refused(&mut self) -> Vec<(u16, AbortCode)> {
         core::mem::take(&mut self.refused)
     }
@@ -137,7 +138,7 @@ impl CanNode {
         self.settle();
     }
 
-    /// Returns the next frame that the node has sent, or `None` if there is none.
+    /// Returns the next frame that the node has sent, or `None` if there is no further frame.
     pub fn next_frame(&mut self) -> Option<CanFrame> {
         self.settle();
         self.outgoing.pop_front()
@@ -162,7 +163,7 @@ impl CanNode {
         events.into_iter().flatten().filter(|event| *event > self.now).min()
     }
 
-    /// Sends all frames that are due: by timers, and because the device has changed.
+    /// Sends all frames that are due because a timer has expired or the device has changed.
     fn settle(&mut self) {
         self.beat();
         if let Some(frame) = self.channel.timed_out(self.now) {
@@ -310,7 +311,7 @@ impl CanPort for CanNode {
     }
 }
 
-/// The same bus, async. The futures are ready at once.
+/// An async bus with only this node. All futures are ready at the first poll.
 impl AsyncCanPort for CanNode {
     type Error = Infallible;
 

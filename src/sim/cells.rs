@@ -1,4 +1,4 @@
-//! Registers and bits of a simulated Modbus device, and the items in them.
+//! Registers and bits of a simulated Modbus device, and the items that they contain.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::vec;
@@ -17,12 +17,12 @@ type Address = (RegisterTable, u16);
 #[derive(Clone, Debug, Default)]
 struct Cell {
     word: u16,
-    /// Positions of the items in this register. Several items can share a register, as different bit fields or as the
-    /// same bits with different names.
+    /// Positions of the items in this register. Several items can share a register, as different bit fields or as
+    /// different names of the same bits.
     items: Vec<usize>,
 }
 
-/// All registers and bits. They always have the values of the items: a change of one changes the other.
+/// All registers and bits. Registers and items always have the same values: a change of one updates the other.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cells(BTreeMap<Address, Cell>);
 
@@ -35,16 +35,16 @@ const fn is_bits(table: RegisterTable) -> bool {
     matches!(table, RegisterTable::Coil | RegisterTable::DiscreteInput)
 }
 
-/// Returns the contents of the registers for this value of an item. `held` are the current contents.
+/// Returns the contents of the registers if the item has this value. `held` contains the current contents.
 fn encode(register: Register, value: &[u8], held: Vec<u16>) -> Vec<u16> {
     if is_bits(register.table) {
         let bit = |at: usize| value.get(at / 8).map_or(0, |byte| u16::from(byte >> (at % 8) & 1));
         return (0..held.len()).map(bit).collect();
     }
     let mut words = held;
-    // A register that is shorter than the object has only its lower bytes.
+    // If the register is shorter than the object, the register contains only the lower bytes.
     let length = value.len().min(2 * words.len());
-    // Only a bit field in more than four registers fails, and no client can access it.
+    // The encoding fails only for a bit field in more than four registers, which no client can access.
     let _ = register.encode(&value[..length], &mut words);
     words
 }
@@ -83,7 +83,7 @@ pub(super) const fn is_writable(entry: &Entry) -> bool {
 }
 
 impl Cells {
-    /// Writes the values of all items to the registers. If items share bits, those with a known initial value take
+    /// Writes the values of all items to the registers. If items share bits, the items with a known initial value take
     /// precedence.
     pub fn fill(&mut self, slots: &mut Slots) {
         self.0.clear();
@@ -121,8 +121,8 @@ impl Cells {
         }
     }
 
-    /// Updates the value of an item from its registers. Keeps the value if its encoding is equal, for example a text
-    /// with fewer bytes.
+    /// Updates the value of an item from its registers. The item keeps a value with the same encoding, for example a
+    /// text with fewer bytes.
     pub fn refresh(&self, slot: &mut Slot) {
         let Some(register) = slot.entry.register else { return };
         let words = self.words(register);
@@ -150,12 +150,12 @@ impl Cells {
         }
     }
 
-    /// Returns the items at these addresses.
+    /// Returns the positions of the items at these addresses.
     pub fn items(&self, addresses: impl Iterator<Item = Address>) -> BTreeSet<usize> {
         addresses.filter_map(|address| self.0.get(&address)).flat_map(|cell| &cell.items).copied().collect()
     }
 
-    /// Returns the mask of the bits at this address that belong to items selected by `which`.
+    /// Returns the mask of the bits at this address that belong to the items that `which` selects.
     pub fn mask(&self, slots: &Slots, address: Address, which: impl Fn(&Entry) -> bool) -> u16 {
         let items = self.0.get(&address).map_or(&[][..], |cell| &cell.items);
         let entries = items.iter().map(|at| &slots.get(*at).entry).filter(|entry| which(entry));

@@ -12,8 +12,8 @@ use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::register::Register;
 
-/// Client for a simulated device on the bus `B`, blocking and async. [`Device::client`] creates it. `D` is the device
-/// or a reference to it.
+/// Blocking and async client for a simulated device on the bus `B`. [`Device::client`] creates it. `D` is the device or
+/// a reference to the device.
 pub struct Connection<B, D = Device> {
     device: D,
     bus: PhantomData<fn() -> B>,
@@ -43,7 +43,7 @@ impl<B, D: BorrowMut<Device>> Connection<B, D> {
         self.device.borrow_mut()
     }
 
-    /// Returns the device, or the reference to it, and drops the client.
+    /// Returns the device, or the reference to the device, and drops the client.
     pub fn into_device(self) -> D {
         self.device
     }
@@ -78,7 +78,7 @@ macro_rules! client {
                 $write(self.device(), address, data)
             }
 
-            /// Simulated devices need no time.
+            /// Returns at once, because a simulated device has no real time.
             $($async)? fn wait(&mut self, _: Duration) -> Result<(), Error<Fault>> {
                 Ok(())
             }

@@ -1,4 +1,4 @@
-//! Simulated device.
+//! The simulated device.
 
 use core::fmt;
 use std::boxed::Box;
@@ -30,7 +30,7 @@ const FIRST_NODE: NodeId = match NodeId::new(1) {
 /// Function that is called after a write.
 type Reaction = Box<dyn FnMut(&mut Device, usize, &Entry) -> Result<(), AbortCode> + Send>;
 
-/// A reaction, and the items for which it is called: some, or all if `slots` is `None`.
+/// A reaction, and the positions of the items for which it is called. If `slots` is `None`, it is called for all items.
 struct Hook {
     slots: Option<Vec<usize>>,
     reaction: Reaction,
@@ -45,15 +45,14 @@ pub(super) enum Network {
 
 /// A simulated device, created from the table of its bindings.
 ///
-/// Clients read and write it through [`client`](Self::client), within the access rights and limits of its description.
-/// Tests play the role of the device: they can [`get`](Self::get) and [`set`](Self::set) all items, and
+/// Clients access the device within the access rights and limits of its description. [`client`](Self::client) creates a
+/// client. Tests simulate the behavior of the device: they [`get`](Self::get) and [`set`](Self::set) all items, and
 /// [react](Self::on_write) to writes.
 ///
 /// # Errors
 ///
-/// The methods of the device's side return an [`AbortCode`]: [`NO_OBJECT`](AbortCode::NO_OBJECT) or
-/// [`NO_SUB_INDEX`](AbortCode::NO_SUB_INDEX) if the device doesn't have the item. A reaction can return these errors
-/// with `?`.
+/// Methods for tests return [`NO_OBJECT`](AbortCode::NO_OBJECT) or [`NO_SUB_INDEX`](AbortCode::NO_SUB_INDEX) if the
+/// device doesn't have the item. These errors have the type [`AbortCode`], so a reaction can return them with `?`.
 pub struct Device {
     pub(super) slots: Slots,
     pub(super) cells: Cells,
@@ -66,10 +65,10 @@ pub struct Device {
 }
 
 impl Device {
-    /// Creates a device after power-on with node-ID 1. `entries` is the static table of its bindings (`ENTRIES`).
+    /// Creates a device after power-on with node-ID 1. `entries` is the static table `ENTRIES` of the bindings.
     ///
-    /// An item without an initial value in the description is empty, 0, or the number within its limits that is nearest
-    /// to 0.
+    /// If the description gives no initial value, a text or byte string is empty. A number is 0, or the number within
+    /// its limits that is nearest to 0.
     #[must_use]
     pub fn new(entries: &[Entry]) -> Self {
         let mut device = Self {
@@ -94,7 +93,7 @@ impl Device {
         self
     }
 
-    /// Returns the device after power-on with all of its axes (`AXES` of its bindings).
+    /// Returns the device after power-on with all of its axes. `axes` is the constant `AXES` of the bindings.
     #[must_use]
     pub fn with_axes(mut self, axes: &'static Axes) -> Self {
         self.slots.add_axes(axes);
@@ -109,7 +108,7 @@ impl Device {
         self.node
     }
 
-    /// Switches the device off and on. All items get their stored values (0x1010) or their initial values.
+    /// Switches the device off and on. All items return to their stored values (0x1010) or their initial values.
     pub fn power_cycle(&mut self) {
         self.reset(|_| true);
         self.emergencies.clear();
@@ -120,34 +119,37 @@ impl Device {
         self.cells.fill(&mut self.slots);
     }
 
-    /// Returns the value of an item, independent of its access rights.
+    /// Returns the value of an item, regardless of its access rights.
     ///
     /// # Errors
     ///
-    /// [`AbortCode::LENGTH`] if the length of the handle's type differs from the table, and the errors of every method (see [`Device`]).
+    /// Returns [`AbortCode::LENGTH`] if the length of the item's type differs from the table, and the errors of all
+    /// methods (see [`Device`]).
     pub fn get<V: Fixed, A, L: Location>(&self, item: Item<V, A, L>) -> Result<V::Native, AbortCode> {
         self.axis_value(&item, 1)
     }
 
-    /// Sets the value of an item, as the device itself does: independent of access rights and limits, and without
-    /// calling reactions.
+    /// Sets the value of an item, as the device itself does. Access rights and limits don't apply, and no reaction is
+    /// called.
     ///
-    /// If the item has different widths as an object and on Modbus, the table has two entries for it, and both are set.
-    /// A client writes only the entry of its bus.
+    /// If the item has different widths as an object and on Modbus, the table has two entries for the item. This method
+    /// sets both entries. A client writes only the entry of its bus.
     ///
     /// # Errors
     ///
-    /// [`AbortCode::LENGTH`] if the length of the handle's type differs from the table, [`AbortCode::TOO_HIGH`] if the
-    /// value doesn't fit its type, and the errors of every method (see [`Device`]).
+    /// Returns [`AbortCode::LENGTH`] if the length of the item's type differs from the table. Returns
+    /// [`AbortCode::TOO_HIGH`] if the value doesn't fit its type. Also returns the errors of all methods (see
+    /// [`Device`]).
     pub fn set<V: Fixed, A, L: Location>(&mut self, item: Item<V, A, L>, value: V::Native) -> Result<(), AbortCode> {
         self.set_axis_value(&item, 1, value)
     }
 
-    /// Returns the bytes of an item, the least significant first. Texts and domains are available only as bytes.
+    /// Returns the bytes of an item, the least significant byte first. Use this method for texts and domains, which
+    /// [`get`](Self::get) doesn't support.
     ///
     /// # Errors
     ///
-    /// [`AbortCode::NO_OBJECT`] or [`AbortCode::NO_SUB_INDEX`] if the device doesn't have the item.
+    /// Returns [`AbortCode::NO_OBJECT`] or [`AbortCode::NO_SUB_INDEX`] if the device doesn't have the item.
     pub fn bytes(&self, address: impl ItemAddress) -> Result<&[u8], AbortCode> {
         Ok(&self.slots.get(self.slot(&address, 1)?).value)
     }
@@ -156,8 +158,8 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// [`AbortCode::TOO_LONG`], [`AbortCode::TOO_SHORT`] or [`AbortCode::LENGTH`] if the bytes don't fit the item's
-    /// type, and the errors of every method (see [`Device`]).
+    /// Returns [`AbortCode::TOO_LONG`], [`AbortCode::TOO_SHORT`] or [`AbortCode::LENGTH`] if the bytes don't fit the
+    /// item's type. Also returns the errors of all methods (see [`Device`]).
     pub fn set_bytes(&mut self, address: impl ItemAddress, bytes: &[u8]) -> Result<(), AbortCode> {
         let at = self.slot(&address, 1)?;
         values::check_length(&self.slots.get(at).entry, bytes)?;
@@ -165,12 +167,12 @@ impl Device {
         Ok(())
     }
 
-    /// Sets the value of an item now, as [`set`](Self::set) does, and as its initial value after each power-on. Most
-    /// descriptions don't give an initial value of the statusword, for example.
+    /// Sets the current value of an item, as [`set`](Self::set) does, and its initial value after power-on. Use this
+    /// method if the description gives no initial value, for example for the statusword.
     ///
     /// # Errors
     ///
-    /// The errors of [`set`](Self::set).
+    /// Returns the errors of [`set`](Self::set).
     pub fn set_initial<V: Fixed, A, L: Location>(
         &mut self,
         item: Item<V, A, L>,
@@ -181,12 +183,11 @@ impl Device {
         Ok(())
     }
 
-    /// Sets the bytes of an item now, as [`set_bytes`](Self::set_bytes) does, and as its initial value after each
-    /// power-on.
+    /// Sets the current bytes of an item, as [`set_bytes`](Self::set_bytes) does, and its initial value after power-on.
     ///
     /// # Errors
     ///
-    /// The errors of [`set_bytes`](Self::set_bytes).
+    /// Returns the errors of [`set_bytes`](Self::set_bytes).
     pub fn set_initial_bytes(&mut self, address: impl ItemAddress, bytes: &[u8]) -> Result<(), AbortCode> {
         let at = self.slot(&address, 1)?;
         self.set_bytes(address, bytes)?;
@@ -199,17 +200,17 @@ impl Device {
         slot.initial = Some(slot.value.clone());
     }
 
-    /// Returns axis `number` of the device, from 1. It has the same items at the addresses of this axis.
+    /// Returns axis `number` of the device, from 1. The axis has the same items at its own addresses.
     pub fn axis(&mut self, number: u8) -> DeviceAxis<'_> {
         DeviceAxis { device: self, number }
     }
 
-    /// Calls `reaction` with the new value after a client or a PDO has written this item. If the reaction fails, the
-    /// item gets its old value back, and the client gets the abort code.
+    /// Calls `reaction` with the new value after a client or a PDO has written this item. If `reaction` returns an
+    /// abort code, the item gets its old value back, and the client receives the abort code.
     ///
     /// # Errors
     ///
-    /// [`AbortCode::NO_OBJECT`] or [`AbortCode::NO_SUB_INDEX`] if the device doesn't have the item.
+    /// Returns [`AbortCode::NO_OBJECT`] or [`AbortCode::NO_SUB_INDEX`] if the device doesn't have the item.
     pub fn on_write<V: Fixed, A, L: Location>(
         &mut self,
         item: Item<V, A, L>,
@@ -218,7 +219,8 @@ impl Device {
         self.axis(1).on_write(item, reaction)
     }
 
-    /// Calls `reaction` after a client or a PDO has written any item, as [`on_write`](Self::on_write) does.
+    /// Calls `reaction` after a client or a PDO has written an item of the device, as [`on_write`](Self::on_write)
+    /// does.
     pub fn on_any_write(
         &mut self,
         reaction: impl FnMut(&mut Device, &Entry) -> Result<(), AbortCode> + Send + 'static,
@@ -229,7 +231,7 @@ impl Device {
     }
 
     /// Makes the next access of a client fail with `fault`. Several calls make several accesses fail, in the order of
-    /// the calls. Process data are not affected.
+    /// the calls. Faults don't affect process data.
     pub fn fail_next(&mut self, fault: impl Into<Fault>) {
         self.faults.push_back(fault.into());
     }
@@ -277,13 +279,13 @@ impl Device {
         old
     }
 
-    /// Calls the reactions to a write of an item. Changes by a reaction call no further reactions.
+    /// Calls the reactions to a write of an item. A change by a reaction calls no further reactions.
     pub(super) fn react(&mut self, at: usize) -> Result<(), AbortCode> {
         let entry = self.slots.get(at).entry;
         let mut hooks = core::mem::take(&mut self.hooks);
         let concerned = hooks.iter_mut().filter(|hook| hook.slots.as_ref().map_or(true, |slots| slots.contains(&at)));
         let result = { concerned }.try_for_each(|hook| (hook.reaction)(self, at, &entry));
-        // Keeps the reactions that a reaction has added.
+        // A reaction may have added reactions, which are kept.
         hooks.append(&mut self.hooks);
         self.hooks = hooks;
         result
@@ -302,7 +304,7 @@ impl Device {
         self.slots.of_object(object)
     }
 
-    /// Returns all positions of an item. The register is another entry if it has another width than the object.
+    /// Returns all positions of an item. If the widths differ, the register and the object are separate entries.
     fn slots_of(&self, address: &impl ItemAddress, axis: u8) -> Result<Vec<usize>, AbortCode> {
         let mut slots = [self.slot(address, axis)?].to_vec();
         let registered = address.register().filter(|_| axis == 1 && address.is_resized());
@@ -356,10 +358,10 @@ impl fmt::Debug for Device {
     }
 }
 
-/// The device's side of one axis. [`Device::axis`] creates it.
+/// One axis of a simulated device. Tests use it to access the items of this axis. [`Device::axis`] creates it.
 ///
-/// Its methods are those of the device and take the handles of the first axis. They return [`AbortCode::NO_OBJECT`] if
-/// the axis doesn't exist or doesn't have the item.
+/// The methods are those of the device and take the handles of the first axis. The methods return
+/// [`AbortCode::NO_OBJECT`] if the axis doesn't exist or doesn't have the item.
 #[derive(Debug)]
 pub struct DeviceAxis<'d> {
     device: &'d mut Device,
@@ -371,7 +373,7 @@ impl DeviceAxis<'_> {
     ///
     /// # Errors
     ///
-    /// The errors of [`Device::get`].
+    /// Returns the errors of [`Device::get`].
     pub fn get<V: Fixed, A, L: Location>(&self, item: Item<V, A, L>) -> Result<V::Native, AbortCode> {
         self.device.axis_value(&item, self.number)
     }
@@ -380,7 +382,7 @@ impl DeviceAxis<'_> {
     ///
     /// # Errors
     ///
-    /// The errors of [`Device::set`].
+    /// Returns the errors of [`Device::set`].
     pub fn set<V: Fixed, A, L: Location>(&mut self, item: Item<V, A, L>, value: V::Native) -> Result<(), AbortCode> {
         self.device.set_axis_value(&item, self.number, value)
     }
@@ -389,7 +391,7 @@ impl DeviceAxis<'_> {
     ///
     /// # Errors
     ///
-    /// The errors of [`Device::on_write`].
+    /// Returns the errors of [`Device::on_write`].
     pub fn on_write<V: Fixed, A, L: Location>(
         &mut self,
         item: Item<V, A, L>,

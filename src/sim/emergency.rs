@@ -6,8 +6,8 @@ use crate::bus::Object;
 use crate::emergency::Emergency;
 
 impl Device {
-    /// Simulates an error: updates the error register (0x1001) and the error list (0x1003), as far as the device has
-    /// them, and emits an emergency message. Code 0 means that no error is left; it isn't added to the list.
+    /// Simulates an error and emits an emergency message. The error register (0x1001) and the error list (0x1003) are
+    /// updated if the device has these objects. Code 0 means that no error is left. This code isn't added to the list.
     pub fn emit_emergency(&mut self, code: u16, register: u8, vendor: [u8; 5]) {
         let _ = self.set_bytes(Object::new(0x1001, 0), &[register]);
         if code != 0 {
@@ -16,13 +16,13 @@ impl Device {
         self.emergencies.push_back(Emergency { code, register, vendor });
     }
 
-    /// Returns and removes the emergency messages that were emitted. A node on a simulated CAN bus sends them
-    /// automatically.
+    /// Returns and removes the emergency messages that were emitted. A node on a simulated CAN bus sends emergency
+    /// messages automatically.
     pub fn take_emergencies(&mut self) -> impl Iterator<Item = Emergency> + '_ {
         self.emergencies.drain(..)
     }
 
-    /// Inserts an error at the top of the list. The oldest error is removed if the list is full.
+    /// Inserts an error at the top of the error list. If the list is full, the oldest error is removed.
     fn remember(&mut self, code: u16, vendor: [u8; 5]) {
         let room = self.slots.objects(ERRORS, ERRORS).map(|object| object.sub_index).max().unwrap_or(0);
         let length = self.slots.number(ERRORS, 0).map_or(0, |length| length.min(room.into()) as u8);

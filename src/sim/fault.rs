@@ -8,7 +8,7 @@ use crate::from::from;
 
 /// Reason why an access to a simulated device fails.
 ///
-/// It is the error type of simulated clients. [`Bus`](Fault::Bus) and [`Exception`](Fault::Exception) become
+/// Simulated clients use this type as their error type. [`Bus`](Fault::Bus) and [`Exception`](Fault::Exception) become
 /// [`Error::Client`](crate::Error::Client). [`Abort`](Fault::Abort) becomes [`Error::Abort`](crate::Error::Abort).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -38,11 +38,11 @@ from! {
     Exception => Fault::Exception;
 }
 
-/// Modbus exception: reason why a device refuses a request (MODBUS Application Protocol 7).
+/// Modbus exception: the reason why a device refuses a request (MODBUS Application Protocol 7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Exception {
-    /// The function isn't allowed for this table; for example, inputs can't be written.
+    /// The function isn't allowed for this table. For example, inputs can't be written.
     IllegalFunction,
     /// A register doesn't exist, or can't be read or written.
     IllegalDataAddress,
@@ -64,7 +64,7 @@ impl Exception {
         }
     }
 
-    /// Returns the Modbus exception for an error that would abort an SDO transfer with `code`.
+    /// Returns the Modbus exception for an error that has the abort code `code` in an SDO transfer.
     #[must_use]
     pub const fn of_abort(code: AbortCode) -> Self {
         match code {

@@ -7,21 +7,22 @@ use crate::register::Register;
 use crate::route::Route;
 use crate::value::Value;
 
-/// Address of an item: a handle of the bindings, an object or a register. You needn't implement it for other types.
+/// Address of an item: a handle of the bindings, an object or a register. Programs do not have to implement this trait.
 pub trait ItemAddress {
-    /// Returns the entry in the object dictionary.
+    /// Returns the object of the item, if it has one.
     fn object(&self) -> Option<Object>;
 
-    /// Returns the Modbus register.
+    /// Returns the Modbus register of the item, if it has one.
     fn register(&self) -> Option<Register>;
 
-    /// Returns whether the widths of the item on its buses differ. The table then has several entries for it.
+    /// Returns whether the widths of the item differ between its buses. If so, the table has several entries for the
+    /// item.
     fn is_resized(&self) -> bool {
         false
     }
 }
 
-/// Returns the first address that `select` finds in the routes of a location.
+/// Returns the first address that `select` returns for a route of the location.
 fn find<T>(location: &impl Location, select: impl Fn(&dyn Route) -> Option<T>) -> Option<T> {
     let mut found = None;
     location.for_each_route(&mut |route| found = found.take().or_else(|| select(route)));

@@ -17,22 +17,22 @@ const fn is_bits(table: RegisterTable) -> bool {
 }
 
 impl Device {
-    /// Returns the device with these maximum numbers of registers in one read or write request. The standard values are
-    /// 125 and 123.
+    /// Returns the device with these maximum numbers of registers in a read request and a write request. The limits of
+    /// the Modbus specification are 125 and 123.
     #[must_use]
     pub fn with_modbus_limits(mut self, read: u16, write: u16) -> Self {
         self.limits = Limits { read, write };
         self
     }
 
-    /// Handles functions 3 and 4: reads `count` registers of [`Holding`](RegisterTable::Holding) or
-    /// [`Input`](RegisterTable::Input). They may belong to several items.
+    /// Handles the functions 3 and 4: reads `count` registers of [`Holding`](RegisterTable::Holding) or
+    /// [`Input`](RegisterTable::Input). The registers may belong to several items.
     ///
     /// # Errors
     ///
-    /// - [`Exception::IllegalDataAddress`] if a register belongs to no readable item.
+    /// - [`Exception::IllegalDataAddress`] if a register doesn't belong to a readable item.
     /// - [`Exception::IllegalDataValue`] if `count` is 0 or too high.
-    /// - [`Exception::IllegalFunction`] if the table contains bits.
+    /// - [`Exception::IllegalFunction`] if the table contains coils or discrete inputs.
     pub fn read_words(&mut self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<u16>, Exception> {
         if is_bits(table) {
             return Err(Exception::IllegalFunction);
@@ -40,18 +40,18 @@ impl Device {
         self.request(table, address, count).map_err(Exception::of_fault)
     }
 
-    /// Handles functions 6 and 16: writes holding registers. They may belong to several items. Bits of read-only items
-    /// don't change.
+    /// Handles the functions 6 and 16: writes holding registers. The registers may belong to several items. Bits of
+    /// read-only items don't change.
     ///
     /// # Errors
     ///
-    /// - [`Exception::IllegalDataAddress`] if a register belongs to no writable item.
-    /// - [`Exception::IllegalDataValue`] if the number of registers is 0 or too high, or an item would be outside its
-    ///   limits.
+    /// - [`Exception::IllegalDataAddress`] if a register doesn't belong to a writable item.
+    /// - [`Exception::IllegalDataValue`] if the number of registers is 0 or too high, or if an item would be outside
+    ///   its limits.
     /// - [`Exception::IllegalFunction`] if the table isn't [`Holding`](RegisterTable::Holding).
-    /// - The error of a reaction.
+    /// - The exception for the abort code of a reaction.
     ///
-    /// Nothing is written in these cases.
+    /// In all of these cases, nothing is written.
     pub fn write_words(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), Exception> {
         if table != RegisterTable::Holding {
             return Err(Exception::IllegalFunction);
@@ -59,12 +59,12 @@ impl Device {
         self.command_cells(table, address, words).map_err(Exception::of_fault)
     }
 
-    /// Handles functions 1 and 2: reads `count` bits of [`Coil`](RegisterTable::Coil) or
+    /// Handles the functions 1 and 2: reads `count` bits of [`Coil`](RegisterTable::Coil) or
     /// [`DiscreteInput`](RegisterTable::DiscreteInput).
     ///
     /// # Errors
     ///
-    /// The errors of [`read_words`](Self::read_words).
+    /// Returns the errors of [`read_words`](Self::read_words).
     pub fn read_bits(&mut self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<bool>, Exception> {
         if !is_bits(table) {
             return Err(Exception::IllegalFunction);
@@ -73,11 +73,11 @@ impl Device {
         Ok(words.into_iter().map(|word| word != 0).collect())
     }
 
-    /// Handles functions 5 and 15: writes coils.
+    /// Handles the functions 5 and 15: writes coils.
     ///
     /// # Errors
     ///
-    /// The errors of [`write_words`](Self::write_words).
+    /// Returns the errors of [`write_words`](Self::write_words).
     pub fn write_bits(&mut self, table: RegisterTable, address: u16, bits: &[bool]) -> Result<(), Exception> {
         if table != RegisterTable::Coil {
             return Err(Exception::IllegalFunction);
@@ -98,7 +98,8 @@ impl Device {
         Ok(words.len().div_ceil(8))
     }
 
-    /// Handles a write access of a client. Reads the register first if the value is a part of it, as real clients do.
+    /// Handles a write access of a client. If the value is part of a register, the register is read first, as real
+    /// clients do.
     pub(super) fn write_register(&mut self, register: Register, data: &[u8]) -> Result<(), Error<Fault>> {
         let Register { table, address, count, .. } = register;
         if matches!(table, RegisterTable::Input | RegisterTable::DiscreteInput) {
@@ -139,7 +140,7 @@ impl Device {
         Ok(words.ok_or(Exception::IllegalDataAddress)?)
     }
 
-    /// Writes registers. Restores all of them if the write fails.
+    /// Writes registers. If the write fails, all registers are restored.
     fn command_cells(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), Fault> {
         self.take_fault()?;
         self.check_count(table, words.len(), |limits| limits.write)?;
@@ -177,7 +178,7 @@ impl Device {
             let slot = self.slots.get(*at);
             let Some(value) = self.cells.value(&slot.entry).filter(|_| is_writable(&slot.entry)) else { continue };
             let is_part = slot.entry.register.is_some_and(|register| register.part.is_some());
-            // Other parts of the register are written too, but haven't changed.
+            // The write also contains the other parts of the register, whose values haven't changed.
             if !is_part || value != slot.value {
                 values::check_range(&slot.entry, &value).map_err(Exception::of_abort)?;
                 reacting.push(*at);

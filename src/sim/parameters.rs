@@ -1,4 +1,4 @@
-//! Checks of writes to PDO parameters (CiA 301 7.5.2.35 to 7.5.2.38).
+//! Checks of client writes to PDO parameters (CiA 301 7.5.2.35 to 7.5.2.38).
 
 use super::device::{Device, Network};
 use super::values;
@@ -29,11 +29,11 @@ fn require(condition: bool, code: AbortCode) -> Result<(), AbortCode> {
 }
 
 impl Device {
-    /// Checks a write by a client. Objects that aren't PDO parameters pass.
+    /// Checks a write by a client. Writes to other objects than PDO parameters are accepted.
     pub(super) fn check_pdo_parameter(&self, network: Network, object: Object, data: &[u8]) -> Result<(), AbortCode> {
         let value = from_bytes(data);
         match object.index {
-            // EtherCAT doesn't use these parameters. It has sync managers.
+            // EtherCAT has sync managers instead of communication parameters.
             0x1400..=0x15FF | 0x1800..=0x19FF if network == Network::CanOpen => self.check_communication(object, value),
             0x1600..=0x17FF | 0x1A00..=0x1BFF => self.check_mapping(network, object, value),
             _ => Ok(()),
@@ -88,7 +88,7 @@ impl Device {
     fn check_mapped(&self, network: Network, index: u16, entry: MappedEntry) -> Result<u32, AbortCode> {
         let is_received = index < 0x1800;
         let is_gap = match network {
-            // Data types are dummy entries: placeholders for unused bits.
+            // Data types serve as dummy entries, which are placeholders for unused bits.
             Network::CanOpen => entry.word() == 0 || is_received && matches!(entry.index, 1..=0x1F),
             Network::EtherCat => entry.index == 0,
         };

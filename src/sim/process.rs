@@ -29,28 +29,28 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// [`AbortCode::NO_OBJECT`] if the mapping doesn't exist.
+    /// Returns [`AbortCode::NO_OBJECT`] if the mapping doesn't exist.
     pub fn mapping(&self, index: u16) -> Result<Vec<MappedEntry>, AbortCode> {
         let words = self.listed(index)?;
         Ok(words.into_iter().map(|word| MappedEntry::from_word(word as u32)).collect())
     }
 
-    /// Returns the entries of an object whose sub-index 0 is their number.
+    /// Returns the entries of an object. Sub-index 0 contains the number of entries.
     fn listed(&self, index: u16) -> Result<Vec<u64>, AbortCode> {
         let count = self.slots.number(index, 0).ok_or(AbortCode::NO_OBJECT)?;
         let count = u8::try_from(count).map_err(|_| AbortCode::NO_SUB_INDEX)?;
         (1..=count).map(|sub| self.slots.number(index, sub).ok_or(AbortCode::NO_SUB_INDEX)).collect()
     }
 
-    /// Processes a received PDO with the mapping object `index`, even if the PDO is disabled. Ignores bytes after the
-    /// mapped ones.
+    /// Processes a received PDO with the mapping object `index`, even if the PDO is disabled. Bytes after the mapped
+    /// objects are ignored.
     ///
     /// All values are written before the first reaction is called.
     ///
     /// # Errors
     ///
-    /// [`AbortCode::TOO_SHORT`] if bytes are missing; nothing is written then. Otherwise the abort code of the first
-    /// value that the device refuses; the other values are written.
+    /// Returns [`AbortCode::TOO_SHORT`] if bytes are missing. In this case, nothing is written. Otherwise, the abort
+    /// code of the first value that the device refuses. The other values are written.
     pub fn receive_pdo(&mut self, index: u16, data: &[u8]) -> Result<(), AbortCode> {
         let mapping = self.mapping(index)?;
         self.receive_mapped(&mapping, data)
@@ -60,28 +60,28 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// The errors of [`mapping`](Self::mapping), and the abort code for a mapped object that the device doesn't have.
+    /// Returns the errors of [`mapping`](Self::mapping), or an abort code if the device doesn't have a mapped object.
     pub fn transmit_pdo(&self, index: u16) -> Result<Vec<u8>, AbortCode> {
         self.transmit_mapped(&self.mapping(index)?)
     }
 
-    /// Processes a received process image of an EtherCAT sync manager: the PDOs that `assignment` lists (0x1C12), one
-    /// after the other.
+    /// Processes a received process image of an EtherCAT sync manager. The image consists of the PDOs that the object
+    /// `assignment` lists (0x1C12).
     ///
     /// # Errors
     ///
-    /// The errors of [`receive_pdo`](Self::receive_pdo).
+    /// Returns the errors of [`receive_pdo`](Self::receive_pdo).
     pub fn receive_image(&mut self, assignment: u16, data: &[u8]) -> Result<(), AbortCode> {
         let mapping = self.assigned(assignment)?;
         self.receive_mapped(&mapping, data)
     }
 
-    /// Returns the current process image of an EtherCAT sync manager: the PDOs that `assignment` lists (0x1C13), one
-    /// after the other.
+    /// Returns the current process image of an EtherCAT sync manager. The image consists of the PDOs that the object
+    /// `assignment` lists (0x1C13).
     ///
     /// # Errors
     ///
-    /// The errors of [`transmit_pdo`](Self::transmit_pdo).
+    /// Returns the errors of [`transmit_pdo`](Self::transmit_pdo).
     pub fn transmit_image(&self, assignment: u16) -> Result<Vec<u8>, AbortCode> {
         self.transmit_mapped(&self.assigned(assignment)?)
     }
@@ -91,12 +91,12 @@ impl Device {
         Ok(mappings.collect::<Result<Vec<_>, _>>()?.concat())
     }
 
-    /// Processes received data with these entries, for example of a PDO without a mapping object
+    /// Processes received data with the mapping `mapping`. This method is for a PDO without a mapping object
     /// ([`Pdo::MAPPING`](crate::Pdo::MAPPING)).
     ///
     /// # Errors
     ///
-    /// The errors of [`receive_pdo`](Self::receive_pdo).
+    /// Returns the errors of [`receive_pdo`](Self::receive_pdo).
     pub fn receive_mapped(&mut self, mapping: &[MappedEntry], data: &[u8]) -> Result<(), AbortCode> {
         if data.len() < length(width(mapping)) {
             return Err(AbortCode::TOO_SHORT);
@@ -130,11 +130,11 @@ impl Device {
         Ok((at, self.store(at, bytes)))
     }
 
-    /// Returns the current data for these entries, for example of a PDO without a mapping object.
+    /// Returns the current data with the mapping `mapping`. This method is for a PDO without a mapping object.
     ///
     /// # Errors
     ///
-    /// The abort code for a mapped object that the device doesn't have.
+    /// Returns an abort code if the device doesn't have a mapped object.
     pub fn transmit_mapped(&self, mapping: &[MappedEntry]) -> Result<Vec<u8>, AbortCode> {
         let (mut data, mut bit) = (vec![0; length(width(mapping))], 0);
         for entry in mapping {
@@ -148,7 +148,7 @@ impl Device {
     }
 }
 
-/// Returns whether an entry is a placeholder for unused bits: index 0 or a data type.
+/// Returns whether an entry is a placeholder for unused bits. A placeholder has index 0 or the index of a data type.
 const fn is_gap(entry: MappedEntry) -> bool {
     entry.index <= 0x1F
 }

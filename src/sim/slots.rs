@@ -1,4 +1,4 @@
-//! The items of a simulated device with their values.
+//! The items of a simulated device and their values.
 
 use std::collections::BTreeMap;
 use std::vec::Vec;
@@ -21,13 +21,13 @@ pub(super) struct Slot {
     pub entry: Entry,
     /// Current value, the least significant byte first.
     pub value: Vec<u8>,
-    /// Initial value from the test, which replaces that of the description.
+    /// Initial value that the test has set. This value replaces the initial value in the description.
     pub initial: Option<Vec<u8>>,
-    /// Stored value, which is restored after power-on.
+    /// Stored value, which is restored at power-on.
     pub stored: Option<Vec<u8>>,
 }
 
-/// All items, by position, object or register.
+/// All items, accessible by position, object or register.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Slots {
     list: Vec<Slot>,
@@ -53,7 +53,7 @@ impl Slots {
         self.list.push(Slot { entry, value: Vec::new(), initial: None, stored: None });
     }
 
-    /// Adds the objects of further axes at their addresses. They have no registers.
+    /// Adds the objects of further axes at the addresses of these axes. The added items have no registers.
     pub fn add_axes(&mut self, axes: &Axes) {
         let first: Vec<Entry> = self.list.iter().map(|slot| slot.entry).collect();
         for axis in 2..=axes.count {
@@ -66,8 +66,8 @@ impl Slots {
         }
     }
 
-    /// Resets the items that `which` selects. The first available value is used: the stored value, the initial value of
-    /// the test, or that of the description.
+    /// Resets the items that `which` selects. An item gets its stored value if there is one, otherwise the initial
+    /// value that the test has set, otherwise the initial value in the description.
     pub fn power_on(&mut self, node: NodeId, which: impl Fn(&Entry) -> bool) {
         for at in 0..self.list.len() {
             let Slot { entry, initial, stored, .. } = &self.list[at];
@@ -80,10 +80,11 @@ impl Slots {
         }
     }
 
-    /// Returns the initial value of a sub-index 0 that counts the entries, if the description gives no value. In a
-    /// mapping, only entries with a value in the description count. In other objects, it is the highest sub-index.
+    /// Returns the initial value of a sub-index 0 that contains the number of entries, if the description gives no
+    /// value. In a mapping, only entries with a value in the description count. In other objects, the value is the
+    /// highest sub-index.
     ///
-    /// The error list (CiA 301 7.5.2.4) is empty after power-on. A value in the description is its capacity
+    /// The error list (CiA 301 7.5.2.4) is empty after power-on. A value in the description is the capacity of the list
     /// (`CompactSubObj` of CiA 306).
     fn count(&self, entry: &Entry) -> Option<Vec<u8>> {
         let is_count = |object: &Object| object.sub_index == 0 && entry.data_type == DataType::Unsigned8;

@@ -1,4 +1,5 @@
-//! Objects that execute a command when they are written: store and restore parameters, clear the error list.
+//! Objects that execute a command when a client writes them: store parameters, restore parameters, clear the error
+//! list.
 
 use super::device::Device;
 use super::slots::ERRORS;
@@ -11,8 +12,8 @@ const STORE: u16 = 0x1010;
 /// Index of "restore default parameters" (CiA 301 7.5.2.14).
 const RESTORE: u16 = 0x1011;
 
-/// Returns whether sub-index `group` of 0x1010 or 0x1011 includes an object: 1 all, 2 communication, 3 application,
-/// others manufacturer-specific.
+/// Returns whether sub-index `group` of 0x1010 or 0x1011 includes an object. Sub-index 1 includes all parameters, 2
+/// communication parameters, 3 application parameters. All others include manufacturer-specific parameters.
 fn is_in_group(group: u8, index: u16) -> bool {
     match group {
         1 => true,
@@ -29,7 +30,8 @@ fn can_be_stored(entry: &Entry, group: u8) -> bool {
 }
 
 impl Device {
-    /// Executes a write that is a command. Returns whether it was one; the value of the object doesn't change then.
+    /// Executes a write if it is a command. Returns whether it was a command. A command doesn't change the value of the
+    /// object.
     pub(super) fn command(&mut self, object: Object, data: &[u8]) -> Result<bool, AbortCode> {
         match (object.index, object.sub_index) {
             (STORE, 1..) => self.save(object.sub_index, data)?,
@@ -56,7 +58,7 @@ impl Device {
         Ok(())
     }
 
-    /// The initial values become active at the next power-on.
+    /// Restores the initial values. The initial values become active at the next power-on.
     fn load(&mut self, group: u8, signature: &[u8]) -> Result<(), AbortCode> {
         if signature != b"load" {
             return Err(AbortCode::CANNOT_STORE);

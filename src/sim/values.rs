@@ -28,7 +28,7 @@ fn is_signed(data_type: DataType) -> bool {
     )
 }
 
-/// Extends a value to the length of its type, with its sign if the type is signed.
+/// Extends a value to the length of its type. A value of a signed type is sign-extended.
 pub(super) fn widened(data_type: DataType, mut bytes: Vec<u8>) -> Vec<u8> {
     if let Some(length) = byte_length(data_type) {
         let is_negative = is_signed(data_type) && bytes.last().is_some_and(|last| last >> 7 == 1);
@@ -61,7 +61,7 @@ pub(super) fn check_length(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> 
     }
 }
 
-/// Checks that a value of the right length is within its limits.
+/// Checks that a value is within its limits. The value must have the length of its type.
 pub(super) fn check_range(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
     let Some(bits) = entry.data_type.bits() else { return Ok(()) };
     match entry.data_type {
@@ -73,7 +73,7 @@ pub(super) fn check_range(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
             if is_signed(data_type) {
                 return check_limits(integer(entry.low), integer(entry.high), sign_extend(raw, bits).into());
             }
-            // A 3-bit number, for example, is sent in a whole byte.
+            // For example, a 3-bit number is sent in a whole byte.
             if raw > mask(bits) {
                 return Err(AbortCode::TOO_HIGH);
             }
@@ -117,8 +117,8 @@ fn real(bound: Bound) -> Option<f64> {
     }
 }
 
-/// Returns the initial value after power-on. Without a value in the description, it is empty or the number within the
-/// limits that is nearest to 0.
+/// Returns the initial value after power-on. If the description gives no value, the initial value is empty or the
+/// number within the limits that is nearest to 0.
 pub(super) fn initial(entry: &Entry, node: NodeId) -> Vec<u8> {
     let bytes = match entry.initial {
         RawInitial::Bytes(bytes) => bytes.to_vec(),
@@ -136,7 +136,7 @@ fn nearest_to_zero(entry: &Entry) -> Vec<u8> {
             let low = integer(entry.low).unwrap_or(0).max(0);
             let nearest = integer(entry.high).map_or(low, |high| low.min(high));
             match byte_length(data_type) {
-                // The integer has at most 64 bits.
+                // The integer has at most 64 bits, so the conversion is lossless.
                 Some(_) => (nearest as u64).to_le_bytes().to_vec(),
                 None => vec![],
             }

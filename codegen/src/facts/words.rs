@@ -205,7 +205,8 @@ impl Words<'_> {
     /// Returns a sentence if the access rights are an assumption.
     pub fn access(&self, item: &Item) -> Option<String> {
         let assumed = if item.access.writable() { "read-write" } else { "read-only" };
-        item.is_access_assumed().then(|| format!("Access rights assumed: {assumed}. The manual does not state them."))
+        item.is_access_assumed()
+            .then(|| format!("Access rights assumed: {assumed}. The manual states no access rights."))
     }
 
     /// Returns sentences about storage, side effects and conditions of writing.
@@ -216,35 +217,37 @@ impl Words<'_> {
             sentences.push(format!("Access rights of the slave application (PDI): {}.", access.name()));
         }
         if let Some(effective) = &behaviour.effective {
-            sentences.push(format!("Takes effect at: {}", sentence(&self.escaped(effective))));
+            sentences.push(format!("Effective after: {}", sentence(&self.escaped(effective))));
         }
         for condition in &behaviour.write_when {
-            sentences.push(format!("Can be written only while {}.", self.holds(condition)));
+            sentences.push(format!("The value can be written only while {}.", self.holds(condition)));
         }
         if !behaviour.writable_values.is_empty() {
             sentences.push(format!("Only {} can be written.", self.values(&behaviour.writable_values)));
         }
         if behaviour.self_clearing {
-            sentences.push("The device clears the value automatically.".to_owned());
+            sentences.push("The device resets the value automatically.".to_owned());
         }
         if behaviour.write_once {
-            sentences.push("Can be written only once.".to_owned());
+            sentences.push("The value can be written only once.".to_owned());
         }
         sentences.extend(behaviour.srdo.map(|srdo| match srdo.inverted {
-            Some((index, sub)) => format!("Mappable into SRDOs; inverted data: {}.", address::object(index, sub)),
+            Some((index, sub)) => {
+                format!("Mappable into SRDOs. The inverted data are in {}.", address::object(index, sub))
+            }
             None => "Mappable into SRDOs.".to_owned(),
         }));
         sentences.extend(behaviour.side_effects.iter().map(|effect| sentence(&self.escaped(effect))));
         sentences
     }
 
-    /// Returns the storage: `volatile`, `non-volatile: stored by Save`. Returns `None` if the source does not state it.
+    /// Returns the storage: `volatile`, `non-volatile: stored on the command Save`. Returns `None` if the source does not state it.
     pub fn storage(&self, storage: &Storage) -> Option<String> {
         match storage {
             Storage::Unknown => None,
             Storage::Volatile => Some("volatile".to_owned()),
             Storage::Immediate => Some("non-volatile".to_owned()),
-            Storage::OnCommand(command) => Some(format!("non-volatile: stored by {}", self.name(command))),
+            Storage::OnCommand(command) => Some(format!("non-volatile: stored on the command {}", self.name(command))),
         }
     }
 
@@ -398,13 +401,17 @@ impl Words<'_> {
     pub fn availability(&self, availability: &Availability) -> String {
         let mut sentences = Vec::new();
         if !availability.models.is_empty() {
-            sentences.push(format!("Only on {}.", self.list(&availability.models)));
+            sentences.push(format!("Available only on {}.", self.list(&availability.models)));
         }
         match (&availability.since, &availability.until) {
             (Some(since), Some(until)) => {
-                sentences.push(format!("Since firmware {}, removed in {}.", self.escaped(since), self.escaped(until)));
+                sentences.push(format!(
+                    "Available since firmware {}, removed in firmware {}.",
+                    self.escaped(since),
+                    self.escaped(until)
+                ));
             }
-            (Some(since), None) => sentences.push(format!("Since firmware {}.", self.escaped(since))),
+            (Some(since), None) => sentences.push(format!("Available since firmware {}.", self.escaped(since))),
             (None, Some(until)) => sentences.push(format!("Removed in firmware {}.", self.escaped(until))),
             (None, None) => {}
         }
@@ -413,7 +420,7 @@ impl Words<'_> {
         }
         if !availability.buses.is_empty() {
             let buses: Vec<&str> = availability.buses.iter().map(bus_name).collect();
-            sentences.push(format!("Only on {}.", buses.join(", ")));
+            sentences.push(format!("Available only on {}.", buses.join(", ")));
         }
         if !availability.options.is_empty() {
             sentences.push(format!("Requires {}.", self.list(&availability.options)));
@@ -481,8 +488,8 @@ impl Words<'_> {
         let origin = documentation.text_from.as_deref()?;
         let name = self.escaped(&origin_name(origin));
         Some(match origin {
-            FactOrigin::PrintedName => format!("Description spelled out from {name}."),
-            _ if documentation.text.is_empty() => format!("From {name}."),
+            FactOrigin::PrintedName => format!("Description derived from {name}."),
+            _ if documentation.text.is_empty() => format!("Definition from {name}."),
             _ => format!("Description from {name}."),
         })
     }
@@ -578,7 +585,8 @@ impl Words<'_> {
     /// Returns sentences about the differences on some models or buses.
     pub fn variants(&self, item: &Item, manual: &Manual) -> Vec<String> {
         let is_by_model = item.variants.iter().any(|variant| !variant.models.is_empty());
-        let others = is_by_model.then(|| "Default and range of the row apply to the other models.".to_owned());
+        let others =
+            is_by_model.then(|| "All other models have the default value and the range of this item.".to_owned());
         let of_item = item.documentation.as_deref().and_then(|documentation| documentation.cite.as_ref());
         let sentences = |variant: &ItemVariant| {
             let documentation = variant.documentation.as_deref().filter(|text| text.cite.as_ref() != of_item);

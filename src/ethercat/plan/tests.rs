@@ -22,7 +22,7 @@ fn places(plan: &SlotPlan<8>, manager: u8) -> Vec<(Option<u16>, u16, u32, u32)> 
 fn indices_grow_with_the_slot() {
     let plan = plan();
     assert_eq!(places(&plan, 2), [(Some(0), 0x1600, 0, 12)]);
-    // The coupler's status comes first; the second group is aligned to a byte.
+    // The status of the coupler comes first. The second group is aligned to a byte.
     assert_eq!(
         places(&plan, 3),
         [(None, 0x1AFF, 0, 4), (None, 0x1AF0, 4, 4), (Some(1), 0x1A04, 8, 8), (Some(3), 0x1A0C, 16, 8)]
@@ -100,12 +100,12 @@ fn commands_set_up_modules_and_process_data() {
         (0xF030, 3, &[0, 0, 0, 0]),
         (0xF030, 4, &[1, 0, 0, 0]),
         (0xF030, 0, &[4]),
-        // Initialization commands of the modules, at the indices of their slots.
+        // Initialization commands of the modules, at the indices of the modules' slots.
         (0x8010, 2, &[0x0A, 0]),
         (0x8030, 2, &[0x0A, 0]),
         (0x1C12, 0, &[0]),
         (0x1C13, 0, &[0]),
-        // The padding in front of the second group.
+        // The writes of the padding in front of the second group.
         (0x1AF0, 0, &[0]),
         (0x1AF0, 1, &[4, 0, 0, 0]),
         (0x1AF0, 0, &[1]),

@@ -1,4 +1,4 @@
-//! Parameter access over a record client.
+//! Parameter access through a record client.
 
 use super::error::ParameterError;
 use super::format::ParameterValue;
@@ -7,7 +7,7 @@ use super::response::Response;
 use crate::error::Error;
 use crate::profinet::record_client::{AsyncRecordClient, RecordAddress, RecordClient, SubmoduleAddress};
 
-/// Index of the record for parameters of the axis that the submodule belongs to.
+/// Index of the record for parameters of the axis to which the submodule belongs.
 pub const LOCAL: u16 = 0xB02E;
 
 /// Index of the record for parameters of any axis.
@@ -16,25 +16,27 @@ pub const GLOBAL: u16 = 0xB02F;
 /// Application process identifier (API) of PROFIdrive.
 pub const API: u32 = 0x3A00;
 
-/// Maximum length in bytes of requests and responses in [`ParameterAccess`] calls for one parameter: the length of
-/// the parameter channel that every drive supports.
+/// Maximum length in bytes of a request or a response in [`ParameterAccess`] calls for one parameter. Every drive
+/// supports a parameter channel of this length.
 pub const BLOCK_LEN: usize = 240;
 
-/// Default for the number of attempts to read a response.
+/// Default number of attempts to read a response.
 const POLLS: u32 = 200;
 
-/// Reads and changes drive parameters through a submodule with a parameter record. The methods that end in `_async`
-/// don't block.
+/// Reads and changes drive parameters through a submodule that has a parameter record. The methods with the suffix
+/// `_async` don't block.
 ///
-/// A call writes a request, then reads the response until the drive has one. It reads again if the record is empty or
-/// if the client reports that the device is busy ([`RecordClient::is_busy`]), with [`RecordClient::pause`] in
-/// between. [`with_polls`](Self::with_polls) limits the number of attempts. A drive processes one request at a time.
+/// A call writes a request and reads the record until the drive provides the response. The call reads again if the
+/// record is empty or if the client reports that the device is busy ([`RecordClient::is_busy`]). Between two reads, it
+/// calls [`RecordClient::pause`]. [`with_polls`](Self::with_polls) limits the number of reads. A drive processes only
+/// one request at a time.
 ///
 /// # Errors
 ///
-/// - The errors of the client. Also the last error of a busy device, if there is no response after the last attempt.
+/// - The errors of the client, including the last error of a busy device if there is no response after the last
+///   attempt.
 /// - [`Error::Timeout`] if the record is still empty after the last attempt.
-/// - [`Error::ParameterAccess`] if the drive refuses the request or its response is invalid.
+/// - [`Error::ParameterAccess`] if the drive refuses the request, or if the response is invalid.
 /// - [`Error::Length`] if a request or a response is too short or exceeds the buffer.
 #[derive(Clone, Debug)]
 pub struct ParameterAccess<C> {
@@ -45,18 +47,19 @@ pub struct ParameterAccess<C> {
 }
 
 impl<C> ParameterAccess<C> {
-    /// Uses the record [`LOCAL`] of a submodule that belongs to the PROFIdrive application process. In most drives,
-    /// the slot is that of the axis and the subslot is 1.
+    /// Creates an access through the record [`LOCAL`] of a submodule. The submodule must belong to the PROFIdrive
+    /// application process. In most drives, the slot is that of the axis, and the subslot is 1.
     pub const fn new(client: C, slot: u16, subslot: u16) -> Self {
         Self::with_record(client, SubmoduleAddress::new(API, slot, subslot).record(LOCAL))
     }
 
-    /// Uses another record: [`GLOBAL`], a vendor-specific one, or one with another API.
+    /// Creates an access through any other record, such as [`GLOBAL`], a vendor-specific record, or a record with
+    /// another API.
     pub const fn with_record(client: C, record: RecordAddress) -> Self {
         Self { client, record, polls: POLLS, reference: 0 }
     }
 
-    /// Sets the number of attempts to read a response. 0 counts as 1.
+    /// Returns the access with this number of attempts to read a response. 0 counts as 1.
     #[must_use]
     pub fn with_polls(self, polls: u32) -> Self {
         Self { polls, ..self }
@@ -72,7 +75,7 @@ impl<C> ParameterAccess<C> {
         self.client
     }
 
-    /// Returns the reference for the next request. It cycles through 1 to 255.
+    /// Returns the reference for the next request. References count from 1 to 255, and then restart at 1.
     pub fn next_reference(&mut self) -> u8 {
         self.reference = self.reference.checked_add(1).unwrap_or(1);
         self.reference
@@ -114,7 +117,7 @@ fn elements<T: ParameterValue>(values: &[T]) -> Result<u8, ParameterError> {
     u8::try_from(values.len()).ok().filter(|count| *count > 0).ok_or(ParameterError::Values(T::FORMAT))
 }
 
-/// Copies the values of a response with one parameter.
+/// Copies the values of a response with one parameter to `to`.
 fn copy<T: ParameterValue>(response: &Response<'_>, to: &mut [T]) -> Result<(), ParameterError> {
     let values = response.values()?;
     for (place, to) in to.iter_mut().enumerate() {
@@ -123,7 +126,8 @@ fn copy<T: ParameterValue>(response: &Response<'_>, to: &mut [T]) -> Result<(), 
     Ok(())
 }
 
-/// Evaluates an attempt to read a response: its length, or the error to return if this was the last attempt.
+/// Evaluates an attempt to read a response. Returns the length of the response, or the error to return if this was the
+/// last attempt.
 fn response_length<E>(
     outcome: Result<usize, Error<E>>,
     is_busy: impl FnOnce(&E) -> bool,
@@ -148,7 +152,7 @@ macro_rules! calls {
         $($async:ident $await:ident)?
     ) => {
         impl<C: $RecordClient> ParameterAccess<C> {
-            /// Reads one value of a parameter of `axis`. For a parameter that isn't an array, `subindex` is 0.
+            /// Reads one value of a parameter of `axis`. If the parameter isn't an array, pass `subindex` 0.
             pub $($async)? fn $read<T: ParameterValue>(
                 &mut self,
                 axis: u8,
@@ -160,7 +164,7 @@ macro_rules! calls {
                 Ok(self.$request(request, &mut response)$(.$await)??.values()?.get(0)?)
             }
 
-            /// Reads array elements from `subindex` on until `values` is full.
+            /// Reads elements of an array, from `subindex` on. The length of `values` is the number of elements.
             pub $($async)? fn $read_array<T: ParameterValue>(
                 &mut self,
                 axis: u8,
@@ -185,7 +189,7 @@ macro_rules! calls {
                 self.$write_array(axis, pnu, subindex, &[value])$(.$await)?
             }
 
-            /// Changes array elements from `subindex` on.
+            /// Changes elements of an array, from `subindex` on.
             pub $($async)? fn $write_array<T: ParameterValue + Copy>(
                 &mut self,
                 axis: u8,
@@ -200,8 +204,8 @@ macro_rules! calls {
             }
 
             /// Sends a request and returns the response, which borrows `buffer`. Create the request with
-            /// [`read_request`] or [`change_request`] and the [next reference](Self::next_reference). Refusals are
-            /// part of the response.
+            /// [`read_request`] or [`change_request`] and the [next reference](Self::next_reference). If the drive
+            /// refuses a parameter, the response contains the refusal.
             pub $($async)? fn $request<'b>(
                 &mut self,
                 request: &[u8],

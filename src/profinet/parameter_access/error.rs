@@ -10,13 +10,13 @@ use crate::value_error::LengthError;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ParameterError {
-    /// The drive refused a parameter.
+    /// The drive refused to read or change a parameter.
     Refused(Refusal),
-    /// The number of parameters isn't between 1 and [`MAX_PARAMETERS`](super::MAX_PARAMETERS).
+    /// The number of parameters isn't in the range 1 to [`MAX_PARAMETERS`](super::MAX_PARAMETERS).
     Count(usize),
-    /// The bytes of a change aren't 1 to 255 values of their format.
+    /// The bytes of a change are not 1 to 255 values of this format.
     Values(Format),
-    /// The request has the reference 0 or fewer than four bytes.
+    /// The request has the reference 0, or it has fewer than four bytes.
     NoRequest,
     /// The response belongs to another request.
     OtherReference {
@@ -25,8 +25,8 @@ pub enum ParameterError {
         /// Reference of the response.
         actual: u8,
     },
-    /// The response ID doesn't match the request ID. A read request expects 0x01 or 0x81, a change request 0x02 or
-    /// 0x82.
+    /// The response ID doesn't match the request ID. The response to a read request has the ID 0x01 or 0x81. The
+    /// response to a change request has the ID 0x02 or 0x82.
     ResponseId(u8),
     /// The response is for another axis.
     OtherAxis {
@@ -35,29 +35,29 @@ pub enum ParameterError {
         /// Axis of the response.
         actual: u8,
     },
-    /// The response has more parameters than the request, or fewer without a refusal.
+    /// The response has more parameters than the request, or it has fewer parameters but no refusal.
     ParameterCount {
         /// Number of parameters in the request.
         expected: u8,
         /// Number of parameters in the response.
         actual: u8,
     },
-    /// A value has another format than requested, or one of unknown length.
+    /// A value has another format than requested, or a format of unknown length.
     Format(Format),
-    /// The response doesn't contain the value.
+    /// The response doesn't contain the requested value.
     NoValue,
     /// A request or response is too short.
     Length(LengthError),
 }
 
-/// The drive's reason for refusing a parameter.
+/// The drive's reason for the refusal of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Refusal {
-    /// Position of the parameter in the request, from 0.
+    /// Position of the parameter in the request, starting at 0.
     pub parameter: u8,
     /// Error number.
     pub number: ErrorNumber,
-    /// Second error value, if the drive sends one. For many error numbers, it is the first affected subindex.
+    /// Second error value, if the drive sends one. For many error numbers, this is the first affected subindex.
     pub information: Option<u16>,
 }
 
@@ -87,7 +87,7 @@ impl fmt::Display for ParameterError {
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Most requests have one parameter, whose position needs no mention.
+        // Most requests have only one parameter, so its position isn't printed.
         match self.parameter {
             0 => f.write_str("the drive refused: ")?,
             place => write!(f, "the drive refused the parameter at position {place} of the request: ")?,
@@ -109,7 +109,7 @@ impl From<LengthError> for ParameterError {
     }
 }
 
-/// The error number of a refusal. Numbers up to 0x64 are defined by PROFIdrive, higher ones by the vendor.
+/// The error number of a refusal. PROFIdrive defines the numbers up to 0x64. Vendors define higher numbers.
 ///
 /// ```
 /// use lexibus::profinet::parameter_access::ErrorNumber;
@@ -128,7 +128,7 @@ macro_rules! numbers {
                 pub const $name: Self = Self($number);
             )*
 
-            /// Returns the meaning of the number; `None` if PROFIdrive doesn't define it.
+            /// Returns the meaning of the error number. Returns `None` if PROFIdrive doesn't define the number.
             #[must_use]
             pub const fn text(self) -> Option<&'static str> {
                 match self.0 {

@@ -4,7 +4,8 @@ use core::fmt;
 
 use crate::value_error::LengthError;
 
-/// The format of a parameter value: the number of a data type of IEC 61158 or PROFIdrive, or of a mere length.
+/// The format of a parameter value. A format is the number of a data type of IEC 61158 or PROFIdrive, or of a type that
+/// only defines a length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Format(pub u8);
 
@@ -16,7 +17,7 @@ macro_rules! formats {
                 pub const $name: Self = Self($number);
             )*
 
-            /// Returns the name; `None` for an unknown format.
+            /// Returns the name of the format. Returns `None` for an unknown format.
             #[must_use]
             pub const fn name(self) -> Option<&'static str> {
                 match self.0 {
@@ -25,8 +26,8 @@ macro_rules! formats {
                 }
             }
 
-            /// Returns the length of a value in bytes; `None` if it is unknown. For strings, a value is one
-            /// character.
+            /// Returns the length of a value in bytes. Returns `None` if the length is unknown. For strings, a value is
+            /// one character.
             #[must_use]
             pub const fn size(self) -> Option<usize> {
                 match self.0 {
@@ -79,29 +80,29 @@ impl fmt::Display for Format {
     }
 }
 
-/// A Rust type for parameter values. A newtype can delegate to its inner type.
+/// A Rust type for parameter values. A newtype can delegate this trait to its inner type.
 pub trait ParameterValue: Sized {
-    /// Format for writing.
+    /// Format in which values are written.
     const FORMAT: Format;
 
-    /// Big-endian bytes of a value.
+    /// Type of the big-endian bytes of a value.
     type Bytes: AsRef<[u8]>;
 
     /// Returns whether the type can read values of this format.
     ///
-    /// A type can read its own format, formats of the same length and signedness, and formats that only define a
+    /// A type can read its own format, formats of the same length and signedness, and formats that define only a
     /// length.
     #[must_use]
     fn reads(format: Format) -> bool;
 
-    /// Returns the big-endian bytes.
+    /// Returns the big-endian bytes of the value.
     fn to_bytes(self) -> Self::Bytes;
 
     /// Decodes a value from big-endian bytes.
     ///
     /// # Errors
     ///
-    /// [`LengthError`] if the number of bytes isn't the length of the value.
+    /// Returns [`LengthError`] if the number of bytes differs from the length of the value.
     fn from_bytes(bytes: &[u8]) -> Result<Self, LengthError>;
 }
 
@@ -140,7 +141,7 @@ values! {
     f64 8: FLOAT64;
 }
 
-/// One byte. Writes 0 or 1; reads all values except 0 as `true`.
+/// One byte. The values 0 and 1 are written. Every value except 0 is read as `true`.
 impl ParameterValue for bool {
     const FORMAT: Format = Format::BOOLEAN;
     type Bytes = [u8; 1];

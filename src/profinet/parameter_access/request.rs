@@ -11,50 +11,50 @@ pub const MAX_PARAMETERS: usize = 39;
 pub(super) const READ: u8 = 0x01;
 /// Request ID of a change request.
 pub(super) const CHANGE: u8 = 0x02;
-/// Length of the header of requests and responses: reference, ID, axis, number of parameters.
+/// Length of the header of requests and responses: reference, ID, axis, and number of parameters.
 pub(super) const HEADER_LEN: usize = 4;
 /// Length of a parameter address.
 const ADDRESS_LEN: usize = 6;
 
-/// The attribute of a parameter that is read or changed.
+/// The attribute of a parameter that a request reads or changes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Attribute {
-    /// The value.
+    /// The value of the parameter.
     #[default]
     Value = 0x10,
-    /// The parameter description.
+    /// The description of the parameter.
     Description = 0x20,
-    /// The texts.
+    /// The texts of the parameter.
     Text = 0x30,
 }
 
-/// The elements of a parameter that are read or changed.
+/// The elements of a parameter that a request reads or changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ParameterAddress {
-    /// Attribute.
+    /// Attribute of the parameter.
     pub attribute: Attribute,
     /// Number of elements.
     pub elements: u8,
     /// Parameter number (PNU).
     pub pnu: u16,
-    /// Subindex of the first element; 0 for a parameter that isn't an array.
+    /// Subindex of the first element; 0 if the parameter isn't an array.
     pub subindex: u16,
 }
 
 impl ParameterAddress {
-    /// Creates the address of one value.
+    /// Creates the address of a single value.
     #[must_use]
     pub const fn value(pnu: u16, subindex: u16) -> Self {
         Self::values(pnu, subindex, 1)
     }
 
-    /// Creates the address of several array elements, from `subindex` on.
+    /// Creates the address of several elements of an array, from `subindex` on.
     #[must_use]
     pub const fn values(pnu: u16, subindex: u16, elements: u8) -> Self {
         Self { attribute: Attribute::Value, elements, pnu, subindex }
     }
 
-    /// Changes the attribute.
+    /// Returns the same address with another attribute.
     #[must_use]
     pub const fn of(self, attribute: Attribute) -> Self {
         Self { attribute, ..self }
@@ -80,16 +80,17 @@ pub struct Change<'v> {
 }
 
 impl<'v> Change<'v> {
-    /// Creates a change of `address` to `values`.
+    /// Creates a change of the elements at `address` to `values`.
     #[must_use]
     pub const fn new(address: ParameterAddress, format: Format, values: &'v [u8]) -> Self {
         Self { address, format, values }
     }
 }
 
-/// Encodes a request that reads `parameters` of `axis` (the drive object number, DO-ID) into `buffer` and returns it.
+/// Encodes a request that reads `parameters` into `buffer` and returns the request. `axis` is the drive object number
+/// (DO-ID).
 ///
-/// The response contains the same `reference`.
+/// The drive copies `reference` to the response.
 ///
 /// # Errors
 ///
@@ -108,8 +109,8 @@ pub fn read_request<'b>(
     to.finish()
 }
 
-/// Encodes a request that makes `changes` to parameters of `axis` (the drive object number, DO-ID) into `buffer` and
-/// returns it.
+/// Encodes a request that makes `changes` to parameters into `buffer` and returns the request. `axis` is the drive
+/// object number (DO-ID).
 ///
 /// # Errors
 ///
@@ -132,7 +133,7 @@ pub fn change_request<'b>(
     to.finish()
 }
 
-/// A writer that keeps counting after the end of the buffer.
+/// A writer that continues to count bytes after the end of the buffer.
 struct Writer<'b> {
     buffer: &'b mut [u8],
     length: usize,

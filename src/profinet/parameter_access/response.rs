@@ -6,13 +6,13 @@ use super::request::{CHANGE, HEADER_LEN};
 use crate::profinet::be;
 use crate::value_error::LengthError;
 
-/// Bit of the response ID that is set if the drive refused at least one parameter.
+/// Bit of the response ID. The bit is set if the drive refused at least one parameter.
 const NEGATIVE: u8 = 0x80;
 
-/// A decoded response. Its structure has been checked.
+/// A decoded response with a valid structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Response<'r> {
-    /// Number of parameters.
+    /// Number of parameters in the response.
     count: u8,
     is_negative: bool,
     parameters: &'r [u8],
@@ -21,7 +21,7 @@ pub struct Response<'r> {
 /// The drive's answer for one parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer<'r> {
-    /// The parameter has been changed or has no values.
+    /// The drive has changed the parameter, or the parameter has no values.
     Done,
     /// The values of the parameter.
     Values(Values<'r>),
@@ -34,24 +34,25 @@ pub enum Answer<'r> {
 pub struct Values<'r> {
     /// Format of the values.
     pub format: Format,
-    /// Number of values; for strings, the number of characters.
+    /// Number of values. For strings, this is the number of characters.
     pub count: u8,
     /// Encoded values.
     pub bytes: &'r [u8],
 }
 
 impl<'r> Response<'r> {
-    /// Decodes the response to `request` at the start of `data`. Bytes after it are ignored.
+    /// Decodes the response to `request` at the start of `data`. Bytes after the response are ignored.
     ///
-    /// If a response would become too long, a drive refuses one parameter and omits the following ones. A response
-    /// with too few parameters is an error only if none is refused.
+    /// If a response would become too long, the drive refuses one parameter and omits all following parameters.
+    /// Therefore, a response with too few parameters is an error only if it contains no refusal.
     ///
     /// # Errors
     ///
     /// - [`ParameterError::OtherReference`], [`ParameterError::OtherAxis`], [`ParameterError::ResponseId`] or
     ///   [`ParameterError::ParameterCount`] if the response doesn't belong to the request.
-    /// - [`ParameterError::Length`] if it is incomplete.
-    /// - [`ParameterError::Format`] if a parameter other than the last one has a format of unknown length.
+    /// - [`ParameterError::Length`] if the response is incomplete.
+    /// - [`ParameterError::Format`] if a parameter has a format of unknown length. Only the last parameter may have
+    ///   such a format.
     /// - [`ParameterError::NoValue`] if a refusal has no error number.
     pub fn decode(request: &[u8], data: &'r [u8]) -> Result<Self, ParameterError> {
         let [own_reference, own_id, own_axis, own_count] =
@@ -70,7 +71,7 @@ impl<'r> Response<'r> {
         if count > own_count || count == 0 || (count < own_count && !is_negative) {
             return Err(ParameterError::ParameterCount { expected: own_count, actual: count });
         }
-        // The response to a successful change consists of the header only.
+        // The response to a successful change consists only of the header.
         let is_bare = id == CHANGE;
         let parameters = if is_bare { &[] } else { data.get(HEADER_LEN..).unwrap_or_default() };
         let response = Self { count, is_negative, parameters };
@@ -85,7 +86,7 @@ impl<'r> Response<'r> {
         let mut rest = self.parameters;
         for left in (0..self.count).rev() {
             let (values, behind) = Values::split(rest).map_err(|missing| {
-                // `missing` counts from the end of the response.
+                // `missing` is the number of bytes that are missing at the end of the response.
                 LengthError::new(length + missing, length)
             })?;
             if values.format.size().is_none() && left > 0 {
@@ -130,7 +131,8 @@ impl<'r> Response<'r> {
     ///
     /// # Errors
     ///
-    /// [`ParameterError::Refused`] if the drive refused it, [`ParameterError::NoValue`] if there are none.
+    /// Returns [`ParameterError::Refused`] if the drive refused the parameter, or [`ParameterError::NoValue`] if it has
+    /// no values.
     pub fn values(&self) -> Result<Values<'r>, ParameterError> {
         match self.answers().next() {
             Some(Answer::Values(values)) => Ok(values),
@@ -143,11 +145,11 @@ impl<'r> Response<'r> {
     ///
     /// # Errors
     ///
-    /// [`ParameterError::Refused`] with the first refusal.
+    /// Returns [`ParameterError::Refused`] with the first refusal.
     pub fn done(&self) -> Result<(), ParameterError> {
         match self.refusal() {
             Some(refusal) => Err(ParameterError::Refused(refusal)),
-            // The response reports a refusal but doesn't contain it.
+            // The response ID reports a refusal, but no parameter is refused.
             None if self.is_negative => Err(ParameterError::NoValue),
             None => Ok(()),
         }
@@ -155,23 +157,24 @@ impl<'r> Response<'r> {
 }
 
 impl<'r> Values<'r> {
-    /// Splits the first values off `data`. If they are incomplete, returns the number of missing bytes as an error.
+    /// Splits the first values off `data`. If the values are incomplete, returns the number of missing bytes as an
+    /// error.
     fn split(data: &'r [u8]) -> Result<(Self, &'r [u8]), usize> {
         let Some((&[format, count], rest)) = data.split_first_chunk() else { return Err(2 - data.len()) };
         let format = Format(format);
         let length = format.size().map_or(rest.len(), |size| size * usize::from(count));
         let (bytes, rest) = rest.split_at_checked(length).ok_or_else(|| length - rest.len())?;
-        // An odd length is followed by a padding byte, which may be missing at the end of a response.
+        // Values with an odd length are followed by a padding byte. This byte may be missing at the end of a response.
         let rest = rest.get(length % 2..).unwrap_or_default();
         Ok((Self { format, count, bytes }, rest))
     }
 
-    /// Returns the value at position `place`, from 0.
+    /// Returns the value at position `place`, starting at 0.
     ///
     /// # Errors
     ///
-    /// [`ParameterError::Format`] if `T` can't read the format, [`ParameterError::NoValue`] if there are too few
-    /// values.
+    /// Returns [`ParameterError::Format`] if `T` can't read the format, or [`ParameterError::NoValue`] if there are too
+    /// few values.
     pub fn get<T: ParameterValue>(&self, place: usize) -> Result<T, ParameterError> {
         if !T::reads(self.format) {
             return Err(ParameterError::Format(self.format));
@@ -181,7 +184,7 @@ impl<'r> Values<'r> {
         Ok(T::from_bytes(value)?)
     }
 
-    /// Converts the values to the answer for the parameter at this position in the request.
+    /// Converts the values to an answer. `parameter` is the position of the parameter in the request.
     fn answer(self, parameter: u8) -> Answer<'r> {
         match self.format {
             Format::ZERO => Answer::Done,

@@ -34,7 +34,7 @@ fn requests_that_change_have_all_addresses_first() {
         &[0x10, 1, 0x01, 0x23, 0x00, 0x04],
         &[0x10, 3, 0x00, 0x02, 0x00, 0x00],
         &[0x06, 1, 0x05, 0xDC],
-        // Three values and a padding byte.
+        // Three values, followed by a padding byte.
         &[0x01, 3, 1, 0, 1, 0],
     ];
     assert_eq!(change(&changes), request.concat());
@@ -79,8 +79,8 @@ fn requests_that_there_are_not() {
     assert_eq!(error.to_string(), "the bytes are not 1 to 255 values of format 11 (unknown)");
 }
 
-/// The response to a request for three parameters: a double word, a string of five characters, and a refusal with a
-/// subindex.
+/// The response to a request for three parameters. The response contains a double word, a string of five characters,
+/// and a refusal with a subindex.
 const MIXED: [u8; 26] = [
     7, 0x81, 2, 3, 0x43, 1, 0x12, 0x34, 0x56, 0x78, 0x09, 5, b'm', b'o', b't', b'o', b'r', 0, 0x44, 2, 0x00, 0x03,
     0x00, 0x09, 0xEE, 0xEE,
@@ -111,13 +111,13 @@ fn changes_that_were_made_and_not() {
     let request = change(&[Change::new(ONE, Format::WORD, &value); 2]);
     let made = Response::decode(&request, &[7, 0x02, 2, 2]).unwrap();
     assert_eq!((made.done(), made.answers().count()), (Ok(()), 2));
-    // The first parameter is changed, the second exceeds a limit.
+    // The drive changed the first parameter. The second value exceeds a limit.
     let half = [7, 0x82, 2, 2, 0x40, 0, 0x44, 1, 0x00, 0x02];
     let half = Response::decode(&request, &half).unwrap();
     let refusal = Refusal { parameter: 1, number: ErrorNumber::LIMITS, information: None };
     assert_eq!(half.answers().collect::<Vec<_>>(), [Answer::Done, Answer::Refused(refusal)]);
     assert_eq!(half.done(), Err(ParameterError::Refused(refusal)));
-    // A refusal without parameter and reason.
+    // A refusal without a parameter and without an error number.
     let silent = Response::decode(&request, &[7, 0x82, 2, 1, 0x40, 0]).unwrap();
     assert_eq!(silent.done(), Err(ParameterError::NoValue));
     assert_eq!(Response::decode(&request, &[7, 0x82, 2, 1, 0x44, 0]), Err(ParameterError::NoValue));
@@ -158,7 +158,7 @@ fn responses_to_something_else() {
 
 #[test]
 fn formats_of_unknown_length() {
-    // Twelve bytes of unknown format: they all belong to the last parameter.
+    // Twelve bytes in a format of unknown length. All of these bytes belong to the last parameter.
     let data = [7, 1, 2, 2, 0x42, 1, 0, 9, 12, 2, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12];
     let response = Response::decode(&read(&[ONE, ONE]), &data).unwrap();
     let Some(Answer::Values(time)) = response.answers().nth(1) else { panic!() };

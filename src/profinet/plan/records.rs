@@ -3,7 +3,7 @@
 use super::{Plan, PlanError};
 use crate::profinet::descriptor;
 
-/// A record to write.
+/// A record to write at start-up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordWrite<'r> {
     /// Application process identifier (API).
@@ -18,7 +18,7 @@ pub struct RecordWrite<'r> {
     pub data: &'r [u8],
 }
 
-/// Content that replaces the default content of a record in a plan.
+/// New content for a record in a plan. This content replaces the default content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Replacement<'r> {
     /// Slot.
@@ -39,7 +39,7 @@ impl<'r> Replacement<'r> {
     }
 }
 
-/// An iterator over start-up records in the order of transfer: by slot, subslot, and transfer sequence.
+/// An iterator over the start-up records in the order of their transfer: by slot, by subslot, and by transfer sequence.
 #[derive(Clone, Debug)]
 pub struct Records<'r, const N: usize> {
     plan: Plan<N>,
@@ -55,11 +55,12 @@ impl<const N: usize> Plan<N> {
         Records { plan: *self, replacements: &[], entry: 0, record: 0 }
     }
 
-    /// Returns the start-up records with some of them replaced.
+    /// Returns the start-up records. `replacements` replace the default content of some records.
     ///
     /// # Errors
     ///
-    /// [`PlanError::NoSuchRecord`] if the plan has no such record, [`PlanError::RecordLength`] if the lengths differ.
+    /// Returns [`PlanError::NoSuchRecord`] if the plan has no such record, or [`PlanError::RecordLength`] if the
+    /// lengths differ.
     pub fn records_with<'r>(&self, replacements: &'r [Replacement<'r>]) -> Result<Records<'r, N>, PlanError> {
         for replacement in replacements {
             let submodule = self.submodule(replacement.slot, replacement.subslot).ok_or(PlanError::NoSuchRecord)?;

@@ -20,18 +20,18 @@ const EVENT: u64 = 254;
 /// Maximum transmission type of synchronous PDOs.
 const SYNCHRONOUS: u64 = 240;
 
-/// Error codes of emergency messages for a received PDO that is too short and not processed, or too long (CiA 301
-/// 7.2.7.1).
+/// Error codes of emergency messages for received PDOs (CiA 301 7.2.7.1). A PDO that is too short isn't processed. A
+/// PDO that is too long is processed.
 const TOO_SHORT: u16 = 0x8210;
 const TOO_LONG: u16 = 0x8220;
 /// Error register bits: generic error and communication error.
 const COMMUNICATION_ERROR: u8 = 1 | 1 << 4;
 
-/// PDO state of a node in Operational. The keys are indices of communication parameters.
+/// PDO state of a node in Operational. The maps are keyed by the index of the communication parameters.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pdos {
     sent: BTreeMap<u16, Sent>,
-    /// Received synchronous PDOs that wait for SYNC.
+    /// Received synchronous PDOs that are applied at the next SYNC.
     waiting: BTreeMap<u16, Vec<u8>>,
 }
 
@@ -55,7 +55,7 @@ struct Communication {
 }
 
 impl Communication {
-    /// Returns the parameters, or `None` if the PDO is disabled.
+    /// Returns the communication parameters, or `None` if the PDO is disabled.
     fn of(device: &Device, index: u16) -> Option<Self> {
         let number = |sub| device.slots.number(index, sub);
         let cob_id = number(1).filter(|_| device.is_used(index))?;
@@ -68,14 +68,14 @@ impl Communication {
         })
     }
 
-    /// Returns the parameters of all enabled PDOs.
+    /// Returns the communication parameters of all enabled PDOs.
     fn all(device: &Device, indices: RangeInclusive<u16>) -> Vec<Self> {
         let cob_ids = device.slots.objects(*indices.start(), *indices.end()).filter(|object| object.sub_index == 1);
         cob_ids.filter_map(|object| Self::of(device, object.index)).collect()
     }
 
-    /// Returns the current data of the PDO. Returns `None` if nothing is mapped, or an object that the device doesn't
-    /// have.
+    /// Returns the current data of the PDO. Returns `None` if the mapping is empty or contains an object that the
+    /// device doesn't have.
     fn data(&self, device: &Device) -> Option<Vec<u8>> {
         device.transmit_pdo(self.index + MAPPING).ok().filter(|data| !data.is_empty())
     }
@@ -97,7 +97,7 @@ impl Pdos {
     }
 
     /// Returns the PDOs to send because their data changed or their event timer expired. After the start of the node,
-    /// these are all asynchronous PDOs.
+    /// returns all asynchronous PDOs.
     pub fn changed(&mut self, device: &Device, now: Duration) -> Vec<CanFrame> {
         let events = Communication::all(device, TRANSMITTED).into_iter().filter(|pdo| pdo.kind >= EVENT);
         events.filter_map(|pdo| self.send_event(device, &pdo, now)).collect()
@@ -114,7 +114,7 @@ impl Pdos {
         is_due.then(|| sent.send(pdo.id, data, now))?
     }
 
-    /// Returns the PDOs to send after SYNC: cyclic ones that are due, and acyclic ones whose data changed.
+    /// Returns the PDOs to send after SYNC: the cyclic PDOs that are due, and the acyclic PDOs whose data changed.
     pub fn sampled(&mut self, device: &Device, now: Duration) -> Vec<CanFrame> {
         let synchronous = Communication::all(device, TRANSMITTED).into_iter().filter(|pdo| pdo.kind <= SYNCHRONOUS);
         let frames = synchronous.filter_map(|pdo| {
@@ -130,8 +130,8 @@ impl Pdos {
         frames.collect()
     }
 
-    /// Processes a received PDO; synchronous PDOs wait for SYNC. Returns the mapping object and the abort code of
-    /// values that the device refused.
+    /// Processes a received PDO. A synchronous PDO is applied at the next SYNC. Returns the mapping object and the
+    /// abort code if the device refused a value.
     pub fn receive(&mut self, device: &mut Device, id: u16, data: &[u8]) -> Vec<(u16, AbortCode)> {
         let pdos = Communication::all(device, RECEIVED).into_iter().filter(|pdo| pdo.id == id);
         let mut refused = Vec::new();
@@ -145,7 +145,7 @@ impl Pdos {
         refused
     }
 
-    /// Applies the waiting PDOs after SYNC.
+    /// Applies the received synchronous PDOs after SYNC.
     pub fn actuate(&mut self, device: &mut Device) -> Vec<(u16, AbortCode)> {
         let waiting = core::mem::take(&mut self.waiting);
         waiting.into_iter().filter_map(|(index, data)| take(device, index, &data)).collect()

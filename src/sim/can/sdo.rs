@@ -1,4 +1,4 @@
-//! SDO server of a node (CiA 301 7.2.4), with `canopen-sdo`.
+//! SDO server of a node (CiA 301 7.2.4), based on `canopen-sdo`.
 
 use core::fmt;
 use core::time::Duration;
@@ -64,8 +64,8 @@ impl Channel {
     }
 }
 
-/// Adds the size to an expedited download without size. CiA 301 allows this form, but the server of `canopen-sdo` needs
-/// a size.
+/// Adds the size to an expedited download that doesn't indicate its size. CiA 301 allows such downloads, but the server
+/// of `canopen-sdo` needs the size.
 fn tell_size(device: &Device, data: &mut [u8; 8]) {
     const EXPEDITED: u8 = 0x22;
     const WITH_SIZE: u8 = 0x23;
@@ -80,10 +80,10 @@ fn tell_size(device: &Device, data: &mut [u8; 8]) {
     }
 }
 
-/// The device as object dictionary of the SDO server.
+/// The simulated device as an object dictionary for the SDO server.
 struct Dictionary<'d> {
     device: &'d mut Device,
-    /// Whether a simulated fault loses the reply.
+    /// Whether a simulated fault suppresses the reply.
     is_lost: bool,
 }
 

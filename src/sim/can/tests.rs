@@ -129,7 +129,7 @@ fn pdos_on_change_and_by_timer() {
     assert_eq!(frames(&mut node), []);
     set(&mut node, 0x2000, 0, &[3, 0]);
     assert_eq!(frames(&mut node), [(0x185, [3, 0].to_vec())]);
-    // Inhibit time 10 ms, event timer 50 ms.
+    // The inhibit time is 10 ms, and the event timer is 50 ms.
     set(&mut node, 0x1800, 3, &[100, 0]);
     set(&mut node, 0x1800, 5, &[50, 0]);
     set(&mut node, 0x2000, 0, &[4, 0]);
@@ -196,7 +196,7 @@ fn transfers() {
     assert_eq!(buffer[..5000], long);
     assert_eq!(client.write(number, &[1]), Err(Error::Abort(AbortCode::TOO_SHORT)));
     assert_eq!(client.read(Object::new(0x2005, 0), &mut buffer), Err(Error::Abort(AbortCode::NO_OBJECT)));
-    // An expedited download without size.
+    // An expedited download that doesn't indicate its size.
     send(client.port(), 0x605, &[0x22, 0x00, 0x20, 0, 7, 0, 0xFF, 0xFF]);
     assert_eq!(frames(client.port()).last(), Some(&(0x585, [0x60, 0, 0x20, 0, 0, 0, 0, 0].to_vec())));
     assert_eq!(client.port().device().slots.number(0x2000, 0), Some(7));
@@ -214,7 +214,7 @@ fn lost_answers_and_given_up_transfers() {
     assert_eq!(client.read(object, &mut buffer), Err(Error::Timeout));
     client.port().set_connected(true);
     assert_eq!(client.read(object, &mut buffer), Ok(2));
-    // A download whose segments never arrive.
+    // A download that ends after its first message.
     let node = client.port();
     frames(node);
     send(node, 0x605, &[0x21, 0x01, 0x20, 0, 9, 0, 0, 0]);

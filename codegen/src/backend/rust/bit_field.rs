@@ -162,7 +162,7 @@ pub(super) fn model(
     let mut docs = docs::of_type(context, position);
     for (bits, number) in [(zeros, 0), (ones, 1)] {
         if bits != 0 {
-            docs.extend([String::new(), format!("Bits {} are written as {number}.", hexadecimal(bits))]);
+            docs.extend([String::new(), format!("The reserved bits {} are written as {number}.", hexadecimal(bits))]);
         }
     }
     let views = views.iter().zip(&methods).map(|(view, method)| {
@@ -210,7 +210,7 @@ fn table<'f>(entries: &[&BitFieldEntry], fields: impl Iterator<Item = &'f FieldM
     let reserved = |entry: &&BitFieldEntry| {
         let BitMeaning::Reserved { write } = entry.meaning else { return None };
         let written = match write {
-            Some(one) => format!("Written as {}.", u8::from(one)),
+            Some(one) => format!("The value {} is written.", u8::from(one)),
             None => String::new(),
         };
         entry.when.is_none().then(|| (entry.offset, [span(entry), "reserved".to_owned(), written]))
@@ -233,12 +233,12 @@ fn span(entry: &BitFieldEntry) -> String {
 fn marks(entry: &BitFieldEntry) -> impl Iterator<Item = String> {
     let is_inverted = matches!(entry.meaning, BitMeaning::Flag { inverted: true });
     let trigger = entry.trigger.map(|trigger| match trigger {
-        Trigger::Rising => "Acts on the rising edge.",
-        Trigger::Falling => "Acts on the falling edge.",
-        Trigger::Toggle => "Acts on both edges.",
-        Trigger::SelfClearing => "The device clears the bit.",
+        Trigger::Rising => "The device reacts to the rising edge.",
+        Trigger::Falling => "The device reacts to the falling edge.",
+        Trigger::Toggle => "The device reacts to both edges.",
+        Trigger::SelfClearing => "The device clears the bit automatically.",
     });
-    is_inverted.then_some("Active low: true if the bit is 0.").into_iter().chain(trigger).map(str::to_owned)
+    is_inverted.then_some("Active low: the flag is true if the bit is 0.").into_iter().chain(trigger).map(str::to_owned)
 }
 
 /// Returns the name of a type as the name of a method.

@@ -52,7 +52,8 @@ fn modbus(device: &Device) -> Option<FactModel> {
     };
     let data = Data::fields("rt::modbus::Limits", TABLES.map(table));
     Some(FactModel {
-        docs: "Modbus requests that the device supports, and the registers that can be read together.".to_owned(),
+        docs: "Modbus requests that the device supports, and the registers that one request can read together."
+            .to_owned(),
         code: seq!["pub const MODBUS: rt::modbus::Limits = ", data, ";"],
     })
 }

@@ -56,7 +56,7 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
         }
     }
     if !modules.is_empty() {
-        let heading = "Modules that can be plugged in. Indices that depend on the slot are those of slot 0.";
+        let heading = "Modules that can be plugged in. Slot-dependent indices are given for slot 0.";
         code.module(heading, "modules", |code| {
             let mut definitions = Definitions::new(&options.runtime);
             for ((_, module), name) in modules.iter().zip(&names) {

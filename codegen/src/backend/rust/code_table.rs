@@ -56,11 +56,11 @@ fn model(
     );
     docs::doubts_about(context, SubjectKind::Codes, &table.name, &mut docs);
     if !table.buses.is_empty() {
-        docs.extend([String::new(), format!("On {}.", bus_names(table.buses))]);
+        docs.extend([String::new(), format!("These codes occur on {}.", bus_names(table.buses))]);
     }
     if !table.columns.is_empty() {
         let columns: Vec<String> = table.columns.iter().map(|column| docs::escape(column)).collect();
-        docs.extend([String::new(), format!("Further columns: {}.", columns.join(", "))]);
+        docs.extend([String::new(), format!("Additional columns: {}.", columns.join(", "))]);
     }
     let rows = table.rows.iter().filter_map(|code_row| row(code_row, table.columns.len())).collect();
     let ty = code_type::model(table, manual, options).map(|model| CodeTypeModel { name: type_name, ..model });
@@ -71,7 +71,7 @@ fn model(
     };
     let static_link = link(&name, "static", ty.as_ref().map_or("", |model| model.name.as_str()));
     if let Some(model) = &ty {
-        docs.extend([String::new(), format!("Type of the codes: {}.", link(&model.name, "enum", &name))]);
+        docs.extend([String::new(), format!("The codes have the type {}.", link(&model.name, "enum", &name))]);
     }
     let has_real = table.rows.iter().flat_map(|row| &row.cells).any(|cell| matches!(cell, Value::Real(_)));
     CodeTableModel { name, link: static_link, docs, rows, has_real, ty }

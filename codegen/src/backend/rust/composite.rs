@@ -15,10 +15,10 @@ fn model(context: &Context<'_>, composite: &Composite, name: &str) -> FactModel 
     let link = |item: &ItemRef| context.link(item, DocModule::TOP).unwrap_or_else(|| docs::escape(item));
     let parts: Vec<String> = composite.parts.iter().map(link).collect();
     let mut sentences = vec![docs::sentence(&format!(
-        "{}, split into {} to the base {}",
+        "{}: a number in base {}, with its digits in {}",
         docs::escape(&composite.name),
-        parts.join(", "),
-        composite.base
+        composite.base,
+        parts.join(", ")
     ))];
     if let Some((item, value)) = &composite.sign {
         sentences.push(format!("{} is {value} if the number is negative.", link(item)));

@@ -79,7 +79,7 @@ fn model_item(context: &Context<'_>, object: &ObjectModel, model: &str) -> Optio
     Some(ModelItem {
         name: handle.constant.clone(),
         docs: format!(
-            "{}: {}. Handle for all models: [`objects::{}`].",
+            "{}: {}. The handle for all models is [`objects::{}`].",
             docs::escape(&item.name),
             facts.join(", "),
             handle.constant

@@ -66,14 +66,16 @@ pub(super) fn item(
     if (&widest.low, &widest.high) != (&item.limits.low, &item.limits.high) {
         let physical = Physical::of(item.quantity.as_deref());
         let range = words.range(&widest, physical.as_ref(), &value);
-        paragraphs.push(format!("Writes are checked against the range of all models and buses: {range}."));
+        paragraphs.push(format!(
+            "Generated code checks written values against the widest range of all models and buses: {range}."
+        ));
     }
     if let Some(availability) = &item.availability {
         paragraphs.push(words.availability(availability));
     }
     let place = WORDS.manual_entry(&context.manual, row_of(item), item.documentation.as_deref(), &item.names);
     let chapter = chapter.filter(|chapter| !chapter.trim().is_empty());
-    let chapter = chapter.map(|chapter| format!("Chapter {}", sentence(&escape(chapter))));
+    let chapter = chapter.map(|chapter| format!("Chapter: {}", sentence(&escape(chapter))));
     paragraphs.push(chapter.into_iter().chain(place).collect::<Vec<_>>().join(" "));
     paragraphs.extend(doubts(item.doubts.iter(), &context.manual));
     for paragraph in paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty()) {
@@ -126,7 +128,7 @@ fn elsewhere(binding: &Binding) -> Option<String> {
     match binding {
         Binding::Ascii(name) => Some(format!("Name in the device's ASCII protocol: {}.", escape(name))),
         Binding::EscMemory { address, length } => {
-            Some(format!("Memory of the slave controller: {length} bytes from 0x{address:04X}."))
+            Some(format!("Address in the memory of the slave controller: 0x{address:04X}, {length} bytes."))
         }
         _ => None,
     }

@@ -125,7 +125,8 @@ fn further_facts(value: &EnumValue, context: &Context<'_>) -> Vec<String> {
     sentences.extend(zone(value).map(str::to_owned));
     docs::words(value.documentation.as_deref(), &mut sentences);
     if let Some(condition) = &value.when {
-        sentences.push(format!("Valid only while {}.", docs::holds(condition, context, DocModule::TYPES)));
+        sentences
+            .push(format!("This value is valid only while {}.", docs::holds(condition, context, DocModule::TYPES)));
     }
     if let Some(availability) = &value.availability {
         sentences.push(WORDS.availability(availability));
@@ -136,7 +137,7 @@ fn further_facts(value: &EnumValue, context: &Context<'_>) -> Vec<String> {
 
 fn zone(value: &EnumValue) -> Option<&'static str> {
     Some(match value.zone? {
-        Zone::Reserved => "Reserved: do not use.",
-        Zone::Vendor => "Vendor-specific.",
+        Zone::Reserved => "This value is reserved. Do not use it.",
+        Zone::Vendor => "This value is vendor-specific.",
     })
 }

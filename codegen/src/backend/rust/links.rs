@@ -227,7 +227,7 @@ impl Links {
     pub fn users(&self, position: u32, doc_module: DocModule<'_>) -> String {
         let users = self.users.get(&position).map_or(&[][..], Vec::as_slice);
         let paths = users.iter().filter_map(|id| Some(self.handles.get(id)?.constant.as_str()));
-        sentence("Values of", &paths.collect::<Vec<_>>(), doc_module)
+        sentence("Type of the values of", &paths.collect::<Vec<_>>(), doc_module)
     }
 
     /// Returns the elements that are related to an item, for its accessor: its constant, its type, and the PDOs that
@@ -259,7 +259,7 @@ impl Links {
 
 /// Returns the sentence about the type of an item's values.
 fn values(ty: Option<&str>, doc_module: DocModule<'_>) -> Option<String> {
-    Some(format!("Values: {}.", doc_module.code(&format!("types::{}", ty?))))
+    Some(format!("Type of the value: {}.", doc_module.code(&format!("types::{}", ty?))))
 }
 
 /// Returns whether a client can access the objects. Objects of a slave without CoE that are derived from its PDOs are

@@ -113,7 +113,7 @@ fn model(context: &Context<'_>, named: &NamedPdo<'_>, options: &RustOptions) -> 
 /// Returns the documentation of a PDO.
 fn documentation(context: &Context<'_>, pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
     let mut lines = vec![title(context, pdo)];
-    let mut facts = vec![format!("Mapping 0x{:04X}, {} bits", pdo.mapping_index, pdo.bits())];
+    let mut facts = vec![format!("Mapping object 0x{:04X}, {} bits", pdo.mapping_index, pdo.bits())];
     if let Some(communication) = &pdo.communication {
         facts.extend(communication.cob_id.as_ref().map(|value| format!("COB-ID {}", identifier(value))));
         facts.extend(communication.transmission_type.map(|ty| format!("transmission type {ty}")));
@@ -140,7 +140,7 @@ fn identifier(value: &Value) -> String {
 
 /// Returns the documentation of the view of a PDO.
 fn view_docs(context: &Context<'_>, pdo: &Pdo, name: &str) -> Vec<String> {
-    vec![title(context, pdo), String::new(), format!("Layout: [`pdo::{name}`](super::pdo::{name}).")]
+    vec![title(context, pdo), String::new(), format!("The layout is that of [`pdo::{name}`](super::pdo::{name}).")]
 }
 
 /// Methods of a struct whose names a field may have.
@@ -256,7 +256,7 @@ fn field(context: &Context<'_>, entry: &PdoEntry, name: String, options: &RustOp
         _ => address,
     };
     let location = if object.is_empty() { "an object with an unknown index" } else { object.as_str() };
-    let facts = format!("{location}, {} bits from bit {}.", entry.bits, entry.bit_offset);
+    let facts = format!("{location}, {} bits at bit offset {}.", entry.bits, entry.bit_offset);
     let type_link = match &kind {
         FieldType::Named(name, _) => DocModule::PDO.code(&format!("types::{name}")),
         _ => format!("`{}`", ty.trim_start_matches("rt::")),

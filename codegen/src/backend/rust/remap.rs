@@ -68,7 +68,7 @@ fn model(context: &Context<'_>, device: &Device, pdo: &Pdo, name: String) -> Opt
     Some(RemappableModel {
         title: match is_generated(pdo) {
             true => format!(
-                "{} Default mapping: {}.",
+                "{} The default mapping is {}.",
                 pdo::title(context, pdo),
                 DocModule::OTHER.code(&format!("pdo::{name}"))
             ),

@@ -41,7 +41,7 @@ fn model(context: &Context<'_>, window: &Window) -> WindowModel {
     let kind = if is_write { "rt::WriteWindow" } else { "rt::ReadWindow" };
     WindowModel {
         docs: vec![format!(
-            "On {}: {number} selects an item by its number, and {value} {verb} its value.",
+            "Window on {}: {number} receives the number of an item, and {value} {verb} the value of this item.",
             bus.title()
         )],
         name: window.name.clone(),

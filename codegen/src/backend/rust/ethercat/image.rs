@@ -86,7 +86,7 @@ fn model(kind: &str, sync_manager: u8, inside: &[&Assigned<'_>], pdos: &PdoModel
     let derives = placed.first()?.0.derives.clone();
     Some(ImageModel {
         name: kind.to_owned(),
-        title: format!("{kind}: default data of sync manager {sync_manager}."),
+        title: format!("{kind}: data of sync manager {sync_manager} with the default PDO assignment."),
         sync_manager,
         bits: bit,
         length: bit.div_ceil(8) as usize,

@@ -109,10 +109,10 @@ fn bytes(settings: &EtherCatSettings) -> Vec<(&'static str, &'static str, String
         ("EEPROM", "Content of the EEPROM.", &eeprom.data),
         (
             "EEPROM_CONFIG_DATA",
-            "First words of the EEPROM: configuration of the slave controller.",
+            "Configuration of the slave controller, from the first words of the EEPROM.",
             &eeprom.config_data,
         ),
-        ("EEPROM_BOOT_STRAP", "Mailbox configuration for the bootstrap state in the EEPROM.", &eeprom.boot_strap),
+        ("EEPROM_BOOT_STRAP", "Mailbox configuration for the Bootstrap state, from the EEPROM.", &eeprom.boot_strap),
     ];
     let given = all.into_iter().filter(|(.., bytes)| !bytes.is_empty());
     given.map(|(name, documentation, bytes)| (name, documentation, literal::bytes(bytes))).collect()

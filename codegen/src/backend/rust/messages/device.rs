@@ -94,7 +94,7 @@ fn arguments(fields: &[Field]) -> Vec<String> {
 
 /// Returns the documentation of a method: the lines about the message, and the type that the method sends.
 fn docs(model: &MessageModel, request: &DataModel) -> Vec<String> {
-    let sends = format!("Sends {}.", DocModule::TOP.whole(&format!("messages::{}", request.name)));
+    let sends = format!("Sends the message {}.", DocModule::TOP.whole(&format!("messages::{}", request.name)));
     model.call_docs.iter().cloned().chain([String::new(), sends]).collect()
 }
 

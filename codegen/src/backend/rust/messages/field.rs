@@ -102,14 +102,14 @@ fn field(context: &Context<'_>, step: &Step<'_>, name: String, position: usize, 
         ),
         Step::ValueOnly { space, .. } => plain(
             "&'a [u8]",
-            "The value of the parameter, as it was sent.",
+            "Bytes of the parameter's value, in the byte order of the message.",
             FieldKind::ValueOnly { space: (*space).to_owned() },
         ),
         Step::List { .. } => Field {
             ty_at_top: format!("rt::message::List<'a, messages::{entry}>"),
             ..plain(&format!("rt::message::List<'a, {entry}>"), "Entries of the list.", FieldKind::List)
         },
-        _ => plain("&'a [u8]", "All bytes that follow.", FieldKind::Bytes),
+        _ => plain("&'a [u8]", "All remaining bytes of the message.", FieldKind::Bytes),
     }
 }
 

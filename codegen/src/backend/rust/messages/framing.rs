@@ -34,7 +34,7 @@ pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> 
 
 /// Returns the documentation of the framing.
 pub(super) fn documentation(framing: &Framing, context: &Context<'_>) -> Vec<String> {
-    let mut lines = vec!["Framing of messages: delimiters, escaping and check.".to_owned()];
+    let mut lines = vec!["Framing of messages: delimiters, escape bytes and checksum.".to_owned()];
     docs::described(framing.documentation.as_deref(), &context.manual, &mut lines);
     lines
 }

@@ -286,15 +286,18 @@ impl Maker<'_, '_> {
                 None => docs::escape(name),
             };
             let states: Vec<String> = message.accepted_in.iter().map(|name| state(name)).collect();
-            sentences.push(format!("Accepted in the states: {}.", states.join(", ")));
+            sentences.push(format!("The device accepts the message in these states: {}.", states.join(", ")));
         }
         for condition in &message.accepted_when {
-            sentences.push(format!("Accepted only while {}.", docs::holds(condition, self.context, doc_module)));
+            sentences.push(format!(
+                "The device accepts the message only while {}.",
+                docs::holds(condition, self.context, doc_module)
+            ));
         }
         sentences.extend(message.side_effects.iter().map(|effect| docs::sentence(&docs::escape(effect))));
         sentences.extend(message.after.iter().map(|other| {
             let other = self.context.link(other, doc_module).unwrap_or_else(|| docs::escape(other));
-            format!("Has this meaning after {other}.")
+            format!("The message has this meaning after {other}.")
         }));
         if message.by_default {
             sentences.push("This meaning also applies after power-on.".to_owned());

@@ -97,10 +97,11 @@ fn documentation(
     row: &CommandOutcomes,
     link: &dyn Fn(&str) -> String,
 ) -> Vec<String> {
-    let mut lines = vec![format!("Effect of the command in each state of {}.", docs::escape(&machine.name))];
+    let mut lines =
+        vec![format!("Reaction to the command in each state of the state machine {}.", docs::escape(&machine.name))];
     docs::described(row.documentation.as_deref(), &context.manual, &mut lines);
     let one = |outcome: &Outcome| match outcome {
-        Outcome::Unchanged => "unchanged".to_owned(),
+        Outcome::Unchanged => "state unchanged".to_owned(),
         Outcome::Refused => "refused".to_owned(),
         Outcome::States(to) => to.iter().map(|name| link(name)).collect::<Vec<_>>().join(", "),
     };

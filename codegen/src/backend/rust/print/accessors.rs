@@ -63,13 +63,13 @@ fn methods(code: &mut Code, model: &Model) {
     open!(code, "pub fn client(&mut self) -> &mut C {");
     line!(code, "&mut self.client");
     code.close("}");
-    code.doc("Consumes the driver and returns the client.");
+    code.doc("Returns the client and drops the driver.");
     open!(code, "pub fn into_client(self) -> C {");
     line!(code, "self.client");
     code.close("}");
     if let Some(axes) = &model.axes {
         code.doc(&format!(
-            "Returns the driver of axis `number`{}. The first axis is 1. Shared objects are the same on every axis.",
+            "Returns the driver of axis `number`{}. The first axis is 1. Objects that all axes share have the same address on every axis.",
             axes.models
         ));
         let axis = generic!("rt::Axis", "&mut C");
@@ -86,7 +86,7 @@ fn accessor(code: &mut Code, object: &ObjectModel) {
     let function = call!(seq!["pub fn ", name], "&mut self");
     if object.is_module {
         code.doc(&object.heading);
-        code.doc(&format!("Constants: {}.", object.constants));
+        code.doc(&format!("The constants of these entries are in {}.", object.constants));
         let result = generic!(seq!["objects::", name, "::Accessors"], "'_", "C");
         open!(code, function, " -> ", result, " {");
         open!(code, "objects::", name, "::Accessors {");

@@ -25,8 +25,8 @@ fn methods(code: &mut Code, bits: &BitFieldModel) {
     code.lines(&bits.allow);
     open!(code, "impl ", bits.name, " {");
     code.doc(match bits.initial.as_str() {
-        "0" => "Creates a value with all bits 0.",
-        _ => "Creates a value in which only reserved bits that must be 1 are set.",
+        "0" => "Creates a value in which all bits are 0.",
+        _ => "Creates a value in which all bits are 0, except reserved bits that must be 1.",
     });
     open!(code, "pub const fn new() -> Self {");
     line!(code, "Self(", bits.initial, ")");
@@ -41,7 +41,7 @@ fn methods(code: &mut Code, bits: &BitFieldModel) {
     code.close("}");
     bits.fields.iter().for_each(|field| self::field(code, field));
     for view in &bits.views {
-        code.doc(&format!("Returns the bits that apply {}.", view.title));
+        code.doc(&format!("Returns a view of the bits that are defined {}.", view.title));
         open!(code, call!(seq!["pub const fn ", view.method], "self"), " -> ", view.name, " {");
         line!(code, view.name, "(self.0)");
         code.close("}");
@@ -89,12 +89,12 @@ fn debug(code: &mut Code, name: &str, debug: &DebugModel) {
 }
 
 fn view(code: &mut Code, bits: &BitFieldModel, view: &ViewModel) {
-    code.doc(&format!("View of {} with the bits that apply {}.", links::sibling(&bits.name), view.title));
+    code.doc(&format!("View of {} with the bits that are defined {}.", links::sibling(&bits.name), view.title));
     line!(code, "#[derive(Clone, Copy)]");
     line!(code, "pub struct ", view.name, "(", bits.native, ");");
     code.lines(&view.allow);
     open!(code, "impl ", view.name, " {");
-    code.doc("Returns all bits.");
+    code.doc("Returns the bit field with all bits.");
     open!(code, call!(seq!["pub const fn ", view.back], "self"), " -> ", bits.name, " {");
     line!(code, bits.name, "(self.0)");
     code.close("}");

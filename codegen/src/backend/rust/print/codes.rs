@@ -9,7 +9,7 @@ use crate::backend::rust::reexport::Section;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let tables = &model.code_tables;
-    let heading = "Code tables. `rt::codes::find` looks up a code.";
+    let heading = "Code tables. The function `codes::find` of the runtime returns the row of a code.";
     section::write(code, model, Section::Codes, heading, (!tables.is_empty()).then_some(true), |code| {
         tables.iter().for_each(|table| self::table(code, table));
     });
@@ -31,7 +31,7 @@ pub(in crate::backend::rust) fn table(code: &mut Code, table: &CodeTableModel) {
 }
 
 fn ty(code: &mut Code, table: &CodeTableModel, ty: &CodeTypeModel) {
-    code.doc(&format!("A code of {}.", table.link));
+    code.doc(&format!("Code of the table {}.", table.link));
     code.docs(&ty.table);
     code.lines(&ty.derives);
     open!(code, "pub enum ", ty.name, " {");
@@ -42,7 +42,7 @@ fn ty(code: &mut Code, table: &CodeTableModel, ty: &CodeTypeModel) {
             None => line!(code, variant.name, "(", ty.native, "),"),
         }
     }
-    code.doc("Any other code.");
+    code.doc("A code that is not in the table.");
     line!(code, "Unknown(", ty.native, "),");
     code.close("}");
     conversions(code, table, ty);

@@ -21,14 +21,14 @@ pub(super) fn write(code: &mut Code, model: &Model) {
         line!(code, fact.code);
     }
     if let Some(module) = &model.module {
-        code.doc(&format!("EtherCAT description of {}, for a master.", model.title));
+        code.doc(&format!("EtherCAT description of {} for the master.", model.title));
         line!(code, "pub static MODULE: rt::ethercat::Module = ", module, ";");
     }
     if let Some(ethercat) = &model.ethercat {
         self::ethercat(code, ethercat, &model.title);
     }
     if let Some(axes) = &model.axes {
-        code.doc(&format!("Axes{}, and the addresses of their objects.", axes.models));
+        code.doc(&format!("Number of axes{}, and the rules for the addresses of their objects.", axes.models));
         line!(code, "pub static AXES: rt::Axes = ", axes.constant, ";");
     }
 }
@@ -47,18 +47,18 @@ pub(super) fn identity(code: &mut Code, identity: &IdentityModel, documentation:
 }
 
 fn ethercat(code: &mut Code, ethercat: &EtherCatModel, title: &str) {
-    code.doc(&format!("EtherCAT description of {title}, for a master."));
+    code.doc(&format!("EtherCAT description of {title} for the master."));
     line!(code, "pub static DEVICE: rt::ethercat::Device = ", ethercat.device, ";");
     if let Some(fmmus) = &ethercat.fmmus {
-        code.doc("FMMUs, in the order of the slave controller.");
+        code.doc("FMMUs of the slave controller, in the order of their numbers.");
         line!(code, "pub const FMMUS: &[rt::ethercat::Fmmu] = ", fmmus, ";");
     }
     if let Some(modes) = &ethercat.clock_modes {
-        code.doc("Modes of the distributed clocks. The first one is the default.");
+        code.doc("Operation modes of the distributed clocks. The first mode is the default.");
         line!(code, "pub const CLOCK_MODES: &[rt::ethercat::ClockMode] = ", modes, ";");
     }
     if let Some(startup) = &ethercat.startup {
-        code.doc("Writes that set up the default PDOs, for the state Pre-Operational.");
+        code.doc("Writes that configure the default PDOs. Send them in the state Pre-Operational.");
         line!(code, "pub const STARTUP: &[rt::SdoWrite] = ", startup, ";");
     }
     for (name, title, bytes) in &ethercat.bytes {

@@ -8,7 +8,7 @@ pub(super) fn models(code: &mut Code, models: &[DeviceModel]) {
     if models.is_empty() {
         return;
     }
-    code.doc("Constants of the device's models, and items whose range or initial value differs between them.");
+    code.doc("Constants of the device's models, and items whose range or initial value differs between the models.");
     open!(code, "pub mod models {");
     for model in models {
         code.docs(&model.docs);
@@ -44,9 +44,9 @@ fn items(code: &mut Code, model: &DeviceModel) {
 
 pub(super) fn machine(code: &mut Code, given: Option<&GivenModel>) {
     let Some(given) = given else { return };
-    code.doc("Properties of the machine, and unit conversions that depend on them.");
+    code.doc("Properties of the machine, and unit conversions that depend on these properties.");
     open!(code, "pub mod machine {");
-    code.doc("Properties of a machine that the device does not know.");
+    code.doc("Properties of the machine that are not stored in the device.");
     code.lines(&given.derives);
     open!(code, "pub struct Machine {");
     for number in &given.numbers {

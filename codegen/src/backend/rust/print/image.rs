@@ -10,7 +10,7 @@ const ERROR: &str = "Fails if `data` has fewer bytes than the image.";
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let images = model.ethercat.as_ref().map_or(&[][..], |ethercat| &ethercat.images);
-    let heading = "Default process image: one struct for each sync manager.";
+    let heading = "Process image of the default PDO assignment, with one struct for each sync manager.";
     section::write(code, model, Section::Image, heading, (!images.is_empty()).then_some(true), |code| {
         images.iter().for_each(|image| self::image(code, image));
     });
@@ -35,7 +35,7 @@ fn structure(code: &mut Code, image: &ImageModel) {
     line!(code, "pub const SYNC_MANAGER: u8 = ", image.sync_manager, ";");
     code.doc("Length in bytes.");
     line!(code, "pub const LEN: usize = ", image.length, ";");
-    code.doc("Returns the bytes of the image. Padding is 0.");
+    code.doc("Returns the bytes of the process image. Unmapped bits are 0.");
     line!(code, "#[inline]");
     open!(code, "pub fn pack(&self) -> [u8; ", image.length, "] {");
     line!(code, "let mut data = [0; ", image.length, "];");
@@ -50,7 +50,7 @@ fn structure(code: &mut Code, image: &ImageModel) {
 }
 
 fn unpack(code: &mut Code, image: &ImageModel) {
-    code.docs_with_error("Reads the PDOs of an image. Bytes after it are ignored.", ERROR);
+    code.docs_with_error("Decodes the PDOs of a process image. Bytes after the image are ignored.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "rt::bits::check_length(data, ", image.bits, ")?;");
@@ -68,13 +68,13 @@ fn unpack(code: &mut Code, image: &ImageModel) {
 }
 
 fn view(code: &mut Code, image: &ImageModel) {
-    code.doc(&format!("{} Reads and writes the bytes in place.", image.title));
+    code.doc(&format!("{} This view reads and writes the bytes in place.", image.title));
     open!(code, "pub struct ", image.view_name(), "<B> {");
     line!(code, "data: B,");
     code.close("}");
     code.lines(image.view_allow());
     open!(code, "impl<B: AsRef<[u8]>> ", image.view_name(), "<B> {");
-    code.docs_with_error("Creates a view of the image in `data`.", ERROR);
+    code.docs_with_error("Creates a view of the process image at the start of `data`.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn new(data: B) -> Result<Self, rt::LengthError> {");
     line!(code, "rt::bits::check_length(data.as_ref(), ", image.bits, ")?;");

@@ -8,7 +8,7 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     if model.remappable.is_empty() {
         return;
     }
-    code.doc("PDOs with a mapping that can be changed. `lexibus::pdo!` looks them up here.");
+    code.doc("PDOs with a writable mapping, for use by the macro `lexibus::pdo!`.");
     open!(code, "pub mod remappable {");
     code.use_runtime();
     model.remappable.iter().for_each(|remappable| self::remappable(code, remappable));
@@ -30,7 +30,7 @@ fn remappable(code: &mut Code, remappable: &RemappableModel) {
 
 fn mappable(code: &mut Code, model: &Model) {
     code.doc(
-        "Items that can be mapped into PDOs, by the names of their accessors. `lexibus::pdo!` looks them up here.",
+        "Items that can be mapped into PDOs, for use by the macro `lexibus::pdo!`. Their names are those of the accessors.",
     );
     line!(code, "#[allow(missing_docs, non_camel_case_types)]");
     open!(code, "pub mod mappable {");

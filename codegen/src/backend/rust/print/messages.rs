@@ -47,16 +47,16 @@ fn constants(code: &mut Code, protocol: &ProtocolModel) {
         code.docs(&protocol.framing_docs);
         line!(code, "pub const FRAMING: rt::framing::Delimited = ", framing, ";");
     }
-    code.doc("Maximum length of the data of a message in bytes.");
+    code.doc("Maximum length in bytes of the data of a message.");
     line!(code, "pub const MAX_DATA: usize = ", protocol.max_data, ";");
     code.doc(match protocol.has_station {
-        true => "Messages that read and write parameters, and the station number of the device.",
+        true => "Messages that read and write parameters of the device with this station address.",
         false => "Messages that read and write parameters.",
     });
     code.lines(&protocol.derives);
     if protocol.has_station {
         open!(code, "pub struct Protocol {");
-        code.doc("Station number of the device.");
+        code.doc("Station address of the device.");
         line!(code, "pub station: u32,");
         code.close("}");
     } else {
@@ -260,10 +260,8 @@ fn requests(code: &mut Code, protocol: &ProtocolModel) {
     }
     code.close("}");
     open!(code, "impl", lifetime, " Request", lifetime, " {");
-    code.doc(
-        "Parses the data of a request. Returns the station number of the addressed device and the request, or `None`",
-    );
-    code.doc("if the data is not a request. If several requests have this form, the first one is returned.");
+    code.doc("Decodes a request. Returns the station address of the device and the request, or `None` if the data");
+    code.doc("contain no request. If several requests match the data, the first one is returned.");
     open!(code, "pub fn parse(data: &", borrow, "[u8]) -> Option<(u32, Self)> {");
     line!(code, "let from = rt::message::Reader::new(data);");
     for (name, _) in &protocol.requests {
@@ -327,7 +325,7 @@ fn scales(code: &mut Code, name: &str, lifetime: &str, fields: &[Field]) {
     }
     open!(code, "impl ", name, lifetime, " {");
     for (field, (constant, ty)) in scales {
-        code.doc(&format!("Scale of `{}`.", field.name));
+        code.doc(&format!("Scale of the field `{}`.", field.name));
         let ty = generic!("rt::message::Scale", ty);
         line!(code, "pub const ", constant, ": ", ty, " = ", Stop, "rt::message::Scale::new();");
     }
@@ -341,13 +339,13 @@ pub(super) fn methods(code: &mut Code, model: &Model) {
     open!(code, "impl<X> ", name, "<rt::Parameters<X, messages::Protocol, { messages::MAX_DATA }>> {");
     let (about, parameters, protocol_value) = match protocol.has_station {
         true => (
-            "Creates a driver for the device with this station number.",
+            "Creates a driver for the device with the station address `station`.",
             "exchange: X, station: u32",
             "messages::Protocol { station }",
         ),
         false => ("Creates a driver for the device.", "exchange: X", "messages::Protocol"),
     };
-    code.doc(&format!("{about} `exchange` transfers the data of messages."));
+    code.doc(&format!("{about} The driver sends and receives messages through `exchange`."));
     open!(code, "pub const fn on(", parameters, ") -> Self {");
     line!(code, "Self::new(", call!("rt::Parameters::new", "exchange", protocol_value), ")");
     code.close("}");
@@ -361,7 +359,10 @@ pub(super) fn methods(code: &mut Code, model: &Model) {
         code.close("}");
     }
     if model.selects() {
-        code.doc("Requests that decide the meaning of later ones. `select` sends the request and returns the driver with those.");
+        code.doc(
+            "Requests that determine the meaning of later requests. `select` sends such a request and returns a driver",
+        );
+        code.doc("with the later requests.");
         open!(code, "impl<C> ", name, "<C> {");
         calls(&|call| call.is_selector && call.after.is_none(), code);
         if let Some(default) = &protocol.by_default {
@@ -379,8 +380,10 @@ pub(super) fn methods(code: &mut Code, model: &Model) {
 }
 
 fn after_power_on(code: &mut Code, name: &str, selector: &str) {
-    code.doc("Returns the driver in its state after power-on. Use it only if no request that decides the meaning of others was");
-    code.doc("sent since power-on. No such request can be sent while the returned driver is in use.");
+    code.doc("Returns a driver for a device in its state after power-on. Use this driver only if no request that determines the meaning");
+    code.doc(
+        "of other requests was sent since power-on. No such request can be sent while the returned driver is in use.",
+    );
     let result = generic!(name, "&mut C", seq!["messages::", selector]);
     open!(code, call!("pub fn after_power_on", "&mut self"), " -> ", result, " {");
     open!(code, name, " {");

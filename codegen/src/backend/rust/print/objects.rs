@@ -29,7 +29,9 @@ fn windows(code: &mut Code, windows: &[WindowModel]) {
     if windows.is_empty() {
         return;
     }
-    code.doc("Windows: pairs of an item that selects a value by its number and an item that holds the value.");
+    code.doc(
+        "Windows for indirect access. Each window has an item for the number of a value and an item for the value.",
+    );
     open!(code, "pub mod windows {");
     code.use_runtime();
     for window in windows {

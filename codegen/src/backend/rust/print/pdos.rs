@@ -51,7 +51,7 @@ pub(in crate::backend::rust) fn pdo(code: &mut Code, pdo: &PdoModel) {
 }
 
 fn pack(code: &mut Code, pdo: &PdoModel) {
-    code.doc("Returns the bytes of a frame. Padding is 0.");
+    code.doc("Returns the bytes of the PDO. Unmapped bits are 0.");
     line!(code, "#[inline]");
     open!(code, "pub ", pdo.constant, "fn pack(&self) -> [u8; ", pdo.length, "] {");
     if pdo.word {
@@ -71,7 +71,7 @@ fn pack(code: &mut Code, pdo: &PdoModel) {
 }
 
 fn unpack(code: &mut Code, pdo: &PdoModel) {
-    let about = "Reads the fields of a frame. Bytes after the mapped ones are ignored.";
+    let about = "Decodes the fields of the PDO. Bytes after the mapped objects are ignored.";
     code.docs_with_error(about, "Fails if `data` has fewer bytes than the PDO.");
     line!(code, "#[inline]");
     open!(code, "pub ", pdo.constant, "fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
@@ -94,7 +94,10 @@ fn configuration(code: &mut Code, pdo: &PdoModel) {
         line!(code, "Self::configuration_as(Self::COB_ID.resolve(node_id))");
         code.close("}");
     }
-    code.doc("Returns the writes that configure the PDO with `cob_id`: disable, clear, map, count, timing, enable.");
+    code.doc(
+        "Returns the writes that configure the PDO with `cob_id`. In order, they disable the PDO, clear the mapping,",
+    );
+    code.doc("write the entries and their number, set the timing, and enable the PDO.");
     code.doc("Read-only communication parameters are left out.");
     open!(code, "pub const fn configuration_as(cob_id: u32) -> [rt::SdoWrite; ", count, "] {");
     open!(code, "[");

@@ -69,7 +69,7 @@ fn access_point(code: &mut Code, access_point: &DapModel<'_>) {
     code.close("},");
     line!(code, "max_record_size: ", access_point.max_record_size, ",");
     code.close("};");
-    let documentation = "Identity of the device. The product code is the DeviceID of PROFINET.";
+    let documentation = "Identity of the device. The product code is the PROFINET device ID.";
     identity(code, &access_point.identity, documentation);
 }
 
@@ -77,7 +77,7 @@ fn pluggable(code: &mut Code, module: &ModuleModel<'_>) {
     code.docs(&module.docs);
     open!(code, "pub mod ", module.name, " {");
     code.use_runtime();
-    code.doc("Description of the module, for plans of slots.");
+    code.doc("Description of the module. A slot plan uses this constant.");
     open!(code, "pub static MODULE: rt::profinet::Module = rt::profinet::Module {");
     line!(code, "ident: ", hexadecimal(module.ident, 8), ",");
     line!(code, "name: ", module.title, ",");
@@ -94,7 +94,7 @@ fn submodule(code: &mut Code, submodule: &SubmoduleModel<'_>) {
     if submodule.uses_values {
         line!(code, "use super::super::values;");
     }
-    code.doc("Description of the submodule, for modules and plans of slots.");
+    code.doc("Description of the submodule. Modules and slot plans use this constant.");
     open!(code, "pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {");
     line!(code, "ident: ", hexadecimal(submodule.ident, 8), ",");
     line!(code, "api: ", hexadecimal(submodule.api, 4), ",");

@@ -6,7 +6,7 @@ use crate::backend::rust::table::EntryModel;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let Some(table) = &model.table else { return };
-    code.doc("All items. Registers that are not objects come first, sorted by address. Objects follow, sorted by index and sub-index.");
+    code.doc("All items of the device. Items that are only registers come first, sorted by address. Objects follow, sorted by index and sub-index.");
     if let Some(feature) = &model.table_feature {
         line!(code, "#[cfg(feature = ", feature, ")]");
     }

@@ -31,13 +31,13 @@ pub(in crate::backend::rust) fn enumeration(code: &mut Code, enumeration: &Enume
         line!(code, variant.name, ",");
     }
     if enumeration.complete.is_none() {
-        code.doc("Any other number.");
+        code.doc("A number without a variant of its own.");
         line!(code, "Unknown(", native, "),");
     }
     code.close("}");
     open!(code, "impl ", name, " {");
     from_raw(code, enumeration);
-    code.doc("Returns the number of the value.");
+    code.doc("Returns the number of the variant.");
     open!(code, "pub const fn raw(self) -> ", native, " {");
     open!(code, "match self {");
     for variant in &enumeration.variants {
@@ -62,8 +62,8 @@ pub(in crate::backend::rust) fn enumeration(code: &mut Code, enumeration: &Enume
 
 fn from_raw(code: &mut Code, enumeration: &EnumerationModel) {
     code.doc(match enumeration.complete {
-        Some(_) => "Returns the value with this number. Higher bits are ignored.",
-        None => "Returns the value with this number.",
+        Some(_) => "Returns the variant for this number. Bits beyond the width of the enumeration are ignored.",
+        None => "Returns the variant for this number.",
     });
     open!(code, "pub const fn from_raw(raw: ", enumeration.native, ") -> Self {");
     match &enumeration.complete {
@@ -118,7 +118,7 @@ fn patterns(code: &mut Code, patterns: &PatternsModel) {
 fn states(code: &mut Code, patterns: &PatternsModel) {
     self::patterns(code, patterns);
     open!(code, "impl ", patterns.name, " {");
-    code.doc("Returns the state with these bits; `None` if no state matches.");
+    code.doc("Returns the state that these bits encode; `None` if no state matches.");
     open!(code, "pub const fn from_raw(raw: ", patterns.native, ") -> Option<Self> {");
     for pattern in &patterns.patterns {
         let masked = if pattern.is_whole { seq![] } else { seq![" & ", pattern.mask] };
@@ -151,14 +151,14 @@ fn commands(code: &mut Code, patterns: &PatternsModel) {
         code.close("}");
     };
     open!(code, "impl ", patterns.name, " {");
-    code.doc("Returns the mask of the bits that the command sets or clears.");
+    code.doc("Returns the mask of all bits that the command sets or clears.");
     arms(code, "mask", &|at| patterns.patterns[at].mask.clone());
     code.doc("Returns the bits that the command sets.");
     arms(code, "value", &|at| patterns.patterns[at].value.clone());
     code.close("}");
     if let Some((bits, method)) = &patterns.bits {
         open!(code, "impl ", bits, " {");
-        code.doc("Returns a copy with the bits of `command`.");
+        code.doc("Returns a copy in which `command` has set and cleared its bits.");
         line!(code, "#[must_use]");
         let command = seq!["command: ", patterns.name];
         open!(code, call!(seq!["pub const fn ", method], "self", command), " -> Self {");

@@ -6,13 +6,13 @@ use crate::backend::rust::model::Model;
 use crate::backend::rust::pdo::PdoModel;
 use crate::backend::rust::reexport::Section;
 
-const ERROR: &str = "Fails if `data` ends before the PDO.";
+const ERROR: &str = "Fails if `data` ends before the end of the PDO.";
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     if !model.has_views {
         return;
     }
-    let heading = "Views that read and write PDOs of a process image in place.";
+    let heading = "Views that read and write the PDOs in a process image in place.";
     section::write(code, model, Section::View, heading, (!model.pdos.is_empty()).then_some(true), |code| {
         model.pdos.iter().for_each(|pdo| view(code, pdo, model.is_one_of_several));
     });
@@ -54,7 +54,7 @@ fn constructors(code: &mut Code, pdo: &PdoModel) {
     open!(code, "pub fn new(data: B) -> Result<Self, rt::LengthError> {");
     line!(code, "Self::at(data, 0)");
     code.close("}");
-    code.docs_with_error("Creates a view of the PDO that starts at this bit of `data`.", ERROR);
+    code.docs_with_error("Creates a view of the PDO that starts at bit offset `bit` of `data`.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn at(data: B, bit: usize) -> Result<Self, rt::LengthError> {");
     line!(code, "rt::bits::check_length(data.as_ref(), bit.saturating_add(", pdo.bits, "))?;");

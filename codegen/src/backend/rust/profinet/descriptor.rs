@@ -75,7 +75,7 @@ fn submodule_docs(
     });
     let too_long = too_long.count();
     if too_long > 0 {
-        let text = format!("{too_long} records with no bytes, or more than 65,535, are left out.");
+        let text = format!("{too_long} records are left out because their length is 0 or exceeds 65,535 bytes.");
         lines.extend([String::new(), text]);
     }
     let images = images.iter().map(|image| (image.name, image.length));

@@ -57,7 +57,7 @@ pub(super) fn model(record: &FParameters) -> FRecordModel {
         index: record.index,
         transfer_sequence: record.transfer_sequence,
         length,
-        docs: vec![format!("F-parameters: record 0x{:04X} of {length} bytes (PROFIsafe).", record.index)],
+        docs: vec![format!("F-parameters (PROFIsafe): record 0x{:04X} of {length} bytes.", record.index)],
         defaults,
         limits,
     }

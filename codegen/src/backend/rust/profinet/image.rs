@@ -72,7 +72,8 @@ pub(super) fn model(
     };
     let image = &data.image;
     let mut docs = vec![format!("{name}: {title}."), String::new()];
-    let consistency = if data.consistent { "consistent as a whole" } else { "consistent item by item" };
+    let consistency =
+        if data.consistent { "all of which are consistent" } else { "with consistency only within each item" };
     let length = super::docs::bytes(image.length);
     docs.push(format!("{length} of user data, {consistency}{}.", trailer(image.overhead)));
     docs.extend(table(&fields, &["pack", "unpack"], |_| String::new()));

@@ -147,7 +147,7 @@ fn constants(fixed: &[Parameter<'_>], bytes: &[u8], values: &Values<'_>) -> Vec<
     let named = named(fixed, &RESERVED_CONSTANTS);
     let constant = |(parameter, name): (&Parameter<'_>, String)| {
         let mut docs = facts(parameter, values);
-        docs.extend([String::new(), "The value cannot be changed.".to_owned()]);
+        docs.extend([String::new(), "The device requires this value.".to_owned()]);
         ConstantModel {
             name: name.to_ascii_uppercase(),
             docs,

@@ -11,13 +11,17 @@ pub(super) fn write(code: &mut Code, file: &FileModel<'_>) {
         line!(code, "use super::values;");
     }
     if !file.errors.is_empty() {
-        code.doc("Channel errors that the description names, by application process (API) and error type.");
+        code.doc(
+            "Channel errors in the device description, sorted by application process identifier (API) and error type.",
+        );
         let (count, errors) = (file.errors.len(), list("[", &file.errors, "]"));
         line!(code, "pub static CHANNEL_ERRORS: [rt::profinet::ChannelError; ", count, "] = ", errors, ";");
         code.doc(
-            "Returns the description of an error type in a submodule with this application process (API); `None` for",
+            "Returns the description of an error type in a submodule with this application process identifier (API).",
         );
-        code.doc("error types that the description does not name, such as those of the standard.");
+        code.doc(
+            "Returns `None` if the device description does not contain the error type, as for errors of the standard.",
+        );
         let function = call!("pub fn channel_error", "api: u32", "error_type: u16");
         open!(code, function, " -> Option<&'static rt::profinet::ChannelError> {");
         line!(code, "rt::profinet::ChannelError::find(&CHANNEL_ERRORS, api, error_type)");
@@ -33,13 +37,13 @@ fn unit(code: &mut Code, unit: &UnitModel) {
     fields(code, &unit.fields);
     code.close("}");
     open!(code, "impl ", unit.name, " {");
-    code.doc("Application process (API) of the structure.");
+    code.doc("Application process identifier (API) of the structure.");
     line!(code, "pub const API: u32 = ", hexadecimal(unit.api, 4), ";");
-    code.doc("Identifier that precedes the structure (UserStructureIdentifier).");
+    code.doc("Identifier of the structure, which precedes its bytes (UserStructureIdentifier).");
     line!(code, "pub const IDENTIFIER: u16 = ", hexadecimal(unit.identifier, 4), ";");
     code.doc("Length in bytes up to the end of the last field.");
     line!(code, "pub const LEN: usize = ", unit.length, ";");
-    let first = "Reads the fields of a structure. Bytes after them are ignored.";
+    let first = "Decodes the fields of a structure. Bytes after the last field are ignored.";
     code.docs_with_error(first, "Fails if `data` has fewer bytes than the structure.");
     open!(code, "pub fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "let data = rt::profinet::be::chunk::<", unit.length, ">(data)?;");

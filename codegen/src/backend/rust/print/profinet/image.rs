@@ -17,7 +17,7 @@ pub(super) fn write(code: &mut Code, image: &ImageModel) {
     code.doc("Length of the user data in bytes.");
     line!(code, "pub const LEN: usize = ", image.length, ";");
     pack(code, image);
-    code.docs_with_error("Reads the fields of the user data. Bytes after them are ignored.", ERROR);
+    code.docs_with_error("Decodes the fields of the user data. Bytes after the user data are ignored.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "let view = ", name, "View::new(data)?;");
@@ -33,7 +33,7 @@ pub(super) fn write(code: &mut Code, image: &ImageModel) {
 }
 
 fn pack(code: &mut Code, image: &ImageModel) {
-    code.doc("Returns the user data. Bits that no field covers are 0.");
+    code.doc("Returns the bytes of the user data. Bits without a field are 0.");
     line!(code, "#[inline]");
     open!(code, "pub fn pack(&self) -> [u8; ", image.length, "] {");
     line!(code, "let mut data = [0; ", image.length, "];");

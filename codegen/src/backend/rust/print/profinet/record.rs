@@ -41,9 +41,9 @@ fn constants(code: &mut Code, record: &RecordModel) {
     line!(code, "pub const INDEX: u16 = ", hexadecimal(record.index, 4), ";");
     code.doc("Length in bytes.");
     line!(code, "pub const LEN: usize = ", record.length, ";");
-    code.doc("Position in the transfer sequence of the submodule's records at start-up; 0 = any.");
+    code.doc("Position among the start-up records of the submodule; 0 means any position.");
     line!(code, "pub const TRANSFER_SEQUENCE: u16 = ", record.transfer_sequence, ";");
-    code.doc("Default bytes.");
+    code.doc("Default content of the record.");
     line!(code, "pub const DEFAULT_BYTES: [u8; ", record.length, "] = *", record.default_bytes, ";");
     code.doc("Default values of the fields.");
     allow_real(code, record);
@@ -57,8 +57,8 @@ fn constants(code: &mut Code, record: &RecordModel) {
 }
 
 fn check(code: &mut Code, record: &RecordModel) {
-    let first = "Checks the fields against the values that the device allows.";
-    code.docs_with_error(first, "Fails if a field has another value.");
+    let first = "Checks that the device allows the values of all fields.";
+    code.docs_with_error(first, "Fails if a field has a value that the device does not allow.");
     allow_real(code, record);
     open!(code, "pub fn check(&self) -> Result<(), rt::profinet::NotAllowed> {");
     code.lines(&record.checks);
@@ -67,7 +67,7 @@ fn check(code: &mut Code, record: &RecordModel) {
 }
 
 fn encode(code: &mut Code, record: &RecordModel) {
-    let first = "Returns the bytes of the record: constants and fields. Bits that neither covers are 0.";
+    let first = "Returns the bytes of the record, which consist of constants and fields. All other bits are 0.";
     code.docs_with_error(first, "Fails if a field has a value that the device does not allow.");
     let function = call!("pub fn encode", "&self");
     open!(code, function, " -> Result<[u8; ", record.length, "], rt::profinet::NotAllowed> {");
@@ -83,7 +83,7 @@ fn encode(code: &mut Code, record: &RecordModel) {
 }
 
 fn decode(code: &mut Code, record: &RecordModel) {
-    let first = "Reads the fields of a record from bytes of the device. Bytes after the record are ignored.";
+    let first = "Decodes the fields of a record. Bytes after the record are ignored.";
     code.docs_with_error(first, "Fails if `data` has fewer bytes than the record.");
     open!(code, "pub fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
     let data = if record.fields.is_empty() { "" } else { "let data = " };

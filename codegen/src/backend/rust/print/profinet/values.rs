@@ -11,11 +11,11 @@ pub(super) fn write(code: &mut Code, enumeration: &Enumeration) {
         code.doc(&variant.docs);
         line!(code, variant.name, ",");
     }
-    code.doc("A number that the description does not list.");
+    code.doc("A number that is not in the device description.");
     line!(code, "Unknown(", enumeration.native, "),");
     code.close("}");
     open!(code, "impl ", enumeration.name, " {");
-    code.doc("Returns the value with this number.");
+    code.doc("Returns the variant for this number.");
     open!(code, "pub const fn from_raw(raw: ", enumeration.native, ") -> Self {");
     open!(code, "match raw {");
     for variant in &enumeration.variants {
@@ -24,7 +24,7 @@ pub(super) fn write(code: &mut Code, enumeration: &Enumeration) {
     line!(code, "_ => Self::Unknown(raw),");
     code.close("}");
     code.close("}");
-    code.doc("Returns the number of the value.");
+    code.doc("Returns the number of the variant.");
     open!(code, "pub const fn raw(self) -> ", enumeration.native, " {");
     open!(code, "match self {");
     for variant in &enumeration.variants {
