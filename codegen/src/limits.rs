@@ -59,7 +59,7 @@ pub const NEAR_LINKED_PAGES: usize = 20;
 /// Maximum number of bytes that references to the text list of a GSDML file copy, for each byte of the file.
 pub const MAX_TEXT_COPIES_PER_BYTE: usize = 8;
 
-/// Number of bytes that references to the text list of a GSDML file can always copy.
+/// Number of bytes that references to the text list of a GSDML file may copy, whatever the size of the file.
 pub const MIN_TEXT_COPIES: usize = 1 << 20;
 
 /// Maximum number of values of a range that a register table uses as a list of single values.

@@ -1,6 +1,7 @@
 //! Shortens, sanitizes and compares texts for messages.
 
 use std::borrow::Cow;
+use std::fmt::Display;
 
 /// Returns the first 64 characters of a text, for messages and keys. Long names with deep nesting would take too much memory.
 pub fn brief(text: &str) -> &str {
@@ -41,6 +42,18 @@ pub fn edit_distance(a: &str, b: &str) -> usize {
     row[row.len() - 1]
 }
 
+/// Returns a count with its noun, in the plural unless the count is 1: `1 byte`, `2 bytes`.
+pub(crate) fn count_of<N: Display + PartialEq + From<u8>>(count: N, noun: &str) -> String {
+    let ending = if count == N::from(1) { "" } else { "s" };
+    format!("{count} {noun}{ending}")
+}
+
+/// Returns a noun with its numbers or ranges, in the plural unless there is only one number: `bit 7`, `bits 2, 4 to 6`.
+pub(crate) fn numbered(noun: &str, numbers: &[String]) -> String {
+    let is_one = matches!(numbers, [only] if !only.contains(' '));
+    format!("{noun}{} {}", if is_one { "" } else { "s" }, numbers.join(", "))
+}
+
 /// Returns the result of `text` for a number of further elements, or an empty text if there are none.
 pub(crate) fn more(count: usize, text: impl FnOnce(usize) -> String) -> String {
     match count {
@@ -76,6 +89,15 @@ pub(crate) fn glob(pattern: &str, text: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn nouns_are_plural_unless_the_count_is_one() {
+        assert_eq!([count_of(0u8, "byte"), count_of(1u64, "PDO")], ["0 bytes", "1 PDO"]);
+        let numbers = ["7", "2 to 3"].map(str::to_owned);
+        assert_eq!(numbered("bit", &numbers[..1]), "bit 7");
+        assert_eq!(numbered("bit", &numbers[1..]), "bits 2 to 3");
+        assert_eq!(numbered("value", &numbers), "values 7, 2 to 3");
+    }
 
     #[test]
     fn patterns() {

@@ -104,16 +104,16 @@ fn scales() {
     for (scale, words) in [
         ("0", "the scale is 0"),
         ("nan", "the scale is NaN"),
-        ("{}", "the rule has no keys"),
+        ("{}", "the scale rule has no keys"),
         ("{ by = \"b\", offset = 1 }", "`offset` and `by` cannot be in one rule"),
         ("{ by = \"b\" }, offset = 1", "`offset` and `by` cannot be in one rule"),
         ("{ exponent = \"b\", factor = 2 }", "`factor` and `exponent` cannot be in one rule"),
         ("{ reciprocal = 2, by = \"b\" }", "`by` and `reciprocal` cannot be in one rule"),
         ("{ fraction = 15 }", "`fraction` needs `of`"),
-        ("{ of = \"base\" }", "`of` is the base value"),
-        ("{ base = 2 }", "`base` is the base of an `exponent`"),
+        ("{ of = \"base\" }", "the rule has `of`, but no `fraction`"),
+        ("{ base = 2 }", "the rule has `base`, but no `exponent`"),
         ("{ exponent = \"b\", base = 3 }", "`base` must be 10 or 2"),
-        ("{ factor = 2, offset = 1 }, offset = 1", "write only one of them"),
+        ("{ factor = 2, offset = 1 }, offset = 1", "`offset` is given both in the scale rule and next to it"),
         ("{ faktor = 2 }", "unknown key `faktor`"),
         ("{ exponent = \"x\" }", "no item has the name `x`"),
         ("{ times = \"x\" }", "no item has the name `x`"),
@@ -372,7 +372,10 @@ fn findings_say_what_and_where() {
         let found = reported(text);
         assert!(found.len() == 1 && found[0].contains(words), "{words}: {found:#?}");
     };
-    one(&rows("w = { reg = 1, type = \"u16\", access = \"ro\", count = 3 }"), "`w` is the name of 3 items");
+    one(
+        &rows("w = { reg = 1, type = \"u16\", access = \"ro\", count = 3 }"),
+        "all 3 items of the row have the name `w`",
+    );
     one(&a(", default = [1, 2]"), "the list has 2 defaults, but the row describes 1 items");
     let by_parameter = a("")
         .replace("modbus = { table = \"holding\" }", "parameter = true")

@@ -131,7 +131,7 @@ fn pdos_of_one_bus_beside_those_of_another() {
     let both = PDOS.replace("buses = [\"ethercat\"]\n", "");
     assert!(reported(&both)[0].starts_with("ESI042"));
     let neither = PDOS.replace("buses = [\"ethercat\"]\nentries", "buses = [\"modbus\"]\nentries");
-    assert_eq!(reported(&neither)[0], "TAB004 PDOs exist on CANopen and EtherCAT only, and this one is on neither");
+    assert_eq!(reported(&neither)[0], "TAB004 the PDO is on neither CANopen nor EtherCAT");
 }
 
 #[test]
@@ -173,7 +173,7 @@ fn numbers_in_several_items() {
         ),
         ("base = 100", "base = 1", "TAB004 `base`, the ratio of a part"),
         (", negative = 2", "", "TAB004 `negative`, the value of `sign`"),
-        ("sign = \"sign\", ", "", "TAB004 `negative` is a value of `sign`"),
+        ("sign = \"sign\", ", "", "TAB004 the composite has `negative`, but no `sign`"),
         ("\"low\"], base = 100", "\"lower\"], base = 100", "TAB005"),
     ] {
         let list = reported(&text.replacen(old, new, 1));

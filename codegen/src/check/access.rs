@@ -20,13 +20,14 @@ pub(super) fn conflicts(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports measured values that cannot be zero.
+/// Reports signed measured values whose lower limit is above zero.
 pub(super) fn readings(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         let Some(low) = positive_limit_of_reading(context.owner, item) else { continue };
         let (name, access) = (brief(&item.name), item.access.name());
-        let message = format!("`{name}` is {access} and signed, and has the lower limit {low}");
-        let help = "remove the limit if the value can be zero, because it is the limit of a setpoint; otherwise use an unsigned type";
+        let message = format!("`{name}` is {access} and signed, but has the lower limit {low}");
+        let help =
+            "remove the limit if it belongs to a setpoint and the value can be zero; otherwise use an unsigned type";
         diagnostics.push(codes::READING_LIMITS.at(access_span(item, item.at.low), message).help(help));
     }
 }

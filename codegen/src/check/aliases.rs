@@ -7,7 +7,7 @@ use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{Device, Item, ItemRef, Quantity, Scale, Shape};
 use crate::source::Span;
-use crate::text::{brief, more};
+use crate::text::{brief, more, numbered};
 
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
@@ -20,7 +20,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
             let message =
                 format!("`{name}` and `{other_name}` are declared as the same value, but differ: {differences}");
             let found = codes::SAME_VALUE_DIFFERS.at(difference_span(item, alias), message);
-            diagnostics.push(found.note_at(other.origin.span, "the other item"));
+            diagnostics.push(found.note_at(other.origin.span, format!("`{}` is defined here", brief(alias))));
         }
     }
 }
@@ -59,14 +59,14 @@ fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
         return found;
     }
     if types.0 != types.1 {
-        found.push(format!("type {} and {}", types.0, types.1));
+        found.push(format!("types {} and {}", types.0, types.1));
     }
     let limits =
         [("lower limit", &one.limits.low, &other.limits.low), ("upper limit", &one.limits.high, &other.limits.high)];
     for (limit, one, other) in limits {
         if let (Some(one), Some(other)) = (one, other) {
             if one.as_real().is_some() && one.as_real() != other.as_real() {
-                found.push(format!("{limit} {one} and {other}"));
+                found.push(format!("{limit}s {one} and {other}"));
             }
         }
     }
@@ -84,7 +84,7 @@ fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
 fn quantities(one: &Quantity, other: &Quantity) -> Vec<String> {
     let mut found = Vec::new();
     if !one.unit.is_empty() && !other.unit.is_empty() && one.unit != other.unit {
-        found.push(format!("the units {} and {}", brief(&one.unit), brief(&other.unit)));
+        found.push(format!("units {} and {}", brief(&one.unit), brief(&other.unit)));
     }
     if one.scale != other.scale {
         let factor = |scale: &Option<Scale>| match scale {
@@ -93,8 +93,8 @@ fn quantities(one: &Quantity, other: &Quantity) -> Vec<String> {
             Some(_) => None,
         };
         found.push(match (factor(&one.scale), factor(&other.scale)) {
-            (Some(one), Some(other)) if one != other => format!("the scales {one} and {other}"),
-            _ => "the scales".to_owned(),
+            (Some(one), Some(other)) if one != other => format!("scale factors {one} and {other}"),
+            _ => "scaling".to_owned(),
         });
     }
     found
@@ -112,8 +112,8 @@ fn names(one: &Shape, other: &Shape) -> Option<String> {
         Some((values, names.values().next()?, others.values().next()?))
     });
     let (values, one, other) = differing.next()?;
-    let more = more(differing.count(), |more| format!(", and {more} more names"));
-    Some(format!("{what} {} is `{}` and `{}`{more}", range(values), brief(one), brief(other)))
+    let more = more(differing.count(), |more| format!(" (and {more} more)"));
+    Some(format!("{what} {} is named `{}` and `{}`{more}", range(values), brief(one), brief(other)))
 }
 
 type Labels<'n> = BTreeMap<(i128, i128), BTreeMap<String, &'n str>>;
@@ -145,12 +145,12 @@ fn labels(shape: &Shape) -> Labels<'_> {
 /// Returns the values or bits that only one of two types names.
 fn meanings(one: &Shape, other: &Shape) -> Option<String> {
     let (what, one, other) = match (one, other) {
-        (Shape::Enumeration { .. }, Shape::Enumeration { .. }) => ("values", named(one), named(other)),
-        (Shape::BitField { .. }, Shape::BitField { .. }) => ("bits", named(one), named(other)),
+        (Shape::Enumeration { .. }, Shape::Enumeration { .. }) => ("value", named(one), named(other)),
+        (Shape::BitField { .. }, Shape::BitField { .. }) => ("bit", named(one), named(other)),
         _ => return Some("one is an enumeration, the other a bit field".to_owned()),
     };
     let only: Vec<String> = one.symmetric_difference(&other).map(range).collect();
-    (!only.is_empty()).then(|| format!("the {what} {} have a meaning in only one of them", only.join(", ")))
+    (!only.is_empty()).then(|| format!("only one of them names {}", numbered(what, &only)))
 }
 
 fn range(range: &(i128, i128)) -> String {
@@ -183,10 +183,10 @@ mod tests {
         assert_eq!(differences(owner, &one, &one), [""; 0]);
         assert_eq!(
             differences(owner, &one, &item(Type::Unsigned(32), 0, 500_000)),
-            ["INTEGER32 and UNSIGNED32", "upper limit 200000 and 500000"]
+            ["types INTEGER32 and UNSIGNED32", "upper limits 200000 and 500000"]
         );
         let half = item(Type::Unsigned(16), 0, 65_535);
         assert_eq!(differences(owner, &half, &one), [""; 0]);
-        assert_eq!(differences(owner, &one, &half)[0], "INTEGER32 and UNSIGNED16");
+        assert_eq!(differences(owner, &one, &half)[0], "types INTEGER32 and UNSIGNED16");
     }
 }

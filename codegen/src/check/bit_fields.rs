@@ -5,7 +5,7 @@ use crate::ir::firmware::apart;
 use crate::ir::owner::{reserved, Owner, TypeUses};
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Type, TypeDef, TypeId, Value};
 use crate::source::Span;
-use crate::text::{brief, more};
+use crate::text::{brief, more, numbered};
 
 /// Maximum width of an enumerated field whose values all need a name.
 const MAX_LISTED_BITS: u8 = 4;
@@ -96,7 +96,7 @@ fn unnamed(
     let named = fields.iter().fold(0, |bits, field| bits | field.mask());
     let missing: Vec<String> = (0..width).filter(|bit| named >> bit & 1 == 0).map(|bit| bit.to_string()).collect();
     if !missing.is_empty() {
-        let message = format!("`{}` does not describe the bits {}", brief(&definition.name), missing.join(", "));
+        let message = format!("`{}` does not describe {}", brief(&definition.name), numbered("bit", &missing));
         diagnostics.push(codes::UNNAMED_BITS.at(definition.origin.span, message));
     }
     fields.iter().for_each(|field| unnamed_values(owner, definition, field, diagnostics));
@@ -111,8 +111,8 @@ fn unnamed_values(owner: Owner<'_>, definition: &TypeDef, field: &BitFieldEntry,
     let missing = (0..1i128 << field.bits).filter(|&value| reserved(values, value).is_none());
     let missing: Vec<String> = missing.map(|value| value.to_string()).collect();
     if !missing.is_empty() {
-        let (name, missing) = (brief(&definition.name), missing.join(", "));
-        let message = format!("{} of `{name}` does not describe the values {missing}", called(field));
+        let (name, missing) = (brief(&definition.name), numbered("value", &missing));
+        let message = format!("`{name}` does not name {missing} of {}", called(field));
         diagnostics.push(codes::UNNAMED_BITS.at(definition.origin.span, message));
     }
 }
@@ -152,7 +152,7 @@ mod tests {
                 "bits 4-0 (`low`) and bits 8-4 (`high`) of `Status` share bits"
             ]
         );
-        assert_eq!(found(vec![field("all but two", 2, 6)]), ["`Status` does not describe the bits 0, 1"]);
+        assert_eq!(found(vec![field("all but two", 2, 6)]), ["`Status` does not describe bits 0, 1"]);
         assert_eq!(field("", 0, 64).mask(), u64::MAX);
         assert_eq!(field("", 63, 1).mask(), 1 << 63);
     }

@@ -52,8 +52,11 @@ fn possible(context: &Context<'_>, condition: &Condition, span: Span, diagnostic
             None => continue,
         };
         let message = format!("the condition `{}` = {value} is never true: {value} {why}", brief(&condition.item));
-        let found = codes::UNNAMED_VALUE.at(span, message).note_at(item.origin.span, "the other item");
-        diagnostics.push(found.help("correct the value, or name it in the other item if the manual does"));
+        let found = codes::UNNAMED_VALUE.at(span, message).note_at(item.origin.span, "the item of the condition");
+        diagnostics
+            .push(found.help(
+                "correct the value in the condition, or name it in the item of the condition if the manual does",
+            ));
     }
 }
 

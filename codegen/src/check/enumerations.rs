@@ -113,6 +113,6 @@ mod tests {
             ["`reserved` (8 to 127) and `csv` (9) of `Mode` have the same value"]
         );
         let beyond = vec![value("back", -1, None), value("far", 256, None)];
-        assert_eq!(found(Type::Unsigned(8), beyond), ["-1 (`back` and 1 more) is outside of UNSIGNED8"]);
+        assert_eq!(found(Type::Unsigned(8), beyond), ["-1 (`back` and 1 more) is outside of the range of UNSIGNED8"]);
     }
 }

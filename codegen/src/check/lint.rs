@@ -14,7 +14,7 @@ pub struct Lint {
     pub codes: &'static [&'static Code],
     /// Formats for which it runs.
     pub formats: &'static [Format],
-    /// Whether it also runs for other formats if the user sets the level of one of its codes.
+    /// Whether the lint also runs for other formats if the user sets the level of one of its codes.
     pub on_request: bool,
     /// Condition on devices. It does not apply to modules and records.
     pub needs: Option<Need>,

@@ -7,6 +7,7 @@ use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{AxisStep, Device, Direction, Entries, Item, Mappable};
 use crate::source::Span;
+use crate::text::count_of;
 
 /// Number of data bits in a CAN frame.
 pub(super) const CAN_BITS: u32 = 64;
@@ -83,8 +84,9 @@ impl Mapped {
         let owner = Owner::of_types(&device.types);
         let bits = owner.definition(item.ty).map_or(item.ty.bits(), |definition| definition.bits);
         let length = bits.filter(|&bits| !is_resolved && bits != self.bits);
-        let length =
-            length.map(|bits| (&codes::MAPPED_LENGTH, format!("is mapped with {} bits, but has {bits}", self.bits)));
+        let length = length.map(|bits| {
+            (&codes::MAPPED_LENGTH, format!("is mapped with {}, but the object has {bits}", count_of(self.bits, "bit")))
+        });
         // Without a stated PDO mapping, the mapping of the manual is allowed.
         let unmappable = !item.mappable.any() && !item.at.mappable.is_empty();
         let unmappable = unmappable.then(|| (&codes::NOT_MAPPABLE, "is mapped, but not mappable".to_owned()));

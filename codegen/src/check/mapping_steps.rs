@@ -53,7 +53,7 @@ impl Mapping<'_> {
             return;
         }
         if let Some(problem) = self.count(index, value) {
-            let message = format!("`{name}` writes {value} as the number of entries of 0x{index:04X}, {problem}");
+            let message = format!("`{name}` writes {value} as the number of entries of 0x{index:04X}, but {problem}");
             diagnostics.push(codes::STEP_IMPOSSIBLE.at(span, message));
         }
         let bits = self.bits(index, value);
@@ -73,10 +73,10 @@ impl Mapping<'_> {
         let entries = self.described.device.object(index).map_or(0, |group| group.items.len().saturating_sub(1));
         let was_cleared = self.cleared.remove(&index);
         if entries > 0 && value > entries as i128 {
-            return Some(format!("which has {entries}"));
+            return Some(format!("the object has only {entries}"));
         }
         let written = self.words.get(&index).map_or(0, BTreeMap::len);
-        (was_cleared && value > written as i128).then(|| format!("but wrote {written} of them"))
+        (was_cleared && value > written as i128).then(|| format!("has written only {written} of these entries"))
     }
 
     /// Returns the length of the first `count` entries in bits. Entries that were not written have their default values.

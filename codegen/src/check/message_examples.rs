@@ -8,7 +8,7 @@ use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::{fixed, reserved, Owner};
 use crate::ir::{BitMeaning, Item, Message, MessageField, MessageValue, Shape, Type};
 use crate::source::Span;
-use crate::text::brief;
+use crate::text::{brief, count_of};
 
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let owner = context.owner;
@@ -30,8 +30,9 @@ fn report(message: &Message, what: &str, frame: &Frame<'_>, span: Span, diagnost
         return;
     }
     for problem in frame.problems() {
-        let found = codes::EXAMPLE_DIFFERS.at(span, format!("`{}`: the {what} {problem}", brief(&message.name)));
-        diagnostics.push(found.help("keep the variant that other frames of the manual confirm, and add a `doubt`"));
+        let found =
+            codes::EXAMPLE_DIFFERS.at(span, format!("the example {what} of `{}` {problem}", brief(&message.name)));
+        diagnostics.push(found.help("keep the bytes that other frames of the manual confirm, and add a `doubt`"));
     }
 }
 
@@ -57,14 +58,19 @@ impl<'a> Frame<'a> {
             let Some(bits) = self.bits(field) else { return problems };
             let last = at + bits;
             if last > self.bytes.len() * 8 {
-                problems.push(format!("has {} bytes, which is shorter than its fields", self.bytes.len()));
+                problems
+                    .push(format!("has {}, which is less than the fields need", count_of(self.bytes.len(), "byte")));
                 return problems;
             }
             problems.extend(self.field(field, at..last));
             at = last;
         }
         if at.div_ceil(8) != self.bytes.len() {
-            problems.push(format!("has {} bytes, but its fields have {}", self.bytes.len(), at.div_ceil(8)));
+            problems.push(format!(
+                "has {}, but the fields need {}",
+                count_of(self.bytes.len(), "byte"),
+                at.div_ceil(8)
+            ));
         }
         problems
     }
@@ -92,13 +98,14 @@ impl<'a> Frame<'a> {
         let problem = match field {
             MessageField::Constant(expected) => {
                 let found = self.bytes.get(range.start / 8..range.end / 8).unwrap_or_default();
-                (found != expected).then(|| format!("has {} instead of {}", hex(found), hex(expected)))
+                (found != expected).then(|| format!("has {} instead of the constant {}", hex(found), hex(expected)))
             }
             MessageField::Value(value) => return self.value(value, number(self.bytes, range, &value.byte_order)),
             MessageField::Echo { field, bytes } => self.echo(field, *bytes, range),
             MessageField::FixedBits { bits, value } => {
                 let found = number(self.bytes, range, &[]);
-                (found != *value).then(|| format!("has {found:#X} in {bits} bits instead of {value:#X}"))
+                (found != *value)
+                    .then(|| format!("has {found:#X} instead of {value:#X} in {}", count_of(*bits, "fixed bit")))
             }
             MessageField::Copy { first, .. } => self.copy(usize::from(*first), range),
             _ => None,
@@ -112,8 +119,13 @@ impl<'a> Frame<'a> {
         let found = self.bytes.get(range.start / 8..range.end / 8).filter(|_| range.start.is_multiple_of(8))?;
         let count = found.len().min(sent.len());
         let (found, sent) = (found.get(..count)?, sent.get(..count)?);
-        (found != sent)
-            .then(|| format!("has {} as copy of the bytes from {first}, but {} was sent", hex(found), hex(sent)))
+        (found != sent).then(|| {
+            format!(
+                "has {} as the copy of the request from byte {first}, but the request has {}",
+                hex(found),
+                hex(sent)
+            )
+        })
     }
 
     fn value(&self, value: &MessageValue, number: u64) -> Vec<String> {
@@ -122,13 +134,13 @@ impl<'a> Frame<'a> {
         let mut problems = Vec::new();
         let signed = signed(self.owner, item, number);
         if let Some(expected) = fixed(item).filter(|&only| signed.is_some_and(|signed| signed != only)) {
-            problems.push(format!("has {number:#X} for `{name}`, which is always {expected:#X}"));
+            problems.push(format!("has {number:#X} in `{name}`, which is always {expected:#X}"));
         } else if let Some(limit) = signed.and_then(|signed| beyond(item, signed)) {
-            problems.push(format!("has {number:#X} for `{name}`, whose {limit}"));
+            problems.push(format!("has {number:#X} in `{name}`, whose {limit}"));
         }
         if let Some(counted) = value.counts.as_ref().and_then(|from| self.counted(from)) {
             if number != counted as u64 {
-                problems.push(format!("has {number} for `{name}`, which should be the length {counted}"));
+                problems.push(format!("has the length {number} in `{name}` instead of {counted}"));
             }
         }
         problems.extend(self.meaning(item.ty, name, number));
@@ -144,7 +156,7 @@ impl<'a> Frame<'a> {
                     Some(true) => Some("is reserved"),
                     Some(false) => None,
                 };
-                problem.map(|why| format!("has {number:#X} for `{name}`, which {why}")).into_iter().collect()
+                problem.map(|why| format!("has {number:#X} in `{name}`, where this value {why}")).into_iter().collect()
             }
             Some(Shape::BitField { fields, .. }) => {
                 let mut problems = Vec::new();
@@ -189,7 +201,8 @@ impl<'a> Frame<'a> {
         let is_whole = [range.start, range.len(), start].iter().all(|bits| bits.is_multiple_of(8));
         let part = |bytes: &'a [u8], start: usize| bytes.get(start / 8..(start + range.len()) / 8);
         let (found, sent) = (part(self.bytes, range.start)?, part(bytes, start).filter(|_| is_whole)?);
-        (found != sent).then(|| format!("has {} for `{}`, but {} was sent", hex(found), brief(field), hex(sent)))
+        (found != sent)
+            .then(|| format!("has {} as the copy of `{}`, but the request has {}", hex(found), brief(field), hex(sent)))
     }
 }
 
@@ -215,7 +228,7 @@ fn number(bytes: &[u8], range: Range<usize>, order: &[u8]) -> u64 {
     })
 }
 
-/// Returns the number with its sign.
+/// Returns a number of the frame as the type of its item reads it: with a sign if the type is signed.
 fn signed(owner: Owner<'_>, item: &Item, number: u64) -> Option<i128> {
     let ty = owner.basic(item.ty);
     let bits = ty.bits().filter(|bits| (1..=64).contains(bits))?;

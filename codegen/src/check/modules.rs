@@ -4,8 +4,9 @@ use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{
     Catalog, Device, Group, GroupKind, IoData, Module, Numbers, ProfinetSettings, Submodule, SubmoduleUse,
 };
+use crate::text::count_of;
 
-/// A limit with the position of its device.
+/// A limit, and the position of the device that sets it.
 type Limit = Option<(u32, usize)>;
 
 /// The minimum of the limits of all devices that accept a module or submodule.
@@ -28,7 +29,7 @@ impl Limits {
         }
     }
 
-    /// Lowers each limit to the other one if that is smaller.
+    /// Lowers each limit to that of `other`, if that of `other` is lower.
     fn narrow(&mut self, other: Limits) {
         let smaller = |one: Limit, other: Limit| [one, other].into_iter().flatten().min();
         *self = Limits {
@@ -88,8 +89,10 @@ fn lengths(module: &Module, limits: Limits, catalog: &Catalog, diagnostics: &mut
     ];
     for (bytes, limit, what) in sums {
         let Some((limit, device)) = limit.filter(|&(limit, _)| bytes > limit) else { continue };
-        let message =
-            format!("the module has {bytes} bytes of {what}, but a device that accepts it has a limit of {limit}");
+        let message = format!(
+            "the module has {} of {what}, but a device that accepts it allows at most {limit}",
+            count_of(bytes, "byte")
+        );
         diagnostics.push(noted(codes::IO_LENGTH.at(module.origin.span, message), catalog.devices.get(device)));
     }
 }
@@ -109,7 +112,7 @@ fn records(submodule: &Submodule, limit: Limit, devices: &[Device], diagnostics:
     };
     for group in submodule.records.iter().filter(|group| length(group) > limit) {
         let message =
-            format!("the record has {} bytes, but a device that has it accepts at most {limit}", length(group));
+            format!("the record has {} bytes, but a device with this record accepts at most {limit}", length(group));
         diagnostics.push(noted(codes::RECORD_SIZE.at(group.origin.span, message), devices.get(device)));
     }
 }
@@ -127,7 +130,9 @@ fn slots(device: &Device, settings: &ProfinetSettings, modules: &[Module], diagn
         let name = modules.get(module.module.0 as usize).map_or("", |module| module.id.as_str());
         let range = if first == last { first.to_string() } else { format!("{first}..{last}") };
         let message = format!("the module `{name}` is for slots {range}, but the device does not have all of them");
-        diagnostics.push(codes::SLOT_RANGE.at(device.origin.span, message).label("PhysicalSlots lists its slots"));
+        diagnostics.push(
+            codes::SLOT_RANGE.at(device.origin.span, message).label("PhysicalSlots lists the slots of the device"),
+        );
     }
 }
 

@@ -31,7 +31,7 @@ struct Check<'a, 'd> {
     diagnostics: &'d mut Diagnostics,
 }
 
-/// A number of an item.
+/// A default value, limit or other integer of an item, with its name in messages.
 #[derive(Clone, Copy)]
 struct Number {
     what: &'static str,
@@ -119,9 +119,10 @@ impl Check<'_, '_> {
         let is_beyond = |value: i128| if is_upper { value > limit } else { value < limit };
         let mut beyond = values.iter().filter(|label| label.is_named() && is_beyond(extreme(label)));
         let Some(first) = beyond.next() else { return };
-        let others = more(beyond.count(), |others| format!(", and so are {others} more"));
-        let side = if is_upper { "above the upper" } else { "below the lower" };
-        let message = format!("`{}` is {}, {side} limit {limit}{others}", brief(&first.name), extreme(first));
+        let others = more(beyond.count(), |others| format!(" and {others} more"));
+        let side = if is_upper { "upper" } else { "lower" };
+        let message =
+            format!("the {side} limit {limit} excludes {} (`{}`){others}", extreme(first), brief(&first.name));
         self.report(&codes::NAME_OUTSIDE_LIMITS, span, message);
     }
 
@@ -272,7 +273,7 @@ mod tests {
         is(found(modes(false), limits(0, 8)), "TAB018", "the upper limit 8 is reserved in `Mode`");
         is(found(modes(false), limits(0, 0x7F)), "TAB018", "the upper limit 127 is reserved in `Mode`");
         let one = found(modes(false), limits(1, 200));
-        is(one, "TAB016", "`off` is 0, below the lower limit 1");
+        is(one, "TAB016", "the lower limit 1 excludes 0 (`off`)");
         let default = |value| move |item: &mut Item| item.default = Some(Value::Int(value));
         assert_eq!(found(modes(false), default(3)), []);
         is(found(modes(true), default(3)), "TAB018", "the default 3 has no name in `Mode`");

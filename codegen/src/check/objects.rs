@@ -17,7 +17,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     mandatory(context.device, diagnostics);
 }
 
-/// Reports the same for rows of a register table. Rows that already failed are skipped, to suppress follow-up diagnostics.
+/// Reports contradictory objects of a register table. Rows that already failed are skipped, to suppress follow-up diagnostics.
 pub(super) fn rows(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let errors = diagnostics.error_spans();
     for (index, group) in described(context) {
@@ -131,9 +131,9 @@ fn sub0_access(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     let entries_writable =
         described_items(group).any(|item| !matches!(sub_of(item), 0 | 0xFF) && item.access.writable());
     let message = match (sub0.access.writable(), entries_writable) {
-        (true, false) if !is_counter(index) => "can be written, but none of its entries",
+        (true, false) if !is_counter(index) => "can be written, but no entry of the object can",
         // Changing a mapping requires writing 0 to sub-index 0 first (CiA 301 7.5.2.36).
-        (false, true) if is_counter(index) && index != 0x1003 => "cannot be written, but its entries can",
+        (false, true) if is_counter(index) && index != 0x1003 => "cannot be written, but the entries of the object can",
         _ => return,
     };
     let span = sub0.at.access.or(sub0.origin.span);

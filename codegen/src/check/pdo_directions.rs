@@ -17,16 +17,16 @@ pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
 
 fn against(entry: &PdoEntry, direction: Direction, item: &Item, diagnostics: &mut Diagnostics) {
     let (is_given, access) = (!item.at.mappable.is_empty(), Mappable::by_access(item.access));
-    let (is_mappable, is_accessible, name) = match direction {
-        Direction::Receive => (item.mappable.rpdo, access.rpdo, "an RxPDO"),
-        Direction::Transmit => (item.mappable.tpdo, access.tpdo, "a TxPDO"),
+    let (is_mappable, is_accessible, name, other) = match direction {
+        Direction::Receive => (item.mappable.rpdo, access.rpdo, "an RxPDO", "a TxPDO"),
+        Direction::Transmit => (item.mappable.tpdo, access.tpdo, "a TxPDO", "an RxPDO"),
     };
     let problem: Option<(&'static Code, String)> = if is_given && !item.mappable.any() {
         Some((&codes::NOT_MAPPABLE, "is mapped, but not mappable".to_owned()))
     } else if is_given && !is_mappable {
         Some((
             &codes::WRONG_DIRECTION,
-            format!("is mapped into {name}, but its PdoMapping allows only the other direction"),
+            format!("is mapped into {name}, but PdoMapping of the object allows only {other}"),
         ))
     } else if !is_accessible && !item.at.access.is_empty() {
         Some((&codes::MAPPED_READ_ONLY, format!("is {} and mapped into {name}", item.access.name())))

@@ -7,6 +7,7 @@ use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Item, Pdo, PdoEntry, PdoEntryKind};
 use crate::resolve::address;
 use crate::source::Span;
+use crate::text::count_of;
 
 /// Reports PDOs that share an index, and entries whose length differs from that of their item.
 pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
@@ -35,9 +36,10 @@ fn duplicate(pdo: &Pdo, first: Span) -> Diagnostic {
 }
 
 fn length(entry: &PdoEntry, item: &Item, bits: u32) -> Diagnostic {
-    let message = format!("{} is mapped with {} bits, but has {bits}", address(entry), entry.bits);
+    let message =
+        format!("{} is mapped with {}, but the object has {bits}", address(entry), count_of(entry.bits, "bit"));
     codes::MAPPED_LENGTH
         .at(entry.origin.span, message)
-        .label("used the length of the entry")
+        .label("the length of the entry is used")
         .note_at(item.origin.span, "the mapped object")
 }

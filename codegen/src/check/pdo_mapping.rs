@@ -8,6 +8,7 @@ use crate::resolve::{
     announced_count, is_dummy, is_multiplexed, mapping_values, MappableItems, MappingValue, MappingWord, PdoObjects,
 };
 use crate::source::Span;
+use crate::text::count_of;
 
 /// Reports PDO mappings that are not possible.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -28,7 +29,7 @@ pub(super) fn lengths(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
         for entry in pdo.entries.iter().filter(|entry| entry.index != 0 && entry.bits > crate::limits::MAX_FIELD_BITS) {
             let message = format!("an entry of the PDO 0x{:04X} has {} bits", pdo.mapping_index, entry.bits);
             diagnostics
-                .push(codes::ENTRY_TOO_LONG.at(entry.origin.span, message).label("generated no struct for the PDO"));
+                .push(codes::ENTRY_TOO_LONG.at(entry.origin.span, message).label("no struct is generated for the PDO"));
         }
     }
 }
@@ -111,7 +112,10 @@ impl Mapping<'_, '_> {
             return;
         }
         let span = mapping.sub(0).map_or(mapping.origin.span, |item| item.at.configured.or(item.at.default));
-        let message = format!("sub-index 0 declares {announced} mapped objects, but {found} entries have a value");
+        let message = format!(
+            "sub-index 0 declares {}, but {found} of the entries have a value",
+            count_of(announced, "mapped object")
+        );
         self.report(&codes::MAPPING_COUNT, span.or(mapping.origin.span), message);
     }
 
@@ -137,7 +141,7 @@ impl Mapping<'_, '_> {
         let granularity = u32::from(self.canopen.granularity.unwrap_or(1).clamp(1, 64));
         // Some tools write 1 for "the mapping can be changed".
         if granularity > 1 && !bits.is_multiple_of(granularity) {
-            let message = format!("{bits} bits are mapped, but the granularity is {granularity} bits");
+            let message = format!("the entry has {}, but the granularity is {granularity}", count_of(bits, "bit"));
             self.report(&codes::GRANULARITY, span, message);
         }
     }
@@ -158,8 +162,10 @@ impl Mapping<'_, '_> {
             self.mapped_report(item, &codes::NOT_MAPPABLE, span, format!("{object} is mapped, but not mappable"));
         }
         if item.access == Access::ReadWrite && item.mappable.rpdo == item.mappable.tpdo {
-            let message =
-                format!("{object} is rw, which does not state that it can be mapped into {}", pdo_name(self.direction));
+            let message = format!(
+                "{object} is rw, which does not state whether it can be mapped into {}",
+                pdo_name(self.direction)
+            );
             self.mapped_report(item, &codes::UNCLEAR_DIRECTION, span, message);
         }
         if let Some(problem) = wrong_direction(item, self.direction) {
@@ -170,11 +176,11 @@ impl Mapping<'_, '_> {
         let ty = if is_of_device { self.context.owner.basic(item.object_type()) } else { item.ty };
         match ty.bits() {
             Some(length) if length != bits => {
-                let message = format!("{object} is mapped with {bits} bits, but {ty} has {length}");
+                let message = format!("{object} is mapped with {}, but {ty} has {length}", count_of(bits, "bit"));
                 self.mapped_report(item, &codes::MAPPED_LENGTH, span, message);
             }
             None if !matches!(item.ty, Type::Opaque(_) | Type::Named(_)) => {
-                let message = format!("{object} is a {} and has no fixed length", item.ty);
+                let message = format!("{object} has the type {}, which has no fixed length", item.ty);
                 self.mapped_report(item, &codes::UNMAPPABLE_TYPE, span, message);
             }
             _ => {}
@@ -213,7 +219,7 @@ impl Mapping<'_, '_> {
             self.report(
                 &codes::PDO_COUNT_1004,
                 span,
-                format!("0x1004 declares {counted} PDOs, but {key} is {announced}"),
+                format!("0x1004 declares {}, but {key} is {announced}", count_of(counted, "PDO")),
             );
         }
     }

@@ -19,7 +19,8 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for procedure in &device.procedures {
         for (step, span) in procedure.spanned() {
             for problem in problems(*owner, device, step) {
-                diagnostics.push(codes::STEP_IMPOSSIBLE.at(span, format!("`{}`: {problem}", brief(&procedure.name))));
+                diagnostics
+                    .push(codes::STEP_IMPOSSIBLE.at(span, format!("a step of `{}` {problem}", brief(&procedure.name))));
             }
         }
         assignments(device, procedure, diagnostics);
@@ -47,7 +48,8 @@ fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
     };
     let outside = |name: &str, mask: u64, value: &Value| {
         let outside = value.as_int().is_some_and(|value| mask != u64::MAX && value & !i128::from(mask) != 0);
-        outside.then(|| format!("`{}` & {mask:#X} can never be {value}", brief(name)))
+        outside
+            .then(|| format!("has the value {value} for `{}` & {mask:#X}, with bits outside of the mask", brief(name)))
     };
     match step {
         Step::Write(name, value) => {
@@ -81,7 +83,7 @@ fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     let signed = ty.bits().filter(|&bits| ty.is_signed() && bits <= 64 && number >> (bits - 1) == 1);
     let number = signed.map_or(number, |bits| number - (1i128 << bits));
     if ty.integer_range().is_some_and(|(low, high)| number < low || number > high) {
-        return Some(format!("which is {ty}"));
+        return Some(format!("whose type is {ty}"));
     }
     let (low, high) = item.limits.integers();
     let are_ordered = low.zip(high).is_none_or(|(low, high)| low <= high);
@@ -119,7 +121,7 @@ fn assignments(device: &Device, procedure: &Procedure, diagnostics: &mut Diagnos
                 if let Some(other) = owner_of_cob_id(device, index, value) {
                     let (cob_id, other) = (format!("{value:#X}"), format!("0x{other:04X}"));
                     let message = format!(
-                        "`{name}` writes the COB-ID {cob_id} to 0x{index:04X}, but it is the COB-ID of {other}"
+                        "`{name}` writes the COB-ID {cob_id} to 0x{index:04X}, but {other} already has this COB-ID"
                     );
                     diagnostics.push(codes::STEP_IMPOSSIBLE.at(span, message));
                 }

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use super::context::{Context, PdoOwner};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{DefaultAssignment, Pdo, ProcessData, SyncManager, MAX_PDO_SUBS};
+use crate::text::count_of;
 
 /// Reports a default PDO assignment that is not possible.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -59,16 +60,17 @@ fn lengths(by_default: &DefaultAssignment, sync_managers: &[SyncManager], diagno
         let number = manager.number;
         let (count, bits) = inside[usize::from(number)];
         if count > MAX_PDO_SUBS {
-            let message = format!(
-                "sync manager {number} has {count} PDOs by default, but an assignment has at most {MAX_PDO_SUBS}"
-            );
+            let message =
+                format!("sync manager {number} has {count} default PDOs, but an assignment has at most {MAX_PDO_SUBS}");
             diagnostics.push(codes::TOO_MANY_PDOS.at(manager.origin.span, message));
         }
         let Some(max) = manager.size_range.1.filter(|&max| max > 0) else { continue };
         let bytes = bits.div_ceil(8);
         if bytes > u64::from(max) {
-            let message =
-                format!("the PDOs of sync manager {number} have {bytes} bytes by default, but its maximum is {max}");
+            let message = format!(
+                "the default PDOs of sync manager {number} have {}, but MaxSize is {max}",
+                count_of(bytes, "byte")
+            );
             diagnostics.push(codes::IMAGE_TOO_LONG.at(manager.origin.span, message));
         }
     }

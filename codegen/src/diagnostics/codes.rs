@@ -439,8 +439,8 @@ codes! {
         names a template: a Pdo with this RefName in Descriptions/Pdos of the same file. Add the index or the \
         template."
     ESI042 DUPLICATE_PDO Lint Warn "two PDOs have the same index"
-        "Some devices offer a PDO on either of two sync managers, and only one of the two can be assigned. Lexibus \
-        keeps both. Correct the index, or allow this code if the device works this way."
+        "Some devices offer a PDO on two sync managers, of which only one can be assigned. Lexibus keeps \
+        both. Correct the index, or allow this code if the device works this way."
     ESI043 UNNAMED_PDO Lint Warn "a PDO has no name"
         "Name is mandatory. Generated code names the PDO by its index. Add the name."
     ESI044 ENTRY_LENGTH Lint Warn "the length of a PDO entry is not that of its data type"
@@ -505,7 +505,7 @@ codes! {
         contain it. Add the text to the list."
     GSD009 MISSING_TRANSLATION Lint Warn "a language lacks texts that the primary language has"
         "Readers of that language see these texts in the primary language, which is English. Add the translations."
-    GSD010 DUPLICATE_ID Repair Warn "something that must be unique occurs twice"
+    GSD010 DUPLICATE_ID Repair Warn "an identifier, text, language or element occurs twice"
         "An ID must be unique among the elements of one kind. Texts and languages must be unique in the text list, and \
         some elements in their parent. The diagnostic says which one Lexibus uses. References lead to the first one. \
         Rename or delete the duplicate."
@@ -661,10 +661,10 @@ codes! {
         and scale. An unknown symbol is often a misspelled name, and then the scale is missing. Lexibus keeps the text \
         as the symbol. Correct the name, or define the unit in `[units]`."
     TAB012 HEX_DIGITS Lint Warn "a hexadecimal number does not have the digits of its type"
-        "A number has more digits than its type (`0x007FFFFFFF` of 32 bits), or zeros up to another length (`0x0000` \
-        of 32 bits). Or an index does not have four digits (`0x20A`) or the prefix `0x`. Usually a digit was doubled \
-        or lost, or the type is wrong. This code also reports the prefix `0X`. Lexibus uses the number. Compare it \
-        with the manual.\n\
+        "A number of 32 bits, for example, has more than 8 digits (`0x007FFFFFFF`), or has leading zeros but fewer \
+        digits (`0x0000`). Or an index does not have four digits (`0x20A`) or the prefix `0x`. Usually a digit was \
+        doubled or lost, or the type is wrong. This code also reports the prefix `0X`. Lexibus uses the number. \
+        Compare it with the manual.\n\
         In an EDS, numbers as long as those of a longer type are reported only if you set a level of this code."
     TAB013 BIT_OUTSIDE_TYPE Lint Warn "a bit is outside of its integer"
         "The bit field names a bit that the integer does not have. Generated code leaves the field out. The type is \
@@ -746,8 +746,8 @@ codes! {
         "0x1C12 and 0x1C13 hold the indices of the assigned PDOs. A default value or a step of a procedure writes the \
         index of a PDO that the table does not have. Describe the PDO, or correct the index."
     TAB035 MAPPED_NOT_ASSIGNED Lint Warn "a procedure maps a PDO and assigns others"
-        "The mapping has no effect, because the procedure assigns other PDOs to the sync manager. Correct one of the \
-        two indices."
+        "The mapping has no effect, because the procedure assigns other PDOs to the sync manager. Correct the \
+        index of the mapped or of the assigned PDO."
     TAB036 UNNAMED_BITS Lint Allow "a bit field does not describe all bits"
         "Some bits are neither named nor reserved, or a narrow field has an unnamed value between named ones. Manuals \
         often omit them, so this lint is off by default. Name or reserve them if the manual does."
@@ -770,7 +770,7 @@ codes! {
         of a name also contains values (`0 = Stop`) or a sentence. Or a bit has the title of a column, such as \
         `Definition`, because a line of the table is shifted. Write only the name, and the rest as `doc`."
     TAB042 EMPTY_LIMIT Lint Warn "the only limit of a row is that of its type"
-        "A minimum of 0, for example, says nothing about an unsigned value. The other cell of the manual is empty, or \
+        "A minimum of 0, for example, does not restrict an unsigned value. The other cell of the manual is empty, or \
         its limit was lost. Write both limits or none."
     TAB043 SHARED_REGISTERS Lint Warn "two items share registers or bits of one register"
         "One of the items has the wrong number, or a type that is too long. Lexibus keeps both. Correct the item. If \
@@ -787,8 +787,8 @@ codes! {
         "The item is read or written through an item with fewer bits, and no other window of the space is wider. The \
         upper bits are lost. Correct the type of one item, or add a wider window."
     TAB049 WINDOW_ORDER Lint Warn "a window's procedure writes the number before the value"
-        "If writing the number starts the transfer, the device transfers the previous value. In a process image, both \
-        are sent together, so their order is not checked. Write the value first."
+        "Writing the number starts the transfer, so the device transfers the previous value. In a process image, the \
+        number and the value are sent together, so their order is not checked. Write the value before the number."
     TAB050 QUANTITIES_DIFFER Lint Warn "two items for the same quantity have different default values"
         "`same_quantity` names an item for the same quantity in another scale. For each model, Lexibus compares the \
         default values as physical values, to a thousandth. If the units differ, it compares machine values \
@@ -827,8 +827,8 @@ codes! {
         "At least nine requests have the same form, and all except one begin with the same constant. That one is an \
         exception or a misprint. Say which in a `doubt`, and `allow` this code."
     MSG008 STATES_DIFFER Lint Warn "a message and the table of commands disagree about a state"
-        "The section of a command says that a state accepts it, and the table of commands and states says the \
-        opposite, or the reverse. Keep the one that lists the states one by one, and record the other in `doubt`."
+        "One section of the manual lists the states that accept the command. The table of commands and states differs \
+        for a state. Keep the statement that lists the states one by one, and record the other in `doubt`."
     MSG009 MESSAGE_UNSHAPED Lint Warn "no code is generated for a message or a part of the protocol"
         "The fields of a message must be writable and readable one after the other. The diagnostic says what prevents \
         this, such as an incomplete byte or two parts of variable length. The code also reports error replies, \

@@ -5,7 +5,7 @@ use super::types;
 use super::words::PLAIN;
 use crate::ir::{Item, Limits, Mappable, Quantity, Scale, Type, TypeDef, Value};
 
-/// Returns a value of an item, physical value first. `types`: the types of its owner.
+/// Returns a value of an item, physical value first. `types`: the types of the owner of the item.
 pub fn value(item: &Item, value: &Value, types: &[TypeDef]) -> String {
     let basic = types::basic(types, item.ty);
     PLAIN.of_item(item, value, &|value| raw(item, value, basic))
@@ -16,8 +16,8 @@ pub fn default(item: &Item, types: &[TypeDef]) -> String {
     item.default.as_ref().map(|default| value(item, default, types)).unwrap_or_default()
 }
 
-/// Returns the range: `0 … 5`, `1, 3 to 7`, `-20.0 … 200.0 °C (raw -200 … 2000)`. It is empty without limits. Of a list of values, it
-/// has at most `shown`.
+/// Returns the range: `0 … 5`, `1, 3 to 7`, `-20.0 … 200.0 °C (raw -200 … 2000)`. The range is
+/// empty without limits. It contains at most `shown` values of a list.
 pub fn range(item: &Item, limits: &Limits, types: &[TypeDef], shown: usize) -> String {
     let physical = Physical::of(item.quantity.as_deref());
     let basic = types::basic(types, item.ty);

@@ -17,7 +17,7 @@ pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
     let Some((at, letter)) = found else { return };
     let span = Span::new(file, at as u32, (at + letter.len_utf8()) as u32);
     let label = match read_as {
-        Some(read_as) => format!("first such character; read as {read_as}"),
+        Some(read_as) => format!("first affected character; the file is read as {read_as}"),
         None => "first invalid byte sequence; its bytes are lost".to_owned(),
     };
     diagnostics.push(
@@ -30,7 +30,7 @@ pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
 /// Returns the message and the encoding that was used instead. The encoding is `None` if some bytes could not be
 /// decoded.
 fn mismatch(source: &Source) -> Option<(&'static str, Option<&'static str>)> {
-    const ANOTHER: &str = "the declared encoding is not that of the file";
+    const ANOTHER: &str = "the file is not in its declared encoding";
     // The default encoding is UTF-8 (XML 1.0, 4.3.3).
     let declared = source.declared_charset();
     let is_named = source.declared_encoding().is_some_and(|label| !label.is_empty());

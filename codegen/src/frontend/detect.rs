@@ -86,8 +86,10 @@ pub(super) fn unknown(source: &Source, file: FileId) -> Diagnostic {
 }
 
 fn unknown_format(span: Span, message: &str) -> Diagnostic {
-    Diagnostic::new(&codes::UNKNOWN_FORMAT, span, message)
-        .help("Lexibus reads EDS and DCF files (CiA 306), XDD and XDC files (CiA 311), ESI (ETG.2000) and GSDML files")
+    Diagnostic::new(&codes::UNKNOWN_FORMAT, span, message).help(
+        "use an EDS or DCF (CiA 306), an XDD or XDC (CiA 311), an ESI (ETG.2000), a GSDML file, or a register table \
+             that begins with `lexibus = 1`",
+    )
 }
 
 fn unknown_xml(text: &str, span: Span) -> Diagnostic {
@@ -99,7 +101,7 @@ fn unknown_xml(text: &str, span: Span) -> Diagnostic {
     match local_name(root) {
         "EtherCATConfig" => {
             let message = "this is an EtherCAT network configuration (ENI), not a device description";
-            unknown_format(at, message).label("a configuration tool generates it from ESI files")
+            unknown_format(at, message).label("configuration tools generate this file from ESI files")
         }
         name if name.starts_with("EtherCAT") || name == "SscToolConfiguration" => {
             let message = format!("this is not an ESI file: the root element is <{name}>");

@@ -13,7 +13,7 @@ pub(crate) struct Description {
     pub format: Option<Format>,
     /// The devices and modules; `None` if the file can't be used.
     pub catalog: Option<Catalog>,
-    /// Files that it refers to and that were read.
+    /// Files that the description refers to and that were read.
     pub others: Vec<Source>,
     /// Paths of referenced files that don't exist.
     pub missing: Vec<PathBuf>,
@@ -27,7 +27,7 @@ struct Input<'s> {
     file: FileId,
     /// Further names of `$NODEID` in formulas.
     node_id_aliases: &'s [String],
-    /// Chosen variants for the options of a register table.
+    /// Choices for the options of a register table.
     choices: &'s [(String, String)],
     /// Files that the source refers to.
     references: References<'s>,
@@ -39,7 +39,7 @@ type Read = fn(&mut Input<'_>, &mut Diagnostics) -> Option<Catalog>;
 struct FrontEnd {
     /// Returns the format if the file belongs to this front end.
     recognize: fn(&Source) -> Option<Format>,
-    /// The cargo feature that enables it.
+    /// The cargo feature that enables the front end.
     feature: &'static str,
     /// The reader; `None` if the feature is disabled.
     read: Option<Read>,
@@ -108,8 +108,8 @@ fn recognized(source: &Source, file: FileId) -> Result<(Format, &'static FrontEn
     found.ok_or_else(|| Box::new(detect::unknown(source, file)))
 }
 
-/// Reads a file with the front end of its format. `node_id_aliases` are further names of `$NODEID`; `choices` selects
-/// variants for the options of a register table.
+/// Reads a file with the front end of its format. `node_id_aliases` are further names of `$NODEID`; `choices` are the
+/// choices for the options of a register table.
 pub(crate) fn read(
     source: &Source,
     node_id_aliases: &[String],
@@ -150,7 +150,7 @@ pub(crate) fn apply_overlay(source: &Source, file: FileId, catalog: &mut Catalog
     }
 }
 
-/// Returns the error for a file whose front end is disabled. `what` is what the feature reads.
+/// Returns the error for a file whose front end is disabled. `what` names the files that the feature reads.
 pub(crate) fn without_feature(feature: &str, what: &str, file: FileId) -> Diagnostic {
     let message = format!("`lexibus-codegen` was built without the feature `{feature}`, which reads {what}");
     let help = format!("add it to the dependency: `lexibus-codegen = {{ …, features = [\"{feature}\"] }}`");

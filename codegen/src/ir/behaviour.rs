@@ -383,18 +383,18 @@ pub struct Behaviour {
     pub side_effects: Vec<CompactString>,
     /// Whether the device clears the value automatically.
     pub self_clearing: bool,
-    /// Whether it can be written only once.
+    /// Whether the item can be written only once.
     pub write_once: bool,
-    /// Whether it is a part of the device backup (Backup of ETG.2000).
+    /// Whether the item is a part of the device backup (Backup of ETG.2000).
     pub backup: bool,
-    /// Whether it is a setting of the application (Setting of ETG.2000).
+    /// Whether the item is a setting of the application (Setting of ETG.2000).
     pub setting: bool,
     /// Role in functional safety (SafetyMapping of ETG.2000: `si`, `so`, `sio`, `sp`).
     pub safety: Option<CompactString>,
     /// Mapping into a safety-relevant data object of CANopen, if allowed (SRDOMapping of CiA 306-1).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub srdo: Option<Srdo>,
-    /// Whether tools hide it (Visible of GSDML).
+    /// Whether tools hide the item (Visible of GSDML).
     pub hidden: bool,
     /// Access rights of the slave application to ESC memory (PDI access in ETG.1000.4).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]

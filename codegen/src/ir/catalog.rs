@@ -48,7 +48,7 @@ impl Catalog {
     }
 }
 
-/// A file of a catalog.
+/// A file from which a catalog was read.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FileInfo {

@@ -17,7 +17,7 @@ pub struct Device {
     pub names: Texts,
     /// Identifier in the source, if any (ID of a device access point).
     pub id: CompactString,
-    /// Whether it is not a device, but a dictionary that devices refer to (EtherCATDict of ETG.2000).
+    /// Whether the description is not a device, but a dictionary that devices refer to (EtherCATDict of ETG.2000).
     pub dictionary_only: bool,
     /// Identity: vendor, product and revision.
     pub identity: Identity,
@@ -195,23 +195,23 @@ pub struct Header {
 pub struct CanOpenSettings {
     /// Supported bit rates in kbit/s.
     pub bit_rates: Vec<u16>,
-    /// Whether it detects the bit rate automatically.
+    /// Whether the device detects the bit rate automatically.
     pub auto_bit_rate: bool,
-    /// Whether it can be an NMT boot-up master.
+    /// Whether the device can be an NMT boot-up master.
     pub boot_up_master: bool,
-    /// Whether it can be an NMT boot-up slave.
+    /// Whether the device can be an NMT boot-up slave.
     pub boot_up_slave: bool,
     /// Granularity of the PDO mapping in bits; 0 = fixed mapping, `None` = not given.
     pub granularity: Option<u8>,
     /// Support of dynamic channels (CiA 302-4); 0 = not supported.
     pub dynamic_channels_supported: u32,
-    /// Whether it supports multiplexed PDOs.
+    /// Whether the device supports multiplexed PDOs.
     pub group_messaging: bool,
     /// Number of RPDOs according to the file (NrOfRXPDO).
     pub rx_pdos: Option<u16>,
     /// Number of TPDOs according to the file (NrOfTXPDO).
     pub tx_pdos: Option<u16>,
-    /// Whether it supports layer setting services (LSS).
+    /// Whether the device supports layer setting services (LSS).
     pub lss: bool,
     /// Communication sub-indices of implicit PDOs (CompactPDO); bit 0 is sub-index 1.
     pub compact_pdo: u8,
@@ -267,7 +267,7 @@ pub struct Commissioning {
     pub net_number: Option<u32>,
     /// Name of the network.
     pub network_name: CompactString,
-    /// Whether it is the CANopen manager.
+    /// Whether the node is the CANopen manager.
     pub manager: bool,
     /// Serial number for layer setting services (LSS).
     pub lss_serial_number: Option<u32>,

@@ -43,7 +43,7 @@ pub struct Fmmu {
     pub sync_manager: Option<u8>,
     /// Number of the mapped sync unit, if given.
     pub sync_unit: Option<u8>,
-    /// Whether it is enabled only in the state Op.
+    /// Whether the FMMU is enabled only in the state Op.
     pub op_only: bool,
 }
 
@@ -53,11 +53,11 @@ pub struct Fmmu {
 pub struct SyncUnit {
     /// Name.
     pub name: CompactString,
-    /// Whether it needs a separate sync unit in the master (`SeparateSu`).
+    /// Whether the sync unit needs a separate sync unit in the master (`SeparateSu`).
     pub separate: bool,
-    /// Whether it needs a separate frame.
+    /// Whether the sync unit needs a separate frame.
     pub separate_frame: bool,
-    /// Whether its data depend on the input state.
+    /// Whether the data of the sync unit depend on the input state.
     pub depends_on_input_state: bool,
     /// Whether frames may be repeated.
     pub frame_repeat: bool,
@@ -69,7 +69,7 @@ pub struct SyncUnit {
 pub struct Mailbox {
     /// Whether the data link layer of the mailbox is supported, which repeats lost requests.
     pub data_link_layer: bool,
-    /// Whether it runs in real-time mode.
+    /// Whether the mailbox runs in real-time mode.
     pub real_time: bool,
     /// ADS over EtherCAT.
     pub aoe: Option<Protocol>,
@@ -137,11 +137,11 @@ pub struct InitCommand {
     pub depends_on_slot_group: bool,
     /// Whether the command uses complete access.
     pub complete_access: bool,
-    /// Whether users cannot change it.
+    /// Whether users cannot change the command.
     pub fixed: bool,
     /// Whether a master adapts the data (`AdaptAutomatically`).
     pub adapt: bool,
-    /// Whether a module can replace it.
+    /// Whether a module can replace the command.
     pub overwritten_by_module: bool,
     /// Purpose.
     pub comment: CompactString,
@@ -261,6 +261,6 @@ pub struct Eeprom {
     pub boot_strap: Vec<u8>,
     /// Numbers and contents of further categories.
     pub categories: Vec<(u16, Vec<u8>)>,
-    /// Whether it is assigned to the process data interface (PDI).
+    /// Whether the EEPROM is assigned to the process data interface (PDI).
     pub assign_to_pdi: bool,
 }

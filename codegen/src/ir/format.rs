@@ -57,9 +57,12 @@ impl Format {
         match self {
             Format::Eds | Format::Dcf => (
                 "neither sub-indices nor CompactSubObj",
-                "give it SubNumber and the sections of its sub-indices, or CompactSubObj",
+                "add SubNumber and the sections of the sub-indices, or add CompactSubObj",
             ),
-            _ => ("no sub-indices", "describe them, sub-index 0 included; an object that is one value is a VAR"),
+            _ => (
+                "no sub-indices",
+                "describe the sub-indices, including sub-index 0, or use VAR if the object has a single value",
+            ),
         }
     }
 

@@ -190,7 +190,7 @@ impl RelatedItems {
         [same_as, same_quantity, upper_half, valid_count].into_iter().flatten()
     }
 
-    /// Returns mutable references to all references.
+    /// Returns all references for modification.
     pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut ItemRef> {
         let RelatedItems { same_as, same_quantity, upper_half, valid_count } = self;
         [same_as, same_quantity, upper_half, valid_count].into_iter().flatten()
@@ -251,9 +251,9 @@ pub struct Group {
     pub links: Vec<u16>,
     /// ObjFlags of the object (CiA 306).
     pub flags: u32,
-    /// Whether its index depends on the slot of its module (ETG.2000).
+    /// Whether the index of the object depends on the slot of the module (ETG.2000).
     pub depends_on_slot: bool,
-    /// Whether its index depends on the slot group of its module (ETG.2000).
+    /// Whether the index of the object depends on the slot group of the module (ETG.2000).
     pub depends_on_slot_group: bool,
     /// Number of items that the source describes in the object itself (SubItem in Info of ETG.2000). The other items follow
     /// from its type.

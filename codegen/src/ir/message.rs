@@ -120,7 +120,7 @@ pub enum MessageField {
     FixedBits {
         /// Number of bits.
         bits: u8,
-        /// Their value.
+        /// Value of the bits.
         value: u64,
     },
     /// A typed value.

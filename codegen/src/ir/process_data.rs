@@ -111,23 +111,23 @@ pub struct Pdo {
     pub entries: Vec<PdoEntry>,
     /// Whether the mapping cannot be changed.
     pub fixed: bool,
-    /// Whether a master has to assign it.
+    /// Whether a master has to assign the PDO.
     pub mandatory: bool,
     /// Sync manager in the default assignment.
     pub sync_manager: Option<u8>,
     /// Mapping objects of PDOs that cannot be assigned together with this one.
     pub excludes: Vec<u16>,
-    /// Sync managers that cannot contain it (ExcludedSm of ETG.2000).
+    /// Sync managers that cannot contain the PDO (ExcludedSm of ETG.2000).
     pub excluded_sync_managers: Vec<u8>,
     /// Sync unit (ETG.2000).
     pub sync_unit: Option<u8>,
-    /// Whether its index depends on the slot of its module.
+    /// Whether the index of the PDO depends on the slot of the module.
     pub depends_on_slot: bool,
-    /// Whether its index depends on the slot group of its module.
+    /// Whether the index of the PDO depends on the slot group of the module.
     pub depends_on_slot_group: bool,
-    /// Whether it has no data and is not assigned (Virtual of ETG.2000).
+    /// Whether the PDO has no data and is not assigned (Virtual of ETG.2000).
     pub is_virtual: bool,
-    /// Whether the PDO of a module replaces it (OverwrittenByModule).
+    /// Whether a PDO of a module replaces this PDO (OverwrittenByModule).
     pub overwritten_by_module: bool,
     /// Oversampling: several samples in one cycle.
     pub oversampling: Option<Box<Oversampling>>,
@@ -147,9 +147,9 @@ pub struct Pdo {
     /// Buses with this mapping; `None` = all buses of the device.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub buses: Option<ObjectBuses>,
-    /// Whether it has no section and follows from NrOfRXPDO, NrOfTXPDO and CompactPDO (CiA 306).
+    /// Whether the PDO has no section and follows from NrOfRXPDO, NrOfTXPDO and CompactPDO (CiA 306).
     pub implicit: bool,
-    /// Whether the source declares only its mapping object.
+    /// Whether the source declares only the mapping object of the PDO.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub from_object: bool,
     /// Location in the source.
@@ -260,11 +260,11 @@ pub struct PdoEntry {
     pub name: CompactString,
     /// Type of the mapped item, or the type in the mapping.
     pub ty: Type,
-    /// Whether it cannot be removed from the mapping (Fixed of ETG.2000).
+    /// Whether the entry cannot be removed from the mapping (Fixed of ETG.2000).
     pub fixed: bool,
-    /// Whether its index depends on the slot of its module.
+    /// Whether the index of the entry depends on the slot of the module.
     pub depends_on_slot: bool,
-    /// Whether its index depends on the slot group of its module.
+    /// Whether the index of the entry depends on the slot group of the module.
     pub depends_on_slot_group: bool,
     /// Name in other languages.
     pub names: Texts,
@@ -340,11 +340,11 @@ pub struct SyncManager {
     pub size_range: (Option<u16>, Option<u16>),
     /// Value of the control register.
     pub control: u8,
-    /// Whether it is enabled.
+    /// Whether the sync manager is enabled.
     pub enable: bool,
-    /// Whether it is enabled only in the state Op.
+    /// Whether the sync manager is enabled only in the state Op.
     pub op_only: bool,
-    /// Whether it exists only in the description (Virtual of ETG.2000).
+    /// Whether the sync manager exists only in the description (Virtual of ETG.2000).
     pub is_virtual: bool,
     /// Location in the source.
     pub origin: Origin,

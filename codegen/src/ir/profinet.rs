@@ -120,7 +120,7 @@ pub struct Submodule {
     pub menus: Vec<Menu>,
     /// Pictures: type and identifier.
     pub graphics: Vec<(CompactString, CompactString)>,
-    /// Further attributes as the source spells them, for example whether it may be removed during operation.
+    /// Further attributes as the source spells them, for example whether the submodule may be removed during operation.
     pub attributes: Vec<(CompactString, CompactString)>,
     /// Facts of the source without a field in the IR.
     pub extensions: Extensions,
@@ -176,7 +176,7 @@ pub struct IoItem {
     pub first_field: u32,
     /// Number of its fields, including padding.
     pub fields: u32,
-    /// Whether it is a part of the previous item (`Subordinate`).
+    /// Whether the data item is a part of the previous item (`Subordinate`).
     pub subordinate: bool,
 }
 
@@ -226,9 +226,9 @@ pub struct FParameter {
     pub allowed: Vec<(i128, i128)>,
     /// Names of the allowed values, if values have names.
     pub allowed_labels: Vec<CompactString>,
-    /// Whether a user can change it.
+    /// Whether a user can change the parameter.
     pub changeable: bool,
-    /// Whether a tool shows it.
+    /// Whether a tool shows the parameter.
     pub visible: bool,
 }
 

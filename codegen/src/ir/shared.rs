@@ -116,7 +116,7 @@ impl Numbers {
         self.0.iter().flat_map(|&(first, last)| first..=last)
     }
 
-    /// Returns how many numbers the ranges contain. Numbers in overlapping ranges are counted repeatedly.
+    /// Returns how many numbers the ranges contain. A number in several ranges counts once for each range.
     pub fn count(&self) -> usize {
         self.0.iter().map(|&(first, last)| usize::from(last.saturating_sub(first)) + 1).sum()
     }
@@ -158,11 +158,11 @@ pub struct Family {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SlotNumbers {
-    /// Slots that accept it (`AllowedInSlots`, `AllowedInSubslots`).
+    /// Slots or subslots that accept the module or submodule (`AllowedInSlots`, `AllowedInSubslots`).
     pub allowed: Numbers,
-    /// Slots that always contain it (`FixedInSlots`, `FixedInSubslots`).
+    /// Slots or subslots that always contain the module or submodule (`FixedInSlots`, `FixedInSubslots`).
     pub fixed: Numbers,
-    /// Slots that contain it by default (`UsedInSlots`, `UsedInSubslots`).
+    /// Slots or subslots that contain the module or submodule by default (`UsedInSlots`, `UsedInSubslots`).
     pub used: Numbers,
 }
 

@@ -499,7 +499,7 @@ pub enum Scale {
     },
     /// physical = raw × factor / value of another item.
     ByItem {
-        /// The other item.
+        /// Item whose value divides.
         item: ItemRef,
         /// Constant factor.
         #[cfg_attr(feature = "serde", serde(with = "super::real"))]
@@ -507,7 +507,7 @@ pub enum Scale {
     },
     /// physical = raw × factor × value of another item.
     TimesItem {
-        /// The other item.
+        /// Item whose value multiplies.
         item: ItemRef,
         /// Constant factor.
         #[cfg_attr(feature = "serde", serde(with = "super::real"))]
@@ -519,7 +519,7 @@ pub enum Scale {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Condition {
-    /// The other item.
+    /// Item whose value is compared.
     pub item: ItemRef,
     /// Values that fulfill the condition.
     pub values: Vec<Value>,

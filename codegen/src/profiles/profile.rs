@@ -15,9 +15,9 @@ pub(crate) struct Profile {
     pub number: Option<u32>,
     /// Index of the object that identifies a device that follows the profile.
     pub when: Option<u16>,
-    /// API number of submodules that follow it (PROFINET).
+    /// API number of submodules that follow the profile (PROFINET).
     pub api: Option<u32>,
-    /// Whether it applies to devices on CANopen, and on EtherCAT.
+    /// Whether the profile applies to devices on CANopen, and on EtherCAT.
     pub on_canopen: bool,
     pub on_ethercat: bool,
     /// Index offset from axis to axis for the objects 0x6000 to 0x67FF.

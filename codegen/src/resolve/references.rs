@@ -26,7 +26,7 @@ pub(super) fn device(device: &mut Device) -> bool {
     true
 }
 
-/// Resolves the references of a module. Ids count its fixed objects first.
+/// Resolves the references of a module. Ids count the fixed objects of the module first.
 pub(super) fn module(module: &mut Module) {
     let mut names = HashMap::new();
     let Module { fixed_objects, groups, types, process_data, .. } = module;

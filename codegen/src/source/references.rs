@@ -25,7 +25,7 @@ pub enum Refusal {
     NoFile,
     /// The description refers to too many files.
     TooMany,
-    /// The operating system can't read it.
+    /// The operating system cannot read the file.
     Unreadable(std::io::Error),
 }
 

@@ -21,7 +21,7 @@ pub struct Document<'a> {
     preamble: Vec<Entry>,
     /// Violations found so far.
     oddities: RefCell<Vec<(Oddity, Span)>>,
-    /// For each section: whether its violations were recorded.
+    /// For each section: whether the violations of the section were recorded.
     noted: Vec<Cell<bool>>,
 }
 
@@ -43,7 +43,7 @@ pub struct Section {
 pub struct Entry {
     key: Range,
     value: Range,
-    /// Its line, counted from 1.
+    /// Line of the entry, counted from 1.
     pub line: u32,
 }
 

@@ -214,7 +214,7 @@ fn fix<'a>(diagnostic: &'a Diagnostic, place: MarkedSource<'a>) -> Option<Fix<'a
     let (replacement, mark) = (diagnostic.fix.as_deref()?, place.mark?);
     let deleted_region = Region { snippet: None, ..region(place.source, mark) };
     Some(Fix {
-        description: message(diagnostic.help.as_deref().unwrap_or("write this instead")),
+        description: message(diagnostic.help.as_deref().unwrap_or("replace the marked text")),
         artifact_changes: [ArtifactChange {
             artifact_location: artifact(place.source),
             replacements: [Replacement { deleted_region, inserted_content: message(replacement) }],

@@ -47,7 +47,10 @@ fn physical(device: &Device, quantity: &Quantity, conversion: &Conversion, raw: 
     let model = device.variants.iter().find(|variant| Some(&variant.name) == conversion.model.as_ref());
     physical::of_raw(quantity.scale.as_ref(), raw, |name| {
         let constant = matches!(quantity.scale, Some(Scale::Fraction { .. })).then(|| physical::constant(model, name));
-        constant.flatten().or(conversion.by).ok_or_else(|| format!("write the value of `{}` as `by`", brief(name)))
+        constant
+            .flatten()
+            .or(conversion.by)
+            .ok_or_else(|| format!("the key `by` with the value of `{}` is missing", brief(name)))
     })
 }
 
@@ -56,7 +59,7 @@ fn in_unit(device: &Device, quantity: &Quantity, conversion: &Conversion, number
     let Some(unit) = conversion.unit.as_ref().filter(|unit| **unit != quantity.unit) else { return Ok(number) };
     match quantity.machine.as_deref().filter(|machine| machine.unit == *unit) {
         Some(machine) => Ok(number * ratio(device, machine, conversion)?),
-        None => Err(format!("`{}` is neither the unit of the item nor that of the machine", brief(unit))),
+        None => Err(format!("the unit `{}` is neither the unit of the item nor its machine unit", brief(unit))),
     }
 }
 
@@ -65,6 +68,6 @@ fn ratio(device: &Device, unit: &MachineUnit, conversion: &Conversion) -> Result
     physical::ratio(unit, |name| {
         let given = conversion.given.iter().find(|(given, _)| given == name).map(|(_, number)| *number);
         let number = given.or_else(|| physical::given(device, conversion.model.as_deref(), name));
-        number.ok_or_else(|| format!("write the value of `{}` in `given`", brief(name)))
+        number.ok_or_else(|| format!("the value of `{}` is missing in `given`", brief(name)))
     })
 }

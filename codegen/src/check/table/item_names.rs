@@ -11,7 +11,7 @@ use crate::text::{brief, edit_distance};
 /// The lengths of names and words that are compared: shorter ones differ too little.
 const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
 
-/// The minimum number of names with a prefix, which nine tenths of the names must have.
+/// The minimum number of names with a common prefix. Nine tenths of all names must have this prefix.
 const CONVENTION: usize = 4;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -105,7 +105,7 @@ fn is_composed(name: &str) -> bool {
     name.trim_matches('_').contains('_') || pairs.clone().any(|(one, next)| one.is_lowercase() && next.is_uppercase())
 }
 
-/// Returns whether both begin with the same letter, and have the same number of underscores and capitals.
+/// Returns whether a name and a word begin with the same letter, and have the same number of underscores and capitals.
 fn similar_case(name: &str, word: &str) -> bool {
     let shape = |text: &str| text.chars().filter(|c| *c == '_' || c.is_uppercase()).count();
     name.chars().next() == word.chars().next() && shape(name) == shape(word)

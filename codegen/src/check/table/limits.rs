@@ -13,8 +13,10 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
             (None, Some(_), (_, high)) if high == Some(maximum) => (maximum, "lower", item.at.high),
             _ => continue,
         };
-        let message =
-            format!("`{}` has the limit {given}, which is that of its type, but no {missing} limit", brief(&item.name));
+        let message = format!(
+            "`{}` has no {missing} limit, and its only limit {given} is the one of its type",
+            brief(&item.name)
+        );
         diagnostics
             .push(codes::EMPTY_LIMIT.at(span.or(item.origin.span), message).help("write both limits, or neither"));
     }

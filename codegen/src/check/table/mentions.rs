@@ -7,7 +7,7 @@ use crate::check::mapped_object::indices;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::texts;
 
-/// Indices that are recognized without further signs: those of the first axis of a drive profile.
+/// Indices that a text can mention without a sub-index or the word `object`: those of the first axis of a drive profile.
 const PROFILE: RangeInclusive<u16> = 0x6000..=0x67FF;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {

@@ -12,10 +12,10 @@ use crate::source::Span;
 use crate::text::brief;
 
 const SELECTOR: Problem =
-    "the message in `after` is not sent, has no code, or has data of any length, so the client cannot remember it";
+    "the message in `after` is not sent, has no code, or has data of variable length, so the client cannot remember it";
 const FIRST: Problem = "`default` needs `after`, the message that selects another answer";
-const NO_REFUSAL: Problem = "its error message has no reply, no code, or data of any length";
-const NO_END: Problem = "frames have no last byte";
+const NO_REFUSAL: Problem = "the error message has no reply, no code, or data of variable length";
+const NO_END: Problem = "no byte marks the end of a frame";
 const UNKNOWN_CHECK: Problem = "the runtime only supports the checks `xor`, `sum`, `lrc` and `crc16`";
 
 /// Reports messages and framings without code, and parameters that no message transfers.
@@ -25,7 +25,7 @@ pub(in crate::check) fn check(context: &Context<'_>, diagnostics: &mut Diagnosti
     every_message(device, &shapes, diagnostics);
     if let Some((framing, problem)) = device.framing.as_ref().and_then(|framing| Some((framing, no_framing(framing)?)))
     {
-        left_out(framing.origin.span, format!("no code for the framing: {problem}"), diagnostics);
+        left_out(framing.origin.span, format!("no code is generated for the framing: {problem}"), diagnostics);
     }
     parameters(context, &shapes, diagnostics);
 }
@@ -45,14 +45,18 @@ fn every_message(device: &Device, shapes: &[Shaped<'_>], diagnostics: &mut Diagn
             Ok(()) => (!known.contains(message.name.as_str())).then_some(SELECTOR),
         };
         if let Some(problem) = problem {
-            left_out(span, format!("no code for the message `{name}`: {problem}"), diagnostics);
+            left_out(span, format!("no code is generated for the message `{name}`: {problem}"), diagnostics);
             continue;
         }
         if message.by_default && message.after.is_none() {
-            left_out(span, format!("no code for `{name}` in its state after power-on: {FIRST}"), diagnostics);
+            left_out(
+                span,
+                format!("no code is generated for `{name}` as the answer after power-on: {FIRST}"),
+                diagnostics,
+            );
         }
         if message.error.is_some() && refusal(shapes, message).is_none() {
-            left_out(span, format!("no code for the error reply of `{name}`: {NO_REFUSAL}"), diagnostics);
+            left_out(span, format!("no code is generated for the error reply of `{name}`: {NO_REFUSAL}"), diagnostics);
         }
     }
 }
@@ -73,7 +77,7 @@ fn parameters(context: &Context<'_>, shapes: &[Shaped<'_>], diagnostics: &mut Di
     for space in &context.device.parameter_spaces {
         for (verb, name, problem) in carrier_problems(space, shapes) {
             let (name, space_name) = (brief(name), brief(&space.name));
-            let text = format!("no client {verb} parameters of `{space_name}` by `{name}`: {problem}");
+            let text = format!("no generated client {verb} parameters of `{space_name}` with `{name}`: {problem}");
             left_out(space.origin.span, text, diagnostics);
         }
         if space.read.is_none() && space.write.is_none() {
@@ -84,15 +88,15 @@ fn parameters(context: &Context<'_>, shapes: &[Shaped<'_>], diagnostics: &mut Di
             let basic = context.owner.basic(item.ty);
             if !matches!(basic, Type::Opaque(None)) && basic.bits().is_none_or(|bits| bits > LONGEST) {
                 let name = brief(&item.name);
-                let text = format!("no message transfers `{name}`: the length of its value is not 1 to 8 bytes");
+                let text = format!("no message transfers `{name}`: its value does not have 1 to 8 bytes");
                 left_out(item.origin.span, text, diagnostics);
             }
             match carried.get(&code) {
                 None => _ = carried.insert(code, &space.name),
                 Some(first) => {
                     let (name, first) = (brief(&item.name), brief(first));
-                    let text = format!("`{name}` has the number {code:#X}, which is also in the space `{first}`");
-                    let text = text + ": clients only transfer the parameter of that space";
+                    let text = format!("`{name}` has the number {code:#X}, which the space `{first}` also has");
+                    let text = text + ": clients transfer only the parameter of that space";
                     diagnostics.push(codes::PARAMETERS_ALIKE.at(item.origin.span, text));
                 }
             }

@@ -44,7 +44,7 @@ fn report(framed: &Framed<'_>, code: &'static Code, message: String) -> Diagnost
 
 /// Reports a problem of two messages.
 fn both(framed: &Framed<'_>, other: &Framed<'_>, code: &'static Code, message: String) -> Diagnostic {
-    report(framed, code, message).note_at(other.message.origin.span, "the other one")
+    report(framed, code, message).note_at(other.message.origin.span, "the other message")
 }
 
 /// Checks that a message consists of whole bytes and fits into a frame.
@@ -54,12 +54,12 @@ fn length(framed: &Framed<'_>, max: Option<usize>, diagnostics: &mut Diagnostics
         if let Some(bit) = frame.broken {
             let message = format!("the {what} of `{name}` has an incomplete byte that ends at bit {bit}");
             let found = report(framed, &codes::MESSAGE_LENGTH, message);
-            diagnostics.push(found.help("adjacent fields of less than a byte must fill whole bytes"));
+            diagnostics.push(found.help("make adjacent fields that are shorter than a byte fill whole bytes"));
         }
         let Some(max) = max else { continue };
         let problem = match (frame.min_bits.div_ceil(8), frame.max_bits.div_ceil(8)) {
             (shortest, _) if shortest > max => format!("is at least {shortest} bytes long"),
-            (_, longest) if longest > max => format!("is {longest} bytes long with all its repetitions"),
+            (_, longest) if longest > max => format!("is {longest} bytes long with all repetitions"),
             _ => continue,
         };
         let message = format!("the {what} of `{name}` {problem}, but a frame holds at most {max}");
@@ -84,7 +84,8 @@ fn replies_of_others(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
         let Some(other) = owners.get(&(position, byte)) else { continue };
         let (name, other_name) = (brief(&framed.message.name), brief(&other.message.name));
         let message = format!(
-            "the reply of `{name}` has the constant 0x{byte:02X} of `{other_name}`, which its request does not have"
+            "the reply of `{name}` has the constant 0x{byte:02X}, which is in the request of `{other_name}`, but not in \
+             that of `{name}`"
         );
         let found = both(framed, other, &codes::REPLY_OF_ANOTHER, message);
         diagnostics
@@ -134,7 +135,9 @@ fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
         let names = (brief(&other.message.name), brief(&framed.message.name));
         let message = format!("the requests `{}` and `{}` can have the same bytes", names.0, names.1);
         let found = both(framed, other, &codes::MESSAGES_ALIKE, message);
-        diagnostics.push(found.help("correct a constant, or write `after` if an earlier message decides"));
+        diagnostics.push(
+            found.help("correct a constant, or add `after` if an earlier message decides which request is meant"),
+        );
     }
 }
 
@@ -155,10 +158,12 @@ fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     }
     let (name, ((position, common), others)) = (brief(&framed.message.name), (others.0, others.1.len()));
     let message = format!(
-        "`{name}` has the constant 0x{byte:02X} where {others} other requests have 0x{common:02X}, in byte {position}"
+        "`{name}` has the constant 0x{byte:02X} in byte {position}, but {others} other requests have 0x{common:02X}"
     );
     let found = report(framed, &codes::ODD_REQUEST, message);
-    diagnostics.push(found.help("record in a `doubt` whether it is an exception or a misprint, and allow this code"));
+    diagnostics.push(
+        found.help("record in a `doubt` whether the constant is an exception or a misprint, and allow this code"),
+    );
 }
 
 /// Compares the states in which messages are accepted with the tables of commands and states.
@@ -187,7 +192,7 @@ fn cells(machine: &str, row: &CommandOutcomes, message: &Message, diagnostics: &
         };
         let (name, state, machine) = (brief(&message.name), brief(&cell.state), brief(machine));
         let text = format!(
-            "the message `{name}` {stated} the state `{state}`, but it is {table} there in the table of `{machine}`"
+            "the message `{name}` {stated} the state `{state}`, but the table of `{machine}` shows it as {table} in that state"
         );
         let found = codes::STATES_DIFFER.at(message.origin.span, text);
         diagnostics.push(found.help("keep the statement that lists the states one by one, and add a `doubt`"));

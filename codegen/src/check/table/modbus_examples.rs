@@ -5,6 +5,7 @@ use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Binding, RegisterBinding, RegisterSpace};
 use crate::source::Span;
+use crate::text::count_of;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let bindings = context.owner.items().flat_map(|item| &item.bindings);
@@ -18,9 +19,8 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         let mut report = |what: &str, span: Span, problems: Vec<String>| {
             for problem in problems {
                 let found = codes::EXAMPLE_DIFFERS.at(span, format!("the {what} {problem}"));
-                diagnostics.push(
-                    found.help("keep the version that the other frames of the manual support, and add a `doubt`"),
-                );
+                diagnostics
+                    .push(found.help("keep the bytes that other frames of the manual confirm, and add a `doubt`"));
             }
         };
         let request = Request::read(&example.request);
@@ -67,14 +67,18 @@ impl Request {
         let mut problems = Vec::new();
         let of_space = || registers.iter().filter(|register| register.space == space);
         if !of_space().any(|register| register.address == self.start) {
-            problems.push(format!("begins with the address 0x{:04X}, which no row has", self.start));
+            problems.push(format!("starts at the address 0x{:04X}, which no row has", self.start));
         } else if !of_space().any(|register| self.covers(register)) {
             let quantity = self.quantity;
-            problems.push(format!("has {quantity} registers of 16 bits, but no value ends there"));
+            problems.push(format!("covers {}, but no value ends with the last one", count_of(quantity, "register")));
         }
         if self.function == 16 && bytes.get(6).is_some_and(|count| u16::from(*count) != self.quantity.saturating_mul(2))
         {
-            problems.push(format!("has {} bytes for {} registers", bytes.get(6).unwrap_or(&0), self.quantity));
+            problems.push(format!(
+                "announces {} bytes for {}",
+                bytes.get(6).unwrap_or(&0),
+                count_of(self.quantity, "register")
+            ));
         }
         problems.extend(ending(bytes, self.length(bytes)));
         problems
@@ -104,7 +108,10 @@ fn reply(request: Option<&Request>, bytes: &[u8]) -> Vec<String> {
             let count = bytes.get(2).copied().unwrap_or(0);
             if u16::from(count) != request.quantity.saturating_mul(2) {
                 let expected = request.quantity.saturating_mul(2);
-                problems.push(format!("has {count} bytes for {} registers, which have {expected}", request.quantity));
+                problems.push(format!(
+                    "has {count} bytes instead of {expected} for {}",
+                    count_of(request.quantity, "register")
+                ));
             }
             3 + usize::from(count)
         }
@@ -113,7 +120,7 @@ fn reply(request: Option<&Request>, bytes: &[u8]) -> Vec<String> {
         _ => return problems,
     };
     if function & 0x7F != request.function {
-        problems.push(format!("has function {}, but the request has function {}", function & 0x7F, request.function));
+        problems.push(format!("has the function code {}, but the request has {}", function & 0x7F, request.function));
     }
     problems.extend(ending(bytes, length));
     problems
@@ -126,9 +133,9 @@ fn ending(bytes: &[u8], length: usize) -> Option<String> {
         Some(2) => {
             let (data, check) = bytes.split_at(length);
             let crc = crc(data).to_le_bytes();
-            (check != crc).then(|| format!("ends with {:02X?}, but its CRC is {crc:02X?}", check))
+            (check != crc).then(|| format!("ends with {:02X?}, but the CRC of its bytes is {crc:02X?}", check))
         }
-        _ => Some(format!("has {} bytes, but its fields have {length}", bytes.len())),
+        _ => Some(format!("has {} bytes, but its fields need {length}", bytes.len())),
     }
 }
 

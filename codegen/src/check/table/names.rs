@@ -40,7 +40,7 @@ fn case_only<'g>(names: &mut HashMap<CompactString, &'g Item>, item: &'g Item, d
     if first.name != item.name {
         let (name, other) = (brief(&item.name), brief(&first.name));
         let message = format!("`{name}` and `{other}` differ only in upper and lower case");
-        let found = codes::NAME_TWICE.at(name_span(item), message).note_at(name_span(first), "the other one");
+        let found = codes::NAME_TWICE.at(name_span(item), message).note_at(name_span(first), "the other name");
         diagnostics.push(found.help("use one spelling if both are the same name"));
     }
 }

@@ -5,7 +5,7 @@ use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Binding, Group, GroupKind, Item};
 use crate::text::brief;
 
-/// The number of consecutive numbers on both sides of a gap that shows that a chapter counts up.
+/// The number of parameters with consecutive numbers that must be on each side of a reported gap.
 const ROW: usize = 2;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {

@@ -32,7 +32,7 @@ pub(super) fn constant(model: Option<&Variant>, name: &str) -> Option<f64> {
     model?.constants.iter().find(|(constant, _)| constant == name)?.1.as_real()
 }
 
-/// Returns a given number that is fixed for a model.
+/// Returns the value of a number in `[given]` on a model, if the table fixes it.
 pub(super) fn given(device: &Device, model: Option<&str>, name: &str) -> Option<f64> {
     let given = device.given.iter().find(|given| given.name == name)?;
     let (_, value) = given.models.iter().find(|(other, _)| Some(other.as_str()) == model)?;

@@ -24,9 +24,9 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         if !differences.is_empty() {
             let (name, other_name, differences) = (brief(&item.name), brief(&other.name), differences.join("; "));
             let message =
-                format!("`{name}` is the same quantity as `{other_name}`, but the defaults differ: {differences}");
+                format!("`{name}` and `{other_name}` are the same quantity, but their defaults differ: {differences}");
             let found = codes::QUANTITIES_DIFFER.at(item.at.default.or(item.origin.span), message);
-            diagnostics.push(found.note_at(other.at.default.or(other.origin.span), "the other one"));
+            diagnostics.push(found.note_at(other.at.default.or(other.origin.span), "the other item"));
         }
     }
 }

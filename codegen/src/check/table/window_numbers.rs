@@ -30,7 +30,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 
 /// Reports an item of a window that is not an integer.
 fn no_integer(part: &Item, what: &str) -> Diagnostic {
-    let message = format!("`{}` has {what} of a window, but is not an integer of up to 64 bits", brief(&part.name));
+    let message = format!("`{}` holds {what} of a window, but is not an integer of up to 64 bits", brief(&part.name));
     codes::TABLE_VALUE.at(part.at.ty.or(part.at.name), message)
 }
 

@@ -51,8 +51,9 @@ fn width<'d>(
     }
 }
 
-/// Reports a window, or its procedure, that writes the number first although the device clears the number after the transfer: it
-/// starts before it has the value. The number and the value of a process image are sent together.
+/// Reports a window, or the procedure of a window, that writes the number before the value although the device clears the number
+/// after the transfer. Such a device starts the transfer when it receives the number. In a process image, the number and the value
+/// are sent together, so their order is not checked.
 fn order(
     context: &Context<'_>,
     side: &WindowSide,
@@ -67,11 +68,11 @@ fn order(
         return;
     }
     let (address, value) = (brief(&side.number), brief(&side.value));
-    let begins = "the device starts when it has the number";
+    let begins = "the number starts the transfer";
     if side.number_first == Some(true) {
         let message = format!("the number is written to `{address}` before the value to `{value}`, and {begins}");
         let found = codes::WINDOW_ORDER.at(number.unwrap_or(item).at.name, message);
-        let help = "write `first = \"value\"`, or delete `clears` in the row if the device does not clear the number";
+        let help = "write `first = \"value\"`, or delete `clears` if the device does not clear the number";
         diagnostics.push(found.help(help));
     }
     let Some(procedure) = procedure else { return };
@@ -85,7 +86,7 @@ fn order(
     let name = brief(&procedure.name);
     let message = format!("`{name}` writes the number to `{address}` before the value to `{value}`, and {begins}");
     let span = procedure.step_spans.get(at).copied().unwrap_or(procedure.origin.span);
-    diagnostics.push(codes::WINDOW_ORDER.at(span, message).help("write the value first"));
+    diagnostics.push(codes::WINDOW_ORDER.at(span, message).help("write the value before the number"));
 }
 
 /// Returns the number of bits of the maximum, or `u32::MAX` if it is unknown or if values may be negative.

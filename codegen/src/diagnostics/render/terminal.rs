@@ -69,7 +69,7 @@ fn suggestion(diagnostic: &Diagnostic, location: Option<MarkedSource>) -> Option
     if !window.is_whole || fix.chars().nth(marked::MAX_CHARS).is_some() {
         return None;
     }
-    let title = diagnostic.help.as_deref().map_or("write this instead".into(), paragraph);
+    let title = diagnostic.help.as_deref().map_or("replace the marked text".into(), paragraph);
     let patch = Patch::new(window.mark, paragraph(fix));
     let snippet = Snippet::source(window.text).line_start(window.first_line).patch(patch);
     Some(Level::HELP.secondary_title(title).element(snippet))
@@ -274,7 +274,7 @@ mod tests {
         3 | SubNumber=012
           |           ^^^ read as 10
           |
-        help: write this instead
+        help: replace the marked text
           |
         3 | SubNumber=0x012
           |           ++
@@ -298,7 +298,7 @@ mod tests {
         3 | SubNumber=012
           |           ^^^ read as 10
           |
-        help: write this instead
+        help: replace the marked text
           |
         3 - SubNumber=012
         3 + SubNumber=
@@ -311,7 +311,7 @@ mod tests {
         3 | SubNumber=012
           |           ^^^ read as 10
           |
-        help: write this instead
+        help: replace the marked text
           |
         3 | SubNumber=012
           |
@@ -323,7 +323,7 @@ mod tests {
         3 | SubNumber=012
           |           ^^^ read as 10
           |
-        help: write this instead
+        help: replace the marked text
           |
         3 ~ SubNumber=10
         4 + DataType=7

@@ -14,9 +14,9 @@ pub struct Number {
 pub enum Parsed {
     /// A number.
     Int {
-        /// Its value.
+        /// Value of the number.
         value: i128,
-        /// Whether it was written as a bit pattern: hexadecimal and without a sign.
+        /// Whether the number was written as a bit pattern: hexadecimal and without a sign.
         hex: bool,
     },
     /// `$NODEID` plus this offset.

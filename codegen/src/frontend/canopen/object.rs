@@ -22,9 +22,9 @@ pub struct Terms {
 pub struct ObjectType<'t> {
     /// The text.
     pub text: &'t str,
-    /// Its number, if it is one.
+    /// Number of the object type, if it is one.
     pub number: Option<i128>,
-    /// Its span.
+    /// Span of the object type.
     pub span: Span,
 }
 

@@ -37,7 +37,7 @@ impl Converter<'_> {
             Type::VisibleString(_) | Type::UnicodeString(_) => Value::Text(self.unquoted(text, span).into()),
             Type::OctetString(_) => self.octets(text, span),
             Type::Domain => {
-                self.report(&codes::DOMAIN_DEFAULT, span, "a DOMAIN can't have a value in the file", "kept as text");
+                self.report(&codes::DOMAIN_DEFAULT, span, "a DOMAIN cannot have a value in the file", "kept as text");
                 raw(text)
             }
             Type::TimeOfDay | Type::TimeDifference => self.time(text, span, ty),
@@ -124,7 +124,7 @@ impl Converter<'_> {
                     Diagnostic::new(
                         &codes::TWOS_COMPLEMENT,
                         span,
-                        format!("{text} is out of range for {ty}, but its bits are {negative}"),
+                        format!("{text} is out of range for {ty}, but is the bit pattern of {negative}"),
                     )
                     .label(format!("read as {negative}"))
                     .fix(negative.to_string()),
@@ -298,7 +298,7 @@ impl Converter<'_> {
     }
 
     fn illegal(&mut self, text: &str, span: Span, ty: Type) -> Value {
-        self.report(&codes::ILLEGAL_NUMBER, span, format!("`{text}` is not a {ty}"), "kept as text");
+        self.report(&codes::ILLEGAL_NUMBER, span, format!("`{text}` is not a value of the type {ty}"), "kept as text");
         raw(text)
     }
 
@@ -306,7 +306,9 @@ impl Converter<'_> {
         self.diagnostics.push(
             Diagnostic::new(&codes::UNKNOWN_FORMULA, span, format!("`{text}` is not a formula of CiA 306"))
                 .label("kept as text")
-                .help("write $NODEID or $NODEID+number, or declare the other name of the node-ID as an alias"),
+                .help(
+                    "write $NODEID or $NODEID+number, or declare the other name of the node-ID with `--node-id-alias`",
+                ),
         );
     }
 

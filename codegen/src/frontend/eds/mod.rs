@@ -216,7 +216,7 @@ fn report_encoding(source: &Source, file: FileId, diagnostics: &mut Diagnostics)
     };
     let at = source.text().bytes().position(|byte| !byte.is_ascii());
     let (at, label) = match at {
-        Some(at) => (at, format!("first such character; read as {read_as}")),
+        Some(at) => (at, format!("first affected character; the file is read as {read_as}")),
         None => (0, format!("read as {read_as}")),
     };
     let length = source.text()[at..].chars().next().map_or(0, char::len_utf8);
@@ -249,13 +249,13 @@ fn report_oddities(doc: &Document<'_>, diagnostics: &mut Diagnostics) {
             Oddity::HashLine if hash_seen => continue,
             Oddity::HashLine => {
                 hash_seen = true;
-                let message = format!("{hash_lines} line(s) start with `#`, which does not start a comment in CiA 306");
+                let (lines, label) = match hash_lines {
+                    1 => ("1 line starts".to_owned(), "skipped"),
+                    _ => (format!("{hash_lines} lines start"), "first of these lines; all are skipped"),
+                };
+                let message = format!("{lines} with `#`, which does not start a comment in CiA 306");
                 let help = "start comment lines with `;`";
-                diagnostics.push(
-                    Diagnostic::new(&codes::HASH_COMMENT, span, message)
-                        .label("first of these lines; all are skipped")
-                        .help(help),
-                );
+                diagnostics.push(Diagnostic::new(&codes::HASH_COMMENT, span, message).label(label).help(help));
                 continue;
             }
         };

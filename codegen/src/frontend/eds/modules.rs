@@ -13,6 +13,7 @@ use crate::frontend::canopen::number;
 use crate::ir::{Device, Group, Module, SubExtension};
 use crate::source::Span;
 use crate::syntax::ini::{Entry, Section};
+use crate::text::count_of;
 
 /// The sections of a module.
 #[derive(Default)]
@@ -57,7 +58,7 @@ fn check_announced(reader: &mut Reader<'_, '_>, by_module: &BTreeMap<u32, Parts>
         return;
     };
     if announced as usize != described {
-        let message = format!("the file announces {announced} modules but describes {described}");
+        let message = format!("the file announces {}, but describes {described}", count_of(announced, "module"));
         reader.diagnostics.push(Diagnostic::new(&codes::UNRESOLVED_MODULE, span, message));
     }
 }

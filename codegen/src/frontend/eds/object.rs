@@ -295,7 +295,7 @@ impl<'a> Reader<'a, '_> {
                 let message = format!("`{text}` is not the code of a data type");
                 self.diagnostics.push(
                     Diagnostic::new(&codes::UNKNOWN_DATA_TYPE, span, message)
-                        .label("kept read-only, as raw bytes")
+                        .label("kept as read-only raw bytes")
                         .help("write the code of a basic type, such as 0x0007 for UNSIGNED32"),
                 );
                 None
@@ -307,12 +307,12 @@ impl<'a> Reader<'a, '_> {
         let (kind, message) = match code {
             ObjectCode::Domain => return Some(Type::Domain),
             ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null => return Some(Type::Opaque(None)),
-            ObjectCode::Array => (&codes::COMPACT_WITHOUT_TYPE, "there is a CompactSubObj but no DataType"),
+            ObjectCode::Array => (&codes::COMPACT_WITHOUT_TYPE, "the object has CompactSubObj, but no DataType"),
             _ => (&codes::MISSING_DATA_TYPE, "DataType is missing"),
         };
         self.diagnostics.push(
             Diagnostic::new(kind, span, message)
-                .label("kept read-only, as raw bytes")
+                .label("kept as read-only raw bytes")
                 .help("add a DataType with the code of a basic type, such as `DataType=0x0007` for UNSIGNED32"),
         );
         None
@@ -393,7 +393,7 @@ impl<'a> Reader<'a, '_> {
             if announced > 0 {
                 self.diagnostics.push(
                     Diagnostic::new(&codes::COMPACT_AND_SUBS, span, "the object has both SubNumber and CompactSubObj")
-                        .label("described sub-indices are kept, CompactSubObj adds the others"),
+                        .label("described sub-indices are kept; CompactSubObj adds the others"),
                 );
             }
         } else {

@@ -144,7 +144,7 @@ impl<'a, 'd> Reader<'a, 'd> {
             1 => "a flag is a hexadecimal number instead of 0 or 1".to_owned(),
             _ => format!("{count} flags are hexadecimal numbers instead of 0 or 1"),
         };
-        let label = if count == 1 { "read as its value" } else { "first of these flags; all are read as their values" };
+        let label = if count == 1 { "read as a number" } else { "first of these flags; all are read as numbers" };
         self.diagnostics.push(Diagnostic::new(&codes::NOT_BOOLEAN, span, message).label(label));
     }
 
@@ -273,7 +273,7 @@ impl<'a, 'd> Reader<'a, 'd> {
 
     pub(super) fn duplicate_sections(&mut self, same: &[Section]) {
         for later in same.iter().skip(1) {
-            self.duplicate_section(&same[0], later, "merged with the first");
+            self.duplicate_section(&same[0], later, "merged with the first section of this name");
         }
     }
 
@@ -294,7 +294,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         }
     }
 
-    /// Returns whether another `bytes` of text may be copied. Reports only the first refusal.
+    /// Returns whether `bytes` more bytes of text may be copied. Reports only the first refusal.
     pub(super) fn may_copy(&mut self, bytes: usize, span: Span) -> bool {
         if let Some(left) = self.copies_left.checked_sub(bytes) {
             self.copies_left = left;

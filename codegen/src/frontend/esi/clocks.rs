@@ -5,7 +5,7 @@ use crate::frontend::xml::Read;
 use crate::ir::{ClockMode, ClockSyncManager, ClockTime, DistributedClocks};
 use crate::syntax::xml::Tag;
 
-/// Reads Dc.
+/// Reads the element `Dc` of a device.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<DistributedClocks> {
     let mut clocks = DistributedClocks::default();
     reader.attributes_and_others(parent, [], &mut clocks.attributes)?;

@@ -16,7 +16,7 @@ use crate::text::brief;
 #[derive(Default)]
 pub(super) struct RawType<'a> {
     pub name: Given<'a>,
-    /// Its number in the dictionary.
+    /// Number of the data type in the dictionary.
     pub code: Option<u32>,
     pub base: Given<'a>,
     pub bits: Option<u32>,

@@ -5,7 +5,7 @@ use crate::frontend::xml::Read;
 use crate::ir::EtherCatSettings;
 use crate::syntax::xml::Tag;
 
-/// Reads Info.
+/// Reads the element `Info` of a device.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, settings: &mut EtherCatSettings) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         match tag.name {

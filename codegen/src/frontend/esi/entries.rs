@@ -134,7 +134,7 @@ pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], s
         by_name.entry(entry.field.name.text.as_ref()).or_insert(at);
     }
     if by_name.len() < singles.len() && subs.len() == entries.len() {
-        // With a repeated name, several positions are possible.
+        // A sub-item with a repeated name can belong to several entries.
         return by_position(reader, entries, subs);
     }
     let mut next = 0;

@@ -84,7 +84,7 @@ fn access<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, flags: &mut Flags) -> 
                 "wo" | "w" => Access::WriteOnly,
                 _ => Access::ReadOnly,
             };
-            unknown(reader, &given, "access", &format!("read as {}; expected ro, rw or wo", access.name()));
+            unknown(reader, &given, "access right", &format!("read as {}; expected ro, rw or wo", access.name()));
             Some(access)
         }
     };
@@ -140,7 +140,7 @@ impl Flags {
         self.more.get_or_insert_default()
     }
 
-    /// Returns the number of text bytes in a copy.
+    /// Returns the number of bytes that a copy of the texts in these flags costs in the budget for copied facts.
     pub fn weight(&self) -> usize {
         let Some(more) = self.more.as_deref() else { return 0 };
         let states = more.read_states.iter().chain(&more.write_states);

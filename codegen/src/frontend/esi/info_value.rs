@@ -43,7 +43,7 @@ pub(super) enum Form {
 }
 
 impl<'a> RawInfo<'a> {
-    /// Returns the number of text bytes.
+    /// Returns the number of bytes of text that a copy of this value needs.
     pub fn weight(&self) -> usize {
         let length = |raw: &Option<RawValue<'a>>| raw.as_ref().map_or(0, |raw| raw.given.text.len());
         let of_more =
@@ -83,7 +83,7 @@ impl<'a> RawInfo<'a> {
         self.more.get_or_insert_default()
     }
 
-    /// Returns whether it has no default value and no other facts.
+    /// Returns whether the value has neither a default value nor limits, a unit or a display name.
     pub fn is_empty(&self) -> bool {
         self.default.is_none() && self.more.is_none()
     }

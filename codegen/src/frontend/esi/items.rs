@@ -371,11 +371,11 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
         let silent = group.items.iter().filter(|item| item.at.access.is_empty()).count();
         if silent > 0 {
-            let message = "the access rights of this object are not declared";
+            let message = "the file does not declare the access rights of this object";
             let label = if silent == group.items.len() {
-                "read-only".to_owned()
+                "kept as read-only".to_owned()
             } else {
-                format!("{silent} of its {} sub-indices are read-only", group.items.len())
+                format!("{silent} of {} sub-indices kept as read-only", group.items.len())
             };
             reader.report(&codes::ESI_MISSING_ACCESS, group.origin.span, message, label);
         }

@@ -127,7 +127,7 @@ pub(super) fn plug(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     let (mut left, mut is_reported) = (limits::MAX_MODULE_USES, false);
     for device in devices {
         if !known.plug(device, &mut left, &mut is_reported, diagnostics) {
-            let message = "too many modules fit into the slots of all devices";
+            let message = "the slots of all devices accept more modules than the limit allows";
             let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, device.origin.span, message);
             diagnostics.push(diagnostic.label("this and later devices have no modules"));
             return;

@@ -6,13 +6,13 @@ use crate::frontend::xml::{Given, Read};
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// A number, and whether it was written as a bit pattern.
+/// A number, and whether the number was written as a bit pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Number {
     pub value: i128,
-    /// Whether it is hexadecimal and without a sign.
+    /// Whether the number is hexadecimal and without a sign.
     pub hex: bool,
-    /// How it deviates from ETG.2000.
+    /// How the notation deviates from ETG.2000.
     pub fault: Option<Fault>,
 }
 

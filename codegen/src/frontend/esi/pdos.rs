@@ -65,7 +65,7 @@ fn check(reader: &mut Reader<'_, '_>, tag: &Tag<'_>, pdo: &Pdo, has_index: bool)
     }
     if pdo.name.is_empty() {
         let message = format!("this {} has no name", tag.name);
-        reader.report(&codes::UNNAMED_PDO, tag.span, message, "its index is used instead of a name");
+        reader.report(&codes::UNNAMED_PDO, tag.span, message, "the index is used instead of a name");
     }
 }
 

@@ -42,7 +42,7 @@ impl xml::Language for Lcid {
 }
 
 impl Reader<'_, '_> {
-    /// Returns whether the cost is within the budget. Reports the first addition that is not.
+    /// Returns whether the cost is within the budget. Reports the first addition that exceeds the budget.
     pub fn derive(&mut self, cost: Cost, span: Span) -> bool {
         if self.format.budget.take(cost) {
             return true;

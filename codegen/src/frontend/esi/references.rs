@@ -18,7 +18,7 @@ struct Content {
     catalog: Catalog,
     dictionary: Cost,
     messages: Cost,
-    /// Whether it was copied. The first copy is free because it is not larger than the file.
+    /// Whether the file was copied. The first copy is free because it is not larger than the file.
     is_copied: bool,
     /// Elements that have a copy.
     owners: HashSet<(Owner, Target)>,

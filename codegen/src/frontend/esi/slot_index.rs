@@ -9,9 +9,9 @@ use crate::syntax::xml::Tag;
 #[derive(Default)]
 pub(super) struct SlotIndex<'a> {
     pub given: Given<'a>,
-    /// Whether it depends on the slot.
+    /// Whether the index depends on the slot.
     pub slot: bool,
-    /// Whether it depends on the slot group.
+    /// Whether the index depends on the slot group.
     pub group: bool,
     /// Factor for the channel of a template.
     pub factor: Given<'a>,

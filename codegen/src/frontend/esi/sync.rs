@@ -100,11 +100,14 @@ pub(super) fn settle(
         if by_text.is_none() {
             let message = match given.text.as_ref() {
                 "" => "this sync manager has no purpose".to_owned(),
-                text => format!("`{}` is not the purpose of a sync manager", brief(text)),
+                text => format!("`{}` is not a purpose of a sync manager", brief(text)),
             };
-            let reason =
-                if by_pdos.is_some() { "from the PDOs that name it" } else { "from its control byte or position" };
-            let label = format!("read as {}, {reason}", manager.purpose.label());
+            let reason = if by_pdos.is_some() {
+                "because of the PDOs that name it"
+            } else {
+                "because of its control byte or position"
+            };
+            let label = format!("read as {} {reason}", manager.purpose.label());
             let span = given.span.or(manager.origin.span);
             reader.report(&codes::SYNC_MANAGER_PURPOSE, span, message, label);
         }

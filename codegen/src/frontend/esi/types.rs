@@ -152,12 +152,7 @@ impl<'t, 'a> Types<'t, 'a> {
 
     fn note_name(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &'t RawType<'a>) {
         if ty.name.is_empty() {
-            reader.report(
-                &codes::ESI_VALUE,
-                ty.origin.span,
-                "this data type has no name",
-                "references to it are impossible",
-            );
+            reader.report(&codes::ESI_VALUE, ty.origin.span, "this data type has no name", "nothing can refer to it");
             return;
         }
         let first = *self.by_name.entry(ty.name.text.as_ref()).or_insert(at as u32) as usize;
@@ -383,7 +378,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Returns a type that its name defines, such as BITARR8.
+    /// Returns the type that a name such as BITARR8 defines.
     fn make(&mut self, name: &str, known: Basic) -> Type {
         if let Some(&ty) = self.made.get(name) {
             return ty;
@@ -427,7 +422,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Returns the length in bits.
+    /// Returns the length of a type in bits.
     pub fn bits(&self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(TypeId(at)) => self.defs.get(at as usize)?.bits,
@@ -471,13 +466,13 @@ fn field_names(reader: &mut Reader<'_, '_>, fields: &[RawField<'_>]) {
     let mut seen = Seen::default();
     for field in fields {
         if field.name.is_empty() {
-            let label = "its sub-index is used instead of a name";
+            let label = "the sub-index is used instead of a name";
             reader.report(&codes::SUB_ITEM_NAME, field.origin.span, "this sub-item has no name", label);
         } else if let Some(earlier) = seen.insert(&field.name) {
             let message = format!("two sub-items have the name `{}`", brief(&field.name.text));
             reader.diagnostics.push(
                 Diagnostic::new(&codes::SUB_ITEM_NAME, field.name.span, message)
-                    .label("their sub-indices are used to distinguish them")
+                    .label("distinguished by their sub-indices")
                     .note_at(earlier, "first sub-item with this name"),
             );
         }

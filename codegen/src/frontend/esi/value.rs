@@ -7,7 +7,7 @@ use super::number;
 use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{CompactString, Type, Value};
-use crate::text::brief;
+use crate::text::{brief, count_of};
 
 /// Whether a value is a default value or a limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,7 +64,7 @@ fn scalar(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, bytes: Vec<
             _ if rest.iter().any(|&byte| byte != 0) => "kept as bytes",
             _ => "the zeros after the value are ignored",
         };
-        let message = format!("{ty} has a length of {length} in bytes, but the value has {}", bytes.len());
+        let message = format!("{ty} has {}, but the value has {}", count_of(length, "byte"), bytes.len());
         reader.report(&codes::HEX_LENGTH, raw.given.span, message, label);
     }
     if rest.iter().any(|&byte| byte != 0) {
@@ -150,7 +150,7 @@ fn fraction(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value 
         );
         return Value::Int(number.value);
     }
-    let message = format!("`{}` is not a {ty}", brief(&given.text));
+    let message = format!("`{}` is not a value of the type {ty}", brief(&given.text));
     reader.report(&codes::VALUE_FORM, given.span, message, "kept as text");
     Value::Raw(given.compact())
 }
@@ -164,7 +164,7 @@ fn real(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
         return Value::Real(value);
     }
     let Some(number) = reader.parse(given) else {
-        let message = format!("`{}` is not a {ty}", brief(&given.text));
+        let message = format!("`{}` is not a value of the type {ty}", brief(&given.text));
         reader.report(&codes::VALUE_FORM, given.span, message, "kept as text");
         return Value::Raw(given.compact());
     };

@@ -42,7 +42,7 @@ impl<'a> Reader<'a, '_> {
         }
         match info {
             Some(info) => info.of_device(&mut device, &mut settings.attributes),
-            None => self.missing(parent, "ModuleInfo", "its name is left empty"),
+            None => self.missing(parent, "ModuleInfo", "the name is left empty"),
         }
         if settings.startup_modes.is_empty() {
             settings.startup_modes.push("Legacy".into());

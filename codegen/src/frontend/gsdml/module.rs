@@ -48,7 +48,7 @@ impl<'a> Reader<'a, '_> {
         }
         match info {
             Some(info) => info.of_module(&mut module, &mut attributes),
-            None => self.missing(parent, "ModuleInfo", "its name is left empty"),
+            None => self.missing(parent, "ModuleInfo", "the name is left empty"),
         }
         let span = module.origin.span;
         module.extensions = self.extensions_since(start);

@@ -49,7 +49,7 @@ impl<'a> Reader<'a, '_> {
             }
         }
         if info.name.is_empty() {
-            self.missing(parent, "Name", "its name is left empty");
+            self.missing(parent, "Name", "the name is left empty");
         }
         Ok(info)
     }

@@ -58,7 +58,7 @@ impl<'a> Reader<'a, '_> {
     pub fn name(&mut self, tag: &Tag<'a>, given: Given<'a>) -> CompactString {
         if given.is_missing() {
             let message = format!("<{}> has no TextId", tag.name);
-            self.report(&codes::MISSING_TEXT, tag.name_span(), message, "its name is left empty");
+            self.report(&codes::MISSING_TEXT, tag.name_span(), message, "the name is left empty");
             return CompactString::default();
         }
         self.format.texts.hold(given)
@@ -82,7 +82,7 @@ impl<'a> Reader<'a, '_> {
         if id.is_missing() {
             // In V2.0, interfaces and ports have no ID, and nothing refers to them.
             if kind != ElementKind::BuiltIn || tag.name == "VirtualSubmoduleItem" {
-                self.missing(tag, "ID", "references to it are impossible");
+                self.missing(tag, "ID", "nothing can refer to it");
             }
             return;
         }

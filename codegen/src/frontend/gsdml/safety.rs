@@ -134,7 +134,7 @@ impl<'a> Reader<'a, '_> {
         parameter.label = given.text.as_ref().into();
         match known.labels.iter().find(|(label, _)| *label == given.text) {
             Some(&(_, number)) => parameter.default = number,
-            None => self.bad(given, "F-parameter value", "kept as text; the number of the default value is used"),
+            None => self.bad(given, "F-parameter value", "kept as text; read as the default number of the schema"),
         }
     }
 

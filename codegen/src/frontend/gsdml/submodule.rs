@@ -110,7 +110,7 @@ impl<'a> Reader<'a, '_> {
         // In V1.0, virtual submodules have no name.
         let named = kind == SubmoduleKind::Virtual || !submodule.name.is_empty() || !info.name.is_empty();
         if !named {
-            self.missing(parent, "name", "its name is left empty");
+            self.missing(parent, "name", "the name is left empty");
         }
         info.of_submodule(&mut submodule);
         submodule.extensions = self.extensions_since(start);

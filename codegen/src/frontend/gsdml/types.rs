@@ -114,7 +114,7 @@ impl<'a> Types<'a> {
                 unresolved("ValueItem", &target, diagnostics);
                 continue;
             };
-            // Further types with the same values need copies of them.
+            // Each further type with the same values needs a copy of these values.
             let copies = if std::mem::replace(&mut item.used, true) { item.values.len() } else { 0 };
             let Some(rest) = budget.checked_sub(copies) else {
                 too_many(&target, diagnostics);
@@ -137,7 +137,7 @@ impl<'a> Types<'a> {
 }
 
 fn too_many(target: &Given<'_>, diagnostics: &mut Diagnostics) {
-    let message = "the value lists are used with too many types";
+    let message = "the value lists are used with more types than the limit allows";
     let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, target.span, message);
     diagnostics.push(diagnostic.label("the values have no names"));
 }

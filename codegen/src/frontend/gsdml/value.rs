@@ -27,7 +27,7 @@ impl<'a> Reader<'a, '_> {
                 Type::Integer(_) | Type::Unsigned(_) => "an integer",
                 Type::Real32 | Type::Real64 => "a number",
                 Type::OctetString(_) => "octets such as `0x00,0x1F`",
-                _ => "a value in a known form",
+                _ => "a value of its data type",
             };
             let message = format!("the default value `{}` is not {what}", brief(text));
             self.diagnostics.push(Diagnostic::new(&codes::GSDML_DEFAULT, given.span, message).label("kept as text"));
@@ -138,7 +138,7 @@ fn boolean(text: &str) -> Option<Value> {
     }
 }
 
-/// Reads an integer. Returns also whether it consists of decimal digits.
+/// Reads an integer. Returns also whether the text consists of decimal digits.
 fn whole(text: &str) -> Option<(i128, bool)> {
     if let Ok(value) = text.parse::<i64>() {
         return Some((value.into(), true));

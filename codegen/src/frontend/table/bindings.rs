@@ -15,7 +15,7 @@ use super::{lints, notation, types};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Binding, Buses, Item, ObjectBuses, RegisterSpace, Type};
 use crate::limits;
-use crate::text::brief;
+use crate::text::{brief, count_of};
 
 /// The number of items of a row, and the distance between their register numbers.
 #[derive(Clone, Copy, Debug)]
@@ -88,12 +88,13 @@ impl Rows {
         if let Some(given) = row.default.as_ref().filter(|given| given.value.0.len() > 1 && !is_array) {
             let defaults = given.value.0.len();
             if defaults > count as usize {
-                let message = format!("the list has {defaults} defaults, but the row describes {count} items");
+                let message =
+                    format!("the list has {defaults} defaults, but the row describes {}", count_of(count, "item"));
                 reader.report(&codes::TABLE_VALUE, reader.span(given), message);
             }
         }
         if row.count.is_some() && count > 1 && !key.value.contains("{n") {
-            let message = format!("`{}` is the name of {count} items", brief(&key.value));
+            let message = format!("all {count} items of the row have the name `{}`", brief(&key.value));
             let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), message);
             reader.diagnostics.push(found.help("write `{n}`, which counts from 0, or `{n+1}` in the name"));
         }
@@ -203,7 +204,11 @@ impl Rows {
             (Some(_), None, Some(space)) => {
                 format!("`{key}` has no address: the space `{}` has no rule for the buses of the device", space.name)
             }
-            _ => format!("`{key}` has no address: write `reg`, `obj`, `param`, `esc` or `ascii`"),
+            _ => {
+                let help = "add one of `reg`, `obj`, `param`, `esc` and `ascii`";
+                let message = format!("`{key}` has no address");
+                return reader.report_with_help(&codes::ROW_WITHOUT_ADDRESS, reader.span(named.key), message, help);
+            }
         };
         reader.report(&codes::ROW_WITHOUT_ADDRESS, reader.span(named.key), message);
     }
@@ -222,7 +227,7 @@ impl Rows {
             NumberOrText::Number(number) => match u32::try_from(*number) {
                 Ok(number) => (number, None),
                 Err(_) => {
-                    let message = format!("`{number}` is not a register number, which is from 0 to {}", u32::MAX);
+                    let message = format!("`{number}` is not a register number from 0 to {}", u32::MAX);
                     reader.report(&codes::TABLE_PLACE, reader.span(reg), message);
                     return None;
                 }
@@ -230,8 +235,9 @@ impl Rows {
             NumberOrText::Text(text) => match notation::registers(text) {
                 Some((first, last)) => (first, Some(last)),
                 None => {
-                    let message = format!("`{}` is not a register number: write `63` or `\"63-64\"`", brief(text));
-                    reader.report(&codes::TABLE_PLACE, reader.span(reg), message);
+                    let message = format!("`{}` is not a register number", brief(text));
+                    let help = "write a number such as `63`, or a range such as `\"63-64\"`";
+                    reader.report_with_help(&codes::TABLE_PLACE, reader.span(reg), message, help);
                     return None;
                 }
             },
@@ -268,12 +274,13 @@ impl Rows {
     fn part(&self, reader: &mut Reader<'_, '_>, part: &At<NumberOrText>, bits: Option<u32>, unit: u32) -> Option<u8> {
         let text = part.value.to_string();
         let Some((offset, count)) = notation::bits(&text) else {
-            let message = format!("`{}` is not a bit or a range of bits: write `7` or `\"7-0\"`", brief(&text));
-            reader.report(&codes::TABLE_PLACE, reader.span(part), message);
+            let message = format!("`{}` is not a bit or a range of bits", brief(&text));
+            let help = "write a bit such as `7`, or a range such as `\"7-0\"`";
+            reader.report_with_help(&codes::TABLE_PLACE, reader.span(part), message, help);
             return None;
         };
         if bits.is_some_and(|bits| bits != u32::from(count)) {
-            let message = format!("the part has {count} bits, but the type has {}", bits.unwrap_or(0));
+            let message = format!("the part has {}, but the type has {}", count_of(count, "bit"), bits.unwrap_or(0));
             reader.report(&codes::REGISTER_SPAN, reader.span(part), message);
         }
         if u32::from(offset) + u32::from(count) > unit {
@@ -301,8 +308,9 @@ impl Rows {
         let found = notation::objects(&text).filter(|found| found.indices.0 == found.indices.1);
         let index = found.and_then(|found| u16::try_from(u32::from(found.indices.0).checked_add(shift)?).ok());
         let (Some(found), Some(index)) = (found, index) else {
-            let message = format!("`{}` is not an object: write `0x6040` or `\"0x2000:1\"`", brief(&text));
-            reader.report(&codes::TABLE_PLACE, reader.span(object), message);
+            let message = format!("`{}` is not an object", brief(&text));
+            let help = "write an index such as `0x6040`, or an index with a sub-index such as `\"0x2000:1\"`";
+            reader.report_with_help(&codes::TABLE_PLACE, reader.span(object), message, help);
             return;
         };
         let sub_index = found.subs.map(|(first, _)| first);
@@ -331,7 +339,7 @@ impl Rows {
             if !bus.is_empty() && bus.and(self.buses).is_empty() {
                 let message = format!("the device does not have the bus {}", brief(&name.value));
                 let wrong = Diagnostic::new(&codes::TABLE_VALUE, reader.span(name), message);
-                reader.diagnostics.push(wrong.help("add the bus to `buses` of `[device]`, or remove it here"));
+                reader.diagnostics.push(wrong.help("add the bus to `buses` of `[device]`, or delete it from the row"));
             }
             found = found.or(bus);
         }
@@ -342,11 +350,11 @@ impl Rows {
     pub(super) fn object_buses(&self, reader: &mut Reader<'_, '_>, row: &Row, at: &At<impl Clone>) -> ObjectBuses {
         let objects = self.buses_of(reader, row).with_objects();
         if Buses::from(objects).is_empty() {
-            let message = "objects exist on CANopen and EtherCAT only, and the row is on neither";
+            let message = "the row has an object, but is on neither CANopen nor EtherCAT";
             let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(at), message);
             reader
                 .diagnostics
-                .push(found.help("add one of them to `buses` of the row, of its defaults or of the device"));
+                .push(found.help("add CANopen or EtherCAT to `buses` of the row, of the defaults or of the device"));
         }
         ObjectBuses { canopen: objects.canopen || !objects.coe, ..objects }
     }

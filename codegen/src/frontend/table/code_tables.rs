@@ -18,8 +18,9 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
     let mut distinct = table.distinct.then(Distinct::default);
     for (key, row) in table.rows.iter() {
         let Some((first, last)) = notation::range(&key.value).filter(|(first, last)| first <= last) else {
-            let message = format!("`{}` is not a code: write `0x8110` or `\"0xFF13..0xFF15\"`", brief(&key.value));
-            reader.report(&codes::TABLE_PLACE, reader.span(key), message);
+            let message = format!("`{}` is not a code", brief(&key.value));
+            let help = "write a code such as `0x8110`, or a range such as `\"0xFF13..0xFF15\"`";
+            reader.report_with_help(&codes::TABLE_PLACE, reader.span(key), message, help);
             continue;
         };
         let (name, row) = match &row.value {
@@ -32,7 +33,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
         if let Some(other) = same_cells {
             let message = format!("the codes {} and {} have the same cells", brief(&other.value), brief(&key.value));
             let found = Diagnostic::new(&codes::CELLS_TWICE, reader.span(key), message);
-            reader.diagnostics.push(found.note_at(reader.span(other), "the first one"));
+            reader.diagnostics.push(found.note_at(reader.span(other), "the first of the two codes"));
         }
         let cell = |literal: &At<Literal>| {
             value::convert(&literal.value, Type::Opaque(None), false).unwrap_or(Value::Bool(false))

@@ -23,7 +23,7 @@ pub(super) fn composite(
         (0..=1, ..) => "`parts` needs at least two items, the most significant one first",
         (_, None | Some(0..=1), ..) => "`base`, the ratio of a part to the next one, must be at least 2",
         (_, _, true, false) => "`negative`, the value of `sign` for negative numbers, is missing",
-        (_, _, false, true) => "`negative` is a value of `sign`, which is missing",
+        (_, _, false, true) => "the composite has `negative`, but no `sign`",
         _ => "",
     };
     if !message.is_empty() {

@@ -60,7 +60,7 @@ pub(super) fn conditions(
     conditions
 }
 
-/// Reads models, firmware and buses. Returns `None` if the element exists everywhere.
+/// Reads the models, firmware versions and buses that have an element. Returns `None` if the element exists everywhere.
 pub(super) fn availability(
     reader: &mut Reader<'_, '_>,
     references: &mut References,

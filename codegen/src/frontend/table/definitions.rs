@@ -21,7 +21,7 @@ use crate::ir::{
 use crate::source::Origin;
 use crate::text::brief;
 
-/// What a name of a definition refers to.
+/// The kind of a named definition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum DefinitionKind {
     Enumeration,
@@ -209,8 +209,9 @@ impl Definitions {
             let range = notation::range(&key.value).filter(|(first, last)| first <= last);
             let range = range.map(|(first, last)| [first, last].map(|number| value::integer(number, base, is_pattern)));
             let Some([first, last]) = range.filter(|[first, last]| first <= last) else {
-                let message = format!("`{}` is not a value: write `3`, `0x10`, `-1` or `\"3..7\"`", brief(&key.value));
-                reader.report(&codes::TABLE_PLACE, reader.span(key), message);
+                let message = format!("`{}` is not a value", brief(&key.value));
+                let help = "write a value such as `3`, `0x10` or `-1`, or a range such as `\"3..7\"`";
+                reader.report_with_help(&codes::TABLE_PLACE, reader.span(key), message, help);
                 continue;
             };
             lints::key(reader, key, base);
@@ -370,8 +371,9 @@ fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, base: Type, first:
     let Some((byte, bits)) = key.value.split_once(':') else {
         let found = notation::bits(&key.value);
         if found.is_none() {
-            let message = format!("`{}` is not a bit or a range of bits: write `7` or `\"3-2\"`", brief(&key.value));
-            reader.report(&codes::TABLE_PLACE, reader.span(key), message);
+            let message = format!("`{}` is not a bit or a range of bits", brief(&key.value));
+            let help = "write a bit such as `7`, or a range such as `\"3-2\"`";
+            reader.report_with_help(&codes::TABLE_PLACE, reader.span(key), message, help);
         }
         return found;
     };
@@ -408,7 +410,7 @@ fn given_availability(value: &ValueTable) -> GivenAvailability<'_> {
 fn nameless(reader: &mut Reader<'_, '_>, name: &str, key: &At<String>, owner: &str, what: &str) -> bool {
     let is_empty = name.trim().is_empty();
     if is_empty {
-        let message = format!("the {what} {} of `{}` has an empty name", brief(&key.value), brief(owner));
+        let message = format!("{what} {} of `{}` has an empty name", brief(&key.value), brief(owner));
         let found = Diagnostic::new(&codes::EMPTY_NAME, reader.span(key), message);
         let help = "write a name, mark it as reserved, or delete it if the manual does not have it";
         reader.diagnostics.push(found.label(format!("named `{what} {}`", brief(&key.value))).help(help));
@@ -428,7 +430,7 @@ pub(super) fn unfilled(reader: &mut Reader<'_, '_>, key: &At<String>, name: Opti
     if let Some(name) = name.filter(|name| name.contains('{')) {
         let message = format!("the placeholder in the name `{}` has no value", brief(name));
         let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), message);
-        reader.diagnostics.push(found.help("`{n}` needs several bits, or a `count`; `{sub}` needs objects"));
+        reader.diagnostics.push(found.help("use `{n}` with several bits or a `count`, and `{sub}` with objects"));
     }
 }
 

@@ -62,7 +62,8 @@ fn node_ids(reader: &mut Reader<'_, '_>, given: &At<NumberOrText>) -> Option<(u8
     let found = range.and_then(|(first, last)| Some((number(first)?, number(last)?)));
     let found = found.filter(|(first, last)| first <= last);
     if found.is_none() {
-        reader.report(&codes::TABLE_VALUE, reader.span(given), "node IDs must be from 1 to 255: write `\"1..127\"`");
+        let message = "node IDs must be from 1 to 255";
+        reader.report_with_help(&codes::TABLE_VALUE, reader.span(given), message, "write a range such as `\"1..127\"`");
     }
     found
 }
@@ -155,14 +156,14 @@ pub(super) fn axes(reader: &mut Reader<'_, '_>, table: &At<AxesTable>, device: &
             (Some(indices), Some(step)) => rules.push(AxisRange { indices, step }),
             _ => {
                 let text = brief(reader.source.slice(reader.span(rule)));
-                let message = format!(
-                    "`{text}` is not a rule: write `objects` and one of `index`, `sub = \"axis\"`, `sub_stride`"
-                );
-                let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(rule), message);
+                let message = format!("`{text}` is not a rule for the objects of axes");
+                let help = "write `objects` and one of `index`, `sub = \"axis\"` and `sub_stride`, such as \
+                            `{ objects = \"0x6000..0x67FF\", index = 0x800 }`";
+                let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(rule), message).help(help);
                 let digits = rule.value.objects.as_ref().and_then(|given| lints::digits_of_index(reader, given));
                 reader.diagnostics.push(match digits {
-                    Some(digits) => found.help(digits),
-                    None => found.help("write a rule such as `{ objects = \"0x6000..0x67FF\", index = 0x800 }`"),
+                    Some(digits) => found.note(digits),
+                    None => found,
                 });
             }
         }

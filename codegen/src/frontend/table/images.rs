@@ -65,7 +65,7 @@ impl Images {
         self.groups.push(group);
     }
 
-    /// Inserts the groups of the images before all others, the last image first.
+    /// Inserts the groups of the images before all other groups, the last image first.
     pub fn finish(self, device: &mut Device) {
         device.groups.splice(..0, self.groups.into_iter().rev());
     }
@@ -148,8 +148,9 @@ fn of_item(
 ) -> Option<FieldPosition> {
     let more = [field.bits.is_some(), field.values.is_some(), field.unit.is_some(), field.scale.is_some()];
     if more.contains(&true) || field.min.is_some() || field.max.is_some() || field.na.is_some() {
-        let message = format!("`{}` is an item of the table: describe its value in its row", brief(&key.value));
-        reader.report(&codes::TABLE_VALUE, reader.span(key), message);
+        let message = format!("`{}` is an item of the table, so its row describes the value", brief(&key.value));
+        let help = "move the facts about the value to the row of the item";
+        reader.report_with_help(&codes::TABLE_VALUE, reader.span(key), message, help);
     }
     let ty = match &field.ty {
         Some(given) => types::named(&given.value).filter(|named| named.elements.is_none()).map(|named| named.ty),
@@ -216,7 +217,7 @@ impl Fields {
         self.0.insert((field.bit_offset.into(), end(&field), self.0.len()), field);
     }
 
-    /// Returns whether a field is within its image and overlaps no other. If not, that is reported.
+    /// Returns whether a field is within its image and overlaps no other. Reports any other field.
     fn is_free(&self, reader: &mut Reader<'_, '_>, key: &At<String>, entry: &PdoEntry, length: u32) -> bool {
         if end(entry) > u64::from(length) * 8 {
             let message = format!("`{}` ends after the {length} bytes of its image", brief(&key.value));
@@ -228,7 +229,7 @@ impl Fields {
         let Some((_, other)) = before.filter(|(range, _)| u64::from(entry.bit_offset) < range.1) else { return true };
         let message = format!("`{}` overlaps `{}`", brief(&key.value), brief(&other.name));
         let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
-        reader.diagnostics.push(found.note_at(other.origin.span, "the other one"));
+        reader.diagnostics.push(found.note_at(other.origin.span, "the other field"));
         false
     }
 }

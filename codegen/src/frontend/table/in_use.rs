@@ -37,7 +37,7 @@ struct Holder {
 }
 
 impl Holder {
-    /// Returns whether the items may share an address: no device has both on one bus, or one item is another view of the other.
+    /// Returns whether the items may share an address: no device has both on one bus, or one item shows the value of the other.
     fn is_apart(&self, other: &Holder) -> bool {
         let is_same = |one: &Holder, other: &Holder| one.same_as.as_ref() == Some(&other.name);
         if is_same(self, other) || is_same(other, self) {
@@ -133,10 +133,8 @@ impl InUse {
                 numbers(*start, other.last)
             );
             let found = Diagnostic::new(&codes::SHARED_REGISTERS, item.at.name, message);
-            let found = found.note_at(other.span, "the other one is here");
-            reader
-                .diagnostics
-                .push(found.help("one of the two has a wrong register number, or a type that is too long"));
+            let found = found.note_at(other.span, "the other item");
+            reader.diagnostics.push(found.help("correct the register number of one item, or use a shorter type"));
         }
         let availability = item.availability.clone();
         let range = RegisterRange { last, name: item.name.clone(), span: item.at.name, availability };
@@ -157,8 +155,8 @@ impl InUse {
             let (name, other_name) = (brief(&item.name), brief(&other.name));
             let message = format!("`{name}` and `{other_name}` are parts of {address} and share bits");
             let found = Diagnostic::new(&codes::SHARED_REGISTERS, item.at.name, message);
-            let found = found.note_at(other.span, "the other one is here");
-            reader.diagnostics.push(found.help("one of the two has wrong bits in `part`, or a wrong register number"));
+            let found = found.note_at(other.span, "the other item");
+            reader.diagnostics.push(found.help("correct `part` or the register number of one item"));
         }
         let availability = item.availability.clone();
         parts.push(Part { bits, name: item.name.clone(), span: item.at.name, availability });
@@ -168,7 +166,7 @@ impl InUse {
 /// Reports the second use of a name or an address.
 fn twice(reader: &mut Reader<'_, '_>, what: &str, item: &Item, first: Span, help: Option<&'static str>) {
     let found = Diagnostic::new(&codes::TABLE_DUPLICATE, item.at.name, format!("{what} occurs twice"));
-    let found = found.note_at(first, "the first one is here");
+    let found = found.note_at(first, "first use");
     reader.diagnostics.push(match help {
         Some(help) => found.help(help),
         None => found,

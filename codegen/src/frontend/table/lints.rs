@@ -10,7 +10,7 @@ use crate::ir::{Type, Value};
 use crate::source::Span;
 use crate::text::brief;
 
-/// The number of objects next to register numbers that shows that the manual prints both.
+/// The minimum number of rows with a register number and its object. From this number on, the lint expects an object in each row.
 const PRINTED: usize = 3;
 
 /// Checks the digits of a number, and its value, against its type.
@@ -90,7 +90,7 @@ pub(super) fn index<T>(reader: &mut Reader<'_, '_>, given: &At<T>) {
     let text = reader.source.slice(reader.span(given)).trim_matches(['"', '\'']);
     let first = text.split([':', '.']).next().unwrap_or_default();
     if let Some(number) = first.parse::<u16>().ok().filter(|number| *number > 0) {
-        let message = format!("the index `{first}` is decimal: 0x{number:04X}");
+        let message = format!("the index `{first}` is decimal, which is 0x{number:04X}");
         let found = Diagnostic::new(&codes::HEX_DIGITS, reader.span(given), message);
         reader.diagnostics.push(found.help(format!("write 0x{number:04X}, or 0x{first} if the manual omits `0x`")));
     }
@@ -190,7 +190,7 @@ pub(super) fn unprinted(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row
         };
         let Some((index, _)) = number.and_then(|number| space?.object(number)) else { continue };
         let message = format!(
-            "the row has no object, unlike others of its chapter, but its `[spaces]` rule derives 0x{index:04X}"
+            "the row has no object, but its `[spaces]` rule derives 0x{index:04X}, and other rows of the chapter have objects"
         );
         let found = Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(reg), message);
         reader.diagnostics.push(found.help("use a space without this rule if the register is not an object"));
@@ -225,7 +225,9 @@ fn patterns(reader: &mut Reader<'_, '_>, list: &Entries<PatternTable>, what: &st
                     brief(&key.value)
                 );
                 let found = Diagnostic::new(code, reader.span(key), message);
-                reader.diagnostics.push(found.note_at(reader.span(other_key), "the other one"));
+                reader
+                    .diagnostics
+                    .push(found.note_at(reader.span(other_key), format!("the other {}", what.trim_end_matches('s'))));
                 // One report per pattern is enough. The number of pairs is quadratic.
                 break;
             }

@@ -22,7 +22,7 @@ impl MachineBudget {
         MachineBudget(MAX_MACHINE_ROWS)
     }
 
-    /// Subtracts the size of a machine. If the limit is exceeded, reports the machine and returns `false`.
+    /// Subtracts the size of a machine from the budget. If the limit is exceeded, reports the machine and returns `false`.
     pub fn take(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -35,8 +35,8 @@ impl MachineBudget {
             return true;
         }
         let message = format!(
-            "with `{}`, the state machines have more than {MAX_MACHINE_ROWS} states, commands, transitions and rows, or \
-             long texts that many of them share",
+            "up to `{}`, the state machines have more than {MAX_MACHINE_ROWS} states, commands, transitions and rows, \
+             which includes copies of long texts",
             brief(&name.value)
         );
         let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, reader.span(name), message);
@@ -81,7 +81,7 @@ fn of_matrix(table: &MatrixTable) -> usize {
     rows.saturating_add(table.states.len()).saturating_add(table.notes.iter().count()).saturating_add(copied.sum())
 }
 
-/// Returns the size of a copy in rows.
+/// Returns the size of a copied element in rows. A long text counts as several rows.
 fn copy(of: &impl Debug) -> usize {
     1 + length(of) / ROW_BYTES_PER_ITEM
 }

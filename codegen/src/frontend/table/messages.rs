@@ -380,8 +380,9 @@ impl Fields<'_, '_, '_> {
         let found = range.and_then(|(first, last)| Some((T::try_from(first).ok()?, T::try_from(last).ok()?)));
         let found = found.filter(|(first, last)| first <= last);
         if found.is_none() {
-            let message = "not a range of bytes, where 0 is the first on the wire: write `\"1..3\"`";
-            self.reader.report(&codes::TABLE_PLACE, self.reader.span(given), message);
+            let message = format!("`{}` is not a range of bytes", brief(&given.value.to_string()));
+            let help = "write a range such as `\"1..3\"`, where 0 is the first byte on the wire";
+            self.reader.report_with_help(&codes::TABLE_PLACE, self.reader.span(given), message, help);
         }
         found
     }
@@ -390,8 +391,8 @@ impl Fields<'_, '_, '_> {
     fn fixed(&mut self, fixed: &At<Literal>, field: &At<FieldTable>) -> Option<MessageField> {
         let ty = field.value.ty.as_ref().and_then(|ty| types::named(&ty.value)).map(|named| named.ty);
         let Some(ty @ Type::Unsigned(bits @ 1..=63)) = ty else {
-            let message = "fixed bits need a `type` such as `u4`; write whole bytes as `bytes = [0x00]`";
-            self.reader.report(&codes::TABLE_VALUE, self.reader.span(field), message);
+            let (message, help) = ("fixed bits need a `type` such as `u4`", "write whole bytes as `bytes = [0x00]`");
+            self.reader.report_with_help(&codes::TABLE_VALUE, self.reader.span(field), message, help);
             return None;
         };
         match value::value(self.reader, fixed, ty) {
@@ -413,7 +414,7 @@ impl Fields<'_, '_, '_> {
         match types::named(&ty.value).map(|named| named.ty) {
             Some(Type::Unsigned(bits)) => bits,
             _ => {
-                let message = format!("`{}` is not a type of codes such as `u16`", brief(&ty.value));
+                let message = format!("`{}` is not an integer type for a code, such as `u16`", brief(&ty.value));
                 self.reader.report(&codes::TABLE_VALUE, self.reader.span(ty), message);
                 16
             }

@@ -15,12 +15,12 @@ pub(super) fn register(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<R
         reader,
         key,
         &[
-            ("name", register.name.is_some(), "the key of a register is its name"),
-            ("code", register.code.is_some(), "only objects have an object code: move the row to `[chapters.objects]`"),
+            ("name", register.name.is_some(), "delete `name`: the key of a register is its name"),
+            ("code", register.code.is_some(), "move the row to `[chapters.objects]`: only objects have an object code"),
             (
                 "reserved",
                 register.reserved.is_some(),
-                "only a sub-index can be reserved: delete a register without a meaning",
+                "delete the row if the register has no meaning: only a sub-index can be reserved",
             ),
         ],
     );
@@ -35,7 +35,7 @@ pub(super) fn object(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row
         reader,
         key,
         &[
-            ("obj", object.obj.is_some(), "the key of the row is the object"),
+            ("obj", object.obj.is_some(), "delete `obj`: the key of the row is the object"),
             ("count", repeats, "write several objects as a key such as `\"0x1400..0x1403:1\"`"),
         ],
     );
@@ -49,21 +49,25 @@ fn everywhere(reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row) {
         reader,
         key,
         &[
-            ("why", row.why.is_some(), "it is the reason of a change, and only overlays change something"),
-            ("add", row.add.is_some(), "only an overlay adds items to a description"),
-            ("remove", row.remove.is_some(), "only an overlay removes items: delete the row"),
+            ("why", row.why.is_some(), "delete `why`, the reason of a change: only overlays make changes"),
+            ("add", row.add.is_some(), "delete `add`: only an overlay adds items to a description"),
+            ("remove", row.remove.is_some(), "delete the row: only an overlay removes items"),
             (
                 "part",
                 row.part.is_some() && row.reg.is_none(),
-                "it selects bits of a register, and the row has no `reg`",
+                "add `reg`, or delete `part`, which selects bits of a register",
             ),
-            ("order", words && row.reg.is_none(), "it is the word order of registers, and the row has no `reg`"),
+            ("order", words && row.reg.is_none(), "add `reg`, or delete the word order of registers"),
             (
                 "stride",
                 row.stride.is_some() && row.count.is_none(),
-                "it is the distance between several items, and the row has no `count`",
+                "add `count`, or delete `stride`, the distance between several items",
             ),
-            ("max_count", row.max_count.is_some() && !by_item, "it needs a `count` that names an item"),
+            (
+                "max_count",
+                row.max_count.is_some() && !by_item,
+                "write the name of an item as `count`, or delete `max_count`",
+            ),
         ],
     );
 }
@@ -73,7 +77,7 @@ pub(super) fn overlay(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Ro
     let patch = &row.value;
     let repeats = patch.count.is_some() || patch.max_count.is_some() || patch.stride.is_some();
     let words = patch.order.is_some() || patch.swap.is_some();
-    let kept = "the description sets the registers and objects of items";
+    let kept = "delete the key: the description sets the registers and objects of items";
     report(
         reader,
         key,
@@ -82,7 +86,7 @@ pub(super) fn overlay(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Ro
             ("obj", patch.obj.is_some(), kept),
             ("part", patch.part.is_some(), kept),
             ("order", words, kept),
-            ("count", repeats, "a row applies to the items of the description"),
+            ("count", repeats, "delete the key: the row applies to the items of the description"),
         ],
     );
 }

@@ -255,8 +255,9 @@ impl<'a> Table<'a> {
                 reader.report(&codes::TABLE_VALUE, reader.span(&version), message);
             }
             None => {
-                let message = "the version of the format is missing: begin the file with `lexibus = 1`";
-                reader.report(&codes::TABLE_VALUE, Span::new(reader.file, 0, 0), message);
+                let message = "the version of the format is missing";
+                let help = "begin the file with `lexibus = 1`";
+                reader.report_with_help(&codes::TABLE_VALUE, Span::new(reader.file, 0, 0), message, help);
             }
         }
     }
@@ -466,8 +467,8 @@ fn divide<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<(RowList, R
     let mut node = node;
     let span = node.span();
     let DeValue::Table(table) = node.get_mut() else {
-        let message = "a chapter must be a table: write `[[chapters]]`";
-        reader.report(&codes::TABLE_VALUE, Span::new(reader.file, span.start as u32, span.end as u32), message);
+        let span = Span::new(reader.file, span.start as u32, span.end as u32);
+        reader.report_with_help(&codes::TABLE_VALUE, span, "a chapter must be a table", "write `[[chapters]]`");
         return None;
     };
     let (registers, objects) = (table.remove("registers"), table.remove("objects"));

@@ -1,4 +1,8 @@
-//! Numbers, ranges and addresses as the format writes them: integers, register numbers, objects, bits.
+//! Notation of numbers, ranges and addresses in register tables: integers, register numbers, objects, bits.
+
+/// The help for a key or value that is not an object.
+pub(super) const OBJECT_HELP: &str =
+    "write an index such as `0x6040`, a sub-index such as `\"0x1018:1\"`, or a range such as `\"0x1400..0x1403:1\"`";
 
 /// Reads an integer: `16`, `0x10`, `0b10000`, with an optional sign and `_` between digits.
 pub(super) fn integer(text: &str) -> Option<i128> {

@@ -38,7 +38,7 @@ pub(super) fn report(reader: &mut Reader<'_, '_>, list: &[Numbered], text: &str,
             let names: Vec<String> = several.iter().take(MAX_LISTED).map(|name| format!("`{name}`")).collect();
             let rest = several.len().saturating_sub(MAX_LISTED);
             let more = if rest > 0 { format!(" and {rest} more") } else { String::new() };
-            let message = format!("registers {text} are several items: {}{more}", names.join(", "));
+            let message = format!("several items have the registers {text}: {}{more}", names.join(", "));
             (message, "write the name of the correct item, and a `doubt`".to_owned())
         }
     };
@@ -51,7 +51,7 @@ pub(super) fn mentioned(reader: &mut Reader<'_, '_>, list: &[Numbered], device: 
     if list.is_empty() {
         return;
     }
-    // Sorted by first number. The end of each range becomes the maximum of all ends so far, so one comparison decides.
+    // The ranges, sorted by first number. The end of each range becomes the maximum of all ends so far, so one comparison decides.
     let mut ranges: Vec<(u32, u32)> = list.iter().map(|item| (item.first, item.last)).collect();
     ranges.sort_unstable();
     let mut last = 0;

@@ -27,13 +27,10 @@ pub(super) fn add(
     chapter: Option<&Row>,
 ) {
     let Some(objects) = notation::objects(&key.value) else {
-        let message = format!(
-            "`{}` is not an object: write `0x6040`, `\"0x1018:1\"` or `\"0x1400..0x1403:1\"`",
-            brief(&key.value)
-        );
-        let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
+        let message = format!("`{}` is not an object", brief(&key.value));
+        let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message).help(notation::OBJECT_HELP);
         reader.diagnostics.push(match super::lints::digits_of_index(reader, key) {
-            Some(digits) => found.help(digits),
+            Some(digits) => found.note(digits),
             None => found,
         });
         return;
@@ -108,7 +105,9 @@ fn head(
             let key_text = brief(&key.value);
             let message = format!("`{key_text}` has sub-entries, but `{of_value}` applies to a value");
             let found = crate::diagnostics::Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
-            reader.diagnostics.push(found.help(format!("write it for one of them, as in `\"{key_text}:1\"`")));
+            reader
+                .diagnostics
+                .push(found.help(format!("write the fact for one of the sub-entries, as in `\"{key_text}:1\"`")));
         }
         rows.summaries.extend(complete.summary.clone().map(|summary| (index, summary)));
     } else {
@@ -120,7 +119,7 @@ fn head(
     if let Some(first) = dictionary.get(&index) {
         let diagnostic =
             Diagnostic::new(&codes::TABLE_DUPLICATE, reader.span(key), format!("object 0x{index:04X} occurs twice"));
-        reader.diagnostics.push(diagnostic.note_at(first.origin.span, "the first one is here"));
+        reader.diagnostics.push(diagnostic.note_at(first.origin.span, "first use"));
         return;
     }
     dictionary.insert(index, group);
@@ -158,8 +157,9 @@ fn subs(
         let item = item(reader, rows, named, complete, index, sub_index, space);
         let Some(group) = dictionary.get_mut(&index) else { continue };
         if group.object_code() == Some(ObjectCode::Var) {
-            let message = format!("object 0x{index:04X} is a single value: add a `code` such as \"record\"");
-            reader.report(&codes::TABLE_PLACE, reader.span(key), message);
+            let message = format!("object 0x{index:04X} is a single value and cannot have sub-entries");
+            let help = "add a `code` such as `\"record\"` to the row of the object";
+            reader.report_with_help(&codes::TABLE_PLACE, reader.span(key), message, help);
             return;
         }
         match group.items.binary_search_by_key(&Some((index, sub_index)), Item::object) {
@@ -167,7 +167,7 @@ fn subs(
                 let first = group.items.get(at).map(|item| item.at.name).unwrap_or_default();
                 let message = format!("sub-index {sub_index} of object 0x{index:04X} occurs twice");
                 let diagnostic = Diagnostic::new(&codes::TABLE_DUPLICATE, reader.span(key), message);
-                reader.diagnostics.push(diagnostic.note_at(first, "the first one is here"));
+                reader.diagnostics.push(diagnostic.note_at(first, "first use"));
             }
             Err(at) => group.items.insert(at, item),
         }

@@ -12,7 +12,7 @@ use crate::ir::{
     SubjectKind,
 };
 use crate::source::Span;
-use crate::text::brief;
+use crate::text::{brief, count_of};
 
 /// The names that transitions and cells may use: states of the machine, its commands, and the messages of the device.
 pub(super) struct Names<'n> {
@@ -92,10 +92,10 @@ fn row(
     references.extend(cells_row.models.iter().flatten().map(|model| (model.clone(), "model")));
     if cells_row.cells.len() != table.states.len() {
         let message = format!(
-            "`{}` has {} cells, but the table has {} states",
+            "`{}` has {}, but the table has {}",
             brief(&name.value),
-            cells_row.cells.len(),
-            table.states.len()
+            count_of(cells_row.cells.len(), "cell"),
+            count_of(table.states.len(), "state")
         );
         reader.report(&codes::TABLE_VALUE, reader.span(name), message);
     }
@@ -171,7 +171,7 @@ fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names<'
         };
         if !known.insert(outcome.clone()) {
             let message = format!("the cell has `{}` twice", brief(one));
-            let help = "compare the cell with the manual: one of them is another effect";
+            let help = "compare the cell with the manual, and correct one of the two effects";
             reader.diagnostics.push(Diagnostic::new(&codes::TABLE_DUPLICATE, span, message).help(help));
             continue;
         }

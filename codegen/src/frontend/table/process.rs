@@ -68,14 +68,14 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &T
                 reader.report(&codes::TABLE_VALUE, reader.span(table), message);
             }
             Some((first, last)) => pdo.excludes.extend((first..=last).filter(|&other| other != index.value)),
-            None => reader.report(&codes::TABLE_PLACE, reader.span(table), "`excludes` must have indices of PDOs"),
+            None => reader.report(&codes::TABLE_PLACE, reader.span(table), "`excludes` must contain indices of PDOs"),
         }
     }
     if let Some(list) = &given.buses {
         let buses = buses::read(reader, list);
         pdo.buses = Some(buses.with_objects());
         if buses.with_objects() == ObjectBuses::NONE {
-            let message = "PDOs exist on CANopen and EtherCAT only, and this one is on neither";
+            let message = "the PDO is on neither CANopen nor EtherCAT";
             reader.report(&codes::TABLE_VALUE, reader.span(table), message);
         }
     }
@@ -116,7 +116,8 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) 
     if what == "pad" {
         let bits = bits.filter(|&bits| bits > 0);
         if bits.is_none() {
-            reader.report(&codes::TABLE_PLACE, reader.span(text), "padding needs a length: write `pad/8`");
+            let (message, help) = ("padding needs a length", "write the number of bits, as in `pad/8`");
+            reader.report_with_help(&codes::TABLE_PLACE, reader.span(text), message, help);
         }
         return Some(PdoEntry { origin, kind: PdoEntryKind::Padding, ..PdoEntry::new(0, 0, bits?) });
     }
@@ -125,8 +126,9 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) 
         let ty = typed.map_or(Type::Opaque(None), |named| named.ty);
         let bits = bits.or(ty.bits()).filter(|&bits| bits > 0 && !name.is_empty());
         if bits.is_none() {
-            let message = "an entry without an object needs a name and a length or type: `? torque limit/16`, `? torque limit/i16`";
-            reader.report(&codes::TABLE_PLACE, reader.span(text), message);
+            let message = "an entry without an object needs a name, and a length or type";
+            let help = "write the length as in `? torque limit/16`, or the type as in `? torque limit/i16`";
+            reader.report_with_help(&codes::TABLE_PLACE, reader.span(text), message, help);
         }
         let entry = PdoEntry { ty, ..PdoEntry::new(0, 0, bits?) };
         return Some(PdoEntry { origin, kind: PdoEntryKind::Unnumbered, name: name.into(), ..entry });
@@ -153,8 +155,9 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) 
         ty => ty.bits(),
     });
     let Some(bits) = bits.or(known).filter(|&bits| bits > 0) else {
-        let message = format!("the length of `{}` is unknown: write `{}/16`", brief(what), brief(what));
-        reader.report(&codes::TABLE_PLACE, reader.span(text), message);
+        let message = format!("the length of `{}` is unknown", brief(what));
+        let help = format!("write the number of bits, as in `{}/16`", brief(what));
+        reader.report_with_help(&codes::TABLE_PLACE, reader.span(text), message, help);
         return None;
     };
     let mut entry = PdoEntry { origin, ..PdoEntry::new(index, sub_index, bits) };

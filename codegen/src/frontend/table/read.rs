@@ -79,7 +79,7 @@ fn decimal(number: &DeInteger<'_>) -> String {
     integer(number).map_or_else(|| number.to_string(), |number| number.to_string())
 }
 
-/// Returns the number, if the value is one.
+/// Returns a value as a number, or `None` if it is not a number.
 pub(super) fn number(node: &Node<'_>) -> Option<f64> {
     match node.get_ref() {
         DeValue::Integer(number) => integer(number).map(|number| number as f64),
@@ -188,7 +188,7 @@ impl<T: Read> Read for FlagOr<T> {
     }
 }
 
-/// Returns the literal, if the value is one.
+/// Returns a value as a literal, or `None` if it is a date, a list or a table.
 pub(super) fn literal(node: &Node<'_>) -> Option<Literal> {
     match node.get_ref() {
         DeValue::Boolean(flag) => Some(Literal::Bool(*flag)),

@@ -15,10 +15,10 @@ use crate::text::glob;
 /// Names with their spans, and what they refer to: `item`, `model`, `constant`, `message`, `procedure`.
 pub(super) type References = Vec<(At<String>, &'static str)>;
 
-/// What most names refer to.
+/// The kind of element that most names refer to.
 pub(super) const ITEM: &str = "item";
 
-/// What shows that a command is complete: an item, or a field of replies.
+/// The kinds of elements that can show that a command is complete: items, and fields of replies.
 pub(super) const ITEM_OR_FIELD: &str = "item or field";
 
 /// Reports names without a definition, and names that several chapters have.

@@ -1,4 +1,4 @@
-//! Limits what rows copy: one row may describe many items, and each row copies long defaults.
+//! Limits the items that rows create and the texts that they copy from defaults and units.
 
 use std::fmt::{Debug, Write};
 
@@ -59,11 +59,11 @@ impl Repeats {
         let left = self.left.and_then(|left| left.checked_sub(items));
         if left.is_none() && self.left.is_some() {
             let message = format!(
-                "`count`, ranges of objects and long texts of `defaults` and `units` give more than \
+                "`count`, ranges of objects and long texts of `defaults` and `units` count as more than \
                  {MAX_DERIVED_ITEMS} items"
             );
             let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);
-            let label = "this row and those below describe one item each, and do not copy long texts";
+            let label = "this row and all later rows describe one item each and copy no long texts";
             reader.diagnostics.push(found.label(label));
         }
         self.left = left;
@@ -90,7 +90,7 @@ fn expanded(row: &Row) -> usize {
         / ROW_BYTES_PER_ITEM
 }
 
-/// Returns the size of a text of this length, in items.
+/// Returns the number of items that a text of `length` bytes counts as.
 fn beyond(length: usize) -> usize {
     length.saturating_sub(MAX_FREE_ROW_BYTES) / ROW_BYTES_PER_ITEM
 }

@@ -37,7 +37,7 @@ pub(super) struct Rows {
     pub allowed: Vec<(Span, &'static Code)>,
     /// Statements of other sections about objects that have sub-entries.
     pub summaries: Vec<(u16, Summaries)>,
-    /// The limit on what rows copy.
+    /// The limit on the items that rows create and the texts that they copy.
     pub repeats: Repeats,
 }
 
@@ -344,10 +344,9 @@ impl Rows {
             Some(FlagOrText::Flag(false)) => behaviour.storage = Storage::Volatile,
             Some(FlagOrText::Text(word)) if ["yes", "no", "true", "false"].contains(&word.as_str()) => {
                 let flag = matches!(word.as_str(), "yes" | "true");
-                let message = format!(
-                    "`{word}` is not a command: write `save = {flag}` without quotes, or the name of a command"
-                );
-                reader.report(&codes::TABLE_VALUE, item.at.name, message);
+                let message = format!("`{word}` is not a command");
+                let help = format!("write `save = {flag}` without quotes, or the name of a command");
+                reader.report_with_help(&codes::TABLE_VALUE, item.at.name, message, help);
             }
             Some(FlagOrText::Text(command)) => behaviour.storage = Storage::OnCommand(command.as_str().into()),
             None => {}
@@ -366,7 +365,8 @@ impl Rows {
         if let Some(pdi) = &row.pdi {
             behaviour.pdi_access = reader.word(pdi, "access right", &ACCESSES);
             if !item.bindings.iter().any(|binding| matches!(binding, crate::ir::Binding::EscMemory { .. })) {
-                let message = "`pdi` applies to the memory of a slave controller, where the row has no address";
+                let message =
+                    "`pdi` needs an address in the memory of an EtherCAT slave controller, and the row has none";
                 reader.report(&codes::TABLE_VALUE, reader.span(pdi), message);
             }
         }
@@ -444,7 +444,7 @@ const PRINTED_NAME: &str = "name";
 /// Returns the documentation of a row, with the origin of the text.
 pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Box<Documentation>> {
     if let (Some(from), None) = (&row.doc_from, &row.doc) {
-        reader.report(&codes::TABLE_VALUE, reader.span(from), "`doc_from` is the origin of `doc`, which is missing");
+        reader.report(&codes::TABLE_VALUE, reader.span(from), "the row has `doc_from`, but no `doc`");
     }
     let mut documentation = reader.documentation_of(row);
     if let (Some(from), Some(documentation)) = (&row.doc_from, &mut documentation) {

@@ -58,7 +58,7 @@ fn explicit(
         Ok(scale) => Some(scale),
         Err(message) => {
             let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(given), message);
-            reader.diagnostics.push(found.help("dictionaries/README.md lists all forms of a scale"));
+            reader.diagnostics.push(found.help("see dictionaries/README.md for all forms of a scale"));
             None
         }
     }
@@ -90,7 +90,7 @@ const FORMS: [(&str, &[&str]); 8] = [
 
 fn rule(rule: &ScaleRule, separate: Option<f64>, references: &mut References) -> Result<Option<Scale>, String> {
     if separate.is_some() && rule.offset.is_some() {
-        return Err("`offset` is in the rule and next to it: write only one of them".to_owned());
+        return Err("`offset` is given both in the scale rule and next to it".to_owned());
     }
     let offset = rule.offset.or(separate);
     let given = [
@@ -107,7 +107,7 @@ fn rule(rule: &ScaleRule, separate: Option<f64>, references: &mut References) ->
     let given: Vec<&str> = given.into_iter().filter(|(_, is_given)| *is_given).map(|(key, _)| key).collect();
     let form = FORMS.into_iter().find(|(key, _)| given.contains(key));
     let Some((key, further)) = form.or((given == ["offset"]).then_some(("offset", &[]))) else {
-        return Err("the rule has no keys".to_owned());
+        return Err("the scale rule has no keys".to_owned());
     };
     if let Some(other) = given.iter().find(|other| **other != key && !further.contains(other)) {
         return Err(format!("`{other}` and `{key}` cannot be in one rule"));
@@ -128,8 +128,8 @@ fn rule(rule: &ScaleRule, separate: Option<f64>, references: &mut References) ->
         "times" => Some(Scale::TimesItem { item: item(&rule.times), factor }),
         "fraction" if rule.of.is_none() => return Err("`fraction` needs `of`, the name of its base value".to_owned()),
         "fraction" => Some(Scale::Fraction { bits: fraction(rule)?, base: constant }),
-        "of" => return Err("`of` is the base value of a `fraction`, which the rule does not have".to_owned()),
-        "base" => return Err("`base` is the base of an `exponent`, which the rule does not have".to_owned()),
+        "of" => return Err("the rule has `of`, but no `fraction`".to_owned()),
+        "base" => return Err("the rule has `base`, but no `exponent`".to_owned()),
         _ => linear(factor, offset.filter(|offset| offset.is_finite()).unwrap_or(0.0)),
     })
 }

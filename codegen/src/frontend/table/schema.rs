@@ -85,7 +85,7 @@ fn texts(schema: &mut Schema, change: &mut dyn FnMut(&mut Map<String, Value>)) {
     }
 }
 
-/// Allows the words of `words` only. It is a text because the derive macro of `schemars` cannot parse a list of texts.
+/// Allows only the words in `words`, which is one text because the derive macro of `schemars` cannot parse a list of texts.
 pub(super) fn words(words: &'static str) -> impl FnMut(&mut Schema) {
     let words: Vec<&str> = words.split(' ').collect();
     move |schema| {

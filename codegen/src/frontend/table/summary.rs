@@ -11,7 +11,7 @@ use super::{types, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Access, Group, Item, Mappable, ObjectCode, Texts, Type, Value};
 use crate::source::Span;
-use crate::text::brief;
+use crate::text::{brief, count_of};
 
 /// The statements of other sections about a row.
 pub(super) type Summaries = At<OneOrMany<SummaryTable>>;
@@ -60,10 +60,11 @@ pub(super) fn objects(
 
 fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, message: String) {
     let found = Diagnostic::new(&codes::SUMMARY_DIFFERS, span, message).label("the row is used");
-    let found =
-        found.help("write the correct value in the row and the other one in a `doubt`, and allow this code there");
+    let found = found.help(
+        "write the correct value in the row, record the other value in a `doubt`, and allow this code on the row",
+    );
     reader.diagnostics.push(match &summary.cite {
-        Some(cite) => found.note(format!("cited from {}", cited(cite))),
+        Some(cite) => found.note(format!("citation of the summary: {}", cited(cite))),
         None => found,
     });
 }
@@ -74,7 +75,7 @@ fn code(reader: &mut Reader<'_, '_>, summary: &SummaryTable, described: ObjectCo
     let stated = reader.word(given, "object code", &OBJECT_CODES);
     if stated.is_some_and(|stated| stated != described) {
         let word = OBJECT_CODES.iter().find(|(_, code)| *code == described).map_or("another", |(word, _)| word);
-        let message = format!("the summary has the code {}, but the row has {word}", brief(&given.value));
+        let message = format!("the summary has the object code `{}`, but the row has `{word}`", brief(&given.value));
         report(reader, summary, reader.span(given), message);
     }
 }
@@ -105,7 +106,7 @@ fn of_item(
         let named = types::named(&given.value).filter(|named| named.elements.is_none());
         match named {
             Some(named) if named.ty != base => {
-                differs.push((reader.span(given), named.ty.to_string(), base.to_string()))
+                differs.push((reader.span(given), format!("the type {}", named.ty), base.to_string()))
             }
             Some(_) => {}
             None => {
@@ -118,19 +119,27 @@ fn of_item(
     if let Some(given) = &summary.access {
         let access = reader.word(given, "access right", &ACCESSES);
         if access.is_some_and(|access| rights(access) != rights(item.access)) {
-            differs.push((reader.span(given), given.value.clone(), item.access.name().to_owned()));
+            differs.push((
+                reader.span(given),
+                format!("the access right {}", given.value),
+                item.access.name().to_owned(),
+            ));
         }
     }
     if let Some(given) = &summary.pdo {
         let mappable = reader.word(given, "direction of PDOs", &DIRECTIONS);
         if mappable.is_some_and(|mappable| mappable != item.mappable) {
-            differs.push((reader.span(given), given.value.clone(), direction(item.mappable).to_owned()));
+            differs.push((
+                reader.span(given),
+                format!("the PDO direction `{}`", given.value),
+                format!("`{}`", direction(item.mappable)),
+            ));
         }
     }
     if let (Some(given), Some(bits)) = (&summary.length, definitions.bits_of(item.ty)) {
         if given.value != bits.div_ceil(8) {
             let has = base.bits().map_or_else(|| bits.div_ceil(8).to_string(), |_| base.to_string());
-            differs.push((reader.span(given), format!("{} bytes", given.value), has));
+            differs.push((reader.span(given), count_of(given.value, "byte"), has));
         }
     }
     numbers(reader, summary, item, base, &mut differs);
@@ -149,16 +158,16 @@ fn numbers(
     base: Type,
     differs: &mut Vec<(Span, String, String)>,
 ) {
-    let pairs: [(&Option<At<Literal>>, Option<&Value>); 3] = [
-        (&summary.min, item.limits.low.as_ref()),
-        (&summary.max, item.limits.high.as_ref()),
-        (&summary.default, item.default.as_ref()),
+    let pairs: [(&str, &Option<At<Literal>>, Option<&Value>); 3] = [
+        ("minimum", &summary.min, item.limits.low.as_ref()),
+        ("maximum", &summary.max, item.limits.high.as_ref()),
+        ("default", &summary.default, item.default.as_ref()),
     ];
-    for (given, has) in pairs {
+    for (what, given, has) in pairs {
         let (Some(given), Some(has)) = (given, has) else { continue };
         let says = value::convert(&given.value, base, reader.is_pattern(given));
         if let Some(says) = says.filter(|says| says != has) {
-            differs.push((reader.span(given), says.to_string(), has.to_string()));
+            differs.push((reader.span(given), format!("the {what} {says}"), has.to_string()));
         }
     }
 }

@@ -26,7 +26,7 @@ const MAX_LISTED: usize = 12;
 /// The number of diagnostics after which no names are suggested.
 const MAX_HELPED: usize = 1000;
 
-/// The first byte, and the byte after the last.
+/// A range of bytes in the file: the first byte, and the byte after the last.
 type ByteRange = (u32, u32);
 
 /// The state of reading one file.
@@ -95,7 +95,7 @@ impl<'a> Reader<'a, '_> {
                 MistakeKind::Value(message) => {
                     let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, span, message);
                     self.diagnostics
-                        .push(diagnostic.help("`lexibus schema` and dictionaries/README.md list the valid values"));
+                        .push(diagnostic.help("see `lexibus schema` or dictionaries/README.md for the valid values"));
                     return None;
                 }
             }
@@ -124,8 +124,9 @@ impl<'a> Reader<'a, '_> {
         match node.into_inner() {
             DeValue::Array(list) => list.into_iter().collect(),
             _ => {
-                let message = format!("`{what}` must be a list of tables: write `[[{what}]]`");
-                self.diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, self.range(Some(span)), message));
+                let message = format!("`{what}` must be a list of tables");
+                let help = format!("write `[[{what}]]`");
+                self.report_with_help(&codes::TABLE_VALUE, self.range(Some(span)), message, help);
                 Vec::new()
             }
         }
@@ -142,7 +143,7 @@ impl<'a> Reader<'a, '_> {
             _ if inner.is_some() => diagnostic.help("write values in `[enums.NAME.values]`"),
             Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
             None if known.len() <= MAX_LISTED => diagnostic.help(format!("known keys: {}", known.join(", "))),
-            None => diagnostic.help("dictionaries/README.md lists all keys"),
+            None => diagnostic.help("see dictionaries/README.md for all keys"),
         });
     }
 
@@ -164,6 +165,17 @@ impl<'a> Reader<'a, '_> {
 
     pub fn report(&mut self, code: &'static Code, span: Span, message: impl Into<String>) {
         self.diagnostics.push(Diagnostic::new(code, span, message));
+    }
+
+    /// Reports an error, and what to do about it.
+    pub fn report_with_help(
+        &mut self,
+        code: &'static Code,
+        span: Span,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        self.diagnostics.push(Diagnostic::new(code, span, message).help(help));
     }
 
     /// Returns the value of a word. Any other word is reported.
@@ -349,7 +361,7 @@ fn first_line(message: &str) -> &str {
     message.lines().next().unwrap_or_default()
 }
 
-/// Removes the key at `span` from the tables of `value`, or renames it to `suggestion`. Returns whether it was found.
+/// Removes the key at `span` from the tables of `value`, or renames it to `suggestion`. Returns whether the key was found.
 fn remove(value: &mut DeValue<'_>, span: Span, key: &str, suggestion: Option<&str>) -> bool {
     match value {
         DeValue::Table(table) => {

@@ -100,7 +100,7 @@ pub(super) fn listed(reader: &mut Reader<'_, '_>, list: &[Literal], whole: (u32,
     values
 }
 
-/// Converts a literal to a value. `is_pattern` means that its digits are bits, the first of them the sign.
+/// Converts a literal to a value. `is_pattern`: the digits are a bit pattern, whose highest bit is the sign.
 pub(super) fn convert(literal: &Literal, ty: Type, is_pattern: bool) -> Option<Value> {
     if let Literal::Text(text) = literal {
         return of_text(text, ty);

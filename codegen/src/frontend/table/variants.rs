@@ -39,8 +39,8 @@ impl Rows {
         let allowed = allowed.map(|list| value::ranges(reader, &list.value, (list.start, list.end), base));
         let on_models = table.models.is_some() && (table.ty.is_some() || table.access.is_some());
         if on_models || (table.buses.is_none() && (table.ty.is_some() || table.access.is_some())) {
-            let message = "`type` and `access` of a variant need `buses`: write separate rows for models";
-            reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+            let message = "`type` and `access` of a variant need `buses`";
+            reader.report_with_help(&codes::TABLE_VALUE, reader.span(given), message, "write separate rows for models");
         }
         let mut value = |literal: &Option<At<_>>| literal.as_ref().map(|table| value::value(reader, table, base));
         let (default, low, high, step) =
@@ -81,9 +81,9 @@ impl Rows {
         let found = types::named(&given.value).filter(|named| named.elements.is_none()).map(|named| named.ty);
         let found = found.filter(|ty| is_integer(ty) && is_integer(&base));
         if found.is_none() {
-            let message =
-                "a variant can only change the length of an integer, such as `i8` or `u16`: write a separate row";
-            reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+            let message = "`type` of a variant can only change the length of an integer";
+            let help = "write an integer type such as `i8` or `u16`, or a separate row";
+            reader.report_with_help(&codes::TABLE_VALUE, reader.span(given), message, help);
         }
         found
     }

@@ -35,8 +35,9 @@ fn window(reader: &mut Reader<'_, '_>, name: &At<String>, rule: &IndirectRule) -
     let numbers = rule.numbers.as_ref().and_then(|given| {
         let found = notation::range(&given.value).filter(|(first, last)| first <= last);
         if found.is_none() {
-            let message = format!("`{}` is not a range of numbers: write `\"0x8000..0x8FFF\"`", given.value);
-            reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+            let message = format!("`{}` is not a range of numbers", given.value);
+            let help = "write a range such as `\"0x8000..0x8FFF\"`";
+            reader.report_with_help(&codes::TABLE_VALUE, reader.span(given), message, help);
         }
         found
     });

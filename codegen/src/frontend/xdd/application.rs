@@ -32,7 +32,7 @@ pub(super) struct Application<'a> {
 pub(super) struct Parameter<'a> {
     pub template: Given<'a>,
     pub access: Given<'a>,
-    /// Whether it is a variable. A variable has no default access rights.
+    /// Whether the parameter is a variable. A variable has no default access rights.
     pub is_variable: bool,
     pub support: Given<'a>,
     pub persistent: Given<'a>,
@@ -117,7 +117,7 @@ impl<'p, 'a> View<'p, 'a> {
         of(self.parameter).iter().chain(of(self.template))
     }
 
-    /// Returns the cost of a copy in bytes.
+    /// Returns the length in bytes of the parameter and its template in the file, which is the cost of a copy.
     pub fn weight(&self) -> usize {
         self.parameter.map_or(0, |parameter| parameter.weight) + self.template.map_or(0, |template| template.weight)
     }
@@ -162,7 +162,7 @@ impl<'a> Application<'a> {
 
 pub(super) fn dangling(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &str) {
     let message = format!("there is no {what} with the uniqueID `{}`", brief(&given.text));
-    reader.report(&codes::DANGLING_REFERENCE, given.span, message, "reference is ignored");
+    reader.report(&codes::DANGLING_REFERENCE, given.span, message, "the reference is ignored");
 }
 
 /// Registers the position of an element by its uniqueID. The first element with a uniqueID takes precedence.

@@ -72,7 +72,7 @@ fn container<'a>(reader: &mut Reader<'a, '_>) -> Read<Device> {
 fn not_canopen(root: &Tag<'_>) -> Box<Diagnostic> {
     let message = "this XML document does not describe a CANopen device";
     Box::new(Diagnostic::new(&codes::NOT_A_CANOPEN_XDD, root.name_span(), message).help(
-        "an XDD or XDC has the root element ISO15745ProfileContainer, and profile bodies of the types \
+        "check that the root element is ISO15745ProfileContainer, with profile bodies of the types \
          ProfileBody_Device_CANopen and ProfileBody_CommunicationNetwork_CANopen",
     ))
 }

@@ -102,7 +102,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
                 item.at.ty,
                 "the object has no data type, and no parameter with one",
             )
-            .label("kept read-only, as raw bytes")
+            .label("kept as read-only raw bytes")
             .help("add a data type, such as `dataType=\"0007\"` for UNSIGNED32"),
         );
         None

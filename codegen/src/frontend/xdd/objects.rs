@@ -372,8 +372,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     fn duplicate(&mut self, later: Span, earlier: Span, what: &str) {
         self.reader.diagnostics.push(
             Diagnostic::new(&codes::DUPLICATE_OBJECT, later, format!("{what} occurs twice"))
-                .label("this one is used")
-                .note_at(earlier, "this one is ignored"),
+                .label("this element is used")
+                .note_at(earlier, "this element is ignored"),
         );
     }
 }

@@ -15,7 +15,7 @@ use crate::syntax::xml::Attribute;
 pub struct Given<'a> {
     /// The text.
     pub text: Cow<'a, str>,
-    /// Its span. For an empty attribute, it is the span of the quotation marks.
+    /// Span of the text. For an empty attribute, it is the span of the quotation marks.
     pub span: Span,
 }
 
@@ -60,23 +60,23 @@ impl<'a> Given<'a> {
         self.span.is_empty()
     }
 
-    /// Returns whether it is missing or empty.
+    /// Returns whether the text is missing or empty.
     pub fn is_empty(&self) -> bool {
         self.text.is_empty()
     }
 
-    /// Returns `None` if it is missing or empty.
+    /// Returns the text, or `None` if the text is missing or empty.
     pub fn non_empty(&self) -> Option<&Self> {
         (!self.is_empty()).then_some(self)
     }
 
-    /// Returns it as an extension; `None` if it is missing.
+    /// Returns the text as an extension, or `None` if the text is missing.
     pub fn extension(&self, key: &str) -> Option<Extension> {
         let extension = || Extension { key: key.into(), value: self.compact(), span: self.span };
         (!self.is_missing()).then(extension)
     }
 
-    /// Returns it as an attribute; `None` if it is missing.
+    /// Returns the text as an attribute, or `None` if the text is missing.
     pub fn attribute(&self, key: &str) -> Option<(CompactString, CompactString)> {
         (!self.is_missing()).then(|| (key.into(), self.compact()))
     }

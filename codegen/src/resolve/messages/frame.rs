@@ -14,9 +14,9 @@ pub(crate) struct Frame {
     pub min_bits: usize,
     /// Length in bits with the maximum number of all declared repetitions.
     pub max_bits: usize,
-    /// Whether it can be longer than `min_bits`.
+    /// Whether the frame can be longer than `min_bits`.
     pub is_open: bool,
-    /// Bit offset of the first field of whole bytes that does not start at a byte, or of an end within a byte.
+    /// Bit offset of the first field of whole bytes that starts within a byte, or of the end of the data if it is within a byte.
     pub broken: Option<usize>,
 }
 

@@ -6,11 +6,11 @@ use super::shape::{Problem, Shaped};
 use super::step::Step;
 use crate::ir::{Binding, Device, Item, MessageRef, ParameterSpace};
 
-const OTHERS: Problem = "its request has further fields whose values a client does not know";
-const NO_NUMBER: Problem = "its request has no parameter number of this space";
-const NO_VALUE: Problem = "its reply has no parameter value of this space";
-const NO_SETTING: Problem = "its request has no parameter number of this space with a value";
-const NO_CODE: Problem = "no code is generated for it";
+const OTHERS: Problem = "the request has further fields whose values a client does not know";
+const NO_NUMBER: Problem = "the request has no parameter number of this space";
+const NO_VALUE: Problem = "the reply has no parameter value of this space";
+const NO_SETTING: Problem = "the request has no parameter number of this space with a value";
+const NO_CODE: Problem = "no code is generated for the message";
 
 /// Maximum length of a parameter value in a message, in bits.
 pub(crate) const LONGEST: u32 = 64;

@@ -7,14 +7,15 @@ use crate::ir::{Device, Message, MessageField, MessageValue, Type};
 
 pub(super) const UNRESOLVED: Problem = "a field refers to a field that does not exist";
 pub(super) const UNALIGNED: Problem = "a field of whole bytes starts within a byte, or the data end within a byte";
-const UNKNOWN_LENGTH: Problem = "a value has neither 1 to 64 bits nor is a string of fixed length";
-const SEVERAL_LENGTHS: Problem = "two parts have a variable length, or one comes before a counted list";
-const SEVERAL_LISTS: Problem = "it has two lists of repeated fields";
+const UNKNOWN_LENGTH: Problem = "a value is neither a number of 1 to 64 bits nor a string of fixed length";
+const SEVERAL_LENGTHS: Problem = "two parts have a variable length, or such a part comes before a counted list";
+const SEVERAL_LISTS: Problem = "the message has two lists of repeated fields";
 const LONE_VALUE: Problem = "a parameter value does not come directly after its parameter number";
 const LONG_CODE: Problem = "a parameter number has more than 32 bits";
 const ECHO: Problem = "the offset of a copied field in the request is variable, or the field does not have whole bytes";
 const COPY: Problem = "a request cannot copy bytes of a request";
-const REPEATED: Problem = "repeated fields have other parts than values and fixed bytes, no value, or no whole bytes";
+const REPEATED: Problem =
+    "repeated fields have parts other than values and fixed bytes, or no value, or do not fill whole bytes";
 const STATION: Problem = "the device address is not an unsigned integer of up to 32 bits";
 const LENGTH: Problem =
     "a length is not an unsigned integer of whole bytes, or counts from a field after a part with a variable length";

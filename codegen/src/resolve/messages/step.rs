@@ -23,7 +23,7 @@ pub(crate) enum Step<'a> {
     Count { bits: u32, max: Option<u16> },
     /// Bytes of the request.
     Echo { first: u32, count: u32 },
-    /// Bytes of the request, as many as it has.
+    /// Bytes of the request, up to the end of the request.
     Copy { first: u32, count: u32 },
     /// Condition on the following parameter number: it has to be the same as these bytes of the request.
     Same { first: u32, count: u32 },

@@ -17,7 +17,7 @@ use crate::text::brief;
 pub struct Attribute<'a> {
     /// The name without its prefix.
     pub name: &'a str,
-    /// Its prefix; empty if there is none.
+    /// Prefix of the name; empty if there is none.
     pub prefix: &'a str,
     /// The value as written.
     pub raw: &'a str,
@@ -30,7 +30,7 @@ pub struct Attribute<'a> {
 }
 
 impl<'a> Attribute<'a> {
-    /// Returns whether it declares a namespace.
+    /// Returns whether the name declares a namespace.
     pub fn is_namespace(&self) -> bool {
         self.prefix == "xmlns" || (self.prefix.is_empty() && self.name == "xmlns")
     }

@@ -48,13 +48,13 @@ pub enum Event<'a> {
 pub struct Tag<'a> {
     /// The name without its prefix.
     pub name: &'a str,
-    /// Its prefix; empty if there is none.
+    /// Prefix of the tag; empty if there is none.
     pub prefix: &'a str,
     /// The tag from `<` to `>`.
     pub span: Span,
     /// Number of open elements, including this one.
     pub depth: usize,
-    /// Whether it is an empty-element tag (`<empty/>`).
+    /// Whether the tag is an empty-element tag (`<empty/>`).
     pub empty: bool,
     /// Text between the name and the end of the tag.
     pub(super) attributes: &'a str,
@@ -98,9 +98,9 @@ impl<'a> Tag<'a> {
 pub struct Text<'a> {
     /// The text as written; for CDATA its content.
     pub raw: &'a str,
-    /// Its span.
+    /// Span of the text.
     pub span: Span,
-    /// Whether it is CDATA, which contains no references.
+    /// Whether the text is CDATA, which contains no references.
     pub cdata: bool,
 }
 

@@ -61,7 +61,7 @@ pub(super) fn find_near(byte: u8, bytes: &[u8]) -> Option<usize> {
 #[derive(Clone, Copy)]
 pub(super) struct Value {
     pub length: usize,
-    /// Whether it needs no decoding: it has no reference and no control character.
+    /// Whether the value needs no decoding: it has no reference and no control character.
     pub plain: bool,
 }
 

@@ -67,8 +67,8 @@ impl RowPatcher<'_> {
                 RowEffect::Changed
             }
             (Target::Name, true, _) => {
-                let message = "only objects can be added: move the row to `[chapters.objects]`";
-                reader.report(&codes::TABLE_VALUE, reader.span(&row.key), message);
+                let (message, help) = ("only objects can be added", "move the row to `[chapters.objects]`");
+                reader.report_with_help(&codes::TABLE_VALUE, reader.span(&row.key), message, help);
                 RowEffect::Changed
             }
             (_, _, true) => self.remove(reader, set, row),
@@ -149,7 +149,7 @@ impl RowPatcher<'_> {
         self.item(reader, item, row, name, 0).into()
     }
 
-    /// Changes an item. Returns whether it differs afterward.
+    /// Changes an item. Returns whether the item differs afterward.
     fn item(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -211,7 +211,7 @@ impl RowPatcher<'_> {
         if let Some(wanted) = wanted.filter(|wanted| wanted.bits() != base.bits()) {
             let message = format!("`{}` has the type {wanted}, but the item has {base}", name.unwrap_or_default());
             let found = crate::diagnostics::Diagnostic::new(&codes::TABLE_VALUE, span, message);
-            reader.diagnostics.push(found.help("give the row a `type` too, if the type in the description is wrong"));
+            reader.diagnostics.push(found.help("add `type` to the row if the type in the description is wrong"));
             return None;
         }
         self.rows.meaning(reader, named, row, base)

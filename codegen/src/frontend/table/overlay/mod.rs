@@ -134,11 +134,9 @@ fn rows<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>) -> Vec<PatchRow>
             match notation::objects(&key.value) {
                 Some(objects) => rows.push(complete(reader, key, row, Target::Objects(objects))),
                 None => {
-                    let message = format!(
-                        "`{}` is not an object: write `0x6040`, `\"0x1018:1\"` or `\"0x1400..0x1403:1\"`",
-                        brief(&key.value)
-                    );
-                    reader.report(&codes::TABLE_PLACE, reader.span(&key), message);
+                    let message = format!("`{}` is not an object", brief(&key.value));
+                    let help = notation::OBJECT_HELP;
+                    reader.report_with_help(&codes::TABLE_PLACE, reader.span(&key), message, help);
                 }
             }
         }
