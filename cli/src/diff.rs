@@ -42,7 +42,7 @@ pub(super) fn run(diff: &Diff) -> Result<bool, Failure> {
     Ok(summary.api == 0 && summary.wire == 0)
 }
 
-/// Returns the last class of changes to show.
+/// Returns the last class of changes that the user wants to see.
 fn last_class(shown: Shown) -> Class {
     match shown {
         Shown::Breaking => Class::Breaking,
@@ -52,7 +52,7 @@ fn last_class(shown: Shown) -> Class {
     }
 }
 
-/// Reads a description; `None` if it has errors, which are reported.
+/// Compiles a description. Returns `None` if it has errors, after reporting them.
 fn read(path: &Path, options: &Options) -> Result<Option<Compilation>, Failure> {
     let source =
         Source::read(path).map_err(|error| Failure::Usage(format!("can't read {}: {error}", path.display())))?;

@@ -41,7 +41,7 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     reporter.finish()
 }
 
-/// Returns an error if a folder has files, but not the first page of an earlier call.
+/// Returns an error if the folder contains files but no first page that `lexibus docs` wrote.
 fn foreign(folder: &Path, format: Format) -> Option<String> {
     let names = std::fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.file_name()));
     let first = names.filter(|name| !name.as_encoded_bytes().starts_with(b".")).min()?;
@@ -64,11 +64,11 @@ fn not_overwritten(path: &Path) -> String {
     format!("{} {reason}", path.display())
 }
 
-/// Writes a page. A file that was not written by `lexibus docs` is not overwritten.
+/// Writes a page. Does not overwrite files that `lexibus docs` did not write.
 fn write(path: &Path, page: &Page) -> Result<(), String> {
     let is_foreign = match std::fs::read(path) {
         Ok(bytes) => !page.replaces(&String::from_utf8_lossy(&bytes)),
-        // A folder or an unreadable file is not overwritten either.
+        // Do not overwrite folders or unreadable files either.
         Err(error) => error.kind() != std::io::ErrorKind::NotFound,
     };
     if is_foreign {

@@ -13,7 +13,7 @@ use super::output::Target;
 use super::report::Reporter;
 use super::Failure;
 
-/// Format of the export, with its options.
+/// An export format with its options.
 enum Format {
     Eds(eds::Options),
     Esi(Box<esi::Options>),
@@ -46,7 +46,7 @@ impl Format {
         Ok(format)
     }
 
-    /// Describes an input that has nothing to export.
+    /// Returns the message for an input without anything to export.
     fn nothing(&self) -> &'static str {
         match self {
             Format::Eds(_) => "no device with objects",
@@ -64,10 +64,10 @@ impl Format {
     }
 }
 
-/// Exported file, and its device if it describes only one.
+/// An exported file, with its device if the file describes only one.
 struct File<'c> {
     device: Option<&'c Device>,
-    /// Required file name. Without it, the name of the input is used.
+    /// File name that the format requires. `None` means that the name of the input is used.
     name: Option<String>,
     exported: Exported,
 }
@@ -79,7 +79,7 @@ pub(super) fn run(export: &Export) -> Result<bool, Failure> {
     }
     let format = Format::new(export)?;
     let mut options = export.inputs.options()?;
-    // Profiles are public, so the export does not have to repeat what they add.
+    // Profiles are public documents, so the export does not repeat the facts that they add.
     options.no_profiles = true;
     let mut reporter = Reporter::new(&export.inputs, false);
     let mut target = Target::new(&export.inputs, export.out.as_deref(), export.check)?;
@@ -96,7 +96,7 @@ pub(super) fn run(export: &Export) -> Result<bool, Failure> {
     reporter.finish()
 }
 
-/// Writes the files of an input.
+/// Writes the exported files of an input.
 fn write(
     format: &Format,
     input: &Path,
@@ -125,9 +125,9 @@ fn write(
     Ok(())
 }
 
-/// Returns the files of an input: one EDS per device, or one file for all devices.
+/// Returns the exported files of an input: one EDS per device, or one file for all devices.
 ///
-/// Returns `None` if there is nothing to write, which is an error if there is only one input.
+/// Returns `None` if the input contains nothing to export. This is an error if there is only one input.
 fn files<'c>(
     format: &Format,
     input: &Path,
@@ -170,7 +170,7 @@ fn files<'c>(
     }
 }
 
-/// Returns the name of the input, followed by the name of `device` if it is given.
+/// Returns a file name: the name of the input, followed by the name of `device` if there is one.
 fn file_name(input: &Path, device: Option<&Device>) -> String {
     let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let Some(device) = device else { return stem };

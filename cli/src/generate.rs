@@ -27,7 +27,7 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
                 }
                 target.put(|| file_name(input, &compilation), "rs", &text, &mut reporter)
             }
-            // Errors have been reported. Among several inputs, one without a device is skipped.
+            // The errors have been reported. If there are several inputs, an input without a device is skipped.
             None if !compilation.is_usable() || target.many => Ok(()),
             None => {
                 reporter.error(&format!("{}: {}", input.display(), compile::NOTHING_TO_GENERATE));
@@ -39,7 +39,7 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
     reporter.finish()
 }
 
-/// Returns the name of the output file: the name of the input in snake case, or of the first device.
+/// Returns the name of the output file. It is the input's file name in snake case, or the name of the first device.
 fn file_name(input: &Path, compilation: &Compilation) -> String {
     let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let name = rust::file_name(&stem).or_else(|| {

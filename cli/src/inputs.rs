@@ -1,4 +1,4 @@
-//! Reads and compiles several files in parallel.
+//! Reads and compiles files in parallel.
 
 use std::collections::HashSet;
 use std::io::{IsTerminal, Read};
@@ -16,7 +16,7 @@ use lexibus_codegen::source::{FileId, Source, Span};
 use super::args::Inputs;
 use super::Failure;
 
-/// Compiles all inputs in parallel, and passes the results to `use_it` in the order of the command line.
+/// Compiles all inputs in parallel. Passes the results to `use_it` in the order of the command line.
 pub(super) fn each(
     inputs: &Inputs,
     options: &Options,
@@ -25,9 +25,9 @@ pub(super) fn each(
     compile_all(files(&inputs.paths)?, inputs, options, use_it)
 }
 
-/// Like [`each`], but in the order of the paths and without duplicates.
+/// Compiles all inputs like [`each`], but in the order of their paths and without duplicates.
 ///
-/// The contents of an output folder then do not depend on the order of the arguments.
+/// The content of an output folder then does not depend on the order of the arguments.
 pub(super) fn each_by_path(
     inputs: &Inputs,
     options: &Options,
@@ -57,7 +57,7 @@ fn compile_all(
             pool.scope(|scope| {
                 for (position, path) in files.iter().enumerate() {
                     let sender = sender.clone();
-                    // The receiver is dropped after an error, so a failure to send can be ignored.
+                    // Ignore a failure to send. It means that the receiver was dropped after an error.
                     scope.spawn(move |_| drop(sender.send((position, compile_file(path, options)))));
                 }
             });
@@ -68,13 +68,13 @@ fn compile_all(
     Ok(())
 }
 
-/// Returns the number of threads: `asked`, or the number of processors, but at most one per file.
+/// Returns the number of threads: `asked` or the number of processors, but not more than the number of files.
 fn threads(asked: Option<u16>, files: usize) -> usize {
     let available = || std::thread::available_parallelism().map_or(1, usize::from);
     asked.map_or_else(available, usize::from).clamp(1, files.max(1))
 }
 
-/// Passes results to `use_it` in the order of `files`.
+/// Passes the results to `use_it` in the order of `files`.
 fn in_order(
     files: &[PathBuf],
     receiver: mpsc::Receiver<(usize, Compilation)>,
@@ -94,7 +94,7 @@ fn in_order(
     Ok(())
 }
 
-/// Reads and checks a file. An unreadable file becomes a diagnostic.
+/// Compiles a file. If the file is unreadable, the result contains a diagnostic.
 fn compile_file(path: &Path, options: &Options) -> Compilation {
     match Source::read(path) {
         Ok(source) => compile::check(source, options),
@@ -108,7 +108,7 @@ fn compile_file(path: &Path, options: &Options) -> Compilation {
     }
 }
 
-/// Returns a progress bar, which is hidden in a pipe and for a single file.
+/// Returns a progress bar. It is hidden if the output is a pipe or there is only one file.
 fn progress(files: usize) -> ProgressBar {
     if files < 2 || !std::io::stderr().is_terminal() || !std::io::stdout().is_terminal() {
         return ProgressBar::hidden();
@@ -120,7 +120,7 @@ fn progress(files: usize) -> ProgressBar {
     bar
 }
 
-/// Returns the input files. A folder is replaced by the device descriptions in it, sorted by name.
+/// Returns the input files. Each folder is replaced with the device descriptions that it contains, sorted by name.
 fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for path in paths {
@@ -137,9 +137,9 @@ fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-/// Adds the device descriptions in `folder` and its subfolders.
+/// Adds the device descriptions in `folder` and its subfolders to the list.
 ///
-/// Each folder is searched once, because a symbolic link to a parent would never end.
+/// Each folder is searched only once, because a symbolic link to a parent folder would cause an endless search.
 fn search(
     folder: &Path,
     depth: usize,
@@ -163,14 +163,15 @@ fn search(
         if path.is_dir() {
             search(&path, depth + 1, searched, files)?;
         } else if path.is_file() && is_description(&path) {
-            // Pipes and devices are skipped, because they may never end.
+            // Skip pipes and devices, because reading them may never end.
             files.push(path);
         }
     }
     Ok(())
 }
 
-/// Whether a file is a device description, by its extension. XML and TOML files are also recognized by their content.
+/// Returns whether a file is a device description. Its extension decides. For XML and TOML files, the content must also
+/// match.
 fn is_description(path: &Path) -> bool {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if extension.eq_ignore_ascii_case("xml") {
@@ -184,11 +185,11 @@ fn is_description(path: &Path) -> bool {
 }
 
 fn is_xml_description(path: &Path) -> bool {
-    // An unreadable file is kept, so that an error is reported.
+    // Keep an unreadable file so that an error is reported for it.
     head(path).is_none_or(|head| frontend::format(&head, FileId(0)).is_ok())
 }
 
-/// Whether a TOML file is a register table with a device. Overlays and profiles are not.
+/// Returns whether a TOML file is a register table with a device. Overlays and profiles are not.
 fn is_table_of_device(path: &Path) -> bool {
     head(path).is_none_or(|head| {
         let mut lines = head.text().lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
@@ -198,7 +199,7 @@ fn is_table_of_device(path: &Path) -> bool {
     })
 }
 
-/// Reads the start of a file; `None` if it is unreadable.
+/// Reads the start of a file. Returns `None` if the file is unreadable.
 fn head(path: &Path) -> Option<Source> {
     let mut head = Vec::new();
     let file = std::fs::File::open(path).ok()?;

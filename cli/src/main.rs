@@ -9,8 +9,9 @@
 //!
 //! Exit codes: 0 on success; 1 for errors in the input, stale output or breaking changes; 2 for invalid arguments.
 //!
-//! `args` declares the arguments of all subcommands. A subcommand is implemented in the module with its name, or below.
-//! `inputs` reads files in parallel, `output` writes files or compares them, and `report` prints diagnostics.
+//! `args` declares the arguments of all subcommands. Most subcommands have a module with the same name; the others are
+//! implemented in this file. `inputs` reads files in parallel, `output` writes or compares files, and `report` prints
+//! diagnostics.
 
 #![forbid(unsafe_code)]
 
@@ -49,7 +50,7 @@ fn main() -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(FAILED),
         Err(Failure::Output(error)) => {
-            // If the reader has closed the pipe, a message is pointless. The exit code still reports the failure.
+            // If the reader has closed the pipe, it would not see a message. The exit code still reports the failure.
             if error.kind() != std::io::ErrorKind::BrokenPipe {
                 say(&format!("error: can't write the output: {error}"));
             }
@@ -64,12 +65,12 @@ fn main() -> ExitCode {
     }
 }
 
-/// Prints a line to standard error, with control characters escaped. Errors are ignored: they cannot be reported.
+/// Prints a line to standard error with escaped control characters. Ignores errors because they cannot be reported.
 fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{}", printable(line));
 }
 
-/// Reason why a command ended early.
+/// The reason why a command ended early.
 enum Failure {
     /// The arguments are invalid.
     Usage(String),

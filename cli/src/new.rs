@@ -6,7 +6,7 @@ use super::args::{Bus, New};
 use super::output::create;
 use super::Failure;
 
-// Templates, with the placeholders `{name}` and `{file}`.
+// Table templates with the placeholders `{name}` and `{file}`.
 const MODBUS: &str = include_str!("../templates/table/modbus.toml");
 const CANOPEN: &str = include_str!("../templates/table/canopen.toml");
 const ETHERCAT: &str = include_str!("../templates/table/ethercat.toml");
@@ -29,7 +29,7 @@ pub(super) fn run(new: &New) -> Result<bool, Failure> {
     Ok(true)
 }
 
-/// Returns a file name for a device name.
+/// Derives a file name from a device name.
 fn file_name(name: &str) -> String {
     let letters = name.chars().map(|letter| if letter.is_alphanumeric() { letter } else { '-' });
     let lower = letters.collect::<String>().to_lowercase();

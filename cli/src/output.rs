@@ -13,16 +13,16 @@ use super::Failure;
 /// Destination of the output.
 pub(super) struct Target<'g> {
     out: Option<&'g Path>,
-    /// Whether to compare instead of writing.
+    /// Whether to compare the output with existing files instead of writing it.
     check: bool,
     is_folder: bool,
-    /// Whether there are several inputs, or folders of them.
+    /// Whether there are several inputs or a folder as an input.
     pub(super) many: bool,
-    /// Paths used so far.
+    /// Output paths that have been used so far.
     names: BTreeSet<PathBuf>,
-    /// Whether to report what was written.
+    /// Whether to report which files were written.
     pub(super) is_reported: bool,
-    /// Number of files that were written or had the same text already.
+    /// Number of output files, including files that already had the same text.
     files: usize,
 }
 
@@ -45,12 +45,13 @@ impl<'g> Target<'g> {
         Ok(Target { out, check, is_folder, many, names: BTreeSet::new(), is_reported: false, files: 0 })
     }
 
-    /// Whether several outputs can be written.
+    /// Returns whether the target accepts several outputs.
     pub(super) fn takes_many(&self) -> bool {
         self.is_folder
     }
 
-    /// Writes or compares an output. In a folder, its file is `name` with `ending`. Repeated names get a number.
+    /// Writes or compares an output. In a folder, the file name is `name` with the extension `ending`. A number makes
+    /// repeated names unique.
     pub(super) fn put(
         &mut self,
         name: impl FnOnce() -> String,
@@ -76,12 +77,12 @@ impl<'g> Target<'g> {
         Ok(())
     }
 
-    /// Whether one input becomes one file, so that a user wants to know what is in it.
+    /// Returns whether a single input is written to a single file. Only then are details about the content reported.
     pub(super) fn is_one_file(&self) -> bool {
         self.out.is_some() && !self.check && !self.many
     }
 
-    /// Reports how many files were written to a folder.
+    /// Reports the number of files that were written to a folder.
     pub(super) fn summarize(&self, reporter: &mut Reporter) {
         if let Some(out) = self.out.filter(|_| !self.check && self.many) {
             reporter.progress(&format!("wrote {} files to {}", self.files, out.display()));
@@ -100,7 +101,7 @@ impl<'g> Target<'g> {
     }
 }
 
-/// Creates a file for the user to edit. An existing file is not overwritten.
+/// Creates a file that the user will edit. Does not overwrite an existing file.
 pub(super) fn create(path: &Path, text: &str) -> Result<(), Failure> {
     let file = std::fs::File::options().write(true).create_new(true).open(path);
     let written = file.and_then(|mut file| file.write_all(text.as_bytes()));
@@ -118,7 +119,7 @@ fn check(path: &Path, text: &str, reporter: &mut Reporter) {
     }
 }
 
-/// Returns an error if the contents of a file differ from `text`.
+/// Returns an error if the content of a file differs from `text`.
 pub(super) fn difference(path: &Path, text: &str) -> Option<String> {
     if is_no_regular_file(path) {
         return Some(format!("{} cannot be compared: it is not a regular file", path.display()));

@@ -16,7 +16,7 @@ use serde::Serialize;
 use super::args::{ColorChoice, Inputs, MessageFormat};
 use super::Failure;
 
-/// Note of an export in JSON.
+/// A note of an export as a JSON object.
 #[derive(Serialize)]
 struct ExportNote<'a> {
     severity: &'static str,
@@ -28,16 +28,17 @@ struct ExportNote<'a> {
     first: &'a str,
 }
 
-/// Prints the diagnostics of all inputs in the format that the user chose.
+/// Prints the diagnostics of all inputs in the selected format.
 pub(super) struct Reporter {
     format: MessageFormat,
     color: bool,
-    /// Whether diagnostics are the result of the command. If so, machine-readable formats go to standard output.
+    /// Whether diagnostics are the main output of the command. If so, machine-readable formats are printed to standard
+    /// output.
     is_result: bool,
     errors: usize,
     warnings: usize,
     files: usize,
-    /// Diagnostics of all inputs, for SARIF, which is one document.
+    /// Diagnostics of all inputs. They are collected for SARIF because the output is a single document.
     kept: Vec<Diagnostic>,
     sources: Vec<Source>,
 }
@@ -85,7 +86,7 @@ impl Reporter {
         Ok(())
     }
 
-    /// Prints the notes of an export, one per line.
+    /// Prints the notes of an export with one note per line.
     pub(super) fn export_notes(&mut self, source: &str, device: &str, notes: &[Note]) -> Result<(), Failure> {
         for note in notes {
             match self.format {
@@ -110,20 +111,20 @@ impl Reporter {
         Ok(())
     }
 
-    /// Reports an error that has no position in an input.
+    /// Reports an error that has no position in a file.
     pub(super) fn error(&mut self, message: &str) {
         self.errors += 1;
         super::say(&format!("error: {message}"));
     }
 
-    /// Prints what was done, unless programs read the output.
+    /// Prints a progress message, unless the output is in a machine-readable format.
     pub(super) fn progress(&self, line: &str) {
         if self.format == MessageFormat::Text {
             super::say(line);
         }
     }
 
-    /// Prints the summary or the SARIF document. Returns whether there were no errors.
+    /// Prints the summary or the SARIF document. Returns whether no errors occurred.
     pub(super) fn finish(self) -> Result<bool, Failure> {
         match self.format {
             MessageFormat::Text if self.is_result || self.errors + self.warnings > 0 => {
@@ -139,7 +140,8 @@ impl Reporter {
         Ok(self.errors == 0)
     }
 
-    /// Prints machine-readable diagnostics: to standard output for `check`, otherwise to standard error.
+    /// Prints machine-readable diagnostics. They go to standard output for `check`, and to standard error for other
+    /// commands.
     fn print(&self, text: &str) -> Result<(), Failure> {
         if self.is_result {
             std::io::stdout().lock().write_all(text.as_bytes())?;
@@ -149,7 +151,7 @@ impl Reporter {
         Ok(())
     }
 
-    /// Stores diagnostics and their sources for SARIF. File identifiers are renumbered.
+    /// Collects diagnostics and their source files for SARIF. File identifiers are renumbered.
     fn keep(&mut self, compilation: &Compilation) {
         let shift = self.sources.len() as u32;
         let moved = |span: Span| Span::new(FileId(span.file.0 + shift), span.start, span.end);
@@ -167,7 +169,7 @@ impl Reporter {
     }
 }
 
-/// Returns what a file describes: `drive.eds: EDS, Demo Drive, 32 objects, 59 entries, 2 RPDOs, 2 TPDOs`.
+/// Returns a one-line summary of a file: `drive.eds: EDS, Demo Drive, 32 objects, 59 entries, 2 RPDOs, 2 TPDOs`.
 pub(super) fn summary_line(info: &Info) -> String {
     let mut parts = vec![info.format.unwrap_or("unknown format").to_uppercase()];
     match info.devices.as_slice() {
@@ -190,7 +192,7 @@ pub(super) fn summary_line(info: &Info) -> String {
     format!("{}: {}", info.file, parts.join(", "))
 }
 
-/// Returns `2 entries`; `None` if there are none.
+/// Formats a count such as `2 entries`. Returns `None` if the count is 0.
 fn counted(count: usize, noun: &str) -> Option<String> {
     match (count, noun.strip_suffix('y')) {
         (0, _) => None,
@@ -200,7 +202,7 @@ fn counted(count: usize, noun: &str) -> Option<String> {
     }
 }
 
-/// Returns a readable summary of a file.
+/// Returns the summary of a file for human readers.
 pub(super) fn info_text(info: &Info) -> String {
     let mut text = String::new();
     let _ =
@@ -244,7 +246,7 @@ pub(super) fn info_text(info: &Info) -> String {
     text
 }
 
-/// Returns the order code, which selects the device, and the name.
+/// Returns the name of a device, preceded by the order code with which the user can select it.
 fn device_title(device: &DeviceInfo) -> String {
     match (device.order_code.is_empty(), device.name.is_empty()) {
         (true, true) => "(no name)".to_owned(),

@@ -1,4 +1,4 @@
-//! `lexibus schema`: prints the JSON Schema of register tables, which editors use to complete and check them.
+//! `lexibus schema`: prints the JSON Schema of register tables. Editors use the schema for completion and validation.
 
 use std::io::Write;
 

@@ -1,4 +1,5 @@
-//! Tests the code blocks of the book that are not Rust: commands print the documented output, and tables are valid.
+//! Tests the code blocks of the book that are not Rust. Commands must print the documented output, and register tables
+//! must be valid.
 
 mod book_support;
 #[path = "../../codegen/tests/table_support/mod.rs"]
@@ -13,10 +14,10 @@ use lexibus_codegen::diagnostics::Severity;
 use lexibus_codegen::source::Source;
 use table_support::whole;
 
-/// Programs that are not run, because they take too long or need what is not installed.
+/// Programs that the test does not run, because they take too long or may not be installed.
 const OTHERS: [&str; 5] = ["cargo", "cd", "cp", "mdbook", "xdg-open"];
 
-/// Returns the names of the chapters.
+/// Returns the file names of the book's chapters.
 fn chapters() -> Vec<String> {
     let entries = std::fs::read_dir(docs().join("src")).expect("the chapters");
     let names = entries.map(|entry| entry.expect("a chapter").file_name().to_string_lossy().into_owned());
@@ -25,7 +26,7 @@ fn chapters() -> Vec<String> {
     names
 }
 
-/// Creates the working folder of a chapter, with the book's examples, some test data, and the dictionaries.
+/// Creates the working folder of a chapter. It contains the book's examples, some test data, and the dictionaries.
 fn folder(name: &str) -> PathBuf {
     let root = docs().join("..");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("book").join(name);
@@ -42,7 +43,7 @@ fn folder(name: &str) -> PathBuf {
         }
     }
     copy(&root.join("tests/data/coupler.esi.xml"), &folder);
-    // Two versions of a description, for `lexibus diff`.
+    // Create two versions of a description for `lexibus diff`.
     let old = std::fs::read_to_string(docs().join("examples/pump.eds")).expect("an example");
     let new =
         old.replace("ParameterName=Speed\nObjectType=0x7\nDataType=0x0006", "ParameterName=Speed\nDataType=0x0003");
@@ -57,7 +58,7 @@ fn copy(path: &Path, folder: &Path) {
     std::fs::copy(path, folder.join(name)).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
 }
 
-/// Splits a command into words. Text between double quotes is one word.
+/// Splits a command line into words. Text in double quotes is one word.
 fn words(line: &str) -> Vec<String> {
     let mut words = Vec::new();
     for (at, part) in line.split('"').enumerate() {
@@ -69,7 +70,8 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// Runs a command of the book in `folder`; `None` for another program.
+/// Runs a command line of the book in `folder`. Returns `None` if the program is on the list of programs that are not
+/// run.
 fn run(line: &str, folder: &Path) -> Option<Output> {
     let words = words(line);
     let (program, arguments) = words.split_first()?;
@@ -81,14 +83,14 @@ fn run(line: &str, folder: &Path) -> Option<Output> {
     Some(command.args(arguments).current_dir(folder).output().expect("lexibus runs"))
 }
 
-/// Returns the lines that a command prints, without trailing blanks.
+/// Returns the output lines of a command without trailing whitespace.
 fn printed(output: &Output) -> Vec<String> {
     let text = [output.stdout.as_slice(), output.stderr.as_slice()].concat();
     let text = String::from_utf8(text).expect("UTF-8");
     text.trim_end().lines().map(|line| line.trim_end().to_owned()).collect()
 }
 
-/// Whether lines match the expected ones, in which `…` matches any number of lines.
+/// Returns whether the lines match the expected lines. An expected `…` matches any number of lines.
 fn agrees(lines: &[String], expected: &[&str]) -> bool {
     match expected.split_first() {
         None => lines.is_empty(),
@@ -97,7 +99,7 @@ fn agrees(lines: &[String], expected: &[&str]) -> bool {
     }
 }
 
-/// Runs a block of commands. Each must succeed, or fail if its comment says so.
+/// Runs a block of commands. Each command must succeed, unless its comment says that it fails.
 fn commands(block: &Block, folder: &Path, position: &str) -> usize {
     let mut count = 0;
     for line in block.text.replace("\\\n", " ").lines().filter(|line| !line.trim().is_empty()) {
@@ -110,11 +112,11 @@ fn commands(block: &Block, folder: &Path, position: &str) -> usize {
     count
 }
 
-/// Runs a block of commands after `$`, and compares their output.
+/// Runs the commands after `$` in a block and compares their output with the block.
 fn sessions(block: &Block, folder: &Path, position: &str) -> usize {
     let mut count = 0;
     for session in block.text.split("$ ").skip(1) {
-        let (command, expected) = session.split_once('\n').expect("a command is a line");
+        let (command, expected) = session.split_once('\n').expect("the block does not start with a command");
         let Some(output) = run(command, folder) else { continue };
         let (lines, expected) = (printed(&output), expected.trim_end().lines().map(str::trim_end).collect::<Vec<_>>());
         assert!(agrees(&lines, &expected), "{position}: {command}\n{}", lines.join("\n"));
@@ -148,7 +150,7 @@ fn commands_run_and_print_what_stands_there() {
     assert!(count > 30, "{count} commands");
 }
 
-/// Checks the tables of the book. Those that are written to files are checked by the book's commands.
+/// Checks the register tables of the book. Tables that are saved to files are checked by commands of the book.
 #[test]
 fn tables_are_tables() {
     let mut count = 0;
@@ -173,7 +175,7 @@ fn the_catalogue_of_codes_is_todays() {
     assert!(is_same, "docs/src/lints.md is stale: tests/bindings.sh writes it again");
 }
 
-/// The README shows what its first command prints. The number of lines may differ.
+/// The README must show the output of its first command. The number of lines may differ.
 #[test]
 fn the_readme_shows_what_its_first_command_prints() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -1,4 +1,4 @@
-//! Tests the command line as a user calls it.
+//! Tests the command line by running the `lexibus` program.
 
 #[path = "../../codegen/tests/corpus_support/xsd.rs"]
 mod xsd;
@@ -61,7 +61,7 @@ fn generate_writes_bindings_and_checks_them() {
     assert_eq!(code(&made), 0, "{}", err(&made));
     let text = std::fs::read_to_string(&path).expect("the bindings");
     assert!(text.contains("pub struct DemoDrive<C>"));
-    assert_eq!(out(&lexibus(&["generate", DEMO])), text, "standard output gets the same bytes");
+    assert_eq!(out(&lexibus(&["generate", DEMO])), text, "standard output contains the same bytes");
 
     let deeper = folder.join("new/folder/").to_string_lossy().into_owned();
     assert_eq!(code(&lexibus(&["generate", DEMO, "--out", &deeper])), 0);
@@ -212,7 +212,7 @@ fn results_do_not_depend_on_the_number_of_jobs() {
     assert!(out(&one).lines().count() >= 20);
 }
 
-/// Control characters in a description or its path neither control the terminal nor start a line.
+/// Control characters in a description or its path must not reach the terminal or start a new line.
 #[test]
 #[cfg(unix)]
 fn control_characters_stay_out_of_what_is_printed() {
@@ -225,7 +225,7 @@ fn control_characters_stay_out_of_what_is_printed() {
     let esi = esi.replace("CP-32 coupler", "Cou&#10;breaks api: pler\u{9b}");
     let modular = file(&folder, "c\u{1b}c.xml", &esi);
     let missing = folder.join("no\u{1b}[2J\nerror: file.eds").to_string_lossy().into_owned();
-    // Commands, each with a part of the hostile text that its output contains.
+    // Each command has a part of the hostile text that its output must contain.
     let calls: [(&[&str], &str); 8] = [
         (&["diff", &old, &new], "ain"),
         (&["diff", &modular, &old], "pler"),
@@ -250,7 +250,7 @@ fn control_characters_stay_out_of_what_is_printed() {
     }
 }
 
-/// Files of every format in the repository.
+/// Example files of the repository in all formats.
 const EXAMPLES: [&str; 10] = [
     "dictionaries/demo-drive.eds",
     "dictionaries/aec-vector-step.toml",
@@ -268,7 +268,7 @@ fn examples() -> Vec<String> {
     EXAMPLES.iter().map(|path| format!("{}/../{path}", env!("CARGO_MANIFEST_DIR"))).collect()
 }
 
-/// The command and `build.rs` generate the same code. `macros/src/lib.rs` has this test for the macro.
+/// The command line and `build.rs` must generate the same code. `macros/src/lib.rs` contains this test for the macro.
 #[test]
 fn the_command_line_and_the_build_script_give_the_same_bytes() {
     for path in examples() {
@@ -285,7 +285,7 @@ fn the_command_line_and_the_build_script_give_the_same_bytes() {
     assert_eq!(out(&by_command), by_builder, "{}", err(&by_command));
 }
 
-/// Returns all files of a folder with their bytes.
+/// Returns the paths and contents of all files in a folder.
 fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder).expect("a folder") {
@@ -302,12 +302,12 @@ fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 #[test]
 fn output_depends_neither_on_the_order_of_files_nor_on_the_number_of_jobs() {
     let folder = folder("order");
-    // Two files of one name, whose outputs are distinguished by a number.
+    // Create two input files with the same name. A number distinguishes their outputs.
     let twin = folder.join("in");
     std::fs::create_dir_all(&twin).expect("a folder");
     let mut files = examples();
     files.push(file(&twin, "demo-drive.eds", QUIRKY));
-    // Facts that ESI needs, and files of other formats do not contain.
+    // Facts that ESI requires and files in other formats do not contain.
     const FACTS: [&str; 7] =
         ["vendor-id=1", "vendor-name=V", "physics=YY", "product-code=2", "revision=3", "group=G", "order-code=O"];
     for (command, format) in [("generate", ""), ("docs", ""), ("export", "eds"), ("export", "esi"), ("export", "gsdml")]
@@ -328,7 +328,7 @@ fn output_depends_neither_on_the_order_of_files_nor_on_the_number_of_jobs() {
             (contents(&out), self::out(&output), err(&output))
         };
         let expected = made(&files, "1");
-        // Few of the examples describe PROFINET devices.
+        // Only a few of the examples describe PROFINET devices.
         let least = if format == "gsdml" { 1 } else { 5 };
         assert!(expected.0.len() >= least, "{command} {format}: {}", expected.2);
         let mut order = files.clone();
@@ -351,7 +351,7 @@ fn links_and_pipes_in_a_folder() {
     let deep = folder.join("a/b");
     std::fs::create_dir_all(&deep).expect("a folder");
     file(&deep, "drive.eds", QUIRKY);
-    // Two links to the parent in each folder: 2^32 paths if all were followed.
+    // Each folder contains two links to its parent. Following all of them would give 2^32 paths.
     for name in ["one", "other"] {
         std::os::unix::fs::symlink(&folder, deep.join(name)).expect("a link");
     }
@@ -382,7 +382,7 @@ fn of_many_devices_those_that_are_selected() {
     for absent in ["cp_32", "mod modules", "0x2000:", "MOTOR"] {
         assert!(!drive.contains(absent), "{absent}");
     }
-    // The layout of PDOs does not depend on the selection.
+    // The selection of objects must not change the layout of PDOs.
     assert!(drive.contains("pub struct PositionMode"));
     let coupler = generate(&["--device", "cp-*", "--module", "DI-16", "--module", "0x2001"]);
     assert!(coupler.contains("pub mod di_16 {") && coupler.contains("pub mod do_8 {") && !coupler.contains("ai_2"));
@@ -416,7 +416,7 @@ fn what_describes_no_device_gives_no_bindings() {
     let generated = lexibus(&["generate", &empty, "--out", &target.to_string_lossy()]);
     assert_eq!((code(&generated), target.exists()), (1, false));
     assert!(err(&generated).contains("describes no device"), "{}", err(&generated));
-    // Among several inputs, it is skipped.
+    // If there are several inputs, the input without a device is skipped.
     std::fs::copy(COUPLER, folder.join("coupler.xml")).expect("a copy");
     let all = lexibus(&["generate", &folder.to_string_lossy(), "--out", &format!("{}/", folder.display())]);
     assert_eq!((code(&all), folder.join("coupler.rs").exists()), (0, true), "{}", err(&all));
@@ -455,7 +455,7 @@ fn export_writes_an_eds_and_says_what_it_leaves_out() {
     let text = out(&made);
     assert!(text.starts_with("[FileInfo]\r\nFileName=demo-drive.eds\r\n"), "{text}");
     let path = file(&folder, "again.eds", &text);
-    assert_eq!(out(&lexibus(&["export", "--format", "eds", &path])), text, "exporting an export changes nothing");
+    assert_eq!(out(&lexibus(&["export", "--format", "eds", &path])), text, "an export of an export is equal to it");
     assert_eq!(code(&lexibus(&["export", "--format", "eds", DEMO, "--out", &path, "--check"])), 0);
     std::fs::write(&path, "[FileInfo]\n").expect("a stale file");
     let stale = lexibus(&["export", "--format", "eds", DEMO, "--out", &path, "--check"]);
@@ -519,7 +519,7 @@ fn export_writes_an_esi_and_asks_for_what_the_source_lacks() {
     let path = folder.join("demo.xml").to_string_lossy().into_owned();
     call.extend(["--out", &path]);
     assert_eq!(code(&lexibus(&call)), 0);
-    assert_eq!(std::fs::read_to_string(&path).expect("the ESI"), out(&made), "a file gets the same bytes");
+    assert_eq!(std::fs::read_to_string(&path).expect("the ESI"), out(&made), "a file contains the same bytes");
     call.push("--check");
     assert_eq!(code(&lexibus(&call)), 0);
     let many = lexibus(&["export", "--format", "esi", COUPLER, "-A", "warnings"]);
@@ -557,7 +557,7 @@ fn export_writes_a_gsdml_under_its_name() {
     }
 }
 
-/// The documented commands export the three device descriptions of the Eco.
+/// The commands in the documentation export the three device descriptions of the Eco drive.
 #[test]
 fn the_eco_as_eds_esi_and_gsdml() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -604,7 +604,7 @@ fn a_site_of_documentation() {
     for shared in ["site.css", "site.js", "search.js"] {
         assert!(!read(shared).is_empty());
     }
-    // An output that cannot be written is an error, and so is a call without an output folder.
+    // A missing output folder and an output that cannot be written are errors.
     let file = file(&folder, "occupied", "");
     assert_eq!(code(&lexibus(&["docs", DEMO, "--out", &file])), 1);
     assert_eq!(code(&lexibus(&["docs", DEMO])), 2);
@@ -618,7 +618,7 @@ fn pages_of_markdown() {
         let out = out.to_string_lossy();
         lexibus(&[&["docs", DEMO, "--format", "markdown", "--out", &out], further].concat())
     };
-    // The pages do not exist yet.
+    // `--check` fails because the pages do not exist yet.
     assert_eq!(code(&call(&["--check"])), 1);
     assert_eq!(code(&call(&[])), 0);
     assert_eq!(code(&call(&["--check"])), 0);
@@ -631,7 +631,7 @@ fn pages_of_markdown() {
     assert!(err(&output).contains("profile-objects.md is stale"), "{}", err(&output));
     assert_eq!(code(&call(&[])), 0);
     assert!(std::fs::read_to_string(&page).expect("a page").contains("<a id=\"0x6040\"></a>"));
-    // Files of other origin are not overwritten.
+    // Files that `lexibus docs` did not write must not be overwritten.
     std::fs::write(out.join("README.md"), "# A project\n\nPages are made by `lexibus docs`.\n").expect("a file");
     let output = call(&[]);
     assert_eq!(code(&output), 1);
@@ -664,7 +664,7 @@ fn changes_between_two_versions() {
         )
     );
     let output = lexibus(&["diff", &old, &wider, "--show", "breaking"]);
-    assert_eq!(out(&output).lines().count(), 1, "the summary counts what is not shown");
+    assert_eq!(out(&output).lines().count(), 1, "the summary also counts the changes that are not shown");
     let output = lexibus(&["diff", &old, &other]);
     assert_eq!(code(&output), 1);
     assert!(

@@ -1,5 +1,5 @@
-//! Tests the output files: regular files are complete or untouched, pipes and devices are written to, and folders with other
-//! files are not changed.
+//! Tests how output files are written. Regular files must be complete or unchanged, pipes and devices must be supported, and
+//! folders with other files must not change.
 #![cfg(unix)]
 
 use std::path::{Path, PathBuf};
@@ -15,7 +15,8 @@ fn folder(name: &str) -> PathBuf {
     path
 }
 
-/// Runs a shell command in which `$LEXIBUS` is the program. It is stopped after a minute, in case it waits for a pipe.
+/// Runs a shell command. `$LEXIBUS` is the path of the program. The command is stopped after a minute, because it may wait
+/// for a pipe.
 fn shell(folder: &Path, script: &str) -> Output {
     let mut child = Command::new("sh")
         .args(["-c", script])
@@ -76,7 +77,7 @@ fn a_pipe_is_no_input() {
     let checked = shell(&folder, "mkfifo p.eds; $LEXIBUS check p.eds");
     assert_eq!(checked.status.code(), Some(1));
     assert!(error(&checked).contains("can't read the file: it is not a regular file"), "{}", error(&checked));
-    // Only regular files in a folder are read, so a pipe is skipped.
+    // When a folder is searched, only regular files are read, so the pipe is skipped.
     let searched = shell(&folder, "cp $DEMO .; $LEXIBUS check .");
     assert!(error(&searched).contains("1 file"), "{}", error(&searched));
 }
@@ -85,12 +86,12 @@ fn a_pipe_is_no_input() {
 fn a_full_disk_leaves_the_old_file() {
     let folder = folder("full");
     std::fs::write(folder.join("drive.rs"), "old").expect("a file");
-    // Files are limited to one block, and the signal for a larger file is ignored.
+    // Limit the file size to one block, and ignore the signal for exceeding the limit.
     let output = shell(&folder, "trap '' XFSZ; ulimit -f 1; exec $LEXIBUS generate $DEMO --out drive.rs");
     assert_eq!(output.status.code(), Some(1), "{}", error(&output));
     assert!(error(&output).contains("can't write drive.rs"), "{}", error(&output));
     assert_eq!(std::fs::read_to_string(folder.join("drive.rs")).expect("the file"), "old");
-    assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 1, "no temporary file is left");
+    assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 1, "no temporary file remains");
 }
 
 #[test]
@@ -105,7 +106,7 @@ fn pages_are_not_written_to_a_foreign_folder() {
         assert!(error(&output).contains(message), "{}", error(&output));
         assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 1);
     }
-    // Hidden files are accepted, and a second call replaces the pages of the first.
+    // A folder with hidden files is accepted. A second call replaces the pages of the first call.
     let script = "mkdir site; touch site/.gitkeep; $LEXIBUS docs $DEMO --out site && $LEXIBUS docs $DEMO --out site";
     let output = shell(&folder, script);
     assert!(output.status.success(), "{}", error(&output));

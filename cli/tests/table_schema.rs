@@ -1,5 +1,5 @@
-//! Tests the JSON Schema of register tables: the file is up to date, real tables are valid, and wrong ones are not. Also tests
-//! `lexibus new` and `lexibus schema`.
+//! Tests the JSON Schema of register tables: the file must be up to date, accept valid tables, and reject invalid ones. Also
+//! tests `lexibus new` and `lexibus schema`.
 
 #[path = "../../tests/support/python.rs"]
 mod python;
@@ -15,7 +15,7 @@ use lexibus_codegen::frontend::table::SCHEMA;
 use lexibus_codegen::source::Source;
 use table_support::{dictionaries, examples, whole};
 
-/// Python script that prints the errors of each document after the schema.
+/// Python script that reads a schema and documents, and prints the errors of each document.
 const SCRIPT: &str = "\
 import json, sys
 from jsonschema import validators
@@ -24,7 +24,8 @@ validator = validators.validator_for(schema)(schema)
 print(json.dumps([[f'{error.json_path}: {error.message}' for error in validator.iter_errors(d)] for d in documents]))
 ";
 
-/// Returns the errors that an independent validator reports for each table; `None`, with a message, if it is not installed.
+/// Returns the errors that an independent validator reports for each table. If the validator is not installed, prints a
+/// message and returns `None`.
 fn faults(texts: &[String]) -> Option<Vec<Vec<String>>> {
     let python = python::with(&["jsonschema"])?;
     let mut documents: Vec<serde_json::Value> = vec![serde_json::from_str(SCHEMA).expect("a JSON document")];
@@ -47,7 +48,7 @@ fn faults(texts: &[String]) -> Option<Vec<Vec<String>>> {
     Some(found)
 }
 
-/// Asserts that the validator reports no error for these named tables.
+/// Asserts that the validator reports no error for these tables.
 fn pass(tables: Vec<(String, String)>) {
     let (names, texts): (Vec<_>, Vec<_>) = tables.into_iter().unzip();
     for (name, faults) in names.iter().zip(faults(&texts).into_iter().flatten()) {

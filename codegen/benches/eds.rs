@@ -1,7 +1,7 @@
-//! Measures the stages from the bytes of an EDS to Rust.
+//! Measures all stages from the bytes of an EDS to Rust code.
 //!
-//! `inputs` creates the files: records of nine entries, starting with 10 records. `benches/README.md` describes how to run the
-//! bench, and its results.
+//! The module `inputs` creates the files. They consist of records with nine entries each; the smallest file has 10 records.
+//! `benches/README.md` contains the results and explains how to run the benchmark.
 
 #[path = "inputs/eds.rs"]
 mod inputs;
@@ -18,7 +18,7 @@ fn main() {
     divan::main();
 }
 
-/// Text to sections, keys and values.
+/// Measures splitting a text into sections, keys and values.
 #[divan::bench(args = SIZES, max_time = 2)]
 fn lex(bencher: Bencher<'_, '_>, size: usize) {
     let text = String::from_utf8(growing(size)).expect("text");

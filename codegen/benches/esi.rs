@@ -1,7 +1,8 @@
-//! Measures the stages from the bytes of an ESI file to Rust. Also compares the time to checked IR with a loop over the XML
-//! events.
+//! Measures all stages from the bytes of an ESI file to Rust code. Also compares the time to checked IR with a loop over
+//! the XML events.
 //!
-//! `inputs` creates the files: devices with dictionaries, PDOs and sync managers in the proportions of real files.
+//! The module `inputs` creates the files. Their devices have dictionaries, PDOs and sync managers in the proportions of
+//! real files.
 
 mod bare;
 #[path = "inputs/esi.rs"]

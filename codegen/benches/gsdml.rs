@@ -1,7 +1,7 @@
-//! Measures the stages from the bytes of a GSDML file to Rust. Also compares the time to checked IR with a loop over the XML
-//! events, and with one that also splits the attributes, which contain most facts of a GSDML.
+//! Measures all stages from the bytes of a GSDML file to Rust code. Also compares the time to checked IR with two loops over
+//! the XML events. The second loop also splits the attributes, which contain most facts of a GSDML.
 //!
-//! `inputs` creates the files: a drive with parameters, value lists and texts in six languages.
+//! The module `inputs` creates the files. They describe a drive with parameters, value lists and texts in six languages.
 
 mod bare;
 #[path = "inputs/gsdml.rs"]
@@ -12,7 +12,7 @@ use divan::Bencher;
 use inputs::{growing, gsdml, DRIVE};
 use stages::SIZES;
 
-/// Number of submodules of 500 parameters each.
+/// Number of submodules with 500 parameters each.
 const SUBMODULES: usize = 100;
 
 fn main() {

@@ -1,6 +1,6 @@
-//! Measures the stages from the bytes of a register table to Rust.
+//! Measures all stages from the bytes of a register table to Rust code.
 //!
-//! `inputs` creates the files: 32-bit registers with six bit fields each.
+//! The module `inputs` creates the files. They contain 32-bit registers with six bit fields each.
 
 #[path = "inputs/table.rs"]
 mod inputs;

@@ -1,7 +1,7 @@
-//! Measures the stages from the bytes of an XDD to Rust.
+//! Measures all stages from the bytes of an XDD to Rust code.
 //!
-//! `inputs` creates the files: records of nine entries, starting with 10 records. Half of the entries are parameters of the
-//! application process.
+//! The module `inputs` creates the files. They consist of records with nine entries each; the smallest file has 10 records.
+//! Half of the entries are parameters of the application process.
 
 #[path = "inputs/xdd.rs"]
 mod inputs;

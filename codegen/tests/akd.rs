@@ -1,5 +1,5 @@
-//! Compares the table of the Kollmorgen AKD with the text of its manual: every printed row is in the table, cites its line, and
-//! has the facts of its cells. Deliberate differences have a doubt.
+//! Compares the table of the Kollmorgen AKD with the text of its manual. Each printed row must be in the table, cite its line,
+//! and have the properties in the printed cells. Each deliberate difference must have a doubt.
 
 #[path = "table_support/manual.rs"]
 mod manual_text;
@@ -28,12 +28,12 @@ fn device(compilation: &Compilation) -> &Device {
     &compilation.catalog.as_ref().expect("a catalogue").devices[0]
 }
 
-/// Returns the cells of the lines from `first` to `last`, each with its line number.
+/// Returns the cells of the manual's lines from `first` to `last`, each with its line number.
 fn rows(manual: &[String], first: usize, last: usize) -> Vec<(usize, Vec<&str>)> {
     (first..=last).map(|line| (line, manual[line - 1].split('\t').map(str::trim).collect())).collect()
 }
 
-/// Returns the cited lines.
+/// Returns the manual lines that the documentation cites.
 fn cited(documentation: Option<&Documentation>) -> BTreeSet<usize> {
     let cite = documentation.and_then(|documentation| documentation.cite.as_deref()).unwrap_or_default();
     let mut lines = BTreeSet::new();
@@ -71,7 +71,7 @@ fn hex(text: &str) -> u32 {
     u32::from_str_radix(digits, 16).unwrap_or_else(|_| panic!("{text} is not a number"))
 }
 
-/// Parses a bit range: `Da 3 a 0`, `0..7`, `5-7`, `4`. Returns the first bit and the number of bits.
+/// Parses a bit range such as `Da 3 a 0`, `0..7`, `5-7` or `4`. Returns the first bit and the number of bits.
 fn bits(text: &str) -> (u8, u8) {
     let numbers: Vec<u8> =
         text.split(|c: char| !c.is_ascii_digit()).filter(|part| !part.is_empty()).map(|n| n.parse().unwrap()).collect();
@@ -87,7 +87,7 @@ fn the_table_has_no_findings() {
     assert_eq!(found, Vec::<String>::new());
 }
 
-/// The table of hardware revisions: each is a model with the versions of its software.
+/// Compares the table of hardware revisions. Each revision must be a model with its software versions.
 #[test]
 fn revisions_of_the_hardware() {
     let Some(manual) = manual() else { return };
@@ -99,7 +99,7 @@ fn revisions_of_the_hardware() {
         assert_eq!(model.name, format!("revision {}", cells[0]), "line {line}");
         assert!(cited(model.documentation.as_deref()).contains(line), "line {line}");
         let text = model.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
-        // In `01.06.xx.yyy` and `1.6.0.zzzzz`, letters are placeholders.
+        // The letters in `01.06.xx.yyy` and `1.6.0.zzzzz` are placeholders.
         let version = |cell: &str| {
             cell.split(".x").next().and_then(|entry| entry.split(".z").next()).unwrap_or_default().to_owned()
         };
@@ -139,16 +139,16 @@ fn registers_of_the_slave_controller() {
     assert_eq!((printed.len(), items.iter().filter(in_memory).count()), (18, 18));
 }
 
-/// Lines of bit tables that the table reads differently: the printed cell, the first bit, and the number of bits.
+/// Lines of printed bit tables that the register table corrects: the printed cell, the first bit, and the number of bits.
 const CORRECTED: [(usize, &str, (u8, u8)); 4] =
     [(573, "Da 3 a 7", (6, 2)), (593, "0x201", (10, 1)), (594, "0x201", (11, 1)), (596, "SyncManager 7", (12, 4))];
 
-/// Compares rows of parameter, address and bits with a bit field.
+/// Compares a bit field with printed rows of parameter, address and bits.
 fn table_of_bits(manual: &[String], device: &Device, name: &str, (first, last): (usize, usize), base: u32) -> usize {
     let fields = fields(device, name);
     let mut held = 0;
     for (line, cells) in rows(manual, first, last) {
-        // Skips further values of the field above, the first halves of names, and the bits beyond the register.
+        // Skip additional values of the previous field, incomplete names, and bits outside the register.
         if cells[0].starts_with("0x") || [595, 597, 598].contains(&line) {
             continue;
         }
@@ -179,7 +179,7 @@ fn bits_of_the_registers() {
     let compilation = table();
     let device = device(&compilation);
     assert_eq!(table_of_bits(&manual, device, "InterruptEnable", (567, 578), 0x204), 12);
-    // Twelve rows. The last is beyond the register, and bit 1 has none.
+    // The manual has twelve rows. The last row is outside the register, and bit 1 has no row.
     assert_eq!(table_of_bits(&manual, device, "AlEventRequest", (585, 598), 0x220), 11);
     assert_eq!(fields(device, "AlEventRequest").len(), 12);
     assert_eq!(table_of_bits(&manual, device, "AlControl", (609, 616), 0x120), 4);
@@ -241,13 +241,13 @@ fn status_codes_and_transitions_of_the_communication() {
         );
         let command = item.command.as_deref().expect("a command");
         let value = machine.commands.iter().find(|entry| entry.name == command).expect("its pattern").value;
-        // The manual prints no value for the transition from bootstrap to init.
+        // The manual prints no value for the transition from bootstrap to init, so the expected value is 1.
         let expected = if *line == 650 { 1 } else { hex(cells[1]) };
         assert_eq!((value, cited(item.documentation.as_deref()).contains(line)), (expected, true), "line {line}");
     }
 }
 
-/// Returns mask and value of cells that contain `0`, `1` or `X` for these bits.
+/// Returns the mask and value of cells that contain `0`, `1` or `X`. `over` lists the bits that the cells describe.
 fn pattern(cells: &[&str], over: &[u32]) -> (u32, u32) {
     cells.iter().zip(over).fold((0, 0), |(mask, value), (cell, bit)| match *cell {
         "0" => (mask | 1 << bit, value),
@@ -312,7 +312,7 @@ fn the_drives_state_machine() {
     modes(&manual, device);
 }
 
-/// Bits 4, 5 and 6 of the control word, by mode.
+/// Compares bits 4, 5 and 6 of the control word in each mode of operation.
 fn modes(manual: &[String], device: &Device) {
     let named = values(device, "ModesOfOperation");
     let printed = rows(manual, 711, 716);
@@ -334,7 +334,7 @@ fn modes(manual: &[String], device: &Device) {
     }
 }
 
-/// The cyclic values: name, object and type.
+/// Returns the cyclic values: line, name, object and type.
 fn cyclic(manual: &[String]) -> Vec<(usize, String, (u16, u8), Type)> {
     let both = rows(manual, 982, 987).into_iter().chain(rows(manual, 992, 1001));
     both.map(|(line, cells)| {
@@ -371,7 +371,7 @@ fn cyclic_values() {
     }
 }
 
-/// Returns the entries of a printed mapping: names and bits.
+/// Returns the names and bit lengths of the entries in a printed mapping.
 fn printed_entries(text: &str) -> (Vec<(String, u32)>, Option<u32>) {
     let (mut entries, mut total) = (Vec::new(), None);
     for part in text.split("),") {
@@ -399,7 +399,7 @@ fn fixed_mappings() {
     let objects: BTreeMap<String, (u16, u8)> =
         cyclic(&manual).into_iter().map(|(_, name, object, _)| (name, object)).collect();
     let lines = (780..=791).chain(795..=796).chain([800]);
-    // Objects of the printed names, which are the same in every mapping.
+    // Each printed name must have the same object in all mappings.
     let mut names: BTreeMap<String, (u16, u8, String)> = BTreeMap::new();
     let (mut mappings, mut entries) = ([0, 0], [0, 0]);
     for (line, cells) in lines.flat_map(|line| rows(&manual, line, line)) {
@@ -498,7 +498,7 @@ fn the_start_up_list() {
         let (number, decimal) = cells[3].split_once(' ').expect("two numbers");
         let number = hex(number);
         assert_eq!(decimal.trim_matches(['(', ')']).parse(), Ok(number), "line {line}");
-        // The manual assigns the fixed mapping after it has mapped another PDO.
+        // In line 942, the manual assigns the fixed mapping, although the example maps 0x1A00.
         let expected = if *line == 942 { 0x1A00 } else { number };
         assert_eq!(*value, Value::Int(expected.into()), "line {line}");
     }
@@ -572,7 +572,7 @@ fn latch_words() {
     assert_eq!(compared, 20);
 }
 
-/// Whether a field cites the line and has the value in this word.
+/// Returns whether a field of the word cites the line and has the value.
 fn holds(device: &Device, entry: &BitFieldEntry, line: usize, value: u32) -> bool {
     let actual = i128::from(value >> entry.offset);
     match entry.meaning {
@@ -605,7 +605,7 @@ fn mailbox_frames_and_their_example() {
     };
     let example = &message.examples[0];
     assert_eq!(example.request, bytes(1211));
-    // Length and type of the reply are doubts: the manual prints 0x0E and 0x20.
+    // The length and type of the reply have doubts: the manual prints 0x0E and 0x20.
     let mut reply = bytes(1230);
     assert_eq!((reply[0], reply[7]), (0x0E, 0x20));
     (reply[0], reply[7]) = (0x0A, 0x30);
@@ -629,7 +629,7 @@ fn mailbox_frames_and_their_example() {
     }
 }
 
-/// Compares the rows of a frame, `Byte 0` to `Byte 15`, with the fields that have these bytes.
+/// Compares the printed rows of a frame, `Byte 0` to `Byte 15`, with the message fields that contain these bytes.
 fn frame(manual: &[String], device: &Device, fields: &[MessageField], (first, last): (usize, usize)) {
     let mut bytes: Vec<Option<BTreeSet<usize>>> = Vec::new();
     for field in fields {
@@ -638,7 +638,7 @@ fn frame(manual: &[String], device: &Device, fields: &[MessageField], (first, la
                 let bits = basic(device, value.item.ty).bits().expect("a length");
                 (bits / 8, Some(cited(value.item.documentation.as_deref())))
             }
-            // The index has two bytes, the sub-index one.
+            // The index is two bytes long, and the sub-index is one byte long.
             MessageField::Echo { field, .. } => (if field == "index" { 2 } else { 1 }, None),
             other => panic!("{other:?}"),
         };
@@ -654,8 +654,8 @@ fn frame(manual: &[String], device: &Device, fields: &[MessageField], (first, la
     }
 }
 
-/// The objects that the manual names, counted in section 3.3 of the analysis: 43 indices without 0x1704, and 41 pairs of index
-/// and sub-index.
+/// Compares the objects that the manual mentions. Section 3.3 of the analysis counts 43 indices without 0x1704, and 41 pairs of
+/// index and sub-index.
 #[test]
 fn objects_and_parameters() {
     let compilation = table();
@@ -677,7 +677,7 @@ fn objects_and_parameters() {
         device.groups.iter().flat_map(|group| &group.items).filter_map(Item::object).collect();
     let missing: Vec<_> = pairs.iter().filter(|pair| !items.contains(pair)).collect();
     assert_eq!(missing, [&(0, 0); 0]);
-    // Skips further entries of the mapping objects, up to four.
+    // The table may have more entries of mapping objects than the manual, up to four per object.
     let more: Vec<_> = items.iter().filter(|pair| !pairs.contains(pair)).collect();
     assert!(more.iter().all(|(index, sub)| matches!(index, 0x1600..=0x1603 | 0x1A00..=0x1A03) && *sub <= 4));
     let mut names: Vec<&str> = Vec::new();

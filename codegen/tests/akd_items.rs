@@ -1,8 +1,9 @@
-//! Lists the 48 items in section 4 of the notes on the Kollmorgen AKD manual, with what covers each item. That is either the
-//! diagnostics of a verbatim transcription (the cases of `manual-akd` in `tests/ui`), or a doubt in
+//! Lists the 48 items in section 4 of the notes on the Kollmorgen AKD manual, and what covers each item. An item is covered
+//! by the diagnostics of a verbatim transcription (the `manual-akd` cases in `tests/ui`), or by a doubt in
 //! dictionaries/kollmorgen-akd.toml.
 //!
-//! The tests compare the list with these cases and doubts and, if the manual is available, with its lines.
+//! The tests compare the list with these cases and doubts. If the manual is available, they also compare it with the lines
+//! of the manual.
 
 #[path = "table_support/cases.rs"]
 mod cases;
@@ -17,20 +18,21 @@ use std::collections::BTreeSet;
 
 use How::{Doubt, Finding};
 
-/// Area of the cases.
+/// Area of the test cases.
 const AREA: &str = "manual-akd";
 
-/// Coverage of an item.
+/// What covers an item.
 enum How {
-    /// A case, and text that its diagnostics contain: codes, or words of a message.
+    /// A test case and parts of its diagnostics: codes or words of a message.
     Finding(&'static str, &'static [&'static str]),
-    /// Lines of the manual that a doubt cites, each with a part of the line, because no check can detect the contradiction.
+    /// Lines of the manual that a doubt cites, each with a part of its text. Used if the compiler cannot detect the
+    /// contradiction.
     Doubt(&'static [(usize, &'static str)]),
 }
 
 #[rustfmt::skip]
 const ITEMS: &[(u8, How)] = &[
-    // 4.1: registers of the slave controller.
+    // Section 4.1: registers of the slave controller.
     (1, Finding("item-01-access-that-is-none", &["TAB004"])),
     (2, Finding("item-02-two-tables-with-another-access", &["TAB021"])),
     (2, Doubt(&[(533, "R/W\tR/O"), (609, "SENZA"), (621, "SENZA"), (633, "SENZA")])),
@@ -49,7 +51,7 @@ const ITEMS: &[(u8, How)] = &[
     (10, Doubt(&[(650, "(BI)\t-"), (648, "Controllo AL I")])),
     (11, Doubt(&[(546, "Sync Manager 8"), (598, "SyncManager 15")])),
     (12, Doubt(&[(542, "Sync Manager 4"), (538, "SyncManager 0")])),
-    // 4.2: state machine of the drive.
+    // Section 4.2: state machine of the drive.
     (13, Finding("item-13-command-that-is-two-others-as-well", &["TAB029"])),
     (13, Doubt(&[(697, "Accensione"), (700, "Disabilitazione operazione")])),
     (14, Doubt(&[(671, "Disabilitazione accensione"), (744, "Accensione disabilitata"), (674, "Abilitazione operazione"), (747, "Operazione abilitata"), (732, "Accesa"), (742, "Accensione")])),
@@ -63,7 +65,7 @@ const ITEMS: &[(u8, How)] = &[
     (19, Doubt(&[(1006, "DRC.CMDSOURCE"), (1007, "DRV.OPMODE 2")])),
     (20, Doubt(&[(702, "Ripristino errore"), (614, "fronte positivo")])),
     (21, Doubt(&[(663, "pagina)")])),
-    // 4.3: PDOs.
+    // Section 4.3: PDOs.
     (22, Finding("item-22-assigned-pdo-that-is-not-described", &["TAB034"])),
     (22, Doubt(&[(889, "0x1704"), (1209, "0x1704"), (768, "0x1703")])),
     (23, Doubt(&[(796, "0x1B02"), (768, "0x1B20"), (800, "0x1703")])),
@@ -78,7 +80,7 @@ const ITEMS: &[(u8, How)] = &[
     (30, Doubt(&[(813, "p. 37")])),
     (31, Doubt(&[(801, "--------"), (817, "The screenshot"), (844, "<input"), (850, "0x1703")])),
     (32, Doubt(&[(791, "(2 byte),")])),
-    // 4.4: objects.
+    // Section 4.4: objects.
     (33, Finding("item-33-indices-without-a-prefix", &["TAB012", "TAB006"])),
     (33, Doubt(&[(985, "0x20a4"), (995, "2050"), (998, "20a0"), (996, "60FD"), (708, "6060h"), (924, "0x1C12:00")])),
     (34, Finding("item-34-index-in-a-byte", &["TAB033"])),
@@ -88,15 +90,15 @@ const ITEMS: &[(u8, How)] = &[
     (37, Doubt(&[(299, "sinusoidale²: 4 giri/min"), (295, "7.500")])),
     (38, Doubt(&[(1064, "x[ms]")])),
     (39, Doubt(&[(760, "RS232")])),
-    // 4.5: latch words.
+    // Section 4.5: latch words.
     (40, Finding("items-40-41-bit-that-is-left-out", &["TAB036"])),
     (40, Doubt(&[(1081, "8-12"), (1096, "8-11")])),
     (41, Finding("items-40-41-bit-that-is-left-out", &["TAB036"])),
     (41, Doubt(&[(1079, "4"), (1094, "4")])),
-    // The documentation of the field states that 3 is a number and not a bit, and `akd` tests its values.
+    // The field's documentation states that 3 is a number and not a bit. The test `akd` checks its values.
     (42, Doubt(&[(1096, "z1zz")])),
     (43, Doubt(&[(1100, "12-15"), (1103, "stato 1")])),
-    // 4.6: the mailbox.
+    // Section 4.6: the mailbox.
     (44, Doubt(&[(1211, "dal byte 2 al byte 11")])),
     (45, Finding("items-45-46-reply-of-the-mailbox", &["the reply has 14 for `length`"])),
     (45, Doubt(&[(1230, "0x0E")])),

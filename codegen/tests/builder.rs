@@ -28,7 +28,7 @@ fn output_is_named_after_the_input_and_written_once() {
     assert_eq!(
         std::fs::metadata(&output).and_then(|data| data.modified()).expect("a time"),
         old,
-        "an unchanged file is not written again"
+        "the unchanged file was written again"
     );
     builder.clone().table(Presence::Always).compile(&input).expect("bindings");
     assert_ne!(std::fs::metadata(&output).and_then(|data| data.modified()).expect("a time"), old, "other bytes");
@@ -36,8 +36,8 @@ fn output_is_named_after_the_input_and_written_once() {
     assert!(folder.join("other.rs").is_file());
 }
 
-/// Checks what a build script that calls only `generate` prints for Cargo. The output is that of a child process, which runs
-/// this test program.
+/// Checks the lines that a build script with only a call of `generate` prints for Cargo. To capture them, the test runs its
+/// own program as a child process.
 #[test]
 fn cargo_watches_the_input_and_what_it_was_compiled_with() {
     const INPUT: &str = "LEXIBUS_TEST_INPUT";
@@ -46,7 +46,7 @@ fn cargo_watches_the_input_and_what_it_was_compiled_with() {
         Builder::new().overlay(input.with_extension("toml")).generate(&input).expect("bindings");
         return;
     }
-    // A referenced file is watched even if it does not exist yet.
+    // A referenced file must be watched even if it does not exist yet.
     let input = folder("watched").join("valve.xml");
     let esi = "<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices><Device><Type ProductCode=\"1\">V</Type>\
         <Name>Valve</Name><Profile><DictionaryFile>Dict.xml</DictionaryFile></Profile></Device></Devices></Descriptions></EtherCATInfo>";
@@ -76,7 +76,12 @@ fn errors_are_for_people() {
     let error = builder.clone().strict().compile(&input).expect_err("a repair");
     let text = format!("{error:?}");
     assert!(text.contains("error[EDS020]") && text.contains("valve.eds:7:14"), "{text}");
-    builder.clone().strict().level("octal-number", Level::Allow).compile(&input).expect("no repair that is an error");
+    builder
+        .clone()
+        .strict()
+        .level("octal-number", Level::Allow)
+        .compile(&input)
+        .expect("a repair that is not an error");
     let error = builder.clone().level("octal-numbr", Level::Deny).compile(&input).expect_err("no such code");
     assert!(error.to_string().contains("did you mean `octal-number`?"), "{error}");
     let error = builder.compile(folder.join("missing.eds")).expect_err("no such file");

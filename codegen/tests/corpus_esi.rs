@@ -1,6 +1,6 @@
-//! Compares the results for every ESI file of the corpus with the counts of a simple script (`oracle.json`).
+//! Compares the results for all ESI files of the corpus with counts by a simple script (`oracle.json`).
 //!
-//! The corpus is outside of the repository. Without it, these tests print a message and pass.
+//! The corpus is not part of the repository. If it is missing, the tests print a message and pass.
 
 mod corpus_support;
 
@@ -13,7 +13,7 @@ use lexibus_codegen::ir::{
 use lexibus_codegen::source::Source;
 use serde_json::Value;
 
-/// A file with the results of the script and of the compiler.
+/// A file with the results of the script and the compiler.
 struct Case {
     name: String,
     oracle: Value,
@@ -38,7 +38,7 @@ impl Case {
     }
 }
 
-/// Reads every file from memory, so that files that it refers to do not exist.
+/// Compiles all files from memory, so files that they refer to do not exist.
 fn cases() -> Option<Vec<Case>> {
     let folder = folder_of("esi")?;
     let text = std::fs::read_to_string(folder.join("oracle.json")).expect("the oracle");
@@ -63,8 +63,9 @@ fn files_are_read_without_errors() {
     }
 }
 
-/// The script's parser rejects three files that the compiler repairs: content after the root element, a `&` that starts no
-/// reference, and a byte outside of the declared encoding. Both report the same line.
+/// The script's parser rejects three files that the compiler repairs. They contain text after the root element, a `&` that
+/// does not start a reference, or a byte that the declared encoding does not have. The compiler must report the same lines as
+/// the parser.
 #[test]
 fn what_is_not_well_formed_is_reported_at_its_line() {
     let Some(cases) = cases() else { return };
@@ -81,7 +82,7 @@ fn what_is_not_well_formed_is_reported_at_its_line() {
     assert_eq!(found, ["XML004", "XML003", "XML002"]);
 }
 
-/// A truncated file gives an error with a position, and no catalog.
+/// A truncated file must cause an error with a position. The compiler must return no catalog for it.
 #[test]
 fn files_that_are_cut_off_are_errors() {
     let Some(cases) = cases() else { return };
@@ -96,17 +97,18 @@ fn files_that_are_cut_off_are_errors() {
     }
 }
 
-/// Compares two texts. The script keeps surrounding blanks, and does not decode characters outside of the declared encoding.
+/// Compares a text of both results. The script keeps surrounding whitespace and does not decode characters that the declared
+/// encoding does not have.
 fn same_text(oracle: &Value, value: &Value) -> bool {
     let (Some(oracle), Some(value)) = (oracle.as_str(), value.as_str()) else { return false };
     let same = |(one, other): (char, char)| one == other || one == char::REPLACEMENT_CHARACTER;
     oracle.trim().chars().count() == value.chars().count() && oracle.trim().chars().zip(value.chars()).all(same)
 }
 
-/// One element of the file with the counts of the script.
+/// An element of the file with the script's counts.
 struct Counts<'c> {
     oracle: &'c Value,
-    /// Mismatches, which are all printed.
+    /// All mismatches, for a common message.
     wrong: Vec<String>,
 }
 
@@ -119,7 +121,7 @@ impl Counts<'_> {
     }
 
     fn dictionary(&mut self, groups: &[Group], types: &[TypeDef], twice: Twice) {
-        // Types that follow from a name, and types that `check` adds, have no line.
+        // Types that are derived from a name and types that `check` adds have no line.
         let types = types.iter().filter(|def| def.origin.line > 0);
         self.same("n_objects", groups.len() + twice.objects);
         self.same("n_datatypes", types.clone().count());
@@ -170,7 +172,7 @@ impl Counts<'_> {
     }
 }
 
-/// Objects that a file declares twice. The compiler keeps one and reports the other; the script counts elements, not indices.
+/// Objects that a file declares twice. The compiler keeps one of them and reports the other; the script counts both elements.
 #[derive(Clone, Copy, Default)]
 struct Twice {
     objects: usize,
@@ -229,7 +231,7 @@ fn the_ir_has_what_the_oracle_counts() {
     assert!(devices >= least_devices && modules >= least_modules, "only {devices} devices and {modules} modules");
 }
 
-/// Items that the compiler adds to complete a device, and every position that it refers to.
+/// Checks the items that the compiler adds to complete a device. All positions that it refers to must exist.
 #[test]
 fn checked_files_are_consistent() {
     let Some(folder) = folder_of("esi") else { return };

@@ -1,4 +1,4 @@
-//! Tests the suggested fixes for the files of the corpus: each fix removes its diagnostic and adds none.
+//! Tests the suggested fixes for corpus files. Each fix must remove its diagnostic and cause no other.
 
 mod corpus_support;
 

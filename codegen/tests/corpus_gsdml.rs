@@ -1,5 +1,5 @@
-//! Compares every GSDML file of the corpus with independent counts (`oracle.json`), and its names with the text lists that a
-//! simple scanner reads.
+//! Compares all GSDML files of the corpus with independent counts (`oracle.json`). Compares their names with the text lists,
+//! which a simple scanner reads.
 
 mod corpus_support;
 
@@ -16,7 +16,7 @@ use lexibus_codegen::ir::{
 use lexibus_codegen::source::Source;
 use serde_json::Value;
 
-/// A file with the results of the oracle and of the compiler.
+/// A file with the results of the oracle and the compiler.
 struct Case {
     name: String,
     text: String,
@@ -33,7 +33,8 @@ impl Case {
         number(&self.oracle["counts"][key]).unwrap_or_else(|| panic!("{}: no count of {key}", self.name)) as usize
     }
 
-    /// Files that have only the root element in common with GSDML. The oracle reads almost nothing of them.
+    /// Returns whether the file has only the root element in common with GSDML. The oracle reads almost nothing from such
+    /// files.
     fn is_mock(&self) -> bool {
         self.name == "richenapedro__pnio-validator__sample_gsdml.xml"
     }
@@ -48,7 +49,7 @@ fn folder() -> Option<PathBuf> {
     None
 }
 
-/// Returns every file of the corpus that the oracle covers; `None`, with a message, if there is no corpus.
+/// Returns the corpus files that the oracle covers. If there is no corpus, prints a message and returns `None`.
 fn cases(well_formed: bool) -> Option<Vec<Case>> {
     let folder = folder()?;
     let text = std::fs::read_to_string(folder.join("oracle.json")).expect("the oracle");
@@ -87,7 +88,8 @@ fn well_formed_files_are_read_without_errors() {
 #[test]
 fn malformed_files_have_one_error_with_its_place() {
     let Some(cases) = cases(false) else { return };
-    // One file has an extra end tag. The other one ends within an element, after its last character.
+    // The first file has a surplus end tag. The second file ends inside an element, so its error is after its last
+    // character.
     let places: BTreeMap<&str, u32> = [
         ("vformi__PLC.Commissioning.Lib.Siemens__MalformedGSDML.xml", 5085),
         ("vformi__PLC.Commissioning.Lib.Siemens__invalid.xml", 5585),
@@ -119,7 +121,7 @@ fn identity_and_header() {
     }
 }
 
-/// Returns the vendor name. The oracle decodes files as declared, but some that declare ISO 8859-1 are UTF-8.
+/// Returns the vendor name. The oracle uses the declared encoding, although some files that declare ISO 8859-1 are UTF-8.
 fn vendor_name(case: &Case) -> String {
     let name = case.oracle["vendor_name"].as_str().unwrap_or("");
     let misdeclared = case.compilation.diagnostics.list().iter().any(|found| found.code.id == "XML003");
@@ -128,7 +130,8 @@ fn vendor_name(case: &Case) -> String {
     again.unwrap_or_else(|| name.to_owned())
 }
 
-/// Names of attributes that differ from `VendorId` and `DeviceId` in case, which the oracle does not read.
+/// Returns attribute names that differ from `VendorId` and `DeviceId` only in case. The oracle does not read these
+/// attributes.
 #[test]
 fn attributes_in_another_case() {
     let Some(cases) = cases(true) else { return };
@@ -138,7 +141,7 @@ fn attributes_in_another_case() {
     assert!(case.compilation.diagnostics.list().iter().any(|found| found.code.id == "GSD007"));
 }
 
-/// Returns the data lengths of some submodules, including F message trailers.
+/// Returns the input and output lengths of some submodules, including F message trailers.
 fn lengths<'s>(submodules: impl Iterator<Item = &'s Submodule>) -> (u64, u64) {
     let bytes = |data: &Option<Box<IoData>>| data.as_ref().map_or(0, |data| data.image.length + data.image.overhead);
     let add = |(input, output), submodule: &Submodule| {
@@ -147,7 +150,7 @@ fn lengths<'s>(submodules: impl Iterator<Item = &'s Submodule>) -> (u64, u64) {
     submodules.fold((0, 0), add)
 }
 
-/// Returns index, length and number of parameters of each record.
+/// Returns the index, length and number of parameters of each record.
 fn records<'s>(submodules: impl Iterator<Item = &'s Submodule>) -> Vec<(u64, u64, u64)> {
     let of = |group: &Group| match &group.kind {
         GroupKind::Record(record) => (record.index.into(), record.length.into(), group.items.len() as u64),
@@ -172,7 +175,7 @@ fn submodule(catalog: &Catalog, SubmoduleId(id): SubmoduleId) -> &Submodule {
     &catalog.submodules[id as usize]
 }
 
-/// Returns the built-in submodules: either virtual ones, or interfaces and ports.
+/// Returns the built-in submodules: virtual submodules, or interfaces and ports.
 fn built_in<'c>(
     catalog: &'c Catalog,
     uses: &'c [SubmoduleUse],
@@ -247,7 +250,7 @@ fn check_device(case: &Case, device: &Device, expected: &Value) {
     assert_eq!(pluggable as u64, number(&expected["useable_submodules"]).unwrap(), "{at}");
 }
 
-/// Parses a list such as `0..3 7` without the code under test.
+/// Parses a list such as `0..3 7`. Does not use the code under test.
 fn slots_of(text: &str) -> Vec<u16> {
     let mut slots = Vec::new();
     for part in text.split(' ').filter(|part| !part.is_empty()) {
@@ -314,7 +317,7 @@ fn data(catalog: &Catalog) -> impl Iterator<Item = &IoData> {
     catalog.submodules.iter().flat_map(|found| found.input.iter().chain(&found.output)).map(|data| &**data)
 }
 
-/// Returns the data types of data items: of fields that are items, and of items with several fields.
+/// Returns the number of data items: fields that are items on their own, and items with several fields.
 fn data_items(data: &IoData) -> usize {
     let within: u32 = data.items.iter().map(|item| item.fields).sum();
     data.image.fields.len() - within as usize + data.items.len()
@@ -326,7 +329,7 @@ fn parameter_records(catalog: &Catalog) -> impl Iterator<Item = &Group> {
     of_submodules.chain(settings.flat_map(|settings| &settings.vendor_blocks).map(|block| &block.record))
 }
 
-/// Returns the number of elements of each kind in the IR, under the names of the oracle.
+/// Returns the number of elements of each kind in the IR. The kinds have the names that the oracle uses.
 fn counts(catalog: &Catalog) -> Vec<(&'static str, usize)> {
     let kinds = |kind| catalog.submodules.iter().filter(|found| found.kind == kind).count();
     let of_devices = catalog.devices.iter().flat_map(|device| &device.submodules);
@@ -348,7 +351,7 @@ fn counts(catalog: &Catalog) -> Vec<(&'static str, usize)> {
     ]
 }
 
-/// Like the function above, for data and records.
+/// Returns the number of data items, records and related elements of each kind in the IR.
 fn counts_of_data(catalog: &Catalog) -> Vec<(&'static str, usize)> {
     let constants = parameter_records(catalog).map(|group| match &group.kind {
         GroupKind::Record(record) => record.constants.len(),
@@ -368,13 +371,13 @@ fn counts_of_data(catalog: &Catalog) -> Vec<(&'static str, usize)> {
     ]
 }
 
-/// Counts ProfileChannelDiagItem elements, which the oracle does not count. Only these have an API.
+/// Counts ProfileChannelDiagItem elements, because the oracle does not count them. They are the only codes that have an API.
 fn channel_errors(catalog: &Catalog) -> usize {
     let tables = catalog.code_tables.iter().filter(|table| table.name == "channel_diagnosis");
     tables.flat_map(|table| &table.rows).filter(|row| row.cells[1] == ir::Value::Int(0)).count()
 }
 
-/// Returns the named bits of data items: one-bit fields of items with several fields.
+/// Returns the number of named bits: one-bit fields of data items with several fields.
 fn bits(data: &IoData) -> usize {
     let fields = data.items.iter().flat_map(|item| {
         let first = item.first_field as usize;
@@ -383,7 +386,7 @@ fn bits(data: &IoData) -> usize {
     fields.filter(|field| field.bits == 1 && field.kind == PdoEntryKind::Item).count()
 }
 
-/// Returns the number of values of each value list. One list may become several types.
+/// Returns the number of values in each value list. A list can become several types.
 fn enumerations(catalog: &Catalog) -> BTreeMap<&str, usize> {
     let types = catalog.types.iter().filter_map(|def| match &def.shape {
         Shape::Enumeration { values, .. } => Some((def.name.as_str(), values.len())),
@@ -402,7 +405,7 @@ fn counts_agree() {
     }
 }
 
-/// Returns the values of an attribute of every element with this name, in file order, with a minimal scanner.
+/// Returns the values of an attribute in all elements with this name, in file order. Uses a minimal scanner.
 fn attributes<'t>(text: &'t str, element: &str, name: &str) -> Vec<&'t str> {
     let (open, key) = (format!("<{element}"), format!("{name}="));
     let tags = text.match_indices(&open).filter_map(|(at, _)| {
@@ -417,7 +420,7 @@ fn attributes<'t>(text: &'t str, element: &str, name: &str) -> Vec<&'t str> {
     .collect()
 }
 
-/// Removes comments, which may contain anything.
+/// Removes XML comments, because they can contain any text.
 fn without_comments(text: &str) -> String {
     let mut parts = text.split("<!--");
     let mut rest = parts.next().unwrap_or("").to_owned();
@@ -431,7 +434,7 @@ fn unescaped(text: &str) -> String {
     text.replace("&amp;", "&")
 }
 
-/// Returns the text of every identifier by language. `""` is the primary language.
+/// Returns the texts of each language by their identifiers. `""` is the primary language.
 fn text_lists(text: &str) -> BTreeMap<&str, BTreeMap<&str, String>> {
     let mut lists: BTreeMap<&str, BTreeMap<&str, String>> = BTreeMap::new();
     for (open, close) in [("<PrimaryLanguage", "</PrimaryLanguage"), ("<Language", "</Language")] {
@@ -448,7 +451,7 @@ fn text_lists(text: &str) -> BTreeMap<&str, BTreeMap<&str, String>> {
     lists
 }
 
-/// Each parameter has the name of the text list in every language of the list.
+/// Each parameter must have the name from the text list, in all languages of the list.
 #[test]
 fn parameters_have_the_names_of_the_text_list() {
     let Some(cases) = cases(true) else { return };
@@ -480,7 +483,7 @@ fn parameters_have_the_names_of_the_text_list() {
     assert_eq!(compared, 2622);
 }
 
-/// The languages of the file are those of its names.
+/// The languages of a file must be the languages of its names.
 #[test]
 fn languages_agree() {
     let Some(cases) = cases(true) else { return };
@@ -496,7 +499,7 @@ fn languages_agree() {
     }
 }
 
-/// Diagnostics of real files: each code with the number of files that have it.
+/// Checks the diagnostics of real files: the number of files with each code.
 #[test]
 fn findings_are_as_expected() {
     let Some(cases) = cases(true) else { return };
@@ -508,18 +511,19 @@ fn findings_are_as_expected() {
     }
     let counts: Vec<(&str, usize)> = codes.iter().map(|(code, files)| (*code, files.len())).collect();
     let expected = [
-        // Test files of a library, which are truncated before the list of device access points.
+        // Two test files of a library end before the list of device access points.
         ("GSD002", 2),
-        // The mock file has ApplicationProcess within DeviceFunction, no ModuleInfo, and VendorId.
+        // The mock file has ApplicationProcess inside DeviceFunction, has no ModuleInfo, and writes VendorId instead of
+        // VendorID.
         ("GSD005", 1),
         ("GSD006", 1),
         ("GSD007", 1),
-        // One test file has no text list. In another file, one identifier differs between languages.
+        // A test file has no text list. In another file, the languages differ in one identifier.
         ("GSD008", 2),
         ("GSD009", 1),
-        // Interfaces and ports of several device access points share an ID.
+        // Interfaces and ports in several device access points have the same ID.
         ("GSD010", 8),
-        // UTF-8 files that declare ISO 8859-1.
+        // The files are UTF-8 but declare ISO 8859-1.
         ("XML003", 3),
     ];
     assert_eq!(counts, expected);

@@ -1,7 +1,8 @@
-//! Compares the lexer of EDS files with an independent one, the crate `configparser`, on every INI file of the corpus.
+//! Compares the EDS lexer with an independent one on all INI files of the corpus. The independent lexer is the crate
+//! `configparser`.
 //!
-//! `configparser` does not implement CiA 306. Where a rule makes the results differ, a function named after the row of the list
-//! of quirks removes the difference. It returns what it removed, and the test compares that with the lexer's report.
+//! `configparser` does not implement CiA 306. If a rule of the list of quirks makes the results differ, a function named after
+//! the rule removes the difference. The function returns what it removed, and the test compares this with the lexer's report.
 
 mod corpus_support;
 
@@ -12,18 +13,18 @@ use corpus_support::{files, header, lane, lines, trimmed};
 use lexibus_codegen::source::{FileId, Source};
 use lexibus_codegen::syntax::ini::{Document, Entry, Oddity};
 
-/// Sections, keys and values. Names are in lower case.
+/// Sections with their keys and values. Names are in lowercase.
 type Sections = BTreeMap<String, BTreeMap<String, String>>;
 
-/// Name that `configparser` gives to entries above the first section.
+/// Name that `configparser` gives to the section of entries before the first section header.
 const NO_SECTION: &str = "\u{1}no section";
 
-/// Returns the entries that `configparser` reads from a text.
+/// The result of `configparser` for a text.
 struct Theirs {
     sections: Sections,
-    /// Lines without `=`, in lower case, by section.
+    /// Lines without `=`, in lowercase, with their section.
     junk: BTreeSet<(String, String)>,
-    /// Keys above the first section.
+    /// Keys before the first section header.
     outside: BTreeSet<String>,
 }
 
@@ -48,17 +49,17 @@ fn theirs(text: &str) -> Result<Theirs, String> {
     Ok(theirs)
 }
 
-/// E31: a single CR also ends a line.
+/// E31: replaces single CR characters, which also end a line.
 fn e31_line_ends(text: &str) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
 }
 
-/// E32: a Ctrl-Z ends the text if only blanks, line ends and other Ctrl-Z characters follow.
+/// E32: a Ctrl-Z ends the text if only whitespace and Ctrl-Z characters follow. Returns the text before it.
 fn e32_ctrl_z(text: &str) -> &str {
     text.trim_end_matches([' ', '\t', '\r', '\n', '\u{1a}', '\0'])
 }
 
-/// E64: a key without a value, as `configparser` reads it, is junk. It is moved to `junk` with its section.
+/// E64: moves keys for which `configparser` reads no value to `junk`, with their section.
 fn e64_junk(
     section: &str,
     entries: impl IntoIterator<Item = (String, Option<String>)>,
@@ -74,15 +75,16 @@ fn e64_junk(
     kept
 }
 
-/// E20, E61: a comment is not an entry. It starts with its mark, which keys must not.
+/// E20, E61: returns whether a line is a comment and not an entry. A comment starts with a comment mark; keys cannot start with
+/// one.
 fn e20_e61_is_comment(document: &Document<'_>, entry: &Entry) -> bool {
     let comment = document.is_comment(entry);
     assert_eq!(comment, [";", "#"].contains(&document.key(entry)), "line {}", entry.line);
     comment
 }
 
-/// Returns the entries that the lexer reads. E27 and E28: sections of one name are merged, and the last value of a repeated key
-/// counts.
+/// Returns the lexer's entries. According to E27 and E28, sections with the same name are merged, and the last value of a
+/// repeated key is used.
 fn ours(document: &Document<'_>) -> Sections {
     let mut sections = Sections::new();
     for section in document.sections() {
@@ -103,13 +105,13 @@ fn odd<'a>(document: &Document<'_>, source: &'a Source, oddity: Oddity) -> Vec<(
     of_kind.map(|(_, span)| (source.position(span.start).line, source.slice(*span))).collect()
 }
 
-/// Returns the section of a line in lower case.
+/// Returns the name of the section that contains a line, in lowercase.
 fn section_at(document: &Document<'_>, line: u32) -> String {
     let above = document.sections().iter().take_while(|section| section.line < line).last();
     above.map_or(NO_SECTION.to_owned(), |section| document.name(section).to_lowercase())
 }
 
-/// Compares the lexer with `configparser`. Returns the number of equal entries.
+/// Compares the results of the lexer and `configparser`. Returns the number of equal entries.
 fn compare(source: &Source, other: &str) -> Result<usize, String> {
     let document = Document::parse(source.text(), FileId(0));
     let theirs = theirs(other)?;
@@ -145,8 +147,8 @@ fn first_difference(name: &str, ours: &BTreeMap<String, String>, theirs: &BTreeM
     format!("[{name}] {key}: {:?} is ours, {:?} is theirs", ours.get(key), theirs.get(key))
 }
 
-/// E27, E28: `configparser` keeps one of several equal sections or keys. Given single lines, it keeps all, so every entry must
-/// be equal, in file order.
+/// E27, E28: `configparser` keeps only one of several equal sections or keys. The test therefore passes each line separately
+/// and compares all entries in file order.
 fn e27_e28_each_line(source: &Source) -> Result<usize, String> {
     let document = Document::parse(source.text(), FileId(0));
     let mut ours = document.sections().iter().flat_map(|section| {
@@ -173,7 +175,7 @@ fn e27_e28_each_line(source: &Source) -> Result<usize, String> {
     }
 }
 
-/// Returns what `configparser` reads from one line: a section with an empty value, or key and value.
+/// Returns what `configparser` reads from a single line: a section, as a name with an empty value, or a key with its value.
 fn line_alone(line: &str) -> Option<(String, String)> {
     let theirs = theirs(&format!("[\u{1}]\n{line}")).expect("a line that it can read");
     let mut sections = theirs.sections.into_iter();
@@ -199,7 +201,7 @@ fn every_file_has_the_sections_keys_and_values_that_another_parser_sees() {
     assert!(each > compared, "repeated sections and keys were lost: {each}, {compared}");
 }
 
-/// Creates forms that no file of the corpus has from existing files.
+/// Changes corpus files to forms that no corpus file has, and compares the results.
 #[test]
 fn other_line_ends_marks_and_indents_change_nothing() {
     let Some(files) = files() else { return };
@@ -221,7 +223,7 @@ fn other_line_ends_marks_and_indents_change_nothing() {
     }
 }
 
-/// E60, E62: blanks around keys, values and headers.
+/// E60, E62: removes whitespace around keys, values and headers.
 fn e60_blanks(text: &str) -> String {
     let line = |line: &str| match corpus_support::entry(line) {
         Some((key, value)) => format!("  {key} =\t{value} \n"),

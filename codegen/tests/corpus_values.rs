@@ -1,8 +1,8 @@
-//! Tests that no value of any file of the corpus is lost or changed without a diagnostic.
+//! Tests that the compiler does not lose or change a value of any corpus file without a diagnostic.
 //!
-//! Every file is read a second time, line by line, without the code under test (`corpus_support`). For each entry of a section
-//! about an object, one of these must hold: the IR has the same value, an extension keeps the text, or a diagnostic is on that
-//! line. Conversely, every value of an item must be in the file.
+//! The test reads each file again line by line, without the code under test (`corpus_support`). Each entry of a section about
+//! an object must meet one of these conditions: the IR has the same value, an extension keeps the text, or there is a
+//! diagnostic on that line. Conversely, the file must contain each value of an item.
 
 mod corpus_support;
 
@@ -16,37 +16,37 @@ use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Access, Configured, Device, Extension, Group, Item, Mappable, ObjectCode, Type, Value};
 use lexibus_codegen::source::Source;
 
-/// Codes that report that a value was read differently, or is unreadable.
+/// Codes for values that are unreadable or were read in a different way.
 const ABOUT_THE_VALUE: [&str; 16] = [
     "EDS014", "EDS015", "EDS016", "EDS022", "EDS023", "EDS024", "EDS027", "EDS028", "EDS029", "EDS030", "EDS032",
     "EDS033", "EDS037", "EDS047", "EDS064", "EDS067",
 ];
 
-/// Codes that report an item without a data type, which is then read-only.
+/// Codes for an item without a data type. Such an item is read-only.
 const NO_DATA_TYPE: [&str; 2] = ["EDS035", "EDS065"];
 
-/// Codes that report a wrong number of sub-indices.
+/// Codes for a wrong number of sub-indices.
 const ABOUT_THE_COUNT: [&str; 3] = ["EDS046", "EDS048", "EDS066"];
 
-/// Options without profiles, whose additions are not in the file.
+/// Returns options without profiles, because the facts that profiles add are not in the file.
 fn as_it_stands() -> Options {
     Options { no_profiles: true, ..Options::default() }
 }
 
-/// Results of the comparison of a file.
+/// The results of comparing a file.
 #[derive(Default)]
 struct Tally {
-    /// Equal values, by key.
+    /// Number of equal values by key.
     same: BTreeMap<String, usize>,
-    /// Equal values of items that follow from CompactSubObj.
+    /// Number of equal values of items that CompactSubObj implies.
     compact: usize,
-    /// Values that an extension keeps, by key.
+    /// Number of values that an extension keeps, by key.
     kept: BTreeMap<String, usize>,
-    /// Reported values, by code.
+    /// Number of reported values by code.
     reported: BTreeMap<String, usize>,
-    /// Values that are empty, or 0 if that means nothing.
+    /// Number of values that are empty, or that are 0 if 0 means no value.
     empty: usize,
-    /// Lost or changed values: line and description.
+    /// Lost or changed values, each with its line and description.
     lost: Vec<String>,
 }
 
@@ -63,34 +63,34 @@ impl Tally {
     }
 }
 
-/// An item, or an object without a value, and the section that describes it.
+/// An item, or an object without a value, with the section that describes it.
 #[derive(Clone, Copy)]
 struct Target<'a> {
     section: &'a Section,
     group: &'a Group,
     item: Option<&'a Item>,
-    /// Extensions that keep values without a field in the IR.
+    /// Extensions, which keep values for which the IR has no field.
     extensions: &'a [Extension],
-    /// Type that the section declares, if any.
+    /// The type in the section, if any.
     ty: Option<Type>,
-    /// Whether the item follows from CompactSubObj.
+    /// Whether CompactSubObj implies the item.
     compact: bool,
     /// Whether the section describes the object itself.
     is_object: bool,
-    /// Whether the section was compared with another item before, including the facts about the object.
+    /// Whether the section, with its facts about the object, was already compared with another item.
     again: bool,
 }
 
-/// A file as the compiler and this test read it.
+/// A file as read by the compiler and by this test.
 struct Comparison<'a> {
     device: &'a Device,
     reading: &'a Reading,
-    /// Codes of the diagnostics by line.
+    /// Codes of the diagnostics on each line.
     codes: BTreeMap<u32, Vec<&'static str>>,
     tally: Tally,
 }
 
-/// Compares `compilation` with `text`.
+/// Compares a compilation with the text of its file.
 fn compare(text: &str, compilation: &Compilation) -> Tally {
     let device = &compilation.catalog.as_ref().expect("a device").devices[0];
     let starts: Vec<usize> = lines(text).into_iter().map(|(start, _)| start).collect();
@@ -114,20 +114,20 @@ fn compare(text: &str, compilation: &Compilation) -> Tally {
     comparison.tally
 }
 
-/// Compares the sections of an object and its sub-indices with the items that they describe.
+/// These methods compare the sections of an object and its sub-indices with the items that they describe.
 impl Comparison<'_> {
-    /// E27, E28: overridden sections and entries are reported.
+    /// E27, E28: sections and entries that are overridden must be reported.
     fn repetitions(&mut self, section: &Section) {
         for &line in section.headers.iter().skip(1) {
             self.reported_or_lost(line, &["EDS007"], "the repeated section is not reported");
         }
         for fact in section.facts.values().flat_map(|facts| facts.iter().skip(1)) {
-            // EDS056: neither of them is a sub-index, and both are kept.
+            // EDS056: neither section describes a sub-index, and both are kept.
             self.reported_or_lost(fact.line, &["EDS008", "EDS056"], "the repeated key is not reported");
         }
     }
 
-    /// The IR contains exactly the items that the file describes, or that follow from CompactSubObj.
+    /// Checks that the IR contains exactly the items that the file describes or that CompactSubObj implies.
     fn items_are_those_of_the_file(&mut self) {
         let mut expected = BTreeSet::new();
         for ((index, part), section) in &self.reading.sections {
@@ -178,7 +178,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// Compares sub-index 0 that follows from CompactSubObj (E43).
+    /// Compares the sub-index 0 that CompactSubObj implies (E43).
     fn compact_sub_0(&mut self, group: &Group, section: &Section) {
         let count = Value::Int(compact_count(section));
         let as_expected = |item: &Item| {
@@ -209,14 +209,14 @@ impl Comparison<'_> {
         });
     }
 
-    /// E33: a sub-index without an object is reported once per object.
+    /// E33: a sub-index without an object must be reported once per object.
     fn orphan(&mut self, index: u16, sub: u8, section: &Section) {
         if self.reading.subs(index).first() == Some(&sub) {
             self.reported_or_lost(section.headers[0], &["EDS040"], "the missing object is not reported");
         }
     }
 
-    /// Compares `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` (E44).
+    /// Compares the entries of `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` (E44).
     fn refinement(&mut self, index: u16, part: Part, section: &Section) {
         let device = self.device;
         let Some(group) = device.object(index) else {
@@ -239,23 +239,23 @@ impl Comparison<'_> {
         }
     }
 
-    /// Whether an entry of `[xxxxName]` or a similar section concerns this sub-index.
+    /// Returns whether `[xxxxName]` or a similar section has an entry for this sub-index.
     fn refines(&self, index: u16, sub: u8, part: Part) -> bool {
         self.reading.get(index, part).is_some_and(|section| section.facts.contains_key(&sub.to_string()))
     }
 }
 
-/// Returns the line on which a missing key is reported: the empty entry, or the header.
+/// Returns the line where the compiler reports a missing key: the line of the empty entry, or the line of the header.
 fn line_of(section: &Section, key: &str) -> u32 {
     section.get(key).map_or(section.headers[0], |fact| fact.line)
 }
 
-/// Returns the number of sub-indices that follow from CompactSubObj.
+/// Returns the number of sub-indices that CompactSubObj implies.
 fn compact_count(section: &Section) -> i128 {
     section.number("compactsubobj").unwrap_or(0).clamp(0, 254)
 }
 
-/// Returns the sub-indices whose item is described by the section of the object.
+/// Returns the sub-indices of items that the section of the object describes.
 fn own_items(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
     let (subs, count) = (reading.subs(index), compact_count(section));
     if count > 0 {
@@ -264,7 +264,7 @@ fn own_items(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
     let code = section.number("objecttype").unwrap_or(7);
     let is_value = match subs.is_empty() {
         true => !matches!(code, 6 | 8 | 9),
-        // E42: a VAR with sub-indices is a RECORD. It also has a value, sub-index 0, only if it has a data type.
+        // E42: a VAR with sub-indices is treated as a RECORD. Its section describes sub-index 0 only if it has a data type.
         false => code == 7 && section.text("datatype").is_some() && !subs.contains(&0),
     };
     if is_value {
@@ -274,7 +274,7 @@ fn own_items(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
     }
 }
 
-/// Returns the type that a section declares (CiA 301, table of data types).
+/// Returns the type in a section (CiA 301, table of data types).
 fn own_type(section: &Section) -> Option<Type> {
     if section.text("datatype").is_none() {
         return (section.number("objecttype") == Some(2)).then_some(Type::Domain);
@@ -300,9 +300,9 @@ fn own_type(section: &Section) -> Option<Type> {
     })
 }
 
-/// Single entries.
+/// These methods compare single entries.
 impl Comparison<'_> {
-    /// Compares every entry of a section, and every value of the item without an entry.
+    /// Compares all entries of a section with the item. Also compares values of the item without an entry.
     fn target(&mut self, target: Target<'_>) {
         for (key, facts) in &target.section.facts {
             let Some(fact) = facts.last() else { continue };
@@ -364,7 +364,7 @@ impl Comparison<'_> {
         self.hold_in(target, fact, ours, expected(&fact.value, ty, limit).as_ref());
     }
 
-    /// Compares the object type. A sub-index is a VAR or a DOMAIN, and anything else is reported.
+    /// Compares the object type. A sub-index must be a VAR or a DOMAIN; any other type must be reported.
     fn object_type(&mut self, fact: &Fact, text: &str, target: Target<'_>) {
         let code = number::plain(text).and_then(ObjectCode::from_number);
         if target.is_object {
@@ -374,7 +374,8 @@ impl Comparison<'_> {
         self.hold(fact, &code, Some(&allowed).filter(|allowed| allowed.is_some()));
     }
 
-    /// SubNumber is the number of described sub-indices except 0xFF. A single value has none.
+    /// Compares SubNumber with the number of described sub-indices. Sub-index 0xFF is not counted. An object with a single
+    /// value has no SubNumber.
     fn sub_number(&mut self, fact: &Fact, text: &str, target: Target<'_>) {
         if target.item.is_some() && !target.compact && target.group.items.len() == 1 {
             return self.extension(fact, target);
@@ -388,7 +389,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// Compares the access rights. An item without data type or access type is read-only.
+    /// Compares the access rights. An item without a data type or access type is read-only.
     fn access(&mut self, fact: &Fact, item: &Item, target: Target<'_>) {
         let text = cut(&fact.value).0.to_ascii_lowercase();
         let repaired = item.access == Access::ReadOnly && text != "ro";
@@ -402,7 +403,8 @@ impl Comparison<'_> {
         self.hold_in(target, fact, &name, Some(&fact.value.as_str()));
     }
 
-    /// Checks that an entry without a field in the IR is kept. A 0 without a meaning may be dropped.
+    /// Checks that an extension keeps an entry for which the IR has no field. An entry of 0 may be dropped if 0 has no
+    /// meaning.
     fn extension(&mut self, fact: &Fact, target: Target<'_>) {
         let key = fact.key.to_ascii_lowercase();
         let says_nothing = matches!(key.as_str(), "subnumber" | "compactsubobj" | "pdomapping");
@@ -416,7 +418,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// E20, E21: text after a value of fixed form is kept. Names and free texts have no comments.
+    /// E20, E21: checks that the text after a value with a fixed form is kept. Names and free texts contain no comments.
     fn comment(&mut self, key: &str, fact: &Fact, target: Target<'_>) {
         let fixed = match key {
             "defaultvalue" | "lowlimit" | "highlimit" | "parametervalue" => target.ty.is_some_and(|ty| !is_free(ty)),
@@ -436,7 +438,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// Checks that every value of an item is in its section.
+    /// Checks that the section contains all values of the item.
     fn nothing_is_invented(&mut self, item: &Item, target: Target<'_>) {
         let (index, sub) = item.object().expect("an object");
         let header = target.section.headers[0];
@@ -467,7 +469,7 @@ impl Comparison<'_> {
     }
 }
 
-/// Counting of results.
+/// These methods count results.
 impl Comparison<'_> {
     fn lose(&mut self, line: u32, what: impl Into<String>) {
         self.tally.lost.push(format!("{line}: {}", what.into()));
@@ -484,12 +486,13 @@ impl Comparison<'_> {
         }
     }
 
-    /// Returns the code among `codes` that is reported on `line`.
+    /// Returns the first of `codes` that is reported on `line`.
     fn code_on(&self, line: u32, codes: &[&'static str]) -> Option<&'static str> {
         self.codes.get(&line)?.iter().copied().find(|code| codes.contains(code))
     }
 
-    /// Counts a comparison of the value in the IR with the value on the line; `None` if it has no meaning.
+    /// Compares the value in the IR with the value on the line, and counts the result. `theirs` is `None` if the value on the
+    /// line has no meaning.
     fn hold<T: PartialEq + Debug>(&mut self, fact: &Fact, ours: &T, theirs: Option<&T>) {
         if theirs == Some(ours) {
             *self.tally.same.entry(fact.key.to_ascii_lowercase()).or_default() += 1;
@@ -500,7 +503,8 @@ impl Comparison<'_> {
         }
     }
 
-    /// Like the method above. Values from CompactSubObj are counted separately, because one line describes many values.
+    /// Compares and counts like `hold`. Values that CompactSubObj implies are counted separately, because one line describes
+    /// many values.
     fn hold_in<T: PartialEq + Debug>(&mut self, target: Target<'_>, fact: &Fact, ours: &T, theirs: Option<&T>) {
         match target.compact && target.item.is_some() && theirs == Some(ours) {
             true => self.tally.compact += 1,
@@ -509,13 +513,13 @@ impl Comparison<'_> {
     }
 }
 
-/// Keys that CiA 306 defines for the section of an object or a sub-index.
+/// Returns whether CiA 306 defines the key for the section of an object or a sub-index.
 fn is_keyword(key: &str) -> bool {
     let others = ["objflags", "datatype", "accesstype", "pdomapping", "defaultvalue", "lowlimit", "highlimit"];
     OF_THE_OBJECT.contains(&key) || others.contains(&key) || CONFIGURATION.contains(&key)
 }
 
-/// Keys that describe an object and not its value.
+/// Keys that describe an object as opposed to its value.
 const OF_THE_OBJECT: [&str; 4] = ["parametername", "objecttype", "subnumber", "compactsubobj"];
 
 const CONFIGURATION: [&str; 4] = ["parametervalue", "denotation", "uploadfile", "downloadfile"];
@@ -524,13 +528,13 @@ fn has_configuration(section: &Section) -> bool {
     CONFIGURATION.iter().any(|key| section.get(key).is_some_and(|fact| !fact.value.is_empty()))
 }
 
-/// Whether values of this type are texts, or kept as texts, including everything on the line.
+/// Returns whether values of the type are texts or are stored as texts. Such a text includes the rest of the line.
 fn is_free(ty: Type) -> bool {
     let is_text = matches!(ty, Type::VisibleString(_) | Type::UnicodeString(_));
     is_text || matches!(ty, Type::Domain | Type::Opaque(_) | Type::Named(_))
 }
 
-/// Returns the meaning of a text for an item of this type: nothing, or a value.
+/// Returns the meaning of a text as a value of this type. The inner `None` means that the text has no meaning.
 fn expected(text: &str, ty: Type, limit: bool) -> Option<Option<Value>> {
     let actual = if is_free(ty) { text } else { cut(text).0 };
     if actual.is_empty() {
@@ -562,7 +566,7 @@ fn expected(text: &str, ty: Type, limit: bool) -> Option<Option<Value>> {
     Some(Some(value))
 }
 
-/// E07: a limit of a signed type may be written as its bit pattern.
+/// E07: converts the limit of a signed type, which may be written as a bit pattern.
 fn e07_limit(value: i128, text: &str, ty: Type) -> i128 {
     let Type::Integer(bits) = ty else { return value };
     let is_pattern = number::hex_digits(text).is_some() && value >> (bits - 1) == 1;
@@ -573,14 +577,14 @@ fn e07_limit(value: i128, text: &str, ty: Type) -> i128 {
     }
 }
 
-/// Parses a time: milliseconds in the lower 28 of 48 bits, 4 unused bits, and days in the upper 16 bits.
+/// Parses the 48 bits of a time: milliseconds in the lower 28 bits, 4 unused bits, and days in the upper 16 bits.
 fn time(bits: i128) -> Option<Value> {
     let (milliseconds, days) = (bits & 0xFFFF_FFFF, bits >> 32);
     let fits = (0..=0xFFFF).contains(&days) && milliseconds < 1 << 28;
     fits.then_some(Value::Time { milliseconds: milliseconds as u32, days: days as u16 })
 }
 
-/// Returns the meaning of PDOMapping for an item with these access rights.
+/// Returns the meaning of a PDOMapping text for an item with these access rights.
 fn mappable(text: &str, access: Access) -> Option<Mappable> {
     let flag = match text.to_ascii_lowercase().as_str() {
         "true" => true,
@@ -592,7 +596,7 @@ fn mappable(text: &str, access: Access) -> Option<Mappable> {
     Some(Mappable { rpdo: flag && written, tpdo: flag && read })
 }
 
-/// Compares both readings of a text.
+/// Compiles a text and compares the result with the text.
 fn compared(name: &str, text: &str) -> Tally {
     compare(text, &check(Source::new(name, text.as_bytes().to_vec()), &as_it_stands()))
 }
@@ -631,7 +635,7 @@ fn none_lost(tally: &Tally) {
     assert!(tally.lost.is_empty(), "{} values are lost or changed without a diagnostic:{shown}", tally.lost.len());
 }
 
-/// Spellings of values in the corpus, and unusual ones.
+/// Notations of values in the corpus, and unusual notations.
 #[rustfmt::skip]
 const SPELLINGS: [&str; 60] = [
     "0", "1", "2", "7", "00", "001", "012", "018", "00000005", "-1", "-0", "-012", "0x0", "0X1a", "0xff",
@@ -643,7 +647,7 @@ const SPELLINGS: [&str; 60] = [
     "\"abc\"", "5 ; five", "0x3ED ; a # b", "7 # seven", "rw",
 ];
 
-/// Tests every spelling for every type, as each of the values of an object, without the corpus.
+/// Tests all notations with all types, as each kind of value of an object. Does not need the corpus.
 #[test]
 fn every_spelling_of_every_type_is_read_or_reported() {
     let mut text = String::from("[DeviceInfo]\nProductName=x\n");
@@ -669,7 +673,7 @@ fn every_spelling_of_every_type_is_read_or_reported() {
     );
 }
 
-/// Tests the comparison: it detects a difference between the compiler's text and another one.
+/// Tests the comparison itself. It must detect a difference if the compiler gets a changed text.
 #[test]
 fn whatever_is_lost_or_changed_is_seen() {
     let text = "[DeviceInfo]\nProductName=x\n[2000]\nParameterName=Speed\nObjectType=7\nDataType=0x0004\n\
@@ -709,6 +713,9 @@ fn whatever_is_lost_or_changed_is_seen() {
         ("[2002Value]", "[2002Name]"),
     ] {
         let other = text.replacen(from, to, 1);
-        assert!(other != text && !compare(&other, &compilation).lost.is_empty(), "{from:?} as {to:?} isn't seen");
+        assert!(
+            other != text && !compare(&other, &compilation).lost.is_empty(),
+            "the comparison does not detect {to:?} instead of {from:?}"
+        );
     }
 }

@@ -1,5 +1,5 @@
-//! Compares the XML cursor with an independent reader, the crate `quick-xml`, on every XML file of the corpus and on copies
-//! with changed bytes. If the cursor finds no error, both read the same events.
+//! Compares the XML cursor with an independent reader, the crate `quick-xml`. The inputs are all XML files of the corpus
+//! and copies with changed bytes. If the cursor finds no error, both readers must give the same events.
 
 mod corpus_support;
 
@@ -9,7 +9,7 @@ use lexibus_codegen::syntax::xml::{Cursor, Error, Event};
 use quick_xml::events::{BytesStart, Event as Theirs};
 use quick_xml::Reader;
 
-/// Tags with their attributes as written, ends, and text without surrounding blanks.
+/// The events of a file: tags with their attributes as written, end tags, and texts without surrounding whitespace.
 #[derive(Default, PartialEq, Eq, Debug)]
 struct Events {
     list: Vec<String>,
@@ -102,7 +102,7 @@ fn the_same_events_wherever_a_damaged_file_has_no_fault() {
     const LENGTH: usize = 4096;
     for (number, file) in xml_files().into_iter().enumerate() {
         let mut text: String = file.text().chars().take(LENGTH).filter(char::is_ascii).collect();
-        // Open elements are closed, so that the unchanged file has no errors.
+        // Close the open elements, so that a truncated file has no errors unless bytes were changed.
         text.truncate(text.rfind('<').unwrap_or(0));
         let closing: String = open_elements(&text).iter().rev().map(|name| format!("</{name}>")).collect();
         let text = (text + &closing).into_bytes();
@@ -117,7 +117,7 @@ fn the_same_events_wherever_a_damaged_file_has_no_fault() {
     }
 }
 
-/// Returns the names of the elements that are open at the end of a text.
+/// Returns the names of the elements that are still open at the end of a text.
 fn open_elements(text: &str) -> Vec<String> {
     let mut cursor = Cursor::new(text, FileId(0));
     let mut open = Vec::new();

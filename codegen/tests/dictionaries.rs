@@ -1,4 +1,4 @@
-//! Tests that apply to each of the four drives whose tables were transcribed from manuals.
+//! Tests that apply to each of the four drives whose manuals are transcribed.
 
 #[path = "table_support/doubts.rs"]
 mod doubts;
@@ -9,7 +9,7 @@ use std::collections::{BTreeSet, HashSet};
 
 use lexibus_codegen::ir::{Binding, Catalog, Device, Item};
 
-/// Dictionaries with their manuals.
+/// The file names of dictionaries, with the names of their manuals.
 const DRIVES: [(&str, &str); 4] = [
     ("aec-vector-step.toml", "aec-vector-step-canopen.it.txt"),
     ("eco.toml", "eco-fieldbuses.it.txt"),
@@ -25,13 +25,13 @@ fn items(catalog: &Catalog) -> impl Iterator<Item = &Item> {
     device(catalog).groups.iter().flat_map(|group| &group.items)
 }
 
-/// Returns the heading in a line of a table of contents: `VARIE<tab>183`.
+/// Returns the heading in a line of a table of contents, such as `VARIE<tab>183`.
 fn heading_of_contents(line: &str) -> Option<&str> {
     let (heading, page) = line.trim_end().rsplit_once('\t')?;
     page.trim().parse::<u32>().ok().map(|_| heading)
 }
 
-/// Returns the text in lower case with single blanks.
+/// Converts a text to lowercase with single spaces.
 fn normal(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase()
 }
@@ -78,7 +78,8 @@ fn sections_are_titles_of_the_manual() {
         let catalog = doubts::catalog(file);
         let manual = device(&catalog).manual.as_deref().expect("the manual");
         assert!(manual.sections.len() > 50, "{file}: {} sections", manual.sections.len());
-        // If the extracted text lacks a heading, the table of contents has it, with blanks between large and small capitals.
+        // If the extracted text lacks a heading, the table of contents contains it. There, spaces separate large and small
+        // capitals.
         let bare = |text: &str| normal(text).replace(' ', "");
         let contents: HashSet<String> = text.lines().filter_map(heading_of_contents).map(bare).collect();
         let is_there = |line: u32, title: &str| {
@@ -120,12 +121,12 @@ fn rows_are_on_the_lines_that_they_cite() {
         let (mut count, mut missing) = (0, Vec::new());
         for (item, cite) in cited {
             count += 1;
-            // A cell may continue on the line before or after.
+            // A cell can continue on the previous or next line.
             let context: BTreeSet<usize> =
                 doubts::lines(cite).iter().flat_map(|line| line.saturating_sub(3)..=line + 2).collect();
             let near: Vec<&str> = context.iter().filter_map(|line| lines.get(*line)).map(String::as_str).collect();
             let near = format!(" {} ", near.join(" "));
-            // One row describes all entries of a mapping, of which the manual prints the first two.
+            // One row describes all entries of a mapping, although the manual prints only the first two.
             let is_assumed = file.starts_with("kollmorgen") && matches!(item.name.as_str(), "Entry 3" | "Entry 4");
             if !is_assumed && !printed(item).iter().any(|form| near.contains(form)) {
                 missing.push(item.name.as_str());
@@ -136,7 +137,7 @@ fn rows_are_on_the_lines_that_they_cite() {
     }
 }
 
-/// Returns the forms in which a manual prints an item: names, index, sub-index, and register address.
+/// Returns the notations in which a manual can print an item: names, index, sub-index and register address.
 fn printed(item: &Item) -> Vec<String> {
     let mut forms: Vec<String> = item.names.iter().map(|name| normal(&name.text)).collect();
     forms.extend([normal(&item.name), normal(&item.name).replace('_', " ")]);

@@ -1,5 +1,5 @@
-//! Compares the table of the Eco with the text of its manual: every printed row is in the table once, cites its line, and has
-//! the facts of its cells. Deliberate differences have a doubt.
+//! Compares the table of the Eco with the text of its manual. Each printed row must be in the table once, cite its line, and
+//! have the properties in the printed cells. Each deliberate difference must have a doubt.
 
 mod eco_support;
 
@@ -15,19 +15,19 @@ fn the_table_has_no_findings() {
     assert_eq!(found, Vec::<String>::new());
 }
 
-/// A printed register, or a range of registers.
+/// A printed row for a register or a range of registers.
 struct Printed {
     line: usize,
-    /// First and last register number.
+    /// First and last register number of the row.
     numbers: (u16, u16),
     is_saved: bool,
-    /// Limits without a sign.
+    /// Printed limits. They do not show the sign.
     limits: Vec<u64>,
-    /// First and last address.
+    /// First and last address of the row.
     addresses: (u16, u16),
 }
 
-/// Returns the rows of the register table: a label, and all cells up to the address that ends the row.
+/// Returns the rows of the register table. A row consists of a label and all cells up to the address.
 fn registers(manual: &[String]) -> Vec<Printed> {
     let mut rows: Vec<(usize, String)> = Vec::new();
     let mut open = false;
@@ -46,7 +46,7 @@ fn registers(manual: &[String]) -> Vec<Printed> {
     rows.into_iter().map(|(line, text)| register(line, &text)).collect()
 }
 
-/// Whether the addresses are complete: two if the label is a range.
+/// Returns whether the row is complete. If its label is a range, the row needs two addresses.
 fn is_whole(text: &str) -> bool {
     let range = text.get(3..8).is_some_and(|label| label.contains('-'));
     let addresses = || hex_numbers(text, 4).into_iter().filter(|&entry| entry > 0x8000 || text.starts_with("R00"));
@@ -81,9 +81,10 @@ fn register(line: usize, text: &str) -> Printed {
     }
 }
 
-/// Returns the printed limits of a value with this size. They are signed if the lower limit would exceed the upper one.
+/// Returns the printed limits of a value with this size. They are treated as signed if the lower limit would otherwise exceed
+/// the upper limit.
 fn signed(limits: &[u64], bits: u32) -> (i128, i128) {
-    // Nine digits are one too many.
+    // A limit of nine hexadecimal digits has one digit too many.
     let limit = |value: u64| i128::from(if value > 0xFFFF_FFFF { value >> 4 } else { value });
     let (low, high) = (limit(limits[0]), limit(limits[1]));
     (if low > high { low - (1 << bits) } else { low }, high)
@@ -146,11 +147,11 @@ fn registers_without_the_printed_limits_say_why() {
             differing.insert(row.numbers.0);
         }
     }
-    // Differences: the status word, and two registers whose objects are shorter.
+    // Three registers differ: the status word, and two registers whose objects are shorter.
     assert_eq!(differing, BTreeSet::from([5, 34, 42]));
 }
 
-/// Compares the addresses of a value on each bus with the joined rows of the notes.
+/// Compares the addresses of a value on each bus with the combined rows in the notes.
 #[test]
 fn one_register_is_one_item_on_five_buses() {
     let Some(rows) = rows("one_register_five_buses") else { return };
@@ -193,14 +194,14 @@ fn one_register_is_one_item_on_five_buses() {
     assert_eq!(wrong, Vec::<String>::new());
 }
 
-/// Parses `0x6099:1`, which may be followed by remarks.
+/// Parses an address such as `0x6099:1`. Remarks may follow the address.
 fn place(text: &str) -> (u16, u8) {
     let index = u16::from_str_radix(&text[2..6], 16).expect("an index");
     let sub = text[6..].trim_start_matches(':').chars().next().and_then(|digit| digit.to_digit(10)).unwrap_or(0);
     (index, sub as u8)
 }
 
-/// Parses `IN 0..1`, `IN 2 / display OUT 2` or `indirect`.
+/// Parses a position in an image, such as `IN 0..1`, `IN 2 / display OUT 2` or `indirect`.
 fn image_place(text: &str) -> Option<(&'static str, u32)> {
     let (image, rest) = match text.split_once(' ') {
         Some(("IN", rest)) => ("from the master", rest),
@@ -226,7 +227,7 @@ fn values_fill_their_registers() {
     }
 }
 
-/// A printed parameter: its name, its line, and the text of its row.
+/// Returns the printed parameters: the name, line and row text of each.
 fn parameters(manual: &[String]) -> Vec<(String, usize, String)> {
     let mut rows: Vec<(String, usize, String)> = Vec::new();
     for (line, text) in lines(manual, 478, 603) {
@@ -278,14 +279,14 @@ fn every_parameter_is_there_at_its_line() {
         }
         let is_window = |binding: &&Binding| matches!(binding, Binding::Indirect(window) if window.number == code);
         assert_eq!(item.bindings.iter().filter(is_window).count(), 3, "{name}");
-        // All writable parameters are saved (section "Salvataggio su flash").
+        // All writable parameters are saved, according to the section "Salvataggio su flash".
         assert_eq!(is_saved(item), item.access == Access::ReadWrite, "{name}");
     }
     assert_eq!((kinds, found), ([38, 18, 2, 1], 57));
 }
 
-/// Values that are spread over several parameters: pairs of a more and a less significant part, and the offset with its sign
-/// and three parts.
+/// Compares the values that consist of several parameters: pairs of a more and a less significant part, and the offset with
+/// its sign and three parts.
 #[test]
 fn every_number_in_several_parameters_is_a_composite() {
     let Some(manual) = manual() else { return };
@@ -300,7 +301,7 @@ fn every_number_in_several_parameters_is_a_composite() {
         expected.push((pair.iter().map(|row| row.0.as_str()).collect(), None));
     }
     let offset = with("Offset di spazio in impulsi");
-    // Units of H6, H7 and H8.
+    // Units of the parameters H6, H7 and H8.
     let weights = ["decine di migliaia", "centinaia", "unità"];
     assert!(offset.iter().zip(weights).all(|(row, weight)| row.2.contains(weight)));
     let sign = with("Segno offset di spazio");
@@ -335,8 +336,8 @@ fn the_command_that_saves_has_an_address_of_its_own() {
     assert_eq!(item(device, "save_to_flash").access, Access::WriteOnly);
 }
 
-/// The list of objects that 0x1010 saves (section "Salvataggio su flash"): 36 cells, with 0x3701 for each of the inputs 9, 10
-/// and 11.
+/// Compares the list of objects that 0x1010 saves (section "Salvataggio su flash"). It has 36 cells, including 0x3701 for the
+/// inputs 9, 10 and 11.
 #[test]
 fn what_canopen_saves_is_saved() {
     let Some(manual) = manual() else { return };
@@ -353,7 +354,8 @@ fn what_canopen_saves_is_saved() {
     }
     let listed: BTreeSet<u16> = cells.iter().map(|cell| *cell as u16).collect();
     let beyond: Vec<u16> = saved.difference(&listed).copied().collect();
-    // Printed as 0x3701, and outputs, which the register table saves.
+    // The list contains 0x3701 instead of two of these objects. The others are outputs, which are saved according to the
+    // register table.
     assert_eq!(beyond, [0x3301, 0x3302, 0x3501, 0x3502, 0x3702, 0x3703]);
     let registers = items(device).filter(|item| address(item).is_some_and(|address| address >= 0x8000));
     assert_eq!(registers.filter(|item| is_saved(item)).count(), 125);

@@ -58,7 +58,7 @@ fn alarms_are_the_printed_ones() {
             }
         }
     }
-    // Several alarms share a code, so the mapping has no inverse.
+    // Several alarms have the same code, so codes cannot be mapped back to alarms.
     let of_alarms: Vec<String> =
         codes(device, "ethercat_alarms").rows.iter().map(|row| text(row.cells.first())).collect();
     assert_eq!(of_alarms.iter().filter(|entry| !entry.is_empty()).collect::<BTreeSet<_>>().len(), 18);
@@ -66,7 +66,7 @@ fn alarms_are_the_printed_ones() {
     assert_eq!((buses("ethercat_alarms"), buses("profinet_alarms")), (vec!["ethercat"], vec!["profinet"]));
 }
 
-/// Returns the reaction of a general alarm: the first line after its title that names an action.
+/// Returns the reaction to a general alarm. It is the first line after the alarm's title that names an action.
 fn reaction(manual: &[String], line: usize) -> &'static str {
     let found = lines(manual, line, line + 8)
         .map(|(_, text)| text)
@@ -127,13 +127,13 @@ fn modes_profiles_and_bit_rates_are_the_printed_ones() {
         .filter_map(Result::ok)
         .collect();
     assert_eq!(in_registers, BTreeSet::from([-127, -50, -2, -1, 1, 3, 6, 7]));
-    // EtherCAT has an additional one.
+    // EtherCAT has an additional mode.
     let with_csp = |mut list: BTreeSet<i128>| {
         list.insert(8);
         list
     };
     assert_eq!(values("Mode"), with_csp(in_registers));
-    // Values of 0x6060 on each bus.
+    // Returns the values of 0x6060 on a bus.
     let there = |bus: Bus| -> BTreeSet<i128> {
         let limits = item(device, "modes_of_operation").limits_on(bus).expect("limits");
         limits.allowed.iter().filter_map(|(value, _)| value.as_int()).collect()
@@ -175,7 +175,8 @@ fn inputs_and_outputs_are_the_printed_ones() {
     }
 }
 
-/// Functions of the miniECO's inputs by c8, and their bits (section "digital_inputs su MiniECO standard o miniECO PLUS").
+/// Compares the functions of the miniECO's inputs, their c8 values and their bits (section "digital_inputs su MiniECO
+/// standard o miniECO PLUS").
 #[test]
 fn inputs_of_the_mini_eco_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -216,7 +217,7 @@ fn pins_of_cn2_are_the_printed_ones() {
     }
 }
 
-/// The values of c9 that select a bus, and those of E3, from all tables that print them.
+/// Compares the values of c9 that select a bus, and the values of E3, with all tables that print them.
 #[test]
 fn values_of_c9_and_e3_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -238,7 +239,7 @@ fn values_of_c9_and_e3_are_the_printed_ones() {
     }
 }
 
-/// Returns the mode of a bit's meaning, from the words of its line.
+/// Returns the mode in which a bit has a meaning. The words of the line determine the mode.
 const MODES: [(&str, i128); 6] = [
     ("Posizionatore", 1),
     ("Controllo Velocità", 3),
@@ -248,7 +249,7 @@ const MODES: [(&str, i128); 6] = [
     ("Save/load", -50),
 ];
 
-/// Compares bits of the vendor's control word and status word, and their meanings by mode.
+/// Compares the bits of the vendor's control word and status word, and their meanings in each mode.
 #[test]
 fn bits_of_control_and_status_word_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -262,7 +263,7 @@ fn bits_of_control_and_status_word_are_the_printed_ones() {
             let mode = MODES.iter().find(|(word, _)| text.contains(word)).map(|entry| entry.1);
             let begins = text.strip_prefix("bit ").and_then(|rest| rest.split(' ').next());
             bit = begins.map_or(bit, |digits| digits.parse().expect("a bit"));
-            // The rest of the line above.
+            // The line continues the previous line.
             if begins.is_none() && mode.is_none() {
                 continue;
             }
@@ -285,7 +286,7 @@ fn bits_of_control_and_status_word_are_the_printed_ones() {
     }
 }
 
-/// Bits of 0x6040 and 0x6041 that the vendor defines.
+/// Compares the bits that the vendor defines in 0x6040 and 0x6041.
 #[test]
 fn bits_of_the_vendor_in_words_of_402_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -303,7 +304,7 @@ fn bits_of_the_vendor_in_words_of_402_are_the_printed_ones() {
             let field = fields(device(&compilation), name).iter().find(|field| field.offset == bit).expect("a bit");
             assert!(cites(field.documentation.as_deref(), line), "line {line}");
             assert!(!matches!(field.meaning, BitMeaning::Reserved { .. }), "line {line}");
-            // A transition is printed only for bit 14.
+            // The manual prints a transition only for bit 14.
             let is_edge = manual[line - 1].contains("transizione da 0 a 1") && name == "Controlword";
             assert_eq!(field.trigger == Some(Trigger::Rising), is_edge, "line {line}");
         }
@@ -359,7 +360,8 @@ fn transmission_types_are_the_printed_ones() {
     }
 }
 
-/// Outputs of the miniECO (section "digital_output in : miniECO e miniECO PLUS"). Two of the four have no function.
+/// Compares the outputs of the miniECO (section "digital_output in : miniECO e miniECO PLUS"). Two of the four outputs
+/// have no function.
 #[test]
 fn outputs_of_the_mini_eco_are_the_printed_ones() {
     let Some(manual) = manual() else { return };

@@ -1,5 +1,5 @@
-//! Tests that the doubts in dictionaries/eco.toml cover the 85 items in section 4 of the notes on the Eco manual, and cite
-//! their lines. The cases of `manual-eco` in `tests/ui` show the diagnostics of verbatim passages.
+//! Tests the doubts in dictionaries/eco.toml. They must cover the 85 items in section 4 of the notes on the Eco manual and
+//! cite the same lines. The `manual-eco` cases in `tests/ui` show the diagnostics of verbatim excerpts.
 
 #[path = "table_support/doubts.rs"]
 mod doubts;
@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 
 use eco_support::notes;
 
-/// Items of section 4: the first words of their doubts, and numbers in the item's text that are not lines.
+/// The items of section 4. Each has the first words of its doubts, and the numbers in its text that are not line numbers.
 #[rustfmt::skip]
 const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("A1", &["On 104 pages,"], &[104]),
@@ -104,7 +104,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("F8", &["The Modbus and PROFINET"], &[33, 34]),
 ];
 
-/// Every item of section 4 has doubts, and these cite each line and range of lines in the item.
+/// Each item of section 4 must have doubts. The doubts must cite all lines and line ranges in the text of the item.
 #[test]
 fn every_contradiction_has_its_doubts() {
     let Some(notes) = notes() else { return };
@@ -133,7 +133,7 @@ fn every_contradiction_has_its_doubts() {
     assert_eq!((left, ITEMS.len()), (Vec::<String>::new(), 85));
 }
 
-/// Returns the lines and ranges of lines in a text: numbers of up to four digits.
+/// Returns the line numbers and line ranges in a text: numbers of up to four digits.
 fn ranges(text: &str) -> Vec<RangeInclusive<u32>> {
     let mut found = Vec::new();
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_' || c == '.';

@@ -1,4 +1,4 @@
-//! Compares the Eco's objects, PDOs, images and sequences with the text of its manual.
+//! Compares the Eco's objects, PDOs, process images and sequences with the text of its manual.
 
 mod eco_support;
 
@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use eco_support::*;
 use lexibus_codegen::ir::{Access, Binding, Bus, Direction, ObjectBuses, PdoEntryKind, Step};
 
-/// A printed row of an object or a sub-index.
+/// A printed row of an object or sub-index.
 struct Printed {
     line: usize,
     place: (u16, Option<u8>),
@@ -16,7 +16,7 @@ struct Printed {
     bytes: Option<u32>,
 }
 
-/// Returns the rows of the object tables.
+/// Returns the printed rows of the object tables.
 fn objects(manual: &[String]) -> Vec<Printed> {
     let mut rows: Vec<(usize, u16, Option<u8>, String)> = Vec::new();
     for (line, text) in lines(manual, 3454, 3898) {
@@ -35,7 +35,7 @@ fn objects(manual: &[String]) -> Vec<Printed> {
         }
     }
     let found = rows.into_iter().map(|(line, index, sub, text)| {
-        // After the length, the row names a chapter of a standard.
+        // After the length, a row names a chapter of a standard.
         let is_length = |at: usize| {
             let goes_on = text[at + 2..].starts_with(|c: char| c.is_alphabetic());
             text[..at].ends_with(|c: char| c.is_ascii_digit()) && !goes_on
@@ -61,7 +61,7 @@ fn objects(manual: &[String]) -> Vec<Printed> {
     found.collect()
 }
 
-/// Sub-indices 0 that the manual prints with four bytes.
+/// Objects for whose sub-index 0 the manual prints a length of four bytes.
 const LONG: [u16; 4] = [0x1003, 0x1010, 0x6092, 0x6099];
 
 #[test]
@@ -113,7 +113,7 @@ fn every_object_is_there_at_its_line() {
         }
     }
     assert_eq!(wrong, Vec::<String>::new());
-    // In addition to the objects of CANopen, four that only EtherCAT has.
+    // Add the four objects that exist only on EtherCAT to the objects of CANopen.
     let all: BTreeSet<u16> = items(device).filter_map(|item| item.object()).map(|object| object.0).collect();
     assert_eq!(all.difference(&indices).copied().collect::<Vec<_>>(), [0x1C12, 0x1C13, 0x2007, 0x603F]);
     assert!(indices.is_subset(&all));
@@ -133,8 +133,8 @@ fn what_only_ethercat_has_is_not_on_canopen() {
     }
 }
 
-/// Returns the image as printed: names with their length, and unused bytes of groups of eight (section "Mappatura memoria
-/// condivisa").
+/// Compares the process images with the manual: names with their lengths, and unused bytes of groups of eight (section
+/// "Mappatura memoria condivisa").
 #[test]
 fn images_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -154,7 +154,7 @@ fn images_are_the_printed_ones() {
         images.iter().map(|image| image.direction).collect::<Vec<_>>(),
         [Direction::Receive, Direction::Transmit]
     );
-    // Each printed length occurs as often as it is printed.
+    // Each length must occur as often as the manual prints it.
     let sorted = |mut list: Vec<u32>| {
         list.sort_unstable();
         list
@@ -178,7 +178,7 @@ fn images_are_the_printed_ones() {
     }
 }
 
-/// Index, sub-index and bits.
+/// Index, sub-index and number of bits.
 type Mapped = (u16, u8, u32);
 
 #[test]
@@ -206,7 +206,7 @@ fn pdos_of_ethercat_are_the_printed_ones() {
         let mut there: Vec<Mapped> = Vec::new();
         for entry in &pdo.entries {
             match entry.kind {
-                // A mode has one byte, but the manual prints two (E3 of the notes).
+                // A mode is one byte long, but the manual prints two bytes (E3 of the notes).
                 PdoEntryKind::Padding => there.last_mut().expect("an entry").2 += entry.bits,
                 _ => there.push((entry.index, entry.sub_index, entry.bits)),
             }
@@ -216,21 +216,21 @@ fn pdos_of_ethercat_are_the_printed_ones() {
     let assigned: Vec<u16> =
         pdos.iter().filter(|pdo| pdo.sync_manager.is_some()).map(|pdo| pdo.mapping_index).collect();
     assert_eq!(assigned, [0x1600, 0x1A02]);
-    // CANopen uses the same indices, and mappings that are not printed.
+    // PDOs on CANopen have the same indices, but the manual does not print their mappings.
     let canopen = device.process_data.pdos.iter().filter(|pdo| pdo.buses == Some(ObjectBuses::CANOPEN));
     assert!(canopen.clone().all(|pdo| pdo.entries.is_empty() && pdo.communication.is_some()));
     assert_eq!(canopen.count(), 8);
 }
 
-/// A printed slot of the ESI: its PDOs with their entries.
+/// A printed slot of the ESI with its PDOs and their entries.
 struct Slot {
     name: String,
     line: usize,
     pdos: Vec<(u16, Vec<Mapped>)>,
 }
 
-/// Returns the slots of the ESI: a mode of operation, one PDO in each direction, and their entries (section "PDO" of
-/// "Parametrizzazione EtherCAT per drive").
+/// Returns the printed slots of the ESI. Each has a mode of operation, one PDO in each direction, and the entries of
+/// these PDOs (section "PDO" of "Parametrizzazione EtherCAT per drive").
 #[test]
 fn slots_of_ethercat_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -267,7 +267,7 @@ fn slots_of_ethercat_are_the_printed_ones() {
             slot.steps.iter().filter_map(write).collect::<Vec<_>>()
         };
         assert_eq!(written("modes_of_operation"), [modes[name]], "line {line}");
-        // The manual prints the TxPDO first.
+        // The manual prints the TxPDO before the RxPDO.
         assert_eq!(pdos.len(), 2, "line {line}");
         for ((index, entries), assign) in pdos.iter().zip(["0x1C13", "0x1C12"]) {
             assert_eq!(written(&format!("{assign}:0")), [0, 1], "line {line}");
@@ -282,7 +282,7 @@ fn slots_of_ethercat_are_the_printed_ones() {
     }
 }
 
-/// Compares the SDO writes of the examples with procedures and values of items.
+/// Compares the SDO writes in the manual's examples with procedures and values of items.
 #[test]
 fn what_the_examples_write_can_be_written() {
     let Some(rows) = rows("pseudo_sdo") else { return };
@@ -358,7 +358,7 @@ fn sequences_write_what_the_examples_write() {
     assert_eq!(written("position_by_402"), [printed(4305, 4318), printed(4336, 4340)].concat());
     assert_eq!(written("velocity_by_402"), [printed(4354, 4364), printed(4377, 4377)].concat());
     assert_eq!(written("save_on_canopen"), printed(4383, 4397));
-    // The manual prints the second entry of the TPDO with the sub-index of the first (D7 of the notes).
+    // The manual prints the second entry of the TPDO with the sub-index of the first entry (D7 of the notes).
     let mut mapping = [printed(4423, 4427), printed(4439, 4443)].concat();
     assert_eq!(mapping[8].0, (0x1A00, 1));
     mapping[8].0 = (0x1A00, 2);

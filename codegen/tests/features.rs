@@ -1,5 +1,5 @@
-//! Tests that reading a format whose feature is off is an error that names the feature. The part `features` of `tests/full.sh`
-//! runs these tests without the features. With all features, they test nothing.
+//! Tests files whose format needs a disabled feature. The error must name the feature. The part `features` of `tests/full.sh`
+//! runs these tests without the features. If all features are enabled, the tests check nothing.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::source::Source;
@@ -7,7 +7,7 @@ use lexibus_codegen::source::Source;
 const TABLE: &str = "lexibus = 1\n[device]\nname = \"Axis\"\nbuses = [\"canopen\"]\n[[chapters]]\n[chapters.objects]\n\
                      0x1000 = { name = \"Device type\", type = \"u32\", access = \"ro\" }\n";
 
-/// Start of a file of each format, by the feature that reads it, and whether the feature is on.
+/// For each format: the feature that reads it, the start of a file, and whether the feature is enabled.
 const FORMATS: [(&str, &str, bool); 6] = [
     ("eds", "[DeviceInfo]\nProductName=Pump\n", cfg!(feature = "eds")),
     ("xdd", "<ISO15745ProfileContainer/>", cfg!(feature = "xdd")),
@@ -25,7 +25,7 @@ fn compiled(text: &str, options: &Options) -> Compilation {
     check(Source::new("device", text.into()), options)
 }
 
-/// Whether the only error names the feature and explains how to add it.
+/// Returns whether the only error names the feature and explains how to enable it.
 fn names_feature(compilation: &Compilation, feature: &str) -> bool {
     let mut list = compilation.diagnostics.list().iter();
     let Some(found) = list.find(|found| found.message.contains(&format!("was built without the feature `{feature}`")))
@@ -77,7 +77,7 @@ mod eds {
         assert_eq!(compilation.is_usable(), cfg!(feature = "table"));
     }
 
-    /// Profiles need no feature: they add names of bits and values, units, state machines and codes.
+    /// Profiles must work without a feature. They add names of bits and values, units, state machines and codes.
     #[test]
     fn profiles_apply_to_every_format() {
         let compilation = compiled(EDS, &Options::default());

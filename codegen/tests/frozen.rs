@@ -1,8 +1,8 @@
-//! Tests that the outputs for each file of the corpus and each dictionary do not change unnoticed. `tests/frozen.tsv` has the
+//! Tests that the outputs for each corpus file and each dictionary do not change unintentionally. `tests/frozen.tsv` contains
 //! digests of the generated Rust, the diagnostics and the resolved values.
 //!
-//! `LEXIBUS_BLESS=1 LEXIBUS_LANE=full cargo test -p lexibus-codegen --test frozen` updates the list. With
-//! `LEXIBUS_FROZEN=FOLDER`, the texts are written to a folder, to compare two versions.
+//! `LEXIBUS_BLESS=1 LEXIBUS_LANE=full cargo test -p lexibus-codegen --test frozen` updates the list. Set
+//! `LEXIBUS_FROZEN=FOLDER` to write the outputs to a folder, for example to compare two versions.
 
 mod corpus_support;
 #[path = "frozen/values.rs"]
@@ -24,7 +24,7 @@ const KINDS: [&str; 3] = ["rust", "diagnostics", "values"];
 const HEADER: &str = "# Digests of what is generated, reported and read of each file. Written by codegen/tests/frozen.rs: do not edit.\n\
     # file\trust\tdiagnostics\tvalues\n";
 
-/// File and its name in the list.
+/// A file with its name in the list.
 struct Frozen {
     name: String,
     source: Source,
@@ -48,7 +48,7 @@ fn frozen_files() -> Vec<Frozen> {
     all
 }
 
-/// Returns the texts of a file, in the order of [`KINDS`].
+/// Returns the outputs for a file in the order of [`KINDS`].
 fn texts(source: Source) -> [String; 3] {
     let options = Options::default();
     let compilation = check(source, &options);
@@ -76,7 +76,7 @@ fn digest(text: &str) -> String {
     Source::new("text", text.as_bytes().to_vec()).sha256()[..16].to_owned()
 }
 
-/// Returns the expected digests by file.
+/// Returns the expected digests of each file.
 fn listed() -> BTreeMap<String, Vec<String>> {
     let text = std::fs::read_to_string(LIST).unwrap_or_default();
     let lines = text.lines().filter(|line| !line.starts_with('#'));

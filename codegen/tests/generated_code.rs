@@ -1,4 +1,4 @@
-//! Tests that generated code passes `rustc` and clippy with every warning denied.
+//! Tests that generated code causes no warnings of rustc and clippy.
 
 mod compile_support;
 mod corpus_support;
@@ -20,7 +20,7 @@ fn everything() -> RustOptions {
 fn every_file_of_the_corpus_compiles_or_is_rejected_with_a_reason() {
     let Some(files) = corpus_support::all_files() else { return };
     let options = Options { rust: everything(), ..Options::default() };
-    // Clippy takes 1.5 times as long as rustc. The fast lane runs it on one of eight bindings.
+    // Clippy takes 1.5 times as long as rustc. In the fast lane, it only checks every eighth binding.
     let number = AtomicUsize::new(0);
     let compiled = corpus_support::bindings::each(files, &options, |name, text| {
         let with_clippy = lane::is_full() || number.fetch_add(1, Ordering::Relaxed).is_multiple_of(8);
@@ -30,7 +30,7 @@ fn every_file_of_the_corpus_compiles_or_is_rejected_with_a_reason() {
     assert!(compiled > lane::at_least(500), "only {compiled} different devices");
 }
 
-/// Devices and modules of a file re-export definitions of earlier ones.
+/// Compiles all devices and modules of a file together. They re-export definitions of earlier ones.
 #[test]
 fn all_devices_of_a_file_compile_and_are_documented_together() {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui/quirks-esi");
@@ -81,7 +81,7 @@ fn no_name_or_text_breaks_out_of_the_code() {
     }
 }
 
-/// Returns the Rust of an ESI with these PDOs, on one line.
+/// Generates and compiles the Rust code of an ESI file with these PDOs. Returns the code.
 fn of_pdos(name: &str, pdos: &str) -> String {
     let text = format!(
         "<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices><Device><Type ProductCode=\"#x2\">D</Type><Name>D</Name>\
@@ -136,7 +136,7 @@ fn every_edition_of_rust_takes_it() {
     }
 }
 
-/// Types, values, bits and items with names that generated code or the Rust prelude uses.
+/// Tests names that the Rust prelude or generated code also uses. The test has such types, values, bits and items.
 #[test]
 fn names_of_the_prelude_and_of_methods_compile() {
     let words = [
@@ -212,7 +212,7 @@ fn names_of_the_prelude_and_of_methods_compile() {
     document("names of the prelude", &[&text]).unwrap_or_else(|message| panic!("{message}"));
 }
 
-/// PDOs with fields of every kind: single bits, odd widths, reals, times, texts, padding, more than 64 bits.
+/// Tests PDOs with fields of all kinds: single bits, unusual widths, reals, times, texts, padding, and more than 64 bits.
 #[test]
 fn pdos_of_every_shape_compile() {
     let mut eds = String::from("[DeviceInfo]\nProductName=Shapes\nGranularity=1\nNrOfRXPDO=0\nNrOfTXPDO=4\n");
@@ -265,13 +265,13 @@ fn optional_implementations_are_gated() {
     assert!(text.contains("#[derive(Clone, Copy)]\n    #[cfg_attr(feature = \"eq\", derive(PartialEq))]"));
     assert!(text.contains("#[cfg_attr(feature = \"serde\", derive(serde::Serialize, serde::Deserialize))]"));
     assert!(!text.contains("Debug"));
-    // The crate does not declare these features, and rustc would warn about that.
+    // Suppress the rustc warning about features that the crate does not declare.
     compile("gated", &format!("#[allow(unexpected_cfgs)]\nmod inner {{\n{text}\n}}\npub use inner::*;\n"))
         .expect("it compiles");
 }
 
-/// PDOs of a slave with names that generated code uses, and with entries longer than a word, than any field, and than any
-/// memory.
+/// Tests PDOs of a slave with names that generated code also uses. Some entries are longer than a machine word, the
+/// maximum field length, or the memory of any device.
 #[test]
 fn process_data_of_any_name_and_length_compile() {
     let entry = |index: u16, bits: u32| {
@@ -307,7 +307,7 @@ fn process_data_of_any_name_and_length_compile() {
         let options = Options { rust: everything(), ..Options::default() };
         let compilation = check(Source::new("lengths.xml", esi(&long).into_bytes()), &options);
         let text = compilation.rust(&options.rust).expect("bindings");
-        // An image that is too long to count its bits is left out.
+        // An image whose number of bits is too large to count is left out.
         assert_eq!(text.contains("pub mod image {"), has_image);
         compile("lengths", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
         document("lengths", &[&text]).unwrap_or_else(|message| panic!("{message}\n{text}"));

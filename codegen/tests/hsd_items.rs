@@ -1,7 +1,9 @@
-//! Lists the 55 items in section 4 of the notes on the HSD manual, with what covers each item. That is either the diagnostics
-//! of a verbatim transcription (the cases of `manual-hsd` in `tests/ui`), or a doubt in dictionaries/hsd-sm137-sm140.toml.
+//! Lists the 55 items in section 4 of the notes on the HSD manual, and what covers each item. An item is covered by the
+//! diagnostics of a verbatim transcription (the `manual-hsd` cases in `tests/ui`), or by a doubt in
+//! dictionaries/hsd-sm137-sm140.toml.
 //!
-//! The tests compare the list with these cases and doubts and, if the manual is available, with its lines.
+//! The tests compare the list with these cases and doubts. If the manual is available, they also compare it with the lines of
+//! the manual.
 
 #[path = "table_support/cases.rs"]
 mod cases;
@@ -16,20 +18,20 @@ use std::collections::BTreeSet;
 use hsd_support::Manual;
 use How::{Doubt, Finding};
 
-/// Area of the cases.
+/// Area of the test cases.
 const AREA: &str = "manual-hsd";
 
-/// Coverage of an item.
+/// What covers an item.
 enum How {
-    /// A case, and the code that it reports.
+    /// A test case and the code that it reports.
     Finding(&'static str, &'static str),
-    /// Lines of the manual that a doubt cites, each with a part of the line.
+    /// Lines of the manual that a doubt cites, each with a part of its text.
     Doubt(&'static [(usize, &'static str)]),
 }
 
 #[rustfmt::skip]
 const ITEMS: &[(u8, How)] = &[
-    // 4.1: framing.
+    // Section 4.1: framing.
     (1, Finding("item-01-end-and-escape-are-one-byte", "MSG001")),
     (1, Doubt(&[(156, "ETX=0x1B"), (162, "ESC")])),
     (2, Doubt(&[(177, "L ")])),
@@ -37,7 +39,7 @@ const ITEMS: &[(u8, How)] = &[
     (4, Doubt(&[(238, "09x"), (581, "ETX"), (641, "ETX")])),
     (5, Doubt(&[(249, "BitStato"), (276, "BitStato")])),
     (6, Doubt(&[(38, "1 (07, 2010)"), (42, "3"), (8, "rev. 03")])),
-    // 4.2: frames.
+    // Section 4.2: frames.
     (7, Finding("item-07-request-that-begins-unlike-all-others", "MSG007")),
     (7, Doubt(&[(574, "0x00"), (579, "0x00")])),
     (8, Finding("item-08-byte-that-the-frame-lost", "MSG006")),
@@ -53,7 +55,7 @@ const ITEMS: &[(u8, How)] = &[
     (15, Doubt(&[(1213, "Comando"), (1618, "Byte")])),
     (16, Doubt(&[(1187, "bus di campo"), (1191, "protocollo")])),
     (17, Doubt(&[(1266, "nelle appendici ."), (1284, "t. di campionamento"), (1268, "frequenza")])),
-    // 4.3: worked examples; `worked_examples` in hsd.rs computes them.
+    // Section 4.3: worked examples. `worked_examples` in `hsd/examples.rs` calculates them.
     (18, Finding("items-18-19-20-numbers-that-do-not-fit-their-bytes", "TAB052")),
     (18, Doubt(&[(361, "6766.8176"), (365, "6780,8465")])),
     (19, Finding("items-18-19-20-numbers-that-do-not-fit-their-bytes", "TAB052")),
@@ -64,7 +66,7 @@ const ITEMS: &[(u8, How)] = &[
     (21, Doubt(&[(1929, "4520"), (1872, "troncamento")])),
     (22, Doubt(&[(1882, "11,313"), (1880, "11.313"), (1938, "11.3137")])),
     (23, Doubt(&[(496, "0.32"), (498, "0,32")])),
-    // 4.4: parameters.
+    // Section 4.4: parameters.
     (24, Doubt(&[(1510, "Codice"), (1512, "SM137"), (1513, "SM140")])),
     (25, Finding("item-25-default-in-the-column-of-the-range", "EDS050")),
     (25, Doubt(&[(1591, "16")])),
@@ -90,7 +92,7 @@ const ITEMS: &[(u8, How)] = &[
     (39, Doubt(&[(1439, "Sezione 6"), (1758, "CMDCHGPAR")])),
     (40, Doubt(&[(1616, "Tabella 1"), (1823, "tabella 1 di pagina 48")])),
     (41, Doubt(&[(1514, "x0.01"), (1522, "x 0.01"), (1547, "Cnt"), (1555, "cnt")])),
-    // 4.5: states, alarms, bits.
+    // Section 4.5: states, alarms, bits.
     (42, Doubt(&[(218, "110"), (2192, "110")])),
     (43, Doubt(&[(291, "Appendice C"), (455, "Appendice C"), (1099, "Appendice D"), (2304, "C ASSISTENZA"), (1748, "6.1.5")])),
     (44, Doubt(&[(405, "ASKBITCOMANDO_SM"), (997, "MASKBITCPMANDO_SM"), (2114, "SARCHINGTACCA"), (2061, "CMDLATCHINTER*"), (2149, "ALWROGSETP")])),

@@ -1,4 +1,4 @@
-//! Tests that levels change what is reported, not what is read.
+//! Tests that diagnostic levels change only which diagnostics are reported, not how the input is read.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Tests that a short line cannot create more elements than the documented limits.
+//! Tests the documented limits: a short input must not create more elements than allowed.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::limits;
@@ -12,7 +12,7 @@ fn checked(name: &str, text: String) -> Compilation {
     check(Source::new(name, text.into_bytes()), &Options::default())
 }
 
-/// Returns the number of diagnostics with this code.
+/// Returns the number of diagnostics with the given code.
 fn count(compilation: &Compilation, code: &str) -> usize {
     codes(compilation).iter().filter(|entry| **entry == code).count()
 }
@@ -22,7 +22,7 @@ fn items(compilation: &Compilation) -> usize {
     devices.flat_map(|device| &device.groups).map(|group| group.items.len()).sum()
 }
 
-/// Returns a table with this number of rows, each with the maximum number of parameters and in a separate space.
+/// Returns a table with `count` rows. Each row has the maximum number of parameters and a separate space.
 fn rows(count: u32) -> Compilation {
     let mut table = "lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"serial\"]\n".to_owned();
     for row in 0..count {
@@ -63,7 +63,7 @@ fn rows_that_stand_for_too_many() {
     assert_eq!(count(&table(limits::MAX_REPEAT + 1), "TAB004"), 1);
 }
 
-/// Returns an EDS with this number of objects of 254 elements each.
+/// Returns an EDS with `count` objects of 254 elements each.
 fn compact_objects(count: usize) -> Compilation {
     let mut text = "[DeviceInfo]\nProductName=X\n".to_owned();
     for number in 0..count {
@@ -93,7 +93,7 @@ fn pdos_that_follow_from_a_number() {
     assert_eq!(count(&compilation, "PDO010"), 1, "{:?}", codes(&compilation));
 }
 
-/// Returns ESI slots that accept the same modules.
+/// Returns an ESI with slots that all accept the same modules.
 fn slots(slots: usize, modules: usize) -> Compilation {
     let slot =
         "<Slot MinInstances='0' MaxInstances='1'><Name>S</Name><ModuleClass>C</ModuleClass></Slot>".repeat(slots);
@@ -145,14 +145,14 @@ fn files_that_an_esi_refers_to() {
 #[test]
 fn files_that_are_too_large() {
     let path = folder("large").join("large.eds");
-    // A sparse file: the missing part is neither written nor read.
+    // Use a sparse file, because the missing part is neither written nor read.
     std::fs::File::create(&path).and_then(|file| file.set_len(limits::MAX_INPUT_BYTES as u64 + 1)).expect("a file");
     let error = Source::read(&path).expect_err("it is too large");
     assert_eq!(error.kind(), std::io::ErrorKind::FileTooLarge);
     let _ = std::fs::remove_file(path);
 }
 
-/// Writes an EDS with these lines, filled up to the maximum file size.
+/// Returns an EDS with these lines. Its size is the maximum file size.
 fn eds(lines: &str) -> Compilation {
     checked("a.eds", format!("[FileInfo]\nFileName=a\n{lines}"))
 }
@@ -184,7 +184,7 @@ fn texts_of_compact_sub_objects() {
     let beyond = eds(&(comments + &object(0x2000, 5_000) + &object(0x2001, 5_000)));
     assert_eq!(count(&beyond, "IO003"), 1);
     assert!(items(&beyond) <= 255 + 1, "{}", items(&beyond));
-    // Objects with their own sections are kept in order.
+    // Objects that have their own sections must be kept in order.
     let described = "[2000sub1]\nParameterName=B\nDataType=5\nAccessType=ro\n";
     let beyond = eds(&(object(0x2000, 5_000) + described));
     let items = &beyond.catalog.as_ref().expect("the file is usable").devices[0].groups[0].items;
@@ -234,12 +234,12 @@ fn rows_of_state_machines() {
             device.machines.iter().map(|machine| machine.name.to_string()).collect::<Vec<_>>(),
         )
     };
-    // In addition to the transitions, each machine and both of its states count.
+    // Each machine and both its states count in addition to the transitions.
     let most = limits::MAX_MACHINE_ROWS - 2 * 3;
     let names = |list: &[&str]| list.iter().map(|name| name.to_string()).collect::<Vec<_>>();
     assert_eq!(machines(most, 9), (0, names(&["a", "b"])));
     assert_eq!(machines(most + 1, 9), (1, names(&["a"])));
-    // Long texts count for each state.
+    // A long text counts several times for each state.
     assert_eq!(machines(most / 2 + 9, limits::ROW_BYTES_PER_ITEM), (1, Vec::new()));
 }
 
@@ -303,6 +303,6 @@ fn the_book_has_each_limit() {
         let line = chapter.lines().find(|line| line.starts_with('|') && line.contains(row));
         let line = line.unwrap_or_else(|| panic!("docs/src/limits.md has no row {row}"));
         let mut numbers = line.split(|letter: char| !letter.is_ascii_digit() && letter != ',');
-        assert!(numbers.any(|number| number == written), "{written} isn't in: {line}");
+        assert!(numbers.any(|number| number == written), "{written} is not in: {line}");
     }
 }

@@ -1,4 +1,4 @@
-//! Tests that a text that applies to many items is copied only within limits.
+//! Tests that a text for many items is copied only up to a limit.
 
 use std::path::PathBuf;
 
@@ -10,25 +10,25 @@ fn read(name: &str, text: &str) -> Compilation {
     check(Source::new(name, text.as_bytes().to_vec()), &Options::default())
 }
 
-/// Asserts that a text was cut with one diagnostic, and that the output is within the limits.
+/// Asserts that a text was shortened with a single diagnostic and that the output is within the limit.
 fn is_bounded(compilation: &Compilation) {
     let devices = compilation.catalog.iter().flat_map(|catalog| &catalog.devices);
     let items = devices.map(|device| 1 + device.groups.iter().map(|group| 1 + group.items.len()).sum::<usize>()).sum();
     is_bounded_by(compilation, items);
 }
 
-/// Like the function above, with a given number of items that may be copied.
+/// Asserts the same as `is_bounded` for a given number of items that share a text.
 fn is_bounded_by(compilation: &Compilation, items: usize) {
     let found = compilation.diagnostics.list().iter().filter(|found| found.code.id == "IO003").count();
     assert_eq!(found, 1, "{}", compilation.diagnostics.list().len());
     let made = serde_json::to_vec(&compilation.catalog).expect("a catalogue").len();
     let given: usize = compilation.sources.iter().map(|source| source.text().len()).sum();
-    // Without texts, an item has a few hundred bytes, like an empty text.
+    // An item without texts, or with an empty text, has a few hundred bytes.
     let most = given * (limits::MAX_COPIES_PER_BYTE + 20) + items * 2_000;
     assert!(made < most, "{made} bytes from {given}");
 }
 
-/// Returns an ESI of one device with these data types and objects.
+/// Returns an ESI with one device that has these data types and objects.
 fn esi(vendor: &str, types: &str, objects: &str) -> String {
     format!(
         "<EtherCATInfo><Vendor><Id>1</Id><Name>{vendor}</Name></Vendor><Descriptions><Devices><Device Physics='YY'>\
@@ -37,7 +37,7 @@ fn esi(vendor: &str, types: &str, objects: &str) -> String {
     )
 }
 
-/// Returns a record of this number of bytes with these elements each.
+/// Returns a record of `count` bytes. Each byte has these child elements.
 fn record(count: usize, elements: &str) -> String {
     let subs: String = (1..=count)
         .map(|at| {

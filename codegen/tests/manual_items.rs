@@ -1,8 +1,9 @@
-//! Lists the 60 items in section 4 of the notes on the AEC Vector Step manual, and the remarks in sections 4.4 and 4.5, with
-//! what covers each. That is either the diagnostics of a verbatim transcription (the cases of `manual-vector-step` in
-//! `tests/ui`), or a doubt in dictionaries/aec-vector-step.toml.
+//! Lists the 60 items in section 4 of the notes on the AEC Vector Step manual, the remarks in sections 4.4 and 4.5, and what
+//! covers each of them. They are covered by the diagnostics of a verbatim transcription (the `manual-vector-step` cases in
+//! `tests/ui`), or by a doubt in dictionaries/aec-vector-step.toml.
 //!
-//! The tests compare the list with these cases and doubts and, if the manual is available, with its lines.
+//! The tests compare the list with these cases and doubts. If the manual is available, they also compare it with the lines of
+//! the manual.
 
 #[path = "table_support/cases.rs"]
 mod cases;
@@ -17,22 +18,23 @@ use std::collections::BTreeSet;
 
 use How::{Doubt, Finding, Import};
 
-/// Area of the cases.
+/// Area of the test cases.
 const AREA: &str = "manual-vector-step";
 
-/// Coverage of an item.
+/// What covers an item.
 enum How {
-    /// A case, and the codes that it reports.
+    /// A test case and the codes that it reports.
     Finding(&'static str, &'static [&'static str]),
-    /// A test of `import`, and the codes that it expects.
+    /// A test of `import` and the codes that it expects.
     Import(&'static str, &'static [&'static str]),
-    /// Lines of the manual that a doubt cites, each with a part of the line, because no check can detect the contradiction.
+    /// Lines of the manual that a doubt cites, each with a part of its text. Used if the compiler cannot detect the
+    /// contradiction.
     Doubt(&'static [(usize, &'static str)]),
 }
 
 #[rustfmt::skip]
 const ITEMS: &[(&str, How)] = &[
-    // 4.1: mapping, width, digits.
+    // Section 4.1: mapping, width, digits.
     ("1", Finding("items-01-04-05-mapping-procedure", &["TAB033"])),
     ("1", Finding("item-01-nine-digits-of-a-default", &["TAB012", "EDS025"])),
     ("2", Finding("item-02-ten-digits-of-a-limit", &["TAB012"])),
@@ -44,19 +46,19 @@ const ITEMS: &[(&str, How)] = &[
     ("8", Finding("item-08-number-of-entries-without-entries", &["EDS049"])),
     ("9", Finding("item-09-object-printed-twice", &["TAB007"])),
     ("10", Finding("item-10-names-copied-from-the-box-above", &["TAB040"])),
-    // Wording: a transmit PDO that "is received".
+    // Wording: the manual says that a transmit PDO "is received".
     ("11", Doubt(&[(1062, "abilitato a ricevere")])),
     ("12", Finding("item-12-bits-and-values-beyond-their-type", &["TAB013", "TAB015"])),
     ("13", Finding("item-13-default-of-four-digits-for-four-bytes", &["TAB012"])),
     ("14", Finding("items-14-16-symbols-twice-in-one-object", &["TAB040"])),
     ("14", Finding("item-14-prefixes-with-a-capital-letter", &["TAB002", "TAB012"])),
-    // Two sentences about the same bits.
+    // Two sentences describe the same bits differently.
     ("15", Doubt(&[(727, "bit 29 e 30"), (815, "bit 29 e 30"), (808, "Non significativo")])),
     ("16", Finding("items-14-16-symbols-twice-in-one-object", &["EDS049"])),
-    // A value that is rw can be both read and written by PDO.
+    // PDOs can both read and write a value with the access rights `rw`.
     ("16", Doubt(&[(3273, "scrivere il valore nel sub-index 06"), (3284, "Read/Write"), (3285, "Read")])),
     ("17", Finding("item-17-index-of-five-digits", &["TAB004"])),
-    // 4.2: register number, index, duplicates.
+    // Section 4.2: register numbers, indices, duplicates.
     ("18", Finding("item-18-objects-that-break-the-formula", &["TAB001"])),
     ("18", Finding("item-18-neighbors-without-a-rule", &["TAB001"])),
     ("18", Import("items_18_and_19_indices_beside_numbers", &["TAB001"])),
@@ -67,7 +69,7 @@ const ITEMS: &[(&str, How)] = &[
     ("21", Import("item_53_a_quote_that_would_swallow_seven_rows", &["CSV003"])),
     ("22", Finding("item-22-number-of-two-registers", &["TAB005"])),
     ("23", Finding("item-23-number-of-program-locations", &["TAB007"])),
-    // Limits of two registers without a relation in the table.
+    // The table contains no relation between the limits of these two registers.
     ("23", Doubt(&[(3199, "4998"), (3201, "4988"), (3217, "Locazione 4988")])),
     ("24", Finding("item-24-rows-without-a-name", &["EDS038", "TAB041"])),
     ("24", Doubt(&[(3197, "Rprgrunmode Run mode"), (3198, "Rprgstopevent\t0: Nessuna")])),
@@ -78,9 +80,9 @@ const ITEMS: &[(&str, How)] = &[
     ("28", Finding("item-28-name-of-an-old-and-a-new-register", &["TAB007"])),
     ("29", Finding("item-29-names-misspelled-in-texts", &["TAB025"])),
     ("29", Doubt(&[(464, "Axis 1 Posact"), (3082, "Rtouchprobepos2pos")])),
-    // Each row lacks the sub-index.
+    // The sub-index is missing in each row.
     ("30", Doubt(&[(464, "2000:01"), (2129, "0x2000")])),
-    // 4.3: type, access, range conflicts.
+    // Section 4.3: conflicts of types, access rights and ranges.
     ("31", Finding("items-31-32-34-36-overview-against-the-box", &["TAB021", "TAB024"])),
     ("32", Finding("items-31-32-34-36-overview-against-the-box", &["TAB021"])),
     ("33", Finding("item-33-negative-limits-of-an-unsigned-type", &["EDS051"])),
@@ -91,7 +93,7 @@ const ITEMS: &[(&str, How)] = &[
     ("37", Finding("item-37-limits-of-an-unsigned-type-for-a-signed-one", &["EDS051"])),
     ("38", Finding("item-38-measured-velocity-that-is-never-zero", &["TAB023"])),
     ("39", Finding("item-39-elements-without-sub-index-0", &["TAB021", "EDS058"])),
-    // 0xFD is a valid Unsigned8. No line states that CiA uses Integer8.
+    // 0xFD is a valid Unsigned8. No line of the manual states that CiA uses Integer8.
     ("39", Doubt(&[(1862, "0xFD"), (1864, "Unsigned8")])),
     ("40", Finding("item-40-limit-that-sets-reserved-bits", &["TAB019"])),
     ("40", Doubt(&[(1994, "[0.. 8]"), (2449, "Bit8: Out8")])),
@@ -99,18 +101,18 @@ const ITEMS: &[(&str, How)] = &[
     ("42", Finding("items-42-43-control-word-of-the-touch-probe", &["TAB041"])),
     ("43", Finding("items-42-43-control-word-of-the-touch-probe", &["TAB022", "TAB025"])),
     ("43", Finding("item-43-two-bits-with-one-name", &["TAB040"])),
-    // Words for edges and sources.
+    // The words for edges and sources are ambiguous.
     ("43", Doubt(&[(1706, "al touch probe 1"), (1770, "valore positivo"), (1794, "valore positivo"), (2958, "fronte positivo"), (2973, "fronti positivi"), (3028, "Touch Encoder 1")])),
     ("44", Finding("item-44-types-that-contradict-their-limits", &["EDS025", "TAB016", "TAB018", "TAB009", "TAB004"])),
     ("44", Finding("item-44-no-notes-at-all", &["TAB010"])),
     ("45", Finding("item-45-values-and-bits-outside-of-the-limits", &["TAB016", "TAB018", "TAB021"])),
     ("46", Finding("item-46-access-against-storage-and-mapping", &["TAB024", "TAB022"])),
-    // Saved versions, a saved command and limits that are read are each plausible.
+    // Each of these is plausible: saved versions, a saved command, and read-only limits.
     ("46", Doubt(&[(2867, "RW SAVE"), (2868, "RW SAVE"), (2869, "RW SAVE"), (3184, "RO"), (3185, "RO"), (3188, "SAVE")])),
     ("47", Finding("item-47-mode-that-is-reserved", &["TAB018", "TAB015", "TAB017"])),
     ("48", Finding("item-48-one-value-with-two-limits-and-two-types", &["TAB022"])),
     ("49", Finding("item-49-commands-at-other-bits", &["TAB022"])),
-    // Both filters exist.
+    // Both filters exist in the table.
     ("50", Doubt(&[(2273, "Rposalmtime"), (2356, "Rflwtim"), (2382, "Rflwtim")])),
     ("51", Finding("item-51-number-of-kept-errors", &["TAB021"])),
     ("52", Finding("item-52-list-of-methods-that-ends-early", &["TAB022"])),
@@ -118,21 +120,22 @@ const ITEMS: &[(&str, How)] = &[
     ("53", Finding("item-53-pattern-with-a-digit-less", &["TAB006", "TAB015", "TAB017"])),
     ("53", Import("item_53_a_quote_that_would_swallow_seven_rows", &["CSV008"])),
     ("53", Import("item_53_quotes_around_whole_cells_and_at_the_end", &["CSV003"])),
-    // Deviations from CiA.
+    // These are deviations from CiA standards.
     ("54", Doubt(&[(683, "Errore generico"), (690, "maggiore"), (691, "inferiore"), (696, "FF06"), (698, "FF03")])),
-    // Names that are active low, and column headers.
+    // Names are active low, and column headers are ambiguous.
     ("55", Doubt(&[(1287, "Disable voltage"), (1333, "Voltage disabled"), (1368, "Bit"), (1391, "Bit"), (1407, "Bit"), (1425, "Bit"), (1444, "Bit"), (1461, "Modo operativo\tCodifica"), (1939, "Modo operativo")])),
-    // `writable` expresses it.
+    // The table expresses this with `writable`.
     ("56", Doubt(&[(665, "Read/Write"), (652, "Scrivendo 0")])),
     ("57", Finding("item-57-versions-in-many-spellings", &["TAB027", "TAB026"])),
     ("57", Doubt(&[(2173, "6,15"), (2705, "Fw710"), (2785, "5.50"), (2678, "3.44")])),
-    // Missing parts.
+    // Parts of the text are missing.
     ("58", Doubt(&[(574, "0x601"), (944, "0x00000580")])),
-    // A picture of a running drive.
+    // The example is a picture of a running drive.
     ("59", Doubt(&[(464, "RW P 3849")])),
     ("60", Finding("item-60-defaults-in-the-cell-of-the-limit", &["TAB004", "TAB042"])),
     ("60", Import("item_60_a_default_in_the_cell_of_a_limit", &["CSV003"])),
-    // 4.4: damage in general: headings and split letters, HTML and LaTeX, figures, truncated texts, spellings of notes, WORD.
+    // Section 4.4: damage to the text: headings and split letters, HTML and LaTeX, figures, truncated texts, spellings of
+    // notes, WORD.
     ("4.4 headings", Doubt(&[(167, "V ARIE")])),
     ("4.4 markup", Doubt(&[(1577, "$"), (1745, "^{*1}"), (2012, "<input"), (2752, "$")])),
     ("4.4 figures", Doubt(&[(447, ""), (1314, ""), (2110, "")])),
@@ -140,7 +143,7 @@ const ITEMS: &[(&str, How)] = &[
     ("4.4 notes", Doubt(&[(2196, "NO_MAP"), (2223, "NOMAP"), (2130, "MAP-READ"), (2875, "H- LWORD"), (2785, "Unsign16"), (2951, "Unsig- ned16")])),
     ("4.4 width", Finding("section-4-4-width-that-the-notes-deny", &["TAB021"])),
     ("4.4 width", Doubt(&[(2221, "WORD"), (2953, "WORD"), (2795, "WORD")])),
-    // 4.5: facts that the text does not determine.
+    // Section 4.5: facts that the text does not determine.
     ("4.5 sub-index", Doubt(&[(455, ""), (464, "2000:01")])),
     ("4.5 stride", Doubt(&[(3289, "shiftati di 10")])),
     ("4.5 axes", Doubt(&[(455, "H2000"), (1050, "1600")])),
@@ -172,7 +175,7 @@ fn the_cases_and_tests_report_what_the_list_says() {
     }
 }
 
-/// Returns the text of a test of `import`, from its name to its end.
+/// Returns the source text of an `import` test, from its name to its end.
 fn import_test(name: &str) -> &'static str {
     let source = include_str!("../import/tests/import.rs");
     let start = source.find(&format!("fn {name}() {{")).unwrap_or_else(|| panic!("there is no test `{name}`"));

@@ -1,5 +1,5 @@
-//! Tests that a new front end changes four files outside of its folder. The test follows the steps of the chapter "A new front
-//! end" in a copy of this crate, and reads a file of the new format.
+//! Tests that a new front end only changes four files outside its folder. The test follows the steps of the chapter "A new
+//! front end" in a copy of this crate and reads a file of the new format.
 
 #[path = "../../tests/support/lane.rs"]
 mod lane;
@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A line of this crate, and the text to insert after it.
+/// A line in a file of this crate, and the text to insert after it.
 struct Step {
     file: &'static str,
     after: &'static str,
@@ -17,9 +17,9 @@ struct Step {
 }
 
 const STEPS: [Step; 8] = [
-    // The feature.
+    // Declare the feature.
     Step { file: "Cargo.toml", after: "xml = []\n", insert: "pins = []\n" },
-    // The format.
+    // Add the format.
     Step {
         file: "src/ir/format.rs",
         after: "    /// PROFINET device description (GSDML).\n    Gsdml,\n",
@@ -37,9 +37,9 @@ const STEPS: [Step; 8] = [
         after: "            Format::Xdd => &[\"xdd\", \"xdc\", \"xpd\"],\n",
         insert: "            Format::Pins => &[\"pins\"],\n",
     },
-    // The folder.
+    // Add the folder.
     Step { file: "src/frontend/mod.rs", after: "mod read;\n", insert: "#[cfg(feature = \"pins\")]\npub mod pins;\n" },
-    // Recognition and reading of files.
+    // Recognize and read files of the format.
     Step {
         file: "src/frontend/read.rs",
         after: "const FRONT_ENDS: &[FrontEnd] = &[\n",
@@ -51,7 +51,7 @@ const STEPS: [Step; 8] = [
     },
 ];
 
-/// Copies a folder.
+/// Copies a folder with its subfolders.
 fn copy(from: &Path, to: &Path) {
     fs::create_dir_all(to).unwrap();
     for entry in fs::read_dir(from).unwrap() {
@@ -64,13 +64,13 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Returns the part of a text between two marks.
+/// Returns the text between two marks.
 fn between<'t>(text: &'t str, from: &str, to: &str) -> &'t str {
     let start = text.find(from).unwrap_or_else(|| panic!("no {from:?}"));
     &text[start..start + text[start..].find(to).unwrap_or_else(|| panic!("no {to:?}"))]
 }
 
-/// Copies this crate, without its tests, into a separate workspace.
+/// Copies this crate to a separate workspace, without its tests.
 fn copy_of_crate(folder: &Path) -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let copied = folder.join("codegen");

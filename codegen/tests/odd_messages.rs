@@ -1,4 +1,5 @@
-//! Tests unusual messages: their code compiles without warnings, and messages without code are reported.
+//! Tests unusual messages. Their code must compile without warnings, and messages for which no code is generated must
+//! be reported.
 
 mod compile_support;
 
@@ -9,7 +10,7 @@ use lexibus_codegen::{Presence, RustOptions};
 
 const HEAD: &str = "lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"serial\"]\n";
 
-/// Returns a table with these lines, and its diagnostics.
+/// Compiles a table with these lines. Returns the compilation and its diagnostics.
 fn read(lines: &str) -> (Compilation, Vec<String>) {
     let rust = RustOptions { table: Presence::Always, ..RustOptions::default() };
     let options = Options { rust, no_profiles: true, ..Options::default() };
@@ -18,7 +19,7 @@ fn read(lines: &str) -> (Compilation, Vec<String>) {
     (compilation, messages)
 }
 
-/// Returns the Rust of a table, which must compile.
+/// Returns the Rust code for a table with these lines. The code must compile.
 fn rust(name: &str, lines: &str) -> String {
     let (compilation, messages) = read(lines);
     let mut text = String::new();
@@ -32,7 +33,7 @@ fn rust(name: &str, lines: &str) -> String {
     text
 }
 
-/// Returns the diagnostics of a table, one per line.
+/// Returns the diagnostics of a table with these lines, one per line.
 fn reported(lines: &str) -> String {
     let (_, messages) = read(lines);
     messages.iter().map(|line| format!("{line}\n")).collect()
@@ -71,7 +72,7 @@ fn names_of_fields_that_mislead() {
          [[messages]]\nname = \"Write\"\nrequest = [{ bytes = [4] }, { code = \"9\", type = \"u8\" }, { value_of = \"9\" }]\n\
          reply = [{ field = \"setting\", type = \"u8\" }, { field = \"parameter\", type = \"u8\" }, { code = \"9\", type = \"u8\" }, { value_of = \"9\" }]\n",
     );
-    // The reply returns the parameter number, which has one byte as in the request.
+    // The reply repeats the parameter number. It has one byte, as in the request.
     assert!(text.contains("from.clone().echo(request, 1, 1)?;"));
     assert!(text.contains("code_bits: 8,"));
 }
@@ -112,18 +113,18 @@ fn orders_that_are_carried_out_later() {
     };
     assert_eq!(actual("u16", "\"a\", value = 3"), "self.a == 0x3");
     assert_eq!(actual("u16", "\"a\", mask = 0x8000, value = 0x8000"), "self.a & 0x8000 == 0x8000");
-    // The type has no such number.
+    // The mask and value exceed the numbers of the type.
     assert_eq!(actual("i16", "\"a\", mask = 0x8000, value = 0x8000"), "none");
     assert_eq!(actual("i24", "\"a\", value = 3"), "self.a == 0x3");
     assert_eq!(actual("f32", "\"a\", value = 3"), "none");
-    // The field decides, independent of the fields before it.
+    // Only this field decides. The fields before it have no effect.
     let fields = "{ field = \"count\", type = \"u8\" }, { field = \"b\", type = \"u8\" }, { field = \"a\", type = \"u8\" }, { repeat = { count = \"count\", fields = [{ field = \"a\", type = \"u8\" }] } }";
     assert_eq!(complete(polled(fields, "\"a\", value = 3")), "self.a == 0x3");
 }
 
 #[test]
 fn messages_of_little() {
-    // A read-only space, unsolicited messages from the device, and long texts.
+    // The table has a read-only space, messages that the device sends without a request, and long texts.
     let space = "[spaces.p]\nparameter = { read = \"Read\" }\n[[chapters]]\n[chapters.registers]\ngain = { reg = 1, type = \"u8\", access = \"ro\" }\n\
                  [[messages]]\nname = \"Read\"\nrequest = [{ code = \"p\", type = \"u8\" }]\nreply = [{ value_of = \"p\" }]\n";
     rust("read only", space);

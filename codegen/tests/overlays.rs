@@ -1,4 +1,4 @@
-//! Tests overlays: what they change, what they keep, and which errors are reported.
+//! Tests overlays: which facts they change or keep, and which errors they cause.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Access, Device, Item, Shape, Type, Value};
@@ -43,7 +43,7 @@ fn item(compilation: &Compilation, index: u16, sub: u8) -> &Item {
     device(compilation).entry(index, sub).unwrap_or_else(|| panic!("0x{index:04X}:{sub} exists"))
 }
 
-/// Returns the codes of the diagnostics in the overlay, with the marked text.
+/// Returns the codes of the diagnostics in the overlay, with the marked texts.
 fn findings(compilation: &Compilation) -> Vec<(&'static str, String)> {
     let diagnostics = compilation.diagnostics.list().iter().filter(|finding| finding.span.file.0 == 1);
     diagnostics
@@ -166,7 +166,7 @@ fn tables_of_the_device_are_added_or_replaced() {
     let device = device(&compilation);
     assert_eq!((device.code_tables.len(), device.procedures.len(), device.doubts.len()), (1, 1, 1));
     assert_eq!(device.machines[0].status_item, "Flags", "an object refers to its item");
-    // A second overlay with the same names replaces rows and machines.
+    // A second overlay with the same names replaces the rows and machines of the first.
     let first = Source::new("a.toml", text.as_bytes().to_vec());
     let more = "lexibus = 1\n[overlay]\n[codes.alarm.rows]\n1 = \"too hot\"\n2 = \"cold\"\n[machines.pump]\nstatus = \"Flags\"\n";
     let second = Source::new("b.toml", more.as_bytes().to_vec());
@@ -177,7 +177,7 @@ fn tables_of_the_device_are_added_or_replaced() {
     let names: Vec<&str> = device.code_tables[0].rows.iter().map(|row| row.name.as_str()).collect();
     assert_eq!((names, device.machines.len()), (vec!["too hot", "cold"], 1));
     assert!(device.machines[0].states.is_empty());
-    // A machine that cannot be read replaces nothing.
+    // A machine that cannot be read does not replace another one.
     let states: String =
         (0..limits::MAX_MACHINE_ROWS).map(|at| format!("s{at} = {{ mask = 0xFFFF, value = {at} }}\n")).collect();
     let huge = format!("lexibus = 1\n[overlay]\n[machines.pump]\nstatus = \"Flags\"\n[machines.pump.states]\n{states}");
@@ -344,7 +344,7 @@ fn access_point(name: &str, number: u32) -> String {
     )
 }
 
-/// Two device access points, and two submodules with one parameter each.
+/// Returns a GSDML with two device access points and two submodules that have one parameter each.
 fn gsdml() -> String {
     let submodule = |id: &str, number: u32, parameter: &str| {
         format!(
@@ -389,8 +389,8 @@ fn a_submodule_of_several_devices_is_changed_once() {
     assert_eq!(item.extensions.iter().filter(|extension| extension.key == "overlay").count(), 1);
     let one = applied("for = { device = \"A\" }\n", "unit = \"rpm\"");
     let found: Vec<_> = findings(&one).into_iter().map(|(code, _)| code).collect();
-    assert_eq!((found, speed(&one).quantity.is_some()), (vec!["TAB053"], true), "B has it, too");
-    // An unknown name is reported, and not looked up in another submodule.
+    assert_eq!((found, speed(&one).quantity.is_some()), (vec!["TAB053"], true), "B also has the description");
+    // An unknown name must be reported. The compiler must not look it up in another submodule.
     let typo = applied("", "same_as = \"Sped\"");
     assert_eq!(findings(&typo), [("TAB005", "\"Sped\"".to_owned())]);
     assert_eq!(findings(&applied("", "same_as = \"Speed\"")), []);
@@ -461,7 +461,8 @@ fn the_builder_takes_overlays() {
 
 #[test]
 fn an_overlay_changes_no_lints_of_the_rest() {
-    // A write-only value in an RPDO, two objects of one name, and a text that mentions a missing object.
+    // The device has a write-only value in an RPDO, two objects with the same name, and a text that mentions a missing
+    // object.
     let eds = EDS.replace("DataType=6\nAccessType=ro\n", "DataType=6\nAccessType=ro\nPDOMapping=1\n");
     let eds = eds.replace("ParameterName=Mode", "ParameterName=Speed");
     let alone =

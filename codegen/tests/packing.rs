@@ -1,8 +1,9 @@
-//! Tests that generated code packs and unpacks without changes: process data, process images, records and messages of every
-//! file of the corpus and of every dictionary, with random bits.
+//! Tests that generated code packs and unpacks data without changes. The tests use random bits for the process data, process
+//! images, records and messages of all corpus files and dictionaries.
 //!
-//! The bindings are compiled to programs that run. `packing/program.rs` contains the checks for a type. The expected positions
-//! of bits (`packing/layouts.rs`), and whether requests name a device, come from the intermediate representation.
+//! The tests compile the bindings to programs and run them. `packing/program.rs` contains the checks for a type. The
+//! intermediate representation determines the expected bit positions (`packing/layouts.rs`) and whether requests contain a
+//! device number.
 
 mod compile_support;
 mod corpus_support;
@@ -30,10 +31,10 @@ use lexibus_codegen::ir::Catalog;
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 
-/// Start of every program.
+/// Start of each test program.
 const CHECKS: &str = include_str!("packing/program.rs");
 
-/// Number of lines of bindings per program. More lines need more memory, fewer need more time.
+/// Maximum number of lines of bindings per program. A higher number needs more memory, and a lower number needs more time.
 const MAX_LINES: usize = 60_000;
 
 fn options() -> Options {
@@ -41,7 +42,7 @@ fn options() -> Options {
     Options { rust, ..Options::default() }
 }
 
-/// Bindings, and the statements that check each of their types.
+/// Bindings with the statements that check each of their types.
 struct Bindings {
     name: String,
     text: String,
@@ -49,18 +50,20 @@ struct Bindings {
 }
 
 impl Bindings {
-    /// Returns the bindings of a catalog; `None` if `seen` has them with the same checks, or there is nothing to generate.
+    /// Returns the bindings of a catalog. Returns `None` if there is nothing to generate, or if `seen` contains the same
+    /// bindings with the same checks.
     fn new(name: &str, catalog: &Catalog, seen: &Mutex<HashSet<String>>) -> Option<(Self, Counts)> {
         let text = emit_catalog(catalog, &options().rust)?;
         let (checks, counts) = found::checks(name, &text, catalog);
-        // The checks follow from the IR alone, so bindings that are wrongly equal are still checked separately.
+        // The checks depend only on the IR. If different IRs wrongly gave equal bindings, their checks would differ, and both
+        // would run.
         let key = body(&text).to_owned() + &checks.concat().replace(name, "");
         let is_new = seen.lock().expect("what was seen").insert(key);
         is_new.then(|| (Bindings { name: name.to_owned(), checks, text: found::needed(&text) }, counts))
     }
 }
 
-/// A program for several bindings: their modules, and a function for each type.
+/// A program that checks several bindings. It contains their modules and a function for each type.
 #[derive(Default)]
 struct Program {
     text: String,
@@ -88,7 +91,7 @@ impl Program {
     }
 }
 
-/// Checks all bindings in `sources`, on all processors. Returns the number of types of each kind.
+/// Checks all bindings in `sources`, using all processors. Returns the number of types of each kind.
 fn run_all(sources: Vec<Source>) -> Counts {
     let (all, seen) = (Mutex::new(Vec::new()), Mutex::default());
     on_all_processors(sources, |source| {
@@ -101,7 +104,7 @@ fn run_all(sources: Vec<Source>) -> Counts {
     run(all.into_inner().expect("the bindings"))
 }
 
-/// Runs programs for all bindings, and adds up their counts.
+/// Runs programs that check all bindings. Returns the sum of their counts.
 fn run(mut all: Vec<(Bindings, Counts)>) -> Counts {
     all.sort_by(|(one, _), (other, _)| (&one.name, &one.text).cmp(&(&other.name, &other.text)));
     let (mut programs, mut counts) = (vec![Program::default()], Counts::default());

@@ -1,4 +1,4 @@
-//! Tests what profiles add to devices, and what they do not change.
+//! Tests which facts profiles add to devices, and which facts they keep.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::{BitMeaning, Catalog, Device, FactOrigin, Item, Scale, Shape, Type, TypeDef};
@@ -40,7 +40,7 @@ fn type_name(device: &Device, index: u16, sub: u8) -> String {
     }
 }
 
-/// Returns a drive with additional objects.
+/// Returns an EDS of a drive with additional objects.
 fn drive(more: &str) -> String {
     format!(
         "[DeviceInfo]\nProductName=Drive\n\
@@ -71,7 +71,7 @@ fn a_drive_gets_the_names_of_its_bits_and_values() {
     let bit = |name: &str| fields.iter().find(|field| field.name == name).expect(name);
     assert_eq!(bit("quick stop").meaning, BitMeaning::Flag { inverted: true });
     let when = bit("new set-point").when.as_ref().expect("a condition");
-    assert_eq!(when.item, "Modes of operation", "the device's name of the object");
+    assert_eq!(when.item, "Modes of operation", "the name of the object in the device");
 
     let machine = device.machines.first().expect("the state machine");
     assert_eq!((machine.status_item.as_str(), machine.control_item.as_str()), ("Statusword", "Controlword"));
@@ -169,7 +169,7 @@ fn devices_of_other_profiles_are_no_drives() {
     assert_eq!(type_name(&device(&other), 0x1000, 0), "DeviceType", "for any profile");
     let untold = drive("").replace("0x00020192", "0");
     assert_eq!(type_name(&device(&untold), 0x6040, 0), "Controlword");
-    // Signed numbers are not control words.
+    // An object with a signed type is not a control word.
     let numbers = untold.replace("Control\nDataType=6", "Control\nDataType=3");
     assert_eq!(type_name(&device(&numbers), 0x6040, 0), "INTEGER16");
     assert_eq!(type_name(&device(&numbers), 0x6060, 0), "INTEGER8");

@@ -1,4 +1,4 @@
-//! Tests the Rust of GSDML files: its structure, and that no content of a file can break it.
+//! Tests the Rust code for GSDML files: its structure, and that any file content gives valid code.
 
 mod compile_support;
 mod form_support;
@@ -9,7 +9,7 @@ use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 
-/// Returns a file of one device access point with `modules` in its slots 1 to 9, and further lists.
+/// Builds a GSDML file with one device access point. It has `modules` in its slots 1 to 9, and additional lists.
 struct Gsdml {
     modules: Vec<String>,
     lists: String,
@@ -21,14 +21,14 @@ impl Gsdml {
         Gsdml { modules: Vec::new(), lists: String::new(), texts: Vec::new() }
     }
 
-    /// Returns the identifier of a text.
+    /// Adds a text and returns its identifier.
     fn text(&mut self, text: &str) -> String {
         let id = format!("T{}", self.texts.len());
         self.texts.push((id.clone(), text.to_owned()));
         id
     }
 
-    /// Returns a module with one submodule of the same name and with this content.
+    /// Adds a module with one submodule. Both have the given name, and the submodule has the given content.
     fn module(mut self, name: &str, content: &str) -> Self {
         let (text, number) = (self.text(name), self.modules.len() + 1);
         let info = format!("<ModuleInfo><Name TextId=\"{text}\"/><InfoText TextId=\"Info\"/></ModuleInfo>");
@@ -133,7 +133,7 @@ fn rust_of_a_small_device() {
     accept("valve", &text);
 }
 
-/// Names that are keywords, types, names of generated code, repeated, or empty.
+/// Names that are keywords, types, names in generated code, repeated, or empty.
 const NASTY: [&str; 25] = [
     "type",
     "self",
@@ -205,7 +205,7 @@ fn no_name_or_text_breaks_out_of_the_code() {
     }
 }
 
-/// All data types of data items with a fixed length.
+/// All fixed-length data types of data items.
 const TYPES: [&str; 36] = [
     "Integer8",
     "Integer16",
@@ -356,7 +356,7 @@ fn optional_implementations_are_gated() {
     assert!(text.contains("serde(with = \"::lexibus::octets\")"), "{text}");
     assert!(!text.contains("Debug"));
     assert_eq!(canonical("example", &text), Ok(()));
-    // The crate does not declare these features, and rustc would warn about that.
+    // Suppress the rustc warning about features that the crate does not declare.
     compile("gated", &format!("#[allow(unexpected_cfgs)]\nmod inner {{\n{text}\n}}\npub use inner::*;\n"))
         .expect("it compiles");
 }

@@ -1,4 +1,4 @@
-//! Tests assumptions of the back end about PROFIsafe with the files of the corpus.
+//! Tests the back end's assumptions about PROFIsafe with corpus files.
 
 mod corpus_support;
 
@@ -7,14 +7,15 @@ use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::{FParameters, Submodule};
 use lexibus_codegen::source::Source;
 
-/// Returns a 16-bit CRC with the polynomial 0x4EAB and the initial value 0.
+/// Returns a 16-bit CRC. The polynomial is 0x4EAB, and the initial value is 0.
 fn crc16(data: &[u8]) -> u16 {
     data.iter().fold(0, |crc, byte| {
         (0..8).fold(crc ^ u16::from(*byte) << 8, |crc, _| if crc & 0x8000 != 0 { crc << 1 ^ 0x4EAB } else { crc << 1 })
     })
 }
 
-/// Returns F_Par_CRC of the defaults: F_iPar_CRC first, then the record as sent. The bit of F_CRC_Seed is clear.
+/// Returns the F_Par_CRC of a record's default values. It covers the F_iPar_CRC, followed by the record as sent. The
+/// bit of F_CRC_Seed is cleared.
 fn checksum(record: &FParameters) -> u16 {
     let parameter = |name: &str| record.parameters.iter().find(|parameter| parameter.name == name);
     let number = |name: &str| parameter(name).map_or(0, |parameter| parameter.default);

@@ -1,5 +1,4 @@
-//! Tests quirks of EDS and DCF files that the cases of `tests/ui/quirks-eds` cannot show: many repeated sections, and formulas in the API.
-//! API.
+//! Tests quirks of EDS and DCF files that the cases in `tests/ui/quirks-eds` cannot show: many repeated sections, and formulas in the API.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::Value;

@@ -1,5 +1,5 @@
-//! Tests properties of the ESI front end: limits, large files, and the files that a description refers to. The cases of
-//! `tests/ui/quirks-esi` show the forms of real files.
+//! Tests the ESI front end: limits, large files, and files that a description refers to. The cases in
+//! `tests/ui/quirks-esi` test the forms of real files.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -9,12 +9,12 @@ use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::Device;
 use lexibus_codegen::source::Source;
 
-/// Checks a text as a file without a folder.
+/// Compiles a text as a file that is not in a folder.
 fn read(text: String) -> Compilation {
     check(Source::new("slave.xml", text.into_bytes()), &Options::default())
 }
 
-/// Returns a file with these elements in Devices.
+/// Returns an ESI with these elements in the Devices element.
 fn file(devices: &str) -> String {
     format!(
         "<EtherCATInfo><Vendor><Id>#x1</Id><Name>Maker</Name></Vendor><Descriptions><Devices>{devices}</Devices>\
@@ -22,19 +22,19 @@ fn file(devices: &str) -> String {
     )
 }
 
-/// Returns a file of one device with these elements in addition to Type and Name.
+/// Returns an ESI with one device. The device has these elements in addition to Type and Name.
 fn device_file(elements: &str) -> String {
     file(&format!(
         "<Device Physics='YY'><Type ProductCode='#x2' RevisionNo='#x3'>D1</Type><Name>Drive</Name>{elements}</Device>"
     ))
 }
 
-/// Returns a Profile with these data types and objects.
+/// Returns a Profile element with these data types and objects.
 fn profile(types: &str, objects: &str) -> String {
     format!("<Profile><Dictionary><DataTypes>{types}</DataTypes><Objects>{objects}</Objects></Dictionary></Profile>")
 }
 
-/// Returns a read-only object with a single value.
+/// Returns a read-only object that has a single value.
 fn var(index: u16, ty: &str) -> String {
     format!(
         "<Object><Index>{index}</Index><Name>Value</Name><Type>{ty}</Type><Flags><Access>ro</Access></Flags></Object>"
@@ -117,7 +117,7 @@ fn large_files_are_read_in_time() {
 
 #[test]
 fn small_files_do_not_grow() {
-    // A long array, and many objects of that type.
+    // The file has a long array type and many objects of this type.
     let types =
         "<DataType><Name>A</Name><BaseType>USINT</BaseType><BitSize>2040</BitSize><ArrayInfo><LBound>1</LBound>\
                  <Elements>255</Elements></ArrayInfo></DataType>\
@@ -134,7 +134,8 @@ fn small_files_do_not_grow() {
     assert_eq!((found.len(), found[0].notes.len()), (1, 0));
 }
 
-/// A description that refers to three files, from several devices and in a cycle.
+/// Creates a description that refers to three files. Several devices refer to the same file, and the references contain
+/// a cycle. Returns its path.
 fn referring() -> PathBuf {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui/quirks-esi");
     cases.join("x24-files-next-to-the-description/input.xml")

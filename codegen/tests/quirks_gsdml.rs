@@ -1,12 +1,12 @@
-//! Tests properties of GSDML files that the cases of `tests/ui` cannot show: encodings, limits, and damaged files.
+//! Tests properties of GSDML files that the cases in `tests/ui` cannot show: encodings, limits and damaged files.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::source::{Encoding, Source};
 
-/// A valid file name.
+/// A valid GSDML file name.
 const NAME: &str = "GSDML-V2.35-Maker-Pump-20200131.xml";
 
-/// Returns a valid file with this submodule content and further lists.
+/// Returns a valid GSDML file. `submodule` is the content of its submodule, and `lists` contains additional lists.
 fn file(submodule: &str, lists: &str) -> String {
     let texts: String = ["Device", "Speed", "Mode", "Off", "On"]
         .map(|text| format!("<Text TextId=\"T_{text}\" Value=\"{text}\"/>\n"))
@@ -40,12 +40,12 @@ fn file(submodule: &str, lists: &str) -> String {
     )
 }
 
-/// Returns a submodule with these inputs.
+/// Returns the content of a submodule with these inputs.
 fn inputs(items: &str) -> String {
     format!("<IOData>\n<Input>\n{items}</Input>\n</IOData>\n")
 }
 
-/// Returns a submodule with one record.
+/// Returns the content of a submodule with one record.
 fn record(length: u32, content: &str) -> String {
     format!(
         "<IOData/>\n<RecordDataList>\n<ParameterRecordDataItem Index=\"10\" Length=\"{length}\">\n<Name TextId=\"T_Mode\"/>\n\
@@ -57,12 +57,12 @@ fn read(bytes: impl Into<Vec<u8>>) -> Compilation {
     check(Source::new(NAME, bytes.into()), &Options::default())
 }
 
-/// Returns the codes of all diagnostics in order.
+/// Returns the codes of all diagnostics in their order.
 fn codes(compilation: &Compilation) -> Vec<&'static str> {
     compilation.diagnostics.list().iter().map(|found| found.code.id).collect()
 }
 
-/// Returns the IR without files and positions.
+/// Returns the IR as JSON, without files and positions.
 fn without_places(compilation: &Compilation) -> serde_json::Value {
     let mut value = serde_json::to_value(&compilation.catalog).expect("JSON");
     strip(&mut value);
@@ -100,7 +100,7 @@ fn g01_all_encodings_give_one_ir() {
     }
 }
 
-/// The value is empty, so there is no text to mark.
+/// The diagnostic has no text to mark, because the value is empty.
 #[test]
 fn g06_an_empty_default_is_reported_at_its_place() {
     let parameter = "<Ref ByteOffset=\"0\" TextId=\"T_Speed\" DataType=\"Unsigned8\" DefaultValue=\"\"/>";
@@ -135,7 +135,7 @@ fn named_values_do_not_multiply() {
         })
         .collect();
     let compilation = read(file(&record(400, &content), &lists));
-    // The first of 40 types needs no copy, and 20 copies are within the limit.
+    // The first of 40 types is not a copy, and the limit allows 20 copies.
     assert_eq!(codes(&compilation), ["IO003"; 19]);
 }
 
@@ -150,7 +150,7 @@ fn a_long_text_does_not_multiply() {
     assert!(copied < 4_000_000, "{copied} bytes");
 }
 
-/// A complete file that is truncated or damaged anywhere gives at most errors.
+/// A file that is truncated or damaged at any position may cause errors but no panic.
 #[test]
 fn damage_anywhere_is_no_reason_to_panic() {
     let submodule = record(

@@ -1,11 +1,12 @@
-//! Tests which PDOs of a CANopen device can be remapped, and the input of `lexibus::pdo!`.
+//! Tests which PDOs of a CANopen device can be remapped, and the generated input of `lexibus::pdo!`.
 
 mod compile_support;
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 
-/// Returns a device with one RPDO, whose entries have these access rights, and some objects.
+/// Returns an EDS of a device with one RPDO and some objects. `count`, `entry` and `cob_id` are the access rights of
+/// the number of mapped entries, the entries and the COB-ID.
 fn device(granularity: &str, count: &str, entry: &str, cob_id: &str) -> String {
     format!(
         "[DeviceInfo]\nProductName=Device\nGranularity={granularity}\nNrOfRXPDO=1\n\
@@ -30,7 +31,7 @@ fn device(granularity: &str, count: &str, entry: &str, cob_id: &str) -> String {
 
 const COB_ID: &str = "AccessType=rw\nDefaultValue=$NODEID+0x200";
 
-/// Returns the modules that the macro reads. The code must compile.
+/// Returns the modules that `lexibus::pdo!` reads. The code must compile.
 fn modules(eds: String) -> Option<String> {
     let options = Options::default();
     let text = check(Source::new("device.eds", eds.into()), &options).rust(&options.rust).expect("bindings");
@@ -54,13 +55,13 @@ fn limits_are_those_of_the_description() {
         "const COMMUNICATION: Option<u16> = Some(0x1400);",
         "rt::SdoWrite::new_u8(0x1400, 0x02, 255),",
         "const COB_ID: rt::CobId = rt::CobId::from_node(0x200);",
-        // A name that would hide a type gets an underscore.
+        // A name that would hide a Rust type gets an underscore.
         "pub type u16_ = rt::Mappable<u16, rt::AnyPdo, 0x2000_0110>;",
         "pub type r#type = rt::Mappable<rt::Int<24>, rt::Tpdo, 0x2000_0218>;",
     ] {
         assert!(text.contains(line), "{line}\n{text}");
     }
-    // Values that cannot be mapped, or have no fixed size, are left out.
+    // Values that cannot be mapped or have no fixed size are left out.
     assert!(!text.contains("internal") && !text.contains("type name"), "{text}");
 }
 

@@ -1,5 +1,5 @@
-//! Tests the routes to an item on each bus: windows, process images, widths and access rights of a single bus, and memory of
-//! slave controllers.
+//! Tests how an item is accessed on each bus: windows, process images, widths and access rights on a single bus, and memory
+//! of slave controllers.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Access, Binding, Bus, Item, Type};
@@ -39,7 +39,7 @@ fn table(window: &str, rows: &str, more: &str) -> String {
     format!("{HEAD}{window}\n{OBJECTS}[[chapters]]\ntitle = \"Cells\"\nspace = \"cells\"\n[chapters.registers]\n{rows}\n{more}")
 }
 
-/// Returns the diagnostics of a table, except those about missing CANopen objects.
+/// Returns the diagnostics of a table. Diagnostics about missing CANopen objects are left out.
 fn reported(text: &str) -> Vec<String> {
     let compilation = read(text);
     let lines = compilation.diagnostics.list().iter().map(|diagnostic| compilation.one_line(diagnostic));

@@ -1,4 +1,4 @@
-//! Tests that the Rust of every file of the corpus is formatted as by `prettyplease`.
+//! Tests that the Rust code for all corpus files has the format of `prettyplease`.
 
 mod corpus_support;
 mod form_support;
@@ -14,7 +14,7 @@ use lexibus_codegen::Presence;
 #[test]
 fn output_is_as_prettyplease_prints_it() {
     let Some(mut files) = corpus_support::all_files() else { return };
-    // Parsing is slow in a debug build.
+    // Skip long files, because parsing is slow in a debug build.
     files.retain(|file| lane::is_full() || file.bytes.len() < 60_000);
     let mut options = Options::default();
     options.rust.table = Presence::Feature("table".into());
@@ -22,8 +22,8 @@ fn output_is_as_prettyplease_prints_it() {
     assert!(compared > lane::at_least(500), "only {compared} different devices");
 }
 
-/// Tests a file with several devices and modules, which are nested modules, and a register table with features that no file of
-/// the corpus has.
+/// Tests two inputs. The first is a file with several devices and modules, which become nested modules. The second is a
+/// register table with features that no corpus file has.
 #[test]
 fn nested_modules_and_tables_are_as_prettyplease_prints_them() {
     let coupler = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/coupler.esi.xml");

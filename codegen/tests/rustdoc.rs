@@ -1,5 +1,5 @@
-//! Tests the documentation of generated Rust: rustdoc reports nothing, every link is valid, and no text of a description breaks
-//! its table cell.
+//! Tests the documentation of generated Rust: rustdoc must report nothing, all links must be valid, and no text of a
+//! description may break its table cell.
 
 mod compile_support;
 mod corpus_support;
@@ -22,7 +22,7 @@ fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Returns the descriptions in two folders of the repository.
+/// Returns the paths of the descriptions in two folders of the repository.
 fn examples() -> Vec<PathBuf> {
     let folders = ["tests/data", "dictionaries"].map(|name| repository().join(name));
     let entries = folders.iter().flat_map(|folder| std::fs::read_dir(folder).expect("a folder of the repository"));
@@ -39,7 +39,7 @@ fn read(path: &Path, options: &Options) -> Compilation {
     check(Source::read(path).expect("the example"), options)
 }
 
-/// Nothing links to a part that is left out of the output.
+/// Generated documentation must not link to a part that is left out of the output.
 #[test]
 fn rustdoc_has_nothing_to_say_of_the_examples() {
     let everything = || RustOptions { table: Presence::Always, ..RustOptions::default() };
@@ -49,11 +49,11 @@ fn rustdoc_has_nothing_to_say_of_the_examples() {
         RustOptions { pdos: false, ..RustOptions::default() },
     ];
     let mut examples = examples();
-    // In the fast lane, the drives are documented only as the crate `lexibus-drives`.
+    // In the fast lane, only the crate `lexibus-drives` documents the drives.
     examples.retain(|path| lane::is_full() || path.parent().is_some_and(|folder| folder.ends_with("data")));
     on_all_processors(examples, |path| {
         let compilation = read(&path, &Options::default());
-        // The drives are also documented with all options, as a crate of the workspace.
+        // The drives are also documented with all options in a crate of the workspace.
         let chosen =
             if path.parent().is_some_and(|entry| entry.ends_with("data")) { &choices[..] } else { &choices[1..2] };
         let texts: Vec<String> = chosen.iter().filter_map(|entry| compilation.rust(entry)).collect();
@@ -77,7 +77,7 @@ fn what_is_not_selected_is_not_linked() {
     document("selected", &[&drive, &press]).unwrap_or_else(|message| panic!("{message}"));
 }
 
-/// Objects that a description mentions are linked, by a path relative to the comment.
+/// Objects that a description mentions must become links. The path of a link is relative to the item.
 #[test]
 fn references_are_links() {
     let of = |name: &str| {
@@ -152,7 +152,7 @@ MODE_2 = { reg = 2, type = "u8", access = "rw", doc = "ends with \\", when = { "
 4 = { reserved = 0 }
 "#;
 
-/// Returns the cells of the first table of a page, row by row.
+/// Returns the cells of the first table on a page, row by row.
 fn cells(page: &str) -> Vec<Vec<&str>> {
     let table = page.split_once("<tbody>").and_then(|(_, rest)| rest.split_once("</tbody>")).expect("a table").0;
     let rows = table.split("<tr>").skip(1);
@@ -181,10 +181,10 @@ fn no_text_breaks_out_of_its_cell() {
     assert_eq!(bits[3][1..], ["reserved", "The value 0 is written."]);
 }
 
-/// Time limit for documenting descriptions of the corpus.
+/// Time limit for running rustdoc on corpus files.
 const TIME: Duration = Duration::from_secs(25);
 
-/// Number of devices per file.
+/// Maximum number of devices per file.
 const DEVICES: usize = 2;
 
 #[test]

@@ -1,4 +1,4 @@
-//! Snapshots of the output of small descriptions, and of diagnostics, for review.
+//! Snapshots of diagnostics and of the output for small descriptions. They make changes visible in a review.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::diagnostics::render;
@@ -54,7 +54,7 @@ DefaultValue=0x20000010
 
 #[test]
 fn rust_of_a_small_device() {
-    // Profiles have separate tests.
+    // Other tests cover profiles.
     let options = Options { no_profiles: true, ..Options::default() };
     let text = check(Source::new("pump.eds", PUMP.into()), &options).rust(&options.rust).expect("bindings");
     insta::assert_snapshot!(text);
@@ -90,7 +90,7 @@ const STATION: &str = "\
 
 #[test]
 fn rust_of_a_small_slave() {
-    // Profiles have separate tests.
+    // Other tests cover profiles.
     let options = Options { no_profiles: true, ..Options::default() };
     let text = check(Source::new("dio.xml", STATION.into()), &options).rust(&options.rust).expect("bindings");
     insta::assert_snapshot!(text);

@@ -1,4 +1,4 @@
-//! Tests register tables: diagnostics of mistakes, and the results of the documentation's examples.
+//! Tests register tables: the diagnostics of mistakes, and the results of the examples in the documentation.
 
 mod table_support;
 
@@ -18,7 +18,7 @@ fn read_with(text: &str, choices: &[(&str, &str)]) -> Compilation {
     check(Source::new("t.toml", text.into()), &Options { choices, ..Options::default() })
 }
 
-/// Returns the diagnostics, one per line.
+/// Returns the diagnostics of a compilation, one per line.
 fn reported(compilation: &Compilation) -> Vec<String> {
     let line = |diagnostic: &lexibus_codegen::diagnostics::Diagnostic| {
         let help = diagnostic.help.as_ref().map(|help| format!(" ({help})")).unwrap_or_default();
@@ -34,7 +34,7 @@ fn rows(rows: &str) -> String {
     format!("{HEAD}[[chapters]]\n[chapters.registers]\n{rows}\n")
 }
 
-/// Returns a table with one row that also has these keys.
+/// Returns a table with a row that has these keys in addition to the required ones.
 fn a(more: &str) -> String {
     rows(&format!("a = {{ reg = 1, type = \"u16\", access = \"ro\"{more} }}"))
 }
@@ -131,7 +131,7 @@ fn item<'c>(compilation: &'c Compilation, name: &str) -> &'c Item {
     items.find(|item| item.name == name).unwrap_or_else(|| panic!("no {name}"))
 }
 
-/// The first example of the documentation: a complete device.
+/// Tests the first example of the documentation, which is a complete device.
 #[test]
 fn the_worked_example() {
     let (_, block) = examples().swap_remove(0);
@@ -158,7 +158,7 @@ fn the_worked_example() {
 fn the_examples_of_the_documentation_are_tables() {
     let examples = examples();
     assert!(examples.len() > 5);
-    // An overlay has no device, so it is checked only against the schema.
+    // Check an overlay only against the schema, because it contains no device.
     for (line, block) in examples.iter().filter(|(_, block)| !block.contains("[overlay]")) {
         let compilation = read(&whole(block));
         let errors = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Error);

@@ -1,4 +1,5 @@
-//! Tests the Rust of register tables: it compiles without warnings for all options, and is formatted as by `prettyplease`.
+//! Tests the Rust code for register tables. It must compile without warnings with all options and have the format of
+//! `prettyplease`.
 
 mod compile_support;
 mod form_support;
@@ -42,7 +43,7 @@ const TABLES: [&str; 7] = [
 #[test]
 fn tables_compile() {
     for name in TABLES {
-        // In the fast lane, the drives are compiled only as the crate `lexibus-drives`.
+        // In the fast lane, only the crate `lexibus-drives` compiles the drives.
         if name.starts_with("dictionaries") && !lane::is_full() {
             continue;
         }
@@ -75,12 +76,12 @@ fn implementations_of_bit_fields_are_gated() {
          pub struct Control(u16);"
     ));
     assert!(text.contains("    #[cfg(feature = \"debug\")]\n    impl core::fmt::Debug for Control {"));
-    // The crate does not declare these features, and rustc would warn about that.
+    // Suppress the rustc warning about features that the crate does not declare.
     compile("gated", &format!("#[allow(unexpected_cfgs)]\nmod inner {{\n{text}\n}}\npub use inner::*;\n"))
         .unwrap_or_else(|message| panic!("{message}"));
 }
 
-/// Bits, values, states and items with names of the surrounding code, or with empty names.
+/// Tests bits, values, states and items whose names are empty or also occur in the surrounding code.
 #[test]
 fn names_that_mislead() {
     let bits: String = [

@@ -1,10 +1,10 @@
-//! Tests numbers and ranges of register tables at and beyond their limits.
+//! Tests numbers and ranges in register tables at their limits and beyond.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Binding, Item, Scale, Shape, Value};
 use lexibus_codegen::source::Source;
 
-/// Reads a table with these chapters.
+/// Compiles a table with these chapters. `head` is inserted before them.
 fn read(head: &str, chapters: &str) -> Compilation {
     let text = format!(
         "lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"canopen\", \"modbus\"]\n{head}[[chapters]]\n{chapters}"
@@ -73,7 +73,7 @@ fn an_object_that_is_one_value_takes_the_defaults() {
             "defaults = {{ type = \"u16\", access = \"rw\" }}\n[chapters.objects]\n0x2000 = {{ name = \"X\"{code} }}\n"
         );
         let compilation = read("", &rows);
-        // Only the mandatory objects of CANopen are missing.
+        // The only diagnostics are about mandatory CANopen objects that are missing.
         assert!(codes(&compilation).iter().all(|code| *code == "EDS063"), "{code}: {:?}", codes(&compilation));
         assert!(items(&compilation)[0].access.writable());
     }

@@ -1,4 +1,4 @@
-//! Tests messages, process images, state machines and procedures of register tables.
+//! Tests messages, process images, state machines and procedures in register tables.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{
@@ -24,12 +24,12 @@ const HEAD: &str =
     "lexibus = 1\n[device]\nname = \"M\"\nbuses = [\"serial\"]\n[spaces.p]\nparameter = true\n[[chapters]]\n\
                     [chapters.registers]\nSpeed = { reg = 1, type = \"i16\", access = \"rw\" }\n";
 
-/// Returns the diagnostics of a table with these lines after one row, without the file name.
+/// Returns the diagnostics of a table in which these lines follow a row. File names are left out.
 fn findings(lines: &str) -> Vec<String> {
     reported(&read(&format!("{HEAD}{lines}")))
 }
 
-/// The example of messages in the documentation.
+/// Compiles the example of messages in the documentation.
 fn example() -> Compilation {
     let blocks = table_support::examples();
     let block = blocks.iter().find(|(_, block)| block.contains("[[messages]]") && block.contains("lexibus = 1"));

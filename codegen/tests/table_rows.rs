@@ -1,4 +1,4 @@
-//! Tests rows of register tables: differences between models, scales, conditions, addresses, and their errors.
+//! Tests the rows of register tables: differences between models, scales, conditions, addresses, and errors.
 
 mod compile_support;
 mod form_support;
@@ -17,7 +17,7 @@ fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", text.into()), &Options::default())
 }
 
-/// Returns the diagnostics with code and line.
+/// Returns the diagnostics of a text, with code and line.
 fn reported(text: &str) -> Vec<String> {
     let compilation = read(text);
     let list = compilation.diagnostics.list();
@@ -29,7 +29,7 @@ fn rows(rows: &str) -> String {
     format!("{HEAD}[[chapters]]\ntitle = \"One\"\n[chapters.registers]\n{rows}\n")
 }
 
-/// Returns a table with one row that also has these keys.
+/// Returns a table with a row that has these keys in addition to the required ones.
 fn a(more: &str) -> String {
     rows(&format!(
         "a = {{ reg = 1, type = \"u16\", access = \"rw\"{more} }}\nb = {{ reg = 2, type = \"i16\", access = \"ro\" }}"
@@ -55,7 +55,7 @@ fn rust(text: &str) -> String {
     compilation.rust(&RustOptions::default()).unwrap_or_else(|| panic!("{:#?}", reported(text)))
 }
 
-/// Asserts that a row is an error with this message.
+/// Asserts that a row with these keys causes an error with this message.
 #[track_caller]
 fn is_wrong(more: &str, words: &str) {
     let found = reported(&a(more));
@@ -398,7 +398,7 @@ fn findings_say_what_and_where() {
     assert_eq!(reported(&mapped), [""; 0]);
 }
 
-/// A table with every key of rows that affects generated code.
+/// A table that uses all keys of rows that affect generated code.
 const EVERYTHING: &str = r#"lexibus = 1
 [device]
 name = "Pump"

@@ -1,5 +1,5 @@
-//! Tests register tables: spaces with several windows, values that fill their registers, rows for only some buses, and numbers
-//! in several items.
+//! Tests register tables with several windows per space, values that fill their registers, rows that exist on some buses only,
+//! and numbers in several items.
 
 mod form_support;
 
@@ -15,7 +15,7 @@ fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", format!("{HEAD}{text}").into_bytes()), &Options::default())
 }
 
-/// Returns codes and messages of the errors, and of the lints about windows.
+/// Returns the codes and messages of all errors and of the lints about windows.
 fn reported(text: &str) -> Vec<String> {
     let compilation = read(text);
     let is_checked =
@@ -181,7 +181,7 @@ fn numbers_in_several_items() {
     }
 }
 
-/// Long names are wrapped as by `prettyplease`.
+/// Generated code with long names must have the line breaks of `prettyplease`.
 #[test]
 fn constants_keep_the_form_of_generated_code() {
     let long = "offset of the second axis from the marker of the first one";

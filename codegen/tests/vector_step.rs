@@ -1,5 +1,5 @@
-//! Compares the table of the Vector Step with the text of its manual: every printed row is in the table once, cites its line,
-//! and has the facts of its cells. Deliberate differences have a doubt.
+//! Compares the table of the Vector Step with the text of its manual. Each printed row must be in the table once, cite its
+//! line, and have the properties in the printed cells. Each deliberate difference must have a doubt.
 
 #[path = "table_support/manual.rs"]
 mod manual_text;
@@ -32,13 +32,13 @@ fn registers(device: &Device) -> impl Iterator<Item = &Item> {
     chapters(device).flat_map(|group| &group.items)
 }
 
-/// Returns the line of the row: the first cited one.
+/// Returns the manual line of an item. It is the first line that the item cites.
 fn line(item: &Item) -> Option<usize> {
     let cite = item.documentation.as_ref()?.cite.as_deref()?;
     cite.split([',', '-']).next()?.trim().parse().ok()
 }
 
-/// Returns the register address, on Modbus or as part of the object.
+/// Returns the register address of an item, from its Modbus address or its object address.
 fn number(item: &Item) -> Option<u16> {
     item.bindings.iter().find_map(|binding| match binding {
         Binding::Register(register) => Some(register.address),
@@ -63,7 +63,8 @@ struct Printed<'m> {
     cells: Vec<&'m str>,
 }
 
-/// Returns the rows of all register tables: an address or a range before a cell with an index, if any.
+/// Returns the rows of all register tables. A row starts with an address or a range of addresses, followed by a cell with an
+/// index if there is one.
 fn printed(manual: &[String]) -> Vec<Printed<'_>> {
     let mut rows = Vec::new();
     for (position, line) in manual.iter().enumerate() {
@@ -96,7 +97,7 @@ fn every_printed_row_is_there_at_its_line() {
     assert_eq!(registers(device).count(), 585, "10104-5 is printed twice");
     let mut wrong = Vec::new();
     for row in &printed {
-        // Printed a second time, with a truncated description.
+        // The manual prints this row a second time, with a truncated description.
         if row.line == 2981 {
             continue;
         }
@@ -150,7 +151,7 @@ fn types_access_mapping_and_saving_are_the_printed_ones() {
     assert_eq!(wrong, Vec::<String>::new());
 }
 
-/// Compares the number of rows of each chapter with section 3.2 of the analysis.
+/// Number of rows in each chapter, from section 3.2 of the analysis.
 const CHAPTERS: [usize; 36] = [
     7, 3, 3, 19, 9, 14, 3, 2, 4, 2, 45, 45, 25, 4, 16, 26, 1, 29, 5, 11, 90, 8, 9, 17, 69, 4, 5, 26, 4, 8, 15, 16, 2,
     10, 9, 20,
@@ -168,7 +169,7 @@ fn chapters_and_objects_are_complete() {
         (groups.len(), groups.iter().map(|group| group.items.len()).sum::<usize>())
     };
     assert_eq!(objects(0x1000, 0x1FFF), (33, 135), "DS-301");
-    // 55 described objects, and the five sub-indices 0 that the boxes leave out.
+    // The count includes 55 described objects and the five sub-indices 0 that the boxes omit.
     assert_eq!(objects(0x6000, 0x67FF), (44, 60), "DSP-402");
     assert_eq!(objects(0x23E8, 0x23E8), (1, 7), "user variables");
     let saved = registers(device).filter_map(|item| item.behaviour.as_ref());

@@ -1,5 +1,5 @@
-//! Tests XDD and XDC files: they give the same IR as an EDS of the same device, real files are read completely, and nothing
-//! panics.
+//! Tests XDD and XDC files. They must give the same IR as an EDS of the same device, real files must be read completely,
+//! and no file may cause a panic.
 
 mod corpus_support;
 
@@ -19,7 +19,7 @@ fn read(text: &str) -> (Option<Device>, Diagnostics) {
     (device, diagnostics)
 }
 
-/// Returns the only device of a catalog.
+/// Returns the device of a catalog that has only one.
 fn only(catalog: Option<Catalog>) -> Option<Device> {
     let mut devices = catalog?.devices;
     assert_eq!(devices.len(), 1);
@@ -30,14 +30,14 @@ fn codes(diagnostics: &Diagnostics) -> Vec<&'static str> {
     diagnostics.list().iter().map(|diagnostic| diagnostic.code.id).collect()
 }
 
-/// Returns the device of a text that must have no diagnostics.
+/// Returns the device of a text. The text must cause no diagnostics.
 fn clean(text: &str) -> Device {
     let (device, diagnostics) = read(text);
     assert!(diagnostics.list().is_empty(), "{:#?}", diagnostics.list());
     device.expect("a device")
 }
 
-/// Returns a file with one device profile and one communication profile.
+/// Returns an XDD with one device profile and one communication profile.
 fn container(device: &str, network: &str) -> String {
     format!(
         r#"<?xml version="1.0" encoding="utf-8"?>
@@ -448,7 +448,7 @@ const XDD_1_1: &str = r#"<?xml version="1.0" encoding="utf-8"?>
 </ISO15745ProfileContainer>
 "#;
 
-/// Removes facts that differ between files of the same device: positions, extensions, the notation of dates.
+/// Removes facts that can differ between files of the same device: positions, extensions and the notation of dates.
 fn comparable(device: &Device) -> serde_json::Value {
     fn clear(value: &mut serde_json::Value) {
         match value {
@@ -465,7 +465,7 @@ fn comparable(device: &Device) -> serde_json::Value {
     let mut value = serde_json::to_value(device).unwrap();
     clear(&mut value);
     let header = value["header"].as_object_mut().unwrap();
-    // The version of CiA 306 does not apply to CiA 311.
+    // The version of CiA 306 does not apply to CiA 311 files.
     for key in
         ["file_name", "format_version", "creation_date", "creation_time", "modification_date", "modification_time"]
     {
@@ -699,7 +699,7 @@ fn broken_objects_are_repaired_and_reported() {
         "EDS025", "EDS033", "EDS034", "EDS035", "EDS036", "EDS046", "EDS067", "XDD004", "XDD004", "XDD006", "XDD006",
         "XDD006", "XDD006", "XDD007", "XDD007", "XDD008", "XDD008", "XDD008",
     ];
-    // A limit of an unknown type is kept as text, without a diagnostic.
+    // A limit with an unknown type is kept as text and causes no diagnostic.
     assert_eq!(found, expected, "{:#?}", diagnostics.list());
     assert_eq!(
         device.groups.iter().filter_map(|g| g.index()).collect::<Vec<_>>(),
@@ -827,7 +827,7 @@ fn no_cut_and_no_damage_panics() {
     };
     for (name, bytes) in files {
         let is_small = name.starts_with("1.");
-        // Reading a prefix takes time in proportion to its length, so long files are cut less often.
+        // The time to read a prefix is proportional to its length, so long files are tested with fewer prefixes.
         let step = if is_small { 97 } else { 997 * (1 + bytes.len() / 40_000) };
         let end = bytes.iter().rposition(|byte| !byte.is_ascii_whitespace()).unwrap_or(0);
         for cut in (0..end).step_by(step) {
@@ -848,7 +848,7 @@ fn no_cut_and_no_damage_panics() {
     }
 }
 
-/// One real device is available in both formats, written by the same tool.
+/// Compares a real device that exists in both formats, exported by the same tool.
 #[test]
 fn a_real_device_gives_the_same_ir() {
     let Some(folder) = corpus_support::folder() else { return };
@@ -858,12 +858,12 @@ fn a_real_device_gives_the_same_ir() {
     let xdd = source("CANopenNode__CANopenNode__DS301_profile.xpd");
     let mut expected = only(eds::read(&eds, FileId(0), &[], &mut diagnostics)).unwrap();
     let mut actual = only(xdd::read(&xdd, FileId(0), &[], &mut diagnostics)).unwrap();
-    // The XPD also keeps disabled objects.
+    // The XPD also contains disabled objects.
     let enabled: Vec<_> = expected.groups.iter().map(|group| group.index()).collect();
     actual.groups.retain(|group| enabled.contains(&group.index()));
     assert_eq!((expected.groups.len(), actual.groups.len()), (enabled.len(), enabled.len()));
     for device in [&mut expected, &mut actual] {
-        // Only the XPD has descriptions. The EDS has a default for each entry of 0x1003, the XPD has none.
+        // Only the XPD contains descriptions, and only the EDS contains defaults for the entries of 0x1003.
         for group in &mut device.groups {
             group.documentation = None;
             for item in &mut group.items {

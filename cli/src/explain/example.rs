@@ -1,14 +1,15 @@
-//! Example of each code: a diagnostic from the code's case in `tests/ui`.
+//! An example for each diagnostic code, from the code's test case in `tests/ui`.
 
 use lexibus_codegen::diagnostics::Code;
 
-/// All examples, each below a line with [`START`] and the code. The test `ui` writes the file from the cases.
+/// All examples. A line with [`START`] and the code precedes each example. The test `ui` creates the file from the test
+/// cases.
 const EXAMPLES: &str = include_str!("examples.txt");
 
-/// Start of the line above an example.
+/// Start of the line that precedes an example.
 const START: &str = "=== ";
 
-/// Returns the diagnostic that a terminal shows for an input with the fault.
+/// Returns the terminal output for an input that causes the diagnostic.
 pub fn example(code: &Code) -> Option<&'static str> {
     let examples = EXAMPLES.split(START).filter_map(|example| example.split_once('\n'));
     examples.filter(|(id, _)| *id == code.id).map(|(_, text)| text.trim_end()).next()

@@ -1,4 +1,4 @@
-//! Catalogue of codes as Markdown.
+//! Writes the catalog of diagnostic codes as Markdown.
 
 use lexibus_codegen::diagnostics::codes::CODES;
 use lexibus_codegen::diagnostics::{Class, Code};
@@ -6,7 +6,7 @@ use lexibus_codegen::diagnostics::{Class, Code};
 use super::example::example;
 use super::{level, strictness};
 
-/// Families of codes: the letters at the start of their codes, and their heading.
+/// Families of codes: the letters at the start of the codes, and the heading of the family.
 const FAMILIES: [(&str, &str); 11] = [
     ("IO", "Input files and selection"),
     ("EDS", "EDS and DCF"),
@@ -21,7 +21,7 @@ const FAMILIES: [(&str, &str); 11] = [
     ("CSV", "Register lists (CSV)"),
 ];
 
-/// Returns the catalogue: one chapter per family, and one section per code, with the code as its anchor.
+/// Returns the catalog. It has one chapter per family and one section per code; the code is the anchor of the section.
 pub fn catalogue() -> String {
     let mut text = String::from(
         "# The catalogue of codes\n\nThis page is the output of `lexibus explain --format markdown`. \
@@ -44,7 +44,7 @@ pub fn catalogue() -> String {
     text
 }
 
-/// Returns the section of a code, with the code as its anchor.
+/// Returns the section of a code. The code is the anchor of the section.
 pub fn explain(code: &Code) -> String {
     let (class, summary) = (code.class.name(), escaped(code.summary));
     let mut text = format!("<a id=\"{}\"></a>\n\n### {}: {}\n\n", code.id, code.id, code.name);
@@ -58,7 +58,7 @@ pub fn explain(code: &Code) -> String {
     text
 }
 
-/// Returns the position of a class in a family: errors first.
+/// Returns the sort position of a class within a family. Errors come first.
 fn severity(class: Class) -> u8 {
     match class {
         Class::Error => 0,
@@ -72,7 +72,7 @@ fn family(code: &Code) -> &'static str {
     code.id.trim_end_matches(|letter: char| letter.is_ascii_digit())
 }
 
-/// Escapes all markup in a text except code between backticks.
+/// Escapes the markup in a text, except code in backticks.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len() + 8);
     let is_paired = text.matches('`').count().is_multiple_of(2);

@@ -1,4 +1,4 @@
-//! Output of `lexibus explain`: one code or the catalogue of codes, as text or Markdown.
+//! Output of `lexibus explain`: a single code or the catalog of codes, as text or Markdown.
 
 mod example;
 pub mod markdown;
@@ -6,10 +6,10 @@ pub mod markdown;
 use lexibus_codegen::diagnostics::codes::CODES;
 use lexibus_codegen::diagnostics::{Class, Code, Level};
 
-/// Maximum line width of [`explain`].
+/// Maximum line width of the text that [`explain`] returns.
 const COLUMNS: usize = 80;
 
-/// Returns the explanation of a code, wrapped at 80 columns, and an example.
+/// Returns the explanation of a code, wrapped at 80 columns, with an example.
 pub fn explain(code: &Code) -> String {
     let (class, strictness) = (code.class.name(), strictness(code.class));
     let mut text = wrapped(&format!("{}: {}", code.id, code.summary));
@@ -35,7 +35,7 @@ pub fn catalogue() -> String {
     CODES.iter().map(line).collect()
 }
 
-/// Describes when codes of a class are errors.
+/// Returns a sentence that states when codes of a class are errors.
 fn strictness(class: Class) -> &'static str {
     match class {
         Class::Error => "always an error",
@@ -44,7 +44,7 @@ fn strictness(class: Class) -> &'static str {
     }
 }
 
-/// Returns the default level, as the user writes it.
+/// Returns the default level in the notation of the command line.
 fn level(code: &Code) -> &'static str {
     match code.default {
         Level::Allow => "allow",
@@ -53,7 +53,7 @@ fn level(code: &Code) -> &'static str {
     }
 }
 
-/// Wraps a text at [`COLUMNS`] characters, with a line feed after each line. A longer word is not broken.
+/// Wraps a text at [`COLUMNS`] characters. Each line ends with a line feed. Longer words are not split.
 fn wrapped(text: &str) -> String {
     let (mut lines, mut column) = (String::with_capacity(text.len() + 1), 0);
     for word in text.split_whitespace() {

@@ -1,6 +1,7 @@
-//! Tests that every generated IR without errors produces Rust that compiles without warnings.
+//! Generates random IR. Rust code that is generated from IR without errors must compile without warnings.
 //!
-//! `LEXIBUS_ARBITRARY=5000` generates 5,000 catalogs. `LEXIBUS_ARBITRARY=7..8` generates the catalog of seed 7, and prints its code.
+//! `LEXIBUS_ARBITRARY=5000` tests 5,000 random catalogs. `LEXIBUS_ARBITRARY=7..8` tests the catalog of seed 7 and prints its
+//! generated code.
 
 #[path = "../../../tests/support/arbitrary_ir/mod.rs"]
 mod arbitrary_ir;
@@ -26,22 +27,22 @@ use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 use outputs::Outputs;
 
-/// Number of catalogs in the full lane. The fast lane uses a sixteenth.
+/// Number of catalogs in the full lane. The fast lane tests a sixteenth of them.
 const DRAWN: u64 = 400;
 
-/// Number of catalogs for which all other outputs are made by default.
+/// Default number of catalogs for which all other outputs are created.
 const OUTPUTS: usize = 30;
 
-/// Number of catalogs whose code has the traits of other crates.
+/// Number of catalogs whose generated code implements traits of other crates.
 const WITH_TRAITS: usize = 60;
 
-/// Number of catalogs whose code is documented by rustdoc.
+/// Number of catalogs for whose generated code rustdoc is run.
 const DOCUMENTED: usize = 30;
 
-/// Number of modules that are compiled together.
+/// Number of generated modules that are compiled together.
 const BATCH: usize = 60;
 
-/// Number of random bytes for a catalog.
+/// Number of random bytes from which a catalog is created.
 const BYTES: usize = 8000;
 
 fn seeds() -> Range<u64> {
@@ -55,7 +56,7 @@ fn seeds() -> Range<u64> {
     }
 }
 
-/// Generates the options of a user.
+/// Returns random options for generating Rust.
 fn options(b: &mut Bytes<'_>) -> RustOptions {
     let presence = |b: &mut Bytes<'_>| match b.within(0..=3) {
         0 => Presence::Never,
@@ -79,14 +80,14 @@ fn options(b: &mut Bytes<'_>) -> RustOptions {
     }
 }
 
-/// Returns the checked catalog of a seed, and the options of a user.
+/// Returns the checked catalog and the Rust options for a seed.
 fn drawn(seed: u64) -> (Compilation, RustOptions) {
     let bytes = seed::bytes(seed, BYTES);
     let (chosen, described) = bytes.split_at(100);
     (arbitrary_ir::compilation(described, &Options::default()), options(&mut Bytes::new(chosen)))
 }
 
-/// Returns the Rust of a seed; `None` if the catalog has errors or nothing to generate.
+/// Returns the Rust code for a seed. Returns `None` if the catalog has errors or contains nothing to generate.
 fn module(seed: u64) -> Option<String> {
     let (compilation, options) = drawn(seed);
     compilation.rust(&options)
@@ -103,7 +104,7 @@ fn what_passes_the_lints_compiles() {
     }
     let failures: Vec<String> = kept.chunks(BATCH).filter_map(|batch| compile_modules(batch).err()).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
-    // A small number of catalogs varies more, so the limit is lower by a tenth.
+    // The share of catalogs without errors varies more if their number is small, so the required share is 10 % lower.
     let tenths = if drawn < 100 { 8 } else { 9 };
     assert!(kept.len() as u64 * 10 >= drawn * tenths, "only {} of {drawn} catalogs have no errors", kept.len());
 }
@@ -121,7 +122,7 @@ fn traits_of_other_crates_are_derived_for_it() {
     assert!(count("serde::Serialize") > kept.len() && count("defmt::Format") > kept.len());
 }
 
-/// Returns the other outputs of each catalog.
+/// Returns the seed, compilation and other outputs of each catalog.
 fn outputs() -> impl Iterator<Item = (u64, Compilation, Outputs)> {
     some(OUTPUTS).map(|seed| {
         let (compilation, _) = drawn(seed);
@@ -130,7 +131,7 @@ fn outputs() -> impl Iterator<Item = (u64, Compilation, Outputs)> {
     })
 }
 
-/// Returns this number of seeds, or all seeds that `LEXIBUS_ARBITRARY` names.
+/// Returns `most` seeds, or all seeds that `LEXIBUS_ARBITRARY` selects.
 fn some(most: usize) -> impl Iterator<Item = u64> {
     let all = std::env::var_os("LEXIBUS_ARBITRARY").is_some();
     seeds().take(if all { usize::MAX } else { most })
@@ -154,7 +155,7 @@ fn indices(device: &Device) -> BTreeSet<u16> {
     device.groups.iter().filter_map(Group::index).collect()
 }
 
-/// Reads an export as a catalog.
+/// Reads an exported text as a catalog.
 fn again(name: &str, text: &str) -> Catalog {
     let read = check(Source::new(name, text.into()), &Options::default());
     let messages: Vec<String> = read.diagnostics.list().iter().map(|found| read.one_line(found)).collect();
@@ -171,7 +172,7 @@ fn exports_are_read_again() {
         for (at, text) in &made.eds {
             let (original, again) = (indices(&catalog.devices[*at]), again("again.eds", text));
             let exported = indices(&again.devices[0]);
-            // Registers become objects, and PDOs get objects that describe them.
+            // An export adds objects for registers and objects that describe PDOs.
             let has_registers = catalog.files[0].format == Format::Table;
             let is_made = |index: &&u16| has_registers || (0x1400..0x1C00).contains(*index);
             let more: Vec<&u16> = exported.difference(&original).filter(|index| !is_made(index)).collect();

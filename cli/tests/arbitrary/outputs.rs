@@ -1,23 +1,23 @@
-//! Makes all outputs of a compilation except Rust.
+//! Creates all outputs of a compilation except Rust.
 
 use lexibus_codegen::compile::Compilation;
 use lexibus_export::esi::{Export, Refusal};
 use lexibus_export::{eds, esi, gsdml, json};
 use lexibus_site::{Format, Page, Site};
 
-/// Outputs of the back ends.
+/// The outputs of all back ends except Rust.
 pub struct Outputs {
     pub html: Vec<Page>,
     pub markdown: Vec<Page>,
-    /// The catalog as JSON.
+    /// The catalog as JSON text.
     pub dump: String,
-    /// EDS and DCF files, each with the index of its device.
+    /// EDS and DCF files with the position of their device in the catalog.
     pub eds: Vec<(usize, String)>,
     pub esi: Option<String>,
     pub gsdml: Option<String>,
 }
 
-/// Runs every back end except Rust.
+/// Runs all back ends except Rust.
 pub fn others(compilation: &Compilation) -> Outputs {
     json::info(compilation);
     let mut outputs = Outputs {
@@ -47,7 +47,7 @@ fn site(format: Format, compilation: &Compilation) -> Vec<Page> {
     pages
 }
 
-/// Exports with a value for every fact that the format needs; `None` if there is nothing to export.
+/// Exports a catalog with a value for each fact that the format requires. Returns `None` if there is nothing to export.
 fn completed<O: Default>(
     export: impl Fn(&O) -> Result<Export, Refusal>,
     set: impl Fn(&mut O, &str, &str) -> Result<(), String>,

@@ -2,21 +2,21 @@
 
 use std::path::{Path, PathBuf};
 
-/// Code block.
+/// A code block.
 pub struct Block {
-    /// Line number of its first line.
+    /// Line number of the first line in the block.
     pub line: usize,
-    /// Text after the fence, such as `toml`.
+    /// Text after the opening fence, such as `toml`.
     pub kind: String,
-    /// File name in the comment above the block: `<!-- file: NAME -->`.
+    /// File name from the comment above the block: `<!-- file: NAME -->`.
     pub file: Option<String>,
-    /// Example with the same contents: `<!-- file: NAME = EXAMPLE -->`.
+    /// Name of an example with the same content, from the comment `<!-- file: NAME = EXAMPLE -->`.
     pub same_as: Option<String>,
-    /// Lines of the block.
+    /// Text of the block.
     pub text: String,
 }
 
-/// Returns the folder of the book.
+/// Returns the path of the book's folder.
 pub fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .ancestors()
@@ -31,7 +31,7 @@ pub fn chapter(name: &str) -> Vec<Block> {
     blocks(&std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display())))
 }
 
-/// Returns the code blocks of a text in order.
+/// Returns the code blocks of a Markdown text in their order.
 pub fn blocks(text: &str) -> Vec<Block> {
     let mut blocks = Vec::new();
     let mut open: Option<Block> = None;
@@ -52,7 +52,7 @@ pub fn blocks(text: &str) -> Vec<Block> {
     blocks
 }
 
-/// Parses the comment above a block: file name and example.
+/// Returns the file name and the example name from the comment above a block.
 fn file_of(line: &str) -> (Option<String>, Option<String>) {
     let Some(rest) = line.strip_prefix("<!-- file: ").and_then(|rest| rest.strip_suffix(" -->")) else {
         return (None, None);

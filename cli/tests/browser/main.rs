@@ -1,5 +1,5 @@
-//! Tests the output of `lexibus docs` and `lexibus diff --format html` in a headless browser. The scripts in this folder use the
-//! pages as a reader does. See README.md in this folder.
+//! Tests the output of `lexibus docs` and `lexibus diff --format html` in a headless browser. The scripts in this folder operate
+//! the pages like a reader. See README.md in this folder.
 
 #[path = "../../../codegen/site/tests/docs_support/hostile.rs"]
 mod hostile;

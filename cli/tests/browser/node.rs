@@ -1,18 +1,18 @@
-//! Runs the scripts that control the browser with Node.
+//! Runs the scripts that control the browser. The scripts need Node.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-/// Folder for the libraries that `setup.sh` installs, and for pictures.
+/// Folder for screenshots and for the libraries that `setup.sh` installs.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/browser");
 
-/// Environment variable that forbids skipping the tests. CI sets it after `setup.sh`.
+/// Environment variable that makes a missing browser an error. CI sets it after running `setup.sh`.
 const REQUIRED: &str = "LEXIBUS_BROWSER";
 
-/// Runs a script with these paths. The test fails if the script fails.
+/// Runs a script with paths as arguments. The test fails if the script fails.
 ///
-/// Without a browser, the paths are not created, and a message says that the test is skipped.
+/// If no browser is available, prints that the test is skipped and does not create the paths.
 pub fn run<const N: usize>(script: &str, paths: impl FnOnce() -> [PathBuf; N]) {
     if let Err(why) = ready() {
         assert!(std::env::var_os(REQUIRED).is_none(), "{REQUIRED} is set, but {why}");
@@ -25,7 +25,7 @@ pub fn run<const N: usize>(script: &str, paths: impl FnOnce() -> [PathBuf; N]) {
     print!("{printed}");
 }
 
-/// Returns why no browser can be controlled, as an error.
+/// Returns an error with the reason if no browser can be controlled.
 fn ready() -> Result<(), &'static str> {
     static READY: OnceLock<Result<(), String>> = OnceLock::new();
     let ready = READY.get_or_init(|| match node("ready.mjs", &[]) {
@@ -41,7 +41,7 @@ fn node(script: &str, paths: &[PathBuf]) -> std::io::Result<Output> {
     Command::new("node").arg(script).args(paths).env("LEXIBUS_BROWSER_MODULES", FOLDER).output()
 }
 
-/// Returns the folder for pictures.
+/// Returns the folder for screenshots.
 pub fn pictures() -> PathBuf {
     Path::new(FOLDER).join("pictures")
 }

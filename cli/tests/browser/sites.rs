@@ -1,4 +1,4 @@
-//! Writes the sites that the scripts open, each only once.
+//! Creates the sites that the scripts open. Each site is created only once.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -17,7 +17,7 @@ pub fn folder(name: &str) -> PathBuf {
     path
 }
 
-/// Writes the site of these descriptions with the command line.
+/// Runs `lexibus docs` for these descriptions. Returns the folder of the site.
 fn documented(name: &str, descriptions: &[&str]) -> PathBuf {
     let site = folder(name);
     let dictionaries = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries");
@@ -26,14 +26,14 @@ fn documented(name: &str, descriptions: &[&str]) -> PathBuf {
     site
 }
 
-/// Runs the command line. The exit code must be one of `codes`.
+/// Runs `lexibus`. The exit code must be one of `codes`.
 fn lexibus(arguments: impl FnOnce(&mut Command) -> &mut Command, codes: &[i32]) {
     let output = arguments(&mut Command::new(env!("CARGO_BIN_EXE_lexibus"))).output().expect("lexibus runs");
     let code = output.status.code().expect("an exit code");
     assert!(codes.contains(&code), "exit code {code}: {}", String::from_utf8_lossy(&output.stderr));
 }
 
-/// Returns the site of the four drives whose tables were transcribed from manuals.
+/// Returns the site with the four drives whose manuals are transcribed as tables.
 pub fn drives() -> PathBuf {
     const ALL: [&str; 4] = ["aec-vector-step.toml", "eco.toml", "hsd-sm137-sm140.toml", "kollmorgen-akd.toml"];
     static SITE: OnceLock<PathBuf> = OnceLock::new();
@@ -66,7 +66,7 @@ pub fn large() -> PathBuf {
     site
 }
 
-/// Returns a site of descriptions that contain markup, with a comparison of two versions in `diff.html`.
+/// Returns a site for descriptions that contain markup. Its file `diff.html` compares two versions of a description.
 pub fn hostile() -> PathBuf {
     let root = folder("hostile");
     let (mut site, mut pages) = (Site::default(), Vec::new());
@@ -86,7 +86,7 @@ fn write(root: &Path, page: &Page) {
     std::fs::write(path, &page.text).expect("a page");
 }
 
-/// Writes the comparison of two files whose names also contain markup.
+/// Writes a comparison of two files whose names also contain markup.
 fn difference(root: &Path) {
     let table = descriptions::table();
     let versions = [table.clone(), table.replace("reg = 1,", "reg = 3,").replace("alert(1)", "alert(4)")];

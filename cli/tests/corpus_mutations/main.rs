@@ -1,7 +1,7 @@
-//! Tests that the compiler does not panic on damaged files of the corpus, random combinations of EDS and XML words, or noise.
+//! Tests that the compiler does not panic on damaged corpus files, random combinations of EDS and XML words, or random text.
 //!
-//! Every input is read, checked, rendered, summarized and compiled to Rust. The seed is fixed, so every run tests the same
-//! inputs. `PROPTEST_RNG_SEED` and `PROPTEST_CASES` select others:
+//! Each input is read, checked, rendered, summarized and compiled to Rust. A fixed seed makes all runs test the same inputs.
+//! `PROPTEST_RNG_SEED` and `PROPTEST_CASES` select other inputs:
 //!
 //! ```text
 //! PROPTEST_CASES=100000 PROPTEST_RNG_SEED=7 cargo test --release -p lexibus-cli --test corpus_mutations
@@ -25,10 +25,11 @@ use proptest::prelude::*;
 use proptest::sample::{select, subsequence, Index};
 use proptest::test_runner::{RngSeed, TestError, TestRunner};
 
-/// Minimum number of cases for a meaningful share of inputs that reach the back end.
+/// Minimum number of cases. With fewer cases, the share of inputs that reach the back end would not be meaningful.
 const FEWEST: u32 = 40;
 
-/// Returns a configuration with this number of cases. A debug build runs a sixth, and the fast lane a quarter of that.
+/// Returns a configuration with the given number of cases. A debug build runs a sixth of them, and the fast lane a quarter of
+/// that.
 fn config(cases: u32) -> ProptestConfig {
     let mut config = ProptestConfig { failure_persistence: None, max_shrink_iters: 3000, ..ProptestConfig::default() };
     if std::env::var_os("PROPTEST_CASES").is_none() {
@@ -41,9 +42,9 @@ fn config(cases: u32) -> ProptestConfig {
     config
 }
 
-/// Runs `exercise` on the inputs that `make` creates, and shows the smallest input that fails.
+/// Runs `exercise` on the inputs that `make` creates. Prints the smallest input that fails.
 ///
-/// At least `usable` percent of the inputs must reach the back end, so that the test is meaningful.
+/// At least `usable` percent of the inputs must reach the back end. Otherwise, the test would not be meaningful.
 fn hold<T: Debug + Clone>(
     cases: u32,
     usable: u32,
@@ -61,26 +62,26 @@ fn hold<T: Debug + Clone>(
         let (name, bytes) = make(&value);
         panic!("{reason}\n{value:?}\n{name}: b\"{}\"", bytes.escape_ascii());
     }
-    outcome.expect("no input was given up");
+    outcome.expect("no input was discarded");
     let (all, reached) = (all.get(), reached.get());
     eprintln!("{reached} of {all} inputs reach the back end");
     assert!(reached * 100 >= usable * all, "only {reached} of {all} inputs reach the back end");
 }
 
-/// Change to a file.
+/// A change to a file.
 #[derive(Clone, Debug)]
 enum Edit {
     Flip(Index, u8),
     Delete(Index, usize),
     Repeat(Index, usize),
     Insert(Index, &'static str),
-    /// Replaces the value of the next entry or attribute.
+    /// Replaces the value of the next entry or attribute after the position.
     Value(Index, &'static str),
-    /// Replaces the text of the next XML element with a text.
+    /// Replaces the text of the next XML element that has a text.
     Text(Index, &'static str),
     DeleteElement(Index),
     RepeatElement(Index),
-    /// Moves the next XML element before another one.
+    /// Moves the next XML element to the position before another element.
     MoveElement(Index, Index),
     DeleteLine(Index),
     RepeatLine(Index),
@@ -106,7 +107,7 @@ fn edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// Valid and invalid parts of values, keys, headers and elements.
+/// Valid and invalid words for values, keys, headers and elements.
 #[rustfmt::skip]
 const WORDS: &[&str] = &[
     "", "0", "1", "-1", "7", "8", "9", "254", "255", "256", "65535", "012", "018", "0x", "0x0", "0x7", "0xFFFF",
@@ -127,7 +128,7 @@ const WORDS: &[&str] = &[
     "0..4 7", "-5..5", "1..65535", "0..99999999", "0x00,0x01", "DependOnSlot", "TR", "MBoxOut", "Outputs", "PS",
 ];
 
-/// Changes to a file or to an excerpt of it.
+/// A file or an excerpt of it, with changes to apply.
 #[derive(Clone, Debug)]
 struct Recipe {
     file: Index,
@@ -139,7 +140,7 @@ fn recipe() -> impl Strategy<Value = Recipe> {
     (any::<Index>(), any::<Index>(), vec(edit(), 1..12)).prop_map(|(file, from, edits)| Recipe { file, from, edits })
 }
 
-/// Returns an excerpt of an EDS: its header and some of its objects.
+/// Returns an excerpt of an EDS: its header and some objects.
 fn excerpt(bytes: &[u8], from: &Index) -> Vec<u8> {
     const HEADER: usize = 700;
     const OBJECTS: usize = 6_000;
@@ -226,14 +227,14 @@ fn apply(bytes: &mut Vec<u8>, edit: &Edit, files: &[File]) {
     }
 }
 
-/// Returns the range of the line at a position, with its line end.
+/// Returns the range of the line at a position. The range includes the line end.
 fn line_at(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     let start = bytes[..at].iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
     let end = bytes[at..].iter().position(|&byte| byte == b'\n').map_or(bytes.len(), |end| at + end + 1);
     start..end
 }
 
-/// Returns the range of the value of the next entry or attribute.
+/// Returns the range of the value of the next entry or attribute after a position.
 fn value_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     let Some(equals) = bytes[at..].iter().position(|&byte| byte == b'=') else { return at..at };
     let start = at + equals + 1;
@@ -243,7 +244,7 @@ fn value_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     start..start + length
 }
 
-/// Returns the range of the text of the next element with a text.
+/// Returns the range of the next XML element text after a position.
 fn text_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     let mut start = at;
     while let Some(end) = bytes[start..].iter().position(|&byte| byte == b'>') {
@@ -256,9 +257,9 @@ fn text_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     at..at
 }
 
-/// Returns the range of the next element that is not the root of the document.
+/// Returns the range of the next XML element after a position. The root element is excluded.
 fn element_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
-    /// A larger element is most of a file.
+    /// Maximum size of an element. Larger elements would make up most of a file.
     const LARGEST: usize = 20_000;
     let is_tag = |at: usize| bytes[at] == b'<' && bytes.get(at + 1).is_some_and(u8::is_ascii_alphabetic);
     let is_start = |at: usize| is_tag(at) && !in_comment(bytes, at);
@@ -267,13 +268,13 @@ fn element_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     elements.find(|element| element.len() < LARGEST).unwrap_or(at..at)
 }
 
-/// Whether a position is within an XML comment.
+/// Returns whether a position is inside an XML comment.
 fn in_comment(bytes: &[u8], at: usize) -> bool {
     let last = |mark: &[u8]| bytes[..at].windows(mark.len()).rposition(|part| part == mark);
     last(b"<!--").is_some_and(|start| last(b"-->").is_none_or(|end| end < start))
 }
 
-/// Returns the end of the element that starts at the first byte.
+/// Returns the end position of the element that starts at the first byte.
 fn end_of_element(bytes: &[u8]) -> Option<usize> {
     let (mut at, mut depth) = (0, 0);
     loop {
@@ -322,7 +323,7 @@ fn damaged_xml_files() {
     });
 }
 
-/// Changed values keep XML well formed, so they test the code after the parser.
+/// Changes only values, so the XML stays well-formed. This tests the code that runs after the parser.
 #[test]
 fn xml_files_with_other_values() {
     let Some(files) = of_kind(true) else { return };
@@ -338,7 +339,7 @@ fn xml_files_with_other_values() {
     });
 }
 
-/// Generates changes that keep XML well formed: other values, and removed, repeated or moved elements.
+/// Generates changes that keep XML well-formed: changed values, and removed, repeated or moved elements.
 fn regular_edit() -> impl Strategy<Value = Edit> {
     let harmless: Vec<&str> = WORDS.iter().copied().filter(|word| !word.contains(['<', '"', '&', '\0'])).collect();
     let at = any::<Index>;
@@ -351,7 +352,7 @@ fn regular_edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// Returns the files of a format that are small enough for many runs.
+/// Returns corpus files of a format that are small enough to be processed many times.
 fn small_files(format: &str) -> Option<Vec<File>> {
     const LARGEST: usize = 120_000;
     let mut files = whole(format)?;
@@ -425,7 +426,7 @@ fn files_that_start_as_one_and_end_as_another() {
     });
 }
 
-/// Generates a file name with the extension of a format, or with another one.
+/// Generates a file name whose extension is that of a format, or unrelated.
 fn name() -> impl Strategy<Value = &'static str> {
     select(&["x.eds", "x.dcf", "x.xdd", "x.xdc", "", "x"][..])
 }
@@ -449,12 +450,12 @@ const SECTIONS: &str = "\
     2000Denotation 2000ObjectLinks 6040 6041 6060 607A A0 00A0 0005 M1ModuleInfo M1FixedObjects M1Fixed2000 \
     M1Fixed2000sub1 M1SubExtends M1SubExt2000 M1Comments x";
 
-/// Selects a word of a list.
+/// Selects a word from a list.
 fn one_of(list: &'static str) -> impl Strategy<Value = &'static str> + Clone {
     select(list.split(' ').collect::<Vec<_>>())
 }
 
-/// Generates the words of an EDS in any order, on one or several lines.
+/// Generates words of an EDS in random order, on one or several lines.
 #[test]
 fn texts_of_the_words_of_an_eds() {
     let line = prop_oneof![
@@ -484,9 +485,9 @@ fn escape(word: &str) -> String {
     word.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
-/// Generates an element with attributes, text and children.
+/// Generates an XML element with attributes, text and children.
 fn element() -> impl Strategy<Value = String> {
-    // Repeated attributes are not well-formed XML.
+    // Repeated attributes would make the XML ill-formed.
     let attributes = (subsequence(ATTRIBUTES.split(' ').collect::<Vec<_>>(), 0..6), vec(select(WORDS), 6));
     let open = (one_of(ELEMENTS), attributes).prop_map(|(name, (keys, values))| {
         let written = keys.iter().zip(&values).map(|(key, value)| format!(" {key}=\"{}\"", escape(value)));
@@ -531,7 +532,7 @@ fn texts_of_the_words_of_an_xdd() {
     });
 }
 
-/// The output does not depend on hash seeds or memory addresses, which differ between threads.
+/// The output must not depend on hash seeds or memory addresses. These differ between threads.
 #[test]
 fn two_runs_give_the_same_bytes() {
     let Some(files) = all_files() else { return };
@@ -550,7 +551,7 @@ fn two_runs_give_the_same_bytes() {
         });
         assert_eq!(one.1, other.1, "{}: different diagnostics", file.name);
         let differing = one.0.lines().zip(other.0.lines()).zip(1..).find(|((one, other), _)| one != other);
-        assert_eq!(differing, None, "{}: the second output differs from this line on", file.name);
+        assert_eq!(differing, None, "{}: the second output differs, starting at this line", file.name);
         assert_eq!(one.0.len(), other.0.len(), "{}", file.name);
         bytes += one.0.len();
     }

@@ -1,4 +1,4 @@
-//! Tests register tables that are assembled from pieces of the documentation's examples.
+//! Tests register tables that consist of parts of the documentation's examples.
 
 #[path = "../../../codegen/tests/table_support/mod.rs"]
 mod table_support;
@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use table_support::{examples, whole};
 
-/// Returns the tables that are cut and recombined.
+/// Returns the tables from which parts are taken.
 fn pieces() -> Vec<String> {
     let mut lines: Vec<String> =
         examples().iter().flat_map(|(_, block)| whole(block).lines().map(str::to_owned).collect::<Vec<_>>()).collect();
@@ -64,7 +64,7 @@ fn value() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
 
-    /// A table with any content is read, checked and, if it has no errors, compiled without a panic.
+    /// Any table must be read, checked and, if it has no errors, compiled without a panic.
     #[test]
     fn mutated_tables_do_not_panic(
         block in 0usize..128,
@@ -81,7 +81,7 @@ proptest! {
             match kind {
                 0 => drop(lines.remove(at)),
                 1 => lines.insert(at, pieces[other.index(pieces.len())].clone()),
-                // Replaces the value after a `=`.
+                // Replaces the value after an equals sign.
                 2 | 3 => {
                     let places: Vec<usize> = lines[at].match_indices(" = ").map(|(at, _)| at + 3).collect();
                     let Some(&start) = places.get(other.index(places.len().max(1))) else { continue };

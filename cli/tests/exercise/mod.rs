@@ -1,6 +1,6 @@
-//! Runs the whole compiler on any input, and checks that nothing panics.
+//! Runs the complete compiler on an input and checks that it does not panic.
 //!
-//! The test of damaged files and the fuzz targets use this module.
+//! The tests of damaged files and the fuzz targets use this module.
 
 use lexibus_codegen::backend::rust;
 use lexibus_codegen::compile::{check, Compilation, Options};
@@ -12,14 +12,14 @@ use lexibus_export::{eds, esi, gsdml, json};
 use lexibus_site::compare::compare;
 use lexibus_site::{Format, Site};
 
-/// Compiles an input as far as possible, and checks that spans are in their files and the output is Rust.
+/// Compiles an input as far as possible. Checks that spans are within their files and that the output is valid Rust.
 ///
-/// Returns whether the input is a description.
+/// Returns whether the input is a device description.
 pub fn exercise(name: &str, bytes: &[u8]) -> bool {
     exercise_with(name, bytes, Vec::new())
 }
 
-/// Like [`exercise`], with overlays.
+/// Runs [`exercise`] with overlays.
 pub fn exercise_with(name: &str, bytes: &[u8], overlays: Vec<Source>) -> bool {
     let compilation = check(Source::new(name, bytes.to_vec()), &everything_reported(overlays));
     let list = compilation.diagnostics.list();
@@ -37,10 +37,10 @@ pub fn exercise_with(name: &str, bytes: &[u8], overlays: Vec<Source>) -> bool {
     compilation.catalog.is_some()
 }
 
-/// Maximum size of inputs for which pages are made, which takes long.
+/// Maximum size of inputs for which documentation is created, because this takes long.
 const SHORT: usize = 4_000;
 
-/// Writes the documentation, and compares the description with itself.
+/// Writes the documentation of a description and compares the description with itself.
 fn documented(compilation: &Compilation) {
     for format in [Format::Html, Format::Markdown] {
         let mut site = Site::new(format);
@@ -64,7 +64,7 @@ fn rendered(compilation: &Compilation, found: &Diagnostic) {
     assert!(!compilation.one_line(found).contains('\n'));
 }
 
-/// Returns options that enable every lint. Most are off by default.
+/// Returns options that enable all lints. Most lints are disabled by default.
 fn everything_reported(overlays: Vec<Source>) -> Options {
     let mut options = Options { overlays, ..Options::default() };
     for code in codes::CODES {
@@ -73,9 +73,9 @@ fn everything_reported(overlays: Vec<Source>) -> Options {
     options
 }
 
-/// Generates the exports and the Rust of every device, even if there are errors.
+/// Generates the exports and the Rust code of all devices, even if there are errors.
 fn emitted(compilation: &Compilation) {
-    /// Maximum size of the text that is parsed, because `syn` is slow.
+    /// Maximum size of generated code to parse, because `syn` is slow.
     const PARSED: usize = 60_000;
     let Some(catalog) = &compilation.catalog else { return };
     exported(catalog);
@@ -87,7 +87,7 @@ fn emitted(compilation: &Compilation) {
     }
 }
 
-/// Runs all exports. Notes and refusals are ignored.
+/// Runs all exports and ignores their notes and refusals.
 fn exported(catalog: &Catalog) {
     let _ = esi::export(catalog, &esi::Options::default());
     let _ = gsdml::export(catalog, &gsdml::Options::default());

@@ -1,4 +1,4 @@
-//! Reads a case: its folder, its settings, and its expected files.
+//! Reads a test case: its folder, its settings, and its expected files.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,18 +10,19 @@ use lexibus_codegen::source::Source;
 use serde::Deserialize;
 use similar::TextDiff;
 
-/// Name of the file with the settings of a case.
+/// Name of the file with the settings of a test case.
 const SETTINGS: &str = "case.toml";
-/// Name of the file with the expected diagnostics, which is absent if there are none.
+/// Name of the file with the expected diagnostics. The file is absent if none are expected.
 const DIAGNOSTICS: &str = "diagnostics";
 
-/// Settings in `case.toml`.
+/// The settings in `case.toml`.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// Rule that the case shows, in one sentence.
+    /// One sentence that states the rule that the case tests.
     pub about: String,
-    /// Files to compile, in order; by default, every file of the folder. For `diff`, the old and the new file.
+    /// Files to compile in this order. By default, these are all files of the folder. For `diff`, these are the old and
+    /// the new file.
     inputs: Vec<String>,
     strict: bool,
     allow: Vec<String>,
@@ -34,9 +35,10 @@ pub struct Settings {
     objects: Vec<String>,
     overlays: Vec<String>,
     no_profiles: bool,
-    /// Whether the input is compiled only in its original form, without other line ends, encodings and byte order marks.
+    /// Whether only the original form of the input is compiled. Other line ends, encodings and byte order marks are not
+    /// tested.
     pub one_form: bool,
-    /// Parts of the outputs; an empty list means the whole output. See `part.rs`.
+    /// Parts of the outputs to compare. An empty list means the whole output. See `part.rs`.
     pub rust: Option<Vec<String>>,
     pub info: Option<Vec<String>>,
     pub dump: Option<Vec<String>>,
@@ -45,26 +47,26 @@ pub struct Settings {
     pub esi: Option<Vec<String>>,
     pub gsdml: Option<Vec<String>>,
     pub markdown: Option<Vec<String>>,
-    /// `lexibus diff` of the two inputs.
+    /// Whether `lexibus diff` compares the two inputs.
     pub diff: bool,
-    /// Columns of a register list: `field=column`, as for `--map`.
+    /// Columns of a register list in the form `field=column`, as for `--map`.
     pub map: Vec<String>,
-    /// Register table that is imported from the input, a CSV file.
+    /// Parts of the register table that is imported from the input, a CSV file.
     pub table: Option<Vec<String>>,
-    /// Whether REAL values of an EDS or DCF are written as IEEE 754 bit patterns: `--real hex`.
+    /// Whether an EDS or DCF contains REAL values as IEEE 754 bit patterns, as with `--real hex`.
     pub real_hex: bool,
-    /// Additional facts for an export: `key = "value"`, as for `--set`.
+    /// Additional facts for an export in the form `key = "value"`, as for `--set`.
     pub set: BTreeMap<String, String>,
 }
 
-/// Test case.
+/// A test case.
 pub struct Case {
     folder: PathBuf,
     pub settings: Settings,
 }
 
 impl Case {
-    /// Reads the settings of the case in `folder`.
+    /// Reads the settings of the test case in `folder`.
     pub fn open(folder: PathBuf) -> Self {
         let path = folder.join(SETTINGS);
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
@@ -73,19 +75,19 @@ impl Case {
         Case { folder, settings }
     }
 
-    /// Returns the name of the case: `area/case`.
+    /// Returns the name of the test case: `area/case`.
     pub fn name(&self) -> String {
         let parts: Vec<_> =
             self.folder.components().rev().take(2).map(|part| part.as_os_str().to_string_lossy()).collect();
         format!("{}/{}", parts[1], parts[0])
     }
 
-    /// Returns the name of the case's folder.
+    /// Returns the folder name of the test case.
     pub fn folder_name(&self) -> String {
         self.name().split_once('/').expect("an area and a case").1.to_owned()
     }
 
-    /// Returns the files to compile, in order.
+    /// Returns the files to compile in their order.
     pub fn inputs(&self) -> Vec<Source> {
         let mut names = self.settings.inputs.clone();
         if names.is_empty() {
@@ -103,12 +105,12 @@ impl Case {
         Source::new(name, bytes).in_folder(&self.folder)
     }
 
-    /// Returns the same input with other bytes.
+    /// Returns a source with the name of an input and other bytes.
     pub fn source_of(&self, name: &str, bytes: Vec<u8>) -> Source {
         Source::new(name, bytes).in_folder(&self.folder)
     }
 
-    /// Returns the compiler options of the settings.
+    /// Returns the compiler options from the settings.
     pub fn options(&self) -> Options {
         let settings = &self.settings;
         Options {
@@ -122,7 +124,7 @@ impl Case {
         }
     }
 
-    /// Returns the diagnostic levels of the settings.
+    /// Returns the diagnostic levels from the settings.
     pub fn levels(&self) -> Levels {
         let settings = &self.settings;
         let mut levels = if settings.strict { Levels::strict() } else { Levels::lenient() };
@@ -145,11 +147,11 @@ impl Case {
         }
     }
 
-    /// Compares the expected files with the actual ones.
+    /// Compares the expected files with the actual outputs.
     ///
     /// # Errors
     ///
-    /// The difference line by line, and the command that accepts it.
+    /// Returns the differences line by line, and the command that accepts the new output.
     pub fn compare(&self, actual: &Outputs) -> Result<(), String> {
         let mut message = String::new();
         for name in self.expected_names().iter().filter(|name| !actual.contains_key(*name)) {
@@ -170,11 +172,11 @@ impl Case {
         Err(format!("{message}to accept: LEXIBUS_BLESS=1 cargo test -p lexibus-cli --test ui {filter}"))
     }
 
-    /// Writes the expected files, and removes obsolete ones.
+    /// Writes the expected files and removes obsolete ones.
     ///
     /// # Errors
     ///
-    /// If a file cannot be written.
+    /// Returns an error if a file cannot be written.
     pub fn write_expected(&self, actual: &Outputs) -> std::io::Result<()> {
         for name in self.expected_names().iter().filter(|name| !actual.contains_key(*name)) {
             std::fs::remove_file(self.folder.join(name))?;
@@ -185,7 +187,7 @@ impl Case {
         Ok(())
     }
 
-    /// Returns the names of the existing expected files.
+    /// Returns the names of the expected files that exist.
     fn expected_names(&self) -> Vec<String> {
         self.file_names().into_iter().filter(|name| is_expected(name)).collect()
     }
@@ -204,22 +206,22 @@ impl Case {
     }
 }
 
-/// Output files of a case: name and text.
+/// Names and texts of the output files of a test case.
 pub type Outputs = BTreeMap<String, String>;
 
-/// Whether a file of a case is an output.
+/// Returns whether a file of a test case is an expected output.
 fn is_expected(name: &str) -> bool {
     name == DIAGNOSTICS || name.starts_with("output.")
 }
 
-/// Adds the diagnostics, if there are any.
+/// Adds the file of diagnostics unless there are no diagnostics.
 pub fn put_diagnostics(outputs: &mut Outputs, text: String) {
     if !text.is_empty() {
         outputs.insert(DIAGNOSTICS.to_owned(), text);
     }
 }
 
-/// Returns the extension of a file.
+/// Returns the extension of a file name.
 pub fn ending(name: &str) -> &str {
     Path::new(name).extension().and_then(|ending| ending.to_str()).unwrap_or_default()
 }

@@ -1,5 +1,5 @@
-//! Compiles inputs in the forms of real files: with each line end, with and without a byte order mark and, for EDS, in
-//! Windows-1252. The results must be equal. The fast lane tries one form of each kind, and only for the quirks.
+//! Compiles inputs with all line ends, with and without a byte order mark and, for EDS, in Windows-1252. All results
+//! must be equal. The fast lane tests one form of each kind, and only with the `quirks` cases.
 
 use lexibus_codegen::compile::{check, Compilation};
 use lexibus_codegen::source::Source;
@@ -7,11 +7,11 @@ use lexibus_codegen::source::Source;
 use crate::case::{ending, Case};
 use crate::corpus_support::{lane, round_trip::content};
 
-/// Compares the IR and the diagnostics of all forms of the case's inputs.
+/// Compares the IR and the diagnostics of all forms of a test case's inputs.
 ///
 /// # Errors
 ///
-/// The form that differs.
+/// Returns the name of the form whose results differ.
 pub fn all_say_the_same(case: &Case) -> Result<(), String> {
     if case.settings.one_form || !(lane::is_full() || case.name().starts_with("quirks-")) {
         return Ok(());
@@ -38,7 +38,7 @@ pub fn all_say_the_same(case: &Case) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the other forms of a file with their names. Tables and register lists have none.
+/// Returns the names and bytes of a file's other forms. Tables and register lists have none.
 fn forms(input: &Source) -> Vec<(String, Vec<u8>)> {
     let is_eds = match ending(input.name()) {
         "eds" | "dcf" => true,
@@ -66,7 +66,8 @@ fn forms(input: &Source) -> Vec<(String, Vec<u8>)> {
     forms
 }
 
-/// Returns code, line and column of every diagnostic, except those about the encoding, which differ.
+/// Returns the code, line and column of each diagnostic. Diagnostics about the encoding differ between forms and are
+/// excluded.
 fn findings(compilation: &Compilation) -> Vec<String> {
     let list = compilation.diagnostics.list().iter().filter(|found| found.code.id != "EDS013");
     let position = |file: u32, offset| compilation.sources[file as usize].position(offset);

@@ -1,10 +1,11 @@
-//! Runs the cases of `tests/ui`. The folder of a case contains its input, diagnostics and output.
+//! Runs the test cases in `tests/ui`. The folder of a case contains its input, expected diagnostics and expected
+//! output.
 //!
 //!     cargo test -p lexibus-cli --test ui                       # all cases
 //!     cargo test -p lexibus-cli --test ui e02                   # those with `e02` in their name
 //!     LEXIBUS_BLESS=1 cargo test -p lexibus-cli --test ui e02   # writes the expected files; read the difference
 //!
-//! `tests/ui/README.md` describes the files of a case.
+//! `tests/ui/README.md` describes the files of a test case.
 
 mod case;
 #[path = "../../../codegen/tests/compile_support/mod.rs"]
@@ -49,7 +50,7 @@ fn run(case: &Case, bless: bool) -> Result<(), Failed> {
     forms::all_say_the_same(case).map_err(Failed::from)
 }
 
-/// Checks that each suggested fix removes its diagnostic and adds none. Two fixes per code are tested.
+/// Checks that each suggested fix removes its diagnostic and causes no others. At most two fixes are tested per code.
 fn fixes_hold(case: &Case) -> Result<(), String> {
     let options = case.options();
     for input in case.inputs() {

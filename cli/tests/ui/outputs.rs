@@ -1,4 +1,5 @@
-//! Makes the outputs of a case: the diagnostics as the terminal prints them, and the outputs that the settings name.
+//! Creates the outputs of a test case: the diagnostics as printed on a terminal, and the outputs that the settings
+//! name.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{render, Severity};
@@ -13,11 +14,11 @@ use lexibus_site::{Format, Page, Site};
 use crate::case::{ending, put_diagnostics, Case, Outputs};
 use crate::part::{parts, Form};
 
-/// Returns all outputs of a case.
+/// Returns all outputs of a test case.
 ///
 /// # Errors
 ///
-/// If an output cannot be made or does not contain the part.
+/// Returns an error if an output cannot be created or does not contain a named part.
 pub fn of(case: &Case) -> Result<Outputs, String> {
     let mut outputs = Outputs::new();
     let inputs = case.inputs();
@@ -42,7 +43,7 @@ pub fn of(case: &Case) -> Result<Outputs, String> {
     Ok(outputs)
 }
 
-/// Returns the diagnostics of a file as the terminal prints them.
+/// Returns the diagnostics of a file as printed on a terminal.
 fn printed(compilation: &Compilation) -> String {
     let diagnostics = &compilation.diagnostics;
     let list = diagnostics.list().iter();
@@ -56,7 +57,7 @@ fn printed(compilation: &Compilation) -> String {
     format!("{text}{name}: {}\n", render::summary(counts.0, counts.1))
 }
 
-/// Adds the outputs of a file with their names. Notes of exports go to the diagnostics.
+/// Adds the named outputs of a file. Notes of exports are added to the diagnostics.
 fn made(
     case: &Case,
     compilation: &Compilation,
@@ -107,7 +108,7 @@ fn pretty(value: &impl serde::Serialize) -> String {
     serde_json::to_string_pretty(value).expect("JSON") + "\n"
 }
 
-/// Returns the values at JSON pointers, each after its pointer.
+/// Returns the values at these JSON pointers. Each value follows its pointer.
 fn pointed(catalog: &serde_json::Value, pointers: &[String]) -> Result<String, String> {
     let texts = pointers.iter().map(|pointer| {
         let value = catalog.pointer(pointer).ok_or_else(|| format!("the IR has nothing at {pointer}"))?;
@@ -116,7 +117,7 @@ fn pointed(catalog: &serde_json::Value, pointers: &[String]) -> Result<String, S
     texts.collect::<Result<Vec<String>, String>>().map(|texts| texts.concat())
 }
 
-/// Returns every Markdown page of a file, each after its path.
+/// Returns all Markdown pages of a file. Each page follows its path.
 fn pages(compilation: &Compilation) -> String {
     let mut site = Site::new(Format::Markdown);
     let mut pages = site.add_compilation("input", compilation);
@@ -124,9 +125,9 @@ fn pages(compilation: &Compilation) -> String {
     pages.iter().map(|Page { path, text, .. }| format!("== {path}\n\n{text}\n")).collect()
 }
 
-/// Exports a file. The outer error concerns the case, the inner one is the refusal that a user sees.
+/// Exports a file. The outer error concerns the test case. The inner error is the refusal that a user would see.
 fn export(case: &Case, name: &str, compilation: &Compilation) -> Result<Result<Export, Refusal>, String> {
-    // `lexibus export` also leaves out what profiles add.
+    // Like `lexibus export`, leave out the facts that profiles add.
     let options = Options { no_profiles: true, ..case.options() };
     let again =
         check(case.source_of(compilation.sources[0].name(), compilation.sources[0].bytes().into_owned()), &options);
@@ -152,7 +153,7 @@ fn export(case: &Case, name: &str, compilation: &Compilation) -> Result<Result<E
     })
 }
 
-/// Returns the output of `lexibus diff`.
+/// Returns the output of `lexibus diff` for the two inputs.
 fn difference(case: &Case, compilations: &[Compilation]) -> Result<String, String> {
     let [old, new] = compilations else { return Err(format!("{}: `diff` needs two inputs", case.name())) };
     let changes = compare(usable(old)?, usable(new)?);
@@ -160,7 +161,7 @@ fn difference(case: &Case, compilations: &[Compilation]) -> Result<String, Strin
     Ok(format!("{lines}{}\n", Summary::of(&changes)))
 }
 
-/// Returns the register tables that `lexibus import` makes from register lists.
+/// Adds the register tables that `lexibus import` creates from register lists.
 fn import_lists(case: &Case, inputs: Vec<Source>, outputs: &mut Outputs) -> Result<(), String> {
     let mut diagnostics = String::new();
     for input in inputs {

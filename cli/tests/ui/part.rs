@@ -1,18 +1,20 @@
-//! Selects the parts of an output that a case shows.
+//! Selects the parts of an output that a test case shows.
 //!
-//! A part is found by a text in its first line. Its extent depends on the form of the output:
+//! The settings name a part by a text in its first line. The extent of the part depends on the form of the output:
 //!
-//! - Rust, XML, JSON: the line, everything indented below it, and the closing line. In Rust, documentation and attributes above
-//!   are included, and the text consists of whole words of an item's first line (`SPEED`, `fn speed`, `struct RxPdo1`). A `^` at
-//!   the end of the text selects the enclosing element, `^^` the next enclosing element.
-//! - EDS, Markdown, plain text: the lines up to the next empty line. Of a Markdown table, the header and the rows with the text.
+//! - Rust, XML and JSON: the line, all lines that are indented below it, and the closing line. In Rust, the part includes the
+//!   documentation and attributes above the item, and the text must be one or more whole words in the item's first line
+//!   (`SPEED`, `fn speed`, `struct RxPdo1`). A `^` at the end of the text selects the enclosing element, and `^^` the next outer
+//!   element.
+//! - EDS, Markdown and plain text: all lines up to the next empty line. In a Markdown table, the header and the rows that
+//!   contain the text.
 
 use std::ops::Range;
 
-/// Structure of an output.
+/// The structure of an output.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Form {
-    /// Rust as `prettyplease` prints it.
+    /// Rust code as formatted by `prettyplease`.
     Rust,
     /// Indented lines.
     Indented,
@@ -20,11 +22,11 @@ pub enum Form {
     Paragraphs,
 }
 
-/// Returns the parts of `text`, or the whole text if no part is named.
+/// Returns the named parts of `text`. If no part is named, returns the whole text.
 ///
 /// # Errors
 ///
-/// If `text` does not contain a part.
+/// Returns an error if `text` does not contain a named part.
 pub fn parts(text: &str, form: Form, wanted: &[String]) -> Result<String, String> {
     if wanted.is_empty() {
         return Ok(text.to_owned());
@@ -47,7 +49,7 @@ pub fn parts(text: &str, form: Form, wanted: &[String]) -> Result<String, String
     Ok(texts.join(between))
 }
 
-/// Returns the line ranges of every block that `part` names.
+/// Returns the lines of each block that `part` names.
 fn find<'t>(lines: &[&'t str], form: Form, part: &str) -> Vec<Vec<&'t str>> {
     let text = part.trim_end_matches('^');
     let levels = part.len() - text.len();
@@ -73,7 +75,7 @@ fn find<'t>(lines: &[&'t str], form: Form, part: &str) -> Vec<Vec<&'t str>> {
     found
 }
 
-/// Whether the line begins a Rust item that contains `text` as whole words.
+/// Returns whether the line begins a Rust item and contains `text` as whole words.
 fn begins_item(line: &str, text: &str) -> bool {
     let starts = ["pub ", "impl", "const ", "static ", "fn ", "type ", "mod ", "use "];
     let line = line.trim_start();
@@ -88,7 +90,7 @@ fn begins_item(line: &str, text: &str) -> bool {
     })
 }
 
-/// Returns the first line of the element that encloses the line `at`, by `levels` levels.
+/// Returns the first line of the element that encloses the line `at` by `levels` levels.
 fn outer(lines: &[&str], at: usize, levels: usize) -> usize {
     (0..levels).fold(at, |at, _| {
         let depth = indent(lines[at]);
@@ -96,7 +98,8 @@ fn outer(lines: &[&str], at: usize, levels: usize) -> usize {
     })
 }
 
-/// Returns the line `at` with the lines indented below, the closing line and, in Rust, its documentation.
+/// Returns the lines of the element that starts at line `at`: the indented lines below and the closing line. In Rust, the
+/// documentation above is included.
 fn indented(lines: &[&str], at: usize, form: Form) -> Range<usize> {
     let depth = indent(lines[at]);
     let is_above =

@@ -1,4 +1,4 @@
-//! Checks all cases together: every code and every quirk has a case, and the generated code compiles.
+//! Checks the test cases as a whole: each code and each quirk must have a case, and the generated code must compile.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -14,10 +14,10 @@ use libtest_mimic::{Failed, Trial};
 use crate::case::{ending, Case};
 use crate::compile_support::compile_modules;
 
-/// Codes that no case can show. IO001 reports an unreadable file, which a test of the command line covers.
+/// Codes that no test case can cause. IO001 reports an unreadable file; a test of the command line covers it.
 const WITHOUT_INPUT: [&str; 1] = ["IO001"];
 
-/// Every diagnostic code has a case that is named after it and reports it.
+/// Each diagnostic code must have a test case that has its name and reports it.
 pub fn every_code_has_a_case(cases: &[Case]) -> Trial {
     let cases: Vec<(String, String)> =
         cases.iter().map(|case| (case.folder_name(), case.expected_diagnostics())).collect();
@@ -32,7 +32,7 @@ pub fn every_code_has_a_case(cases: &[Case]) -> Trial {
     })
 }
 
-/// `lexibus explain` and the catalogue show a diagnostic from the case of each code: the shortest one.
+/// `lexibus explain` and the catalog must show the shortest diagnostic from the test case of each code.
 pub fn examples_are_those_of_the_cases(cases: &[Case], bless: bool) -> Trial {
     let cases: Vec<(String, String)> =
         cases.iter().map(|case| (case.folder_name(), case.expected_diagnostics())).collect();
@@ -54,7 +54,7 @@ pub fn examples_are_those_of_the_cases(cases: &[Case], bless: bool) -> Trial {
     })
 }
 
-/// Every row of `QUIRKS.md` has a case whose name begins with it.
+/// Each row of `QUIRKS.md` must have a test case whose name starts with the identifier of the row.
 pub fn every_quirk_has_a_case(cases: &[Case]) -> Trial {
     let names: Vec<String> = cases.iter().map(Case::folder_name).collect();
     Trial::test("every quirk has a case", move || {
@@ -74,7 +74,7 @@ pub fn every_quirk_has_a_case(cases: &[Case]) -> Trial {
     })
 }
 
-/// Returns the identifier of a row: `| E01 | …`.
+/// Returns the identifier of a table row, such as `E01` in `| E01 | …`.
 fn row(line: &str) -> Option<&str> {
     let row = line.strip_prefix("| ")?.split(' ').next()?;
     let digits = row.strip_prefix(['E', 'X', 'G'])?;
@@ -88,10 +88,11 @@ fn none_missing(what: &str, missing: &[&str]) -> Result<(), Failed> {
     Err(format!("{what} is missing for {}", missing.join(", ")).into())
 }
 
-/// Number of inputs that are compiled as one crate. More crates take longer, and one crate for all needs too deep a stack.
+/// Number of inputs that are compiled as one crate. More crates would take longer, and a single crate would need too deep
+/// a stack.
 const INPUTS: usize = 50;
 
-/// The Rust of every input without errors compiles without warnings. Each crate is a trial.
+/// The Rust code of all inputs without errors must compile without warnings. Each crate is a separate trial.
 pub fn rust_of_all_cases_compiles(cases: &[Case]) -> Vec<Trial> {
     let mut inputs = Vec::new();
     for case in cases {
@@ -116,7 +117,7 @@ pub fn rust_of_all_cases_compiles(cases: &[Case]) -> Vec<Trial> {
     inputs.chunks(INPUTS).enumerate().map(trial).collect()
 }
 
-/// Every lint reports a diagnostic in a case, and reports only codes that it declares.
+/// Each lint must report a diagnostic in at least one test case, and may only report codes that it declares.
 pub fn lints_declare_their_codes(cases: &[Case]) -> Trial {
     let mut levels = Levels::lenient();
     CODES.iter().for_each(|code| levels.set(code.id, Level::Warn).expect("a code"));

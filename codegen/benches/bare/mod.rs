@@ -1,5 +1,5 @@
-//! Reference for XML readers: a loop over the events of `quick-xml` with their positions, and a loop that also splits the
-//! attributes.
+//! Reference for the XML readers: a loop that reads the events of `quick-xml` with their positions, and a loop that also splits
+//! the attributes.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -11,12 +11,12 @@ use lexibus_codegen::source::Source;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::Reader;
 
-/// Reads all events of a file up to its end or an error, and their end positions.
+/// Counts all events of a file, up to its end or an error. Reads the end position of each event.
 fn events(bytes: &[u8]) -> usize {
     walk(bytes, |_| 0)
 }
 
-/// Like the function above, and splits the attributes of every tag without decoding them.
+/// Counts all events like `events`. Also splits the attributes of each tag, without decoding them.
 fn attributes(bytes: &[u8]) -> usize {
     walk(bytes, |tag| tag.attributes().flatten().map(|attribute| attribute.value.len()).sum())
 }
@@ -34,17 +34,17 @@ fn walk(bytes: &[u8], of_tag: impl Fn(&BytesStart<'_>) -> usize) -> usize {
     }
 }
 
-/// Measures the loop over events.
+/// Measures the loop that reads events.
 pub fn measure(bencher: Bencher<'_, '_>, bytes: Vec<u8>) {
     bencher.counter(BytesCount::new(bytes.len())).bench(|| events(divan::black_box(&bytes)));
 }
 
-/// Prints the time from the bytes of all files to checked IR, and the times of both loops.
+/// Prints the time from the bytes of all files to checked IR, and the times of both reference loops.
 pub fn report(name: &str, files: &[Vec<u8>]) {
     let length: usize = files.iter().map(Vec::len).sum();
     let repetitions = (200_000_000 / length.max(1)).clamp(5, 50);
     let [mut bare, mut apart, mut full] = [Duration::MAX; 3];
-    // Runs in turns and uses the minimum of each, so that other load affects all of them.
+    // Measure all functions in turn and use the minimum time of each, so that other system load affects all of them.
     for _ in 0..repetitions {
         bare = bare.min(time(|| files.iter().map(|file| events(file)).sum::<usize>()));
         apart = apart.min(time(|| files.iter().map(|file| attributes(file)).sum::<usize>()));
@@ -59,7 +59,7 @@ pub fn report(name: &str, files: &[Vec<u8>]) {
     println!("  the same, with split attributes          {:6.1} MB/s, ratio {:.2}", speed(apart), ratio(apart));
 }
 
-/// Measures a function without dropping its results.
+/// Measures the time of a function. Dropping its result is not included.
 fn time<T>(work: impl FnOnce() -> T) -> Duration {
     let start = Instant::now();
     let result = divan::black_box(work());
@@ -72,8 +72,8 @@ fn check(bytes: Vec<u8>) -> Compilation {
     compile::check(Source::new("bench.xml", bytes), &Options::default())
 }
 
-/// Measures the files in a folder of the corpus, if there is one. Files without a catalog are left out. All files are converted
-/// to UTF-8, which `quick-xml` needs.
+/// Measures the files in a folder of the corpus if the corpus exists. Files without a catalog are left out. All files are
+/// converted to UTF-8 because `quick-xml` requires it.
 pub fn report_corpus(folder: &str) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus").join(folder);
     let Ok(entries) = std::fs::read_dir(folder) else {

@@ -17,7 +17,7 @@ pub fn eds(records: usize) -> String {
     text
 }
 
-/// Returns an EDS of `size` times 10 records.
+/// Returns an EDS with `10 * size` records.
 pub fn growing(size: usize) -> Vec<u8> {
     eds(10 * size).into_bytes()
 }

@@ -2,20 +2,20 @@
 
 use std::fmt::Write;
 
-/// Size of each device: records of nine entries, and single values.
+/// The size of a device: the number of records with nine entries each, and the number of single values.
 #[derive(Clone, Copy)]
 pub struct Shape {
     pub records: usize,
     pub single: usize,
 }
 
-/// Dictionary of a drive, with 256 entries.
+/// Shape of a drive. Its dictionary has 256 entries.
 pub const DRIVE: Shape = Shape { records: 24, single: 40 };
 
-/// Dictionary of a small device, with 37 entries.
+/// Shape of a small device. Its dictionary has 37 entries.
 pub const SMALL: Shape = Shape { records: 3, single: 10 };
 
-/// Returns a file of this number of devices in the style and proportions of real files.
+/// Returns an ESI with `devices` devices, in the style and proportions of real files.
 pub fn esi(devices: usize, shape: Shape) -> String {
     let mut text = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<EtherCATInfo xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
@@ -30,7 +30,7 @@ pub fn esi(devices: usize, shape: Shape) -> String {
     text
 }
 
-/// Returns a file of `size` small devices.
+/// Returns an ESI with `size` small devices.
 pub fn growing(size: usize) -> Vec<u8> {
     esi(size, SMALL).into_bytes()
 }
@@ -115,7 +115,7 @@ fn object(text: &mut String, index: usize) {
     );
 }
 
-/// Returns sync managers, and PDOs of ten single values each.
+/// Writes sync managers and PDOs. Each PDO has ten single values.
 fn process_data(text: &mut String, shape: Shape) {
     for (name, address, control) in
         [("MBoxOut", 0x1000, 0x26), ("MBoxIn", 0x1080, 0x22), ("Outputs", 0x1100, 0x64), ("Inputs", 0x1400, 0x20)]

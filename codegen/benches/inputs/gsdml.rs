@@ -2,15 +2,15 @@
 
 use std::fmt::Write;
 
-/// Number of parameters of a record.
+/// Number of parameters per record.
 const OF_A_RECORD: usize = 20;
 
-/// Number of records of a submodule of a drive.
+/// Number of records per submodule of a drive.
 pub const DRIVE: usize = 25;
 
 const LANGUAGES: [&str; 5] = ["de", "fr", "it", "es", "zh"];
 
-/// Size of a description.
+/// Size of a device description.
 #[derive(Clone, Copy)]
 struct Size {
     submodules: usize,
@@ -19,7 +19,7 @@ struct Size {
 }
 
 impl Size {
-    /// Number of parameter texts. Several parameters share one.
+    /// Returns the number of parameter texts. Several parameters share the same text.
     fn texts(self) -> usize {
         (self.submodules * self.records * 24 / 5).max(64)
     }
@@ -29,8 +29,8 @@ impl Size {
     }
 }
 
-/// Returns the description of a drive with this number of submodules, and of records in each of them, in the style and
-/// proportions of real files.
+/// Returns the description of a drive with `submodules` submodules and `records` records in each of them, in the style
+/// and proportions of real files.
 pub fn gsdml(submodules: usize, records: usize) -> Vec<u8> {
     let size = Size { submodules, records };
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n");
@@ -55,7 +55,7 @@ pub fn gsdml(submodules: usize, records: usize) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Returns a description of `size` times 100 parameters.
+/// Returns a description with `100 * size` parameters.
 pub fn growing(size: usize) -> Vec<u8> {
     match size {
         1 => gsdml(1, 5),

@@ -2,16 +2,16 @@
 
 use std::fmt::Write;
 
-/// Bit fields of every register: name, lowest bit and width. A flag has one bit.
+/// Bit fields of each register: name, lowest bit and width. A flag has a width of one bit.
 pub const FIELDS: [(&str, u32, u32); 6] =
     [("enable", 0, 1), ("invert", 1, 1), ("fault", 2, 1), ("gain", 4, 4), ("limit", 8, 8), ("offset", 16, 16)];
 
-/// Returns a table of `size` times 10 registers.
+/// Returns a table with `10 * size` registers.
 pub fn growing(size: usize) -> Vec<u8> {
     table(10 * size).into_bytes()
 }
 
-/// Returns a table of this number of 32-bit registers, each with six bit fields.
+/// Returns a table with `registers` 32-bit registers. Each has six bit fields.
 pub fn table(registers: usize) -> String {
     let mut text =
         String::from("lexibus = 1\n\n[device]\nname = \"Bench\"\nvendor = \"Bench\"\nbuses = [\"modbus\"]\n\n");

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-/// Returns an XDD of `size` times 10 records.
+/// Returns an XDD with `10 * size` records.
 pub fn growing(size: usize) -> Vec<u8> {
     xdd(10 * size).into_bytes()
 }

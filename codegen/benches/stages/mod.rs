@@ -1,4 +1,5 @@
-//! The measured stages from the bytes of a description to Rust, for inputs of 1 to 1,000 times the size.
+//! The measured stages from the bytes of a description to Rust code. The largest input has 1,000 times the size of the
+//! smallest one.
 
 use divan::counter::BytesCount;
 use divan::Bencher;
@@ -9,10 +10,10 @@ use lexibus_codegen::resolve::resolve;
 use lexibus_codegen::source::Source;
 use lexibus_codegen::RustOptions;
 
-/// Input sizes as multiples of the smallest one.
+/// Sizes of the inputs, as multiples of the smallest input.
 pub const SIZES: [usize; 4] = [1, 10, 100, 1_000];
 
-/// Bytes to IR.
+/// Measures reading the bytes of a file to IR.
 pub fn read(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     bencher
         .counter(BytesCount::new(bytes.len()))
@@ -20,7 +21,7 @@ pub fn read(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
         .bench_values(|bytes| compile::read(Source::new(name, bytes), &Options::default()));
 }
 
-/// IR to checked IR.
+/// Measures the passes that convert IR to checked IR.
 pub fn passes(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     let count = BytesCount::new(bytes.len());
     let catalog = compile::read(Source::new(name, bytes), &Options::default()).catalog.expect("a catalogue");
@@ -32,7 +33,7 @@ pub fn passes(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     });
 }
 
-/// Bytes to checked IR, including profiles and the digest of the source.
+/// Measures the stages from bytes to checked IR. This includes profiles and the digest of the source.
 pub fn check(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     bencher
         .counter(BytesCount::new(bytes.len()))
@@ -40,14 +41,14 @@ pub fn check(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
         .bench_values(|bytes| compile::check(Source::new(name, bytes), &Options::default()));
 }
 
-/// Checked IR to the Rust of all devices. The throughput counts the bytes of the description.
+/// Measures generating Rust for all devices from checked IR. The throughput refers to the bytes of the description.
 pub fn emit(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     let count = BytesCount::new(bytes.len());
     let compilation = compile::check(Source::new(name, bytes), &Options::default());
     bencher.counter(count).bench(|| divan::black_box(&compilation).rust(&RustOptions::default()).expect("bindings"));
 }
 
-/// Bytes to Rust.
+/// Measures all stages from bytes to Rust.
 pub fn whole(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     bencher.counter(BytesCount::new(bytes.len())).with_inputs(|| bytes.clone()).bench_values(|bytes| {
         let compilation = compile::check(Source::new(name, bytes), &Options::default());
@@ -55,7 +56,7 @@ pub fn whole(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     });
 }
 
-/// Measures the stages of a format, for files with this name that `growing` creates.
+/// Measures all stages for a format. `growing` creates the files, which have the given name.
 macro_rules! measure {
     ($name:literal) => {
         #[divan::bench(args = stages::SIZES, max_time = 2)]

@@ -1,16 +1,16 @@
-//! Notes on the facts that an export leaves out or changes.
+//! Notes on facts that an export leaves out or changes.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
 use lexibus_codegen::ir::{Device, Group, Item};
 
-/// An exported file.
+/// An exported file with its notes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Export {
     /// The text of the file.
     pub text: String,
-    /// The facts that were left out or changed: one note for each kind, sorted by kind.
+    /// Notes on facts that were left out or changed: one note for each kind, sorted by kind.
     pub notes: Vec<Note>,
 }
 
@@ -19,9 +19,9 @@ pub struct Export {
 pub struct Note {
     /// The kind of the facts.
     pub kind: NoteKind,
-    /// Number of facts.
+    /// Number of facts of this kind.
     pub count: usize,
-    /// The first of them: an object, an entry or the device.
+    /// The location of the first fact: an object, an entry or the device.
     pub first: String,
 }
 
@@ -33,7 +33,7 @@ impl fmt::Display for Note {
 
 macro_rules! kinds {
     ($($(#[doc = $doc:literal])+ $kind:ident = $name:literal, $text:literal;)+) => {
-        /// A kind of fact that the format cannot hold or expresses in another way.
+        /// A kind of fact that the output format cannot express, or expresses in a different form.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[non_exhaustive]
         pub enum NoteKind {
@@ -44,14 +44,14 @@ macro_rules! kinds {
             /// All kinds.
             pub const ALL: &'static [NoteKind] = &[$(NoteKind::$kind,)+];
 
-            /// Returns a stable name for programs.
+            /// Returns the stable name that programs use for the kind.
             pub fn name(self) -> &'static str {
                 match self {
                     $(NoteKind::$kind => $name,)+
                 }
             }
 
-            /// Returns what the fact is and what the export does with it.
+            /// Returns a text that describes the fact and what the export does with it.
             pub fn text(self) -> &'static str {
                 match self {
                     $(NoteKind::$kind => $text,)+
@@ -62,7 +62,7 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// A fact that was given as an option and is not used.
+    /// A fact from the options that the export does not use.
     GivenFact = "given-fact", "value of an option left out: the file has no field for it";
     /// A configured value, such as ParameterValue or Denotation, in an EDS.
     Configuration = "configuration", "configured value left out: only a DCF has a field for it";
@@ -78,13 +78,13 @@ kinds! {
     Widened = "widened-type", "integer written with the next wider type of the format";
     /// A type that the format does not have, or that is not defined.
     UnknownType = "unknown-type", "unsupported type written as raw bytes";
-    /// Maximum length of a string.
+    /// The maximum length of a string.
     Length = "text-length", "maximum length of a string left out";
-    /// Several ranges, or a list of values.
+    /// Allowed values that are several ranges or a list.
     AllowedValues = "allowed-values", "list of allowed values reduced to its minimum and maximum";
-    /// Default and limits of a value in cyclic data.
+    /// The default value and limits of a value in cyclic data.
     Limits = "limits", "default or limits of a value in cyclic data left out";
-    /// A minimum above the maximum.
+    /// A minimum that is greater than the maximum.
     SwappedLimits = "swapped-limits", "limits left out: the minimum is above the maximum";
     /// A default or limit that does not fit its type.
     Value = "value", "value left out: its type cannot hold it";
@@ -94,15 +94,15 @@ kinds! {
     NegativeFormula = "negative-formula", "formula with a negative number written, although CiA 306 does not define it";
     /// Directions of PDO mapping that don't follow from the access type.
     Mapping = "pdo-mapping", "direction of PDO mapping written as access type rwr or rww";
-    /// Directions of PDO mapping that no access type expresses.
+    /// PDO mapping directions that no access type can express.
     LostMapping = "lost-mapping", "direction of PDO mapping left out: no access type expresses it";
     /// A PDO that no object describes.
     Pdo = "pdo", "PDO, or its communication parameters, left out: no object of the file describes it";
-    /// Storage, side effects or conditions.
+    /// Storage behavior, side effects or conditions of an item.
     Behaviour = "behaviour", "storage, conditions or side effects left out";
-    /// Models, versions or options.
+    /// Models, versions or options that have an item.
     Availability = "availability", "models, versions or options of an item left out";
-    /// Another item that holds the same value or a part of it, or a mark as reserved or optional.
+    /// A reference to another item that contains the same value or a part of it, or a mark as reserved or optional.
     Relation = "relation", "relation to other items, or mark as reserved or optional, left out";
     /// A description.
     Documentation = "documentation", "description left out";
@@ -136,7 +136,7 @@ kinds! {
     Axis = "axis", "additional axis left out: the file contains only the objects of the first axis";
     /// A PROFINET submodule, message, code table, state machine, procedure or variant.
     OtherPart = "other-part", "message, code table, state machine, procedure, variant or submodule left out";
-    /// A setting of the device or of one of its objects.
+    /// A setting of the device or of one of its objects that the format does not have.
     Setting = "setting", "setting left out: the format has no field for it";
     /// A date, time, version or comment that the format writes in another form.
     FileInfo = "file-info", "date, time, version or comment of the file converted or left out";
@@ -166,7 +166,7 @@ kinds! {
     OtherVendor = "other-vendor", "device or module of another vendor left out: a file contains only one vendor";
     /// A control character.
     Control = "control-character", "control character removed from a text";
-    /// A missing text in a file that has a text list.
+    /// A missing text of an element in a format with a text list.
     MissingText = "missing-text", "missing text of an element replaced by its name";
     /// A field of a process image that overlaps another field or isn't byte-aligned.
     Layout = "layout", "overlapping or unaligned field of cyclic data written as octets or bits";
@@ -185,7 +185,7 @@ impl Notes {
         self.add_many(kind, true, subject);
     }
 
-    /// Adds `count` facts. A `bool` adds one fact or none.
+    /// Adds `count` facts. `true` counts as one fact and `false` as none.
     pub(super) fn add_many(&mut self, kind: NoteKind, count: impl Into<usize>, subject: Subject<'_>) {
         let count = count.into();
         if count > 0 {
@@ -198,12 +198,12 @@ impl Notes {
     }
 }
 
-/// Returns how many facts of an item are [`NoteKind::Relation`]s.
+/// Returns how many facts of an item are of the kind [`NoteKind::Relation`].
 pub(crate) fn relations(item: &Item) -> usize {
     usize::from(item.related.is_some()) + usize::from(item.is_reserved) + usize::from(item.is_optional)
 }
 
-/// Returns how many parts of a device no vendor format can hold.
+/// Returns how many parts of a device only a register table can express.
 pub(super) fn parts_of_tables(device: &Device) -> usize {
     let parts = [
         device.messages.len(),
@@ -216,7 +216,7 @@ pub(super) fn parts_of_tables(device: &Device) -> usize {
     parts.iter().sum()
 }
 
-/// The subject of a note.
+/// The object, entry or device that a note is about.
 #[derive(Clone, Copy)]
 pub(super) enum Subject<'a> {
     Device,
@@ -242,7 +242,7 @@ impl fmt::Display for Subject<'_> {
             Subject::Device => f.write_str("the device"),
             Subject::Object(index) => write!(f, "0x{index:04X}"),
             Subject::Entry(index, sub) => f.write_str(&lexibus_codegen::facts::address::object(*index, *sub)),
-            // A name may contain control characters, and a note is one line.
+            // Replace control characters in names, because a note is one line.
             Subject::Named(name) => name.chars().try_for_each(|letter| {
                 let letter = if letter.is_control() { ' ' } else { letter };
                 write!(f, "{letter}")

@@ -1,22 +1,22 @@
-//! Facts that a format requires and a source may not have: the caller of the export gives them.
+//! Options of an export. They supply facts that a format requires and a source may not have.
 
 use std::fmt;
 
 use super::note::Note;
 
-/// A fact that the format requires and that is missing.
+/// A fact that the format requires and that neither the source nor the options contain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MissingFact {
-    /// Key of the option that sets it.
+    /// Key of the option for this fact.
     pub key: &'static str,
     /// Description of the fact.
     pub what: &'static str,
 }
 
-/// The reason why there is no file.
+/// The reason why the export writes no file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// The source describes nothing that the format can hold.
+    /// The source contains nothing that the format can express.
     Nothing,
     /// Facts that the format requires are neither in the source nor in the options.
     Missing(Vec<MissingFact>),
@@ -70,9 +70,9 @@ impl MissingFacts {
     }
 }
 
-/// A value of an option.
+/// A type whose values an option can have.
 pub(super) trait OptionValue: Sized {
-    /// Describes the values that are valid.
+    /// Description of the valid values.
     const WHAT: &'static str;
 
     fn parse(text: &str) -> Option<Self>;
@@ -112,12 +112,12 @@ impl OptionValue for bool {
     }
 }
 
-/// Parses the text of an option.
+/// Parses the text of the option `key`.
 pub(super) fn parsed<T: OptionValue>(key: &str, text: &str) -> Result<Option<T>, String> {
     T::parse(text).map(Some).ok_or_else(|| format!("`{key}` must be {}, not `{text}`", T::WHAT))
 }
 
-/// Declares options with a key each, and a view of them that records which options an export reads.
+/// Declares options, each with a key, and a view that records which options an export reads.
 macro_rules! options {
     ($(#[$attribute:meta])* pub struct $name:ident, $tracked:ident {
         $(#[doc = $doc:literal] $field:ident: $ty:ty = $key:literal,)+
@@ -129,7 +129,7 @@ macro_rules! options {
         }
 
         impl $name {
-            /// The key and the description of every option.
+            /// The key and description of each option.
             pub const KEYS: &'static [(&'static str, &'static str)] = &[$(($key, $doc.trim_ascii())),+];
 
             /// Sets the option with this key. Returns an error if the key is unknown or the value is invalid.
@@ -145,7 +145,7 @@ macro_rules! options {
             }
         }
 
-        /// The options, and the keys that were read.
+        /// The options with a record of the keys that were read.
         pub(super) struct $tracked<'o> {
             options: &'o $name,
             keys: std::cell::RefCell<std::collections::HashSet<&'static str>>,

@@ -1,15 +1,15 @@
-//! Objects for items that no object contains: the registers of a table that also have an object address.
+//! Creates objects for registers that have an object address but belong to no declared object.
 
 use std::collections::{BTreeMap, HashSet};
 
 use lexibus_codegen::ir::{Binding, CompactString, Device, Group, Item, ObjectCode, Type, Value};
 use lexibus_codegen::source::Origin;
 
-/// Name of a sub-index 0 that no register describes (CiA 301 7.4.3).
+/// Name of sub-index 0 if no register describes it (CiA 301 7.4.3).
 const COUNT_NAME: CompactString = CompactString::const_new("Highest sub-index supported");
 
-/// Returns an object for every index that only registers have. It is a VAR if it has only sub-index 0, otherwise a RECORD.
-/// `address` returns index and sub-index of a register on the bus of the export.
+/// Returns an object for each index that occurs only in registers. An object with only sub-index 0 is a VAR; other objects
+/// are RECORDs. `address` returns the index and sub-index of a register on the bus of the export.
 pub(super) fn objects(device: &Device, address: impl Fn(&Item) -> Option<(u16, u8)>) -> Vec<Group> {
     let object_indices: HashSet<u16> = device.groups.iter().filter_map(Group::index).collect();
     let mut by_index: BTreeMap<u16, (&Group, BTreeMap<u8, &Item>)> = BTreeMap::new();
@@ -35,7 +35,7 @@ fn object(index: u16, chapter: &Group, items: &BTreeMap<u8, &Item>) -> Group {
     group
 }
 
-/// Returns sub-index 0, which every object with sub-indices has (CiA 301 7.4.3).
+/// Returns the item for sub-index 0, which is mandatory in objects with sub-indices (CiA 301 7.4.3).
 fn count(index: u16, highest: u8) -> Item {
     let mut item = Item::new(Binding::canopen(index, 0));
     item.name = COUNT_NAME;
@@ -44,13 +44,13 @@ fn count(index: u16, highest: u8) -> Item {
     item
 }
 
-/// Returns the number of `objects` whose sub-index 0 no register describes.
+/// Returns the number of `objects` without a register for sub-index 0.
 pub(super) fn completed(objects: &[Group]) -> usize {
     let is_count = |item: &Item| item.origin == Origin::default() && item.name == COUNT_NAME;
     objects.iter().filter(|group| group.items.first().is_some_and(is_count)).count()
 }
 
-/// Returns the name of an object: that of its only entry, otherwise that of the chapter.
+/// Returns the name of an object: the name of its only entry, or the chapter's name if there are several entries.
 fn name(chapter: &Group, items: &BTreeMap<u8, &Item>) -> CompactString {
     match items.values().next() {
         Some(item) if items.len() == 1 => item.name.clone(),
@@ -58,7 +58,7 @@ fn name(chapter: &Group, items: &BTreeMap<u8, &Item>) -> CompactString {
     }
 }
 
-/// Returns the number of registers that have the address of an object or of another register.
+/// Returns the number of registers with the same address as an object or another register.
 pub(super) fn duplicates(device: &Device, address: impl Fn(&Item) -> Option<(u16, u8)>) -> usize {
     let chapters = device.groups.iter().filter(|group| group.index().is_none());
     let addresses = chapters.flat_map(|chapter| &chapter.items).filter_map(address);

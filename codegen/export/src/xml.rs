@@ -1,4 +1,4 @@
-//! A writer of XML: elements, attributes and texts.
+//! Writes XML elements, attributes and texts.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -6,19 +6,19 @@ use std::fmt::Display;
 use compact_str::CompactString;
 use quick_xml::escape::escape;
 
-/// An XML file that is being written. Every opened element must be closed.
+/// An XML file in progress. The caller must close each opened element.
 pub(super) struct Xml {
     text: String,
     open: Vec<Open>,
     /// Number of removed characters that XML 1.0 does not allow.
     pub(super) dropped: usize,
-    /// Number of omitted attributes: their names are invalid, or their elements already have an attribute of this name.
+    /// Number of omitted attributes. An attribute is omitted if its name is invalid or already used in the element.
     pub(super) unnamed: usize,
-    /// Names of the attributes of the element that was opened last.
+    /// Names of the attributes written so far in the last opened element.
     given: Vec<CompactString>,
 }
 
-/// An element that is not closed yet.
+/// An open element.
 struct Open {
     name: Cow<'static, str>,
     content: Content,
@@ -26,7 +26,7 @@ struct Open {
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Content {
-    /// The start tag is not finished: attributes can follow.
+    /// The start tag is unfinished. More attributes can follow.
     Tag,
     Text,
     Elements,
@@ -49,7 +49,7 @@ impl Xml {
         self.open.push(Open { name, content: Content::Tag });
     }
 
-    /// Writes an attribute of the element that was opened last.
+    /// Writes an attribute of the last opened element.
     pub(super) fn attribute(&mut self, name: &str, value: impl Display) {
         if !is_name(name) || self.given.iter().any(|given| given == name) {
             self.unnamed += 1;
@@ -60,21 +60,21 @@ impl Xml {
         self.text.push(' ');
         self.text += name;
         self.text += "=\"";
-        // XML readers replace these characters by spaces unless they are character references.
+        // XML readers replace these characters with spaces if they are not character references.
         let breaks = [("\t", "&#9;"), ("\n", "&#10;"), ("\r", "&#13;")];
         let value = breaks.into_iter().fold(escape(&*value).into_owned(), |text, (from, to)| text.replace(from, to));
         self.text += &value;
         self.text.push('"');
     }
 
-    /// Writes an attribute if there is a value.
+    /// Writes an attribute if its value is `Some`.
     pub(super) fn optional(&mut self, name: &str, value: Option<impl Display>) {
         if let Some(value) = value {
             self.attribute(name, value);
         }
     }
 
-    /// Writes an attribute unless the value is the one that a missing attribute means.
+    /// Writes an attribute unless its value equals `usual`, the value of a missing attribute.
     pub(super) fn unless<T: Display + PartialEq>(&mut self, name: &str, value: T, usual: T) {
         self.optional(name, Some(value).filter(|value| *value != usual));
     }
@@ -84,14 +84,14 @@ impl Xml {
         self.unless(name, text, "");
     }
 
-    /// Writes an attribute if `value` is true.
+    /// Writes the attribute `name` with the value `word` if `value` is true.
     pub(super) fn flag(&mut self, name: &str, value: bool, word: &str) {
         if value {
             self.attribute(name, word);
         }
     }
 
-    /// Writes text within the element that was opened last.
+    /// Writes text within the last opened element.
     pub(super) fn content(&mut self, value: impl Display) {
         let value = self.allowed(value.to_string());
         if !value.is_empty() {
@@ -100,7 +100,7 @@ impl Xml {
         }
     }
 
-    /// Closes the element that was opened last.
+    /// Closes the last opened element.
     pub(super) fn close(&mut self) {
         let Some(Open { name, content }) = self.open.pop() else { return };
         match content {
@@ -123,14 +123,14 @@ impl Xml {
         self.close();
     }
 
-    /// Writes such an element if there is a value.
+    /// Writes an element that contains only text if its value is `Some`.
     pub(super) fn optional_leaf(&mut self, name: &'static str, value: Option<impl Display>) {
         if let Some(value) = value {
             self.leaf(name, value);
         }
     }
 
-    /// Writes such an element unless the text is empty.
+    /// Writes an element that contains only text unless the text is empty.
     pub(super) fn text_leaf(&mut self, name: &'static str, text: &str) {
         if !text.is_empty() {
             self.leaf(name, text);
@@ -144,7 +144,7 @@ impl Xml {
         self.close();
     }
 
-    /// Writes an element that `write` fills with the elements of a list, unless the list is empty.
+    /// Writes an element unless `list` is empty. Calls `write` to write its child elements.
     pub(super) fn list<T>(
         &mut self,
         name: &'static str,
@@ -159,7 +159,7 @@ impl Xml {
         }
     }
 
-    /// Finishes the start tag of the element that was opened last, unless it is finished.
+    /// Finishes the start tag of the last opened element if necessary.
     fn finish_tag(&mut self, content: Content) {
         if let Some(last) = self.open.last_mut().filter(|last| last.content == Content::Tag) {
             last.content = content;
@@ -171,7 +171,7 @@ impl Xml {
         self.text.extend(std::iter::repeat_n("  ", self.open.len()));
     }
 
-    /// Returns `text` without the characters that XML does not allow.
+    /// Removes characters from `text` that XML does not allow.
     fn allowed(&mut self, mut text: String) -> String {
         let is_forbidden = |letter: char| {
             letter < ' ' && !matches!(letter, '\t' | '\n' | '\r') || matches!(letter, '\u{FFFE}' | '\u{FFFF}')
@@ -193,7 +193,7 @@ impl Xml {
     }
 }
 
-/// Returns whether an attribute can have this name (`Name` of XML 1.0). Characters that aren't ASCII count as letters.
+/// Returns whether the text is a valid attribute name (`Name` of XML 1.0). All non-ASCII characters count as letters.
 fn is_name(text: &str) -> bool {
     let is_letter = |letter: char| letter.is_ascii_alphabetic() || matches!(letter, '_' | ':') || !letter.is_ascii();
     text.starts_with(is_letter)

@@ -1,4 +1,4 @@
-//! Compiles any bytes as an EDS.
+//! Compiles arbitrary bytes as an EDS.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| lexibus_codegen_fuzz::everything("fuzz.eds", bytes));

@@ -1,4 +1,4 @@
-//! Imports any bytes as a register list, and compiles the resulting table.
+//! Imports arbitrary bytes as a register list and compiles the resulting table.
 #![no_main]
 
 use lexibus_codegen::source::Source;

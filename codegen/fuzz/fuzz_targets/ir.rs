@@ -1,4 +1,4 @@
-//! Creates an IR from any bytes. No output may panic, and an IR without errors must compile to Rust.
+//! Creates IR from arbitrary bytes. Creating any output must not panic, and IR without errors must compile to Rust.
 #![no_main]
 
 use lexibus_codegen::compile::Options;

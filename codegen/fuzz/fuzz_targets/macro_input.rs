@@ -1,7 +1,8 @@
-//! Parses any text as the arguments of `dictionary!`, and generates code with the resulting options.
+//! Parses arbitrary text as the arguments of `dictionary!` and generates code with the resulting options.
 #![no_main]
 
-// A program cannot call the macro itself, only its parser. Files that a call names are not opened.
+// A program can only call the parser of the macro, not the macro itself. The target does not open files that the
+// arguments name.
 #[allow(dead_code)]
 #[path = "../../../macros/src/call.rs"]
 mod call;
@@ -16,7 +17,7 @@ libfuzzer_sys::fuzz_target!(|text: &str| {
     match syn::parse2::<call::Call>(tokens) {
         Ok(call) => {
             let compilation = check(Source::new(call.path.value(), DEMO.into()), &call.options);
-            // The compiler rejects text that is not Rust before the macro runs.
+            // rustc rejects text that is not Rust before it runs the macro.
             let _ = compilation.rust(&call.options.rust).map(|text| text.parse::<proc_macro2::TokenStream>());
         }
         Err(error) => drop(error.to_compile_error()),

@@ -1,4 +1,4 @@
-//! Reads any bytes as a stream of frames, and as a request and its reply. Everything that is read must be written as the same
+//! Decodes arbitrary bytes as a stream of frames, and as a request and its reply. Encoding the decoded data must give the same
 //! bytes.
 #![no_main]
 
@@ -6,37 +6,37 @@ use lexibus::framing::Framing;
 use lexibus::message::{Message, Reader, Reply, Request, WriteError, Writer};
 use lexibus_drives::hsd::messages::*;
 
-/// Checks that `write` returns the bytes that were read, up to `known` bytes. Settings of wrong length and values beyond their
-/// limits can be read, to diagnose a bus, but not written.
+/// Checks that `write` writes the bytes that were read, up to `known` bytes. Settings with a wrong length and values beyond
+/// their limits can be read for bus diagnosis, but not written.
 fn same(name: &str, data: &[u8], known: usize, write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) {
     let mut again = [0; 2 * MAX_DATA];
     let mut to = Writer::new(&mut again);
     match write(&mut to) {
         Err(WriteError::Length(_)) if name.contains("Par") => {}
         Err(WriteError::OutOfRange(_)) => {}
-        Err(error) => panic!("{name} was read, and isn't written: {error}"),
+        Err(error) => panic!("{name} was read but cannot be written: {error}"),
         Ok(()) => {
             assert_eq!(to.written().len(), data.len(), "{name}");
-            // A value of zeros is written as zeros, but reads any bytes.
+            // A value of zeros is written as zeros, but arbitrary bytes are accepted when it is read.
             let known = if name == CmdGetParN::NAME { known.min(6) } else { known };
             assert_eq!(to.written()[..known], data[..known], "{name}");
         }
     }
 }
 
-/// A request that is read must be written as the same bytes, and so must a reply to it.
+/// Checks that a decoded request and a decoded reply to it encode to the same bytes.
 fn request<'r, M: Request<'r>>(data: &'r [u8], answer: &'r [u8]) {
     let _ = M::Refusal::read(data, &mut Reader::new(answer));
     let reply = M::Reply::read(data, &mut Reader::new(answer));
     let Some((node, request)) = M::parse(&mut Reader::new(data)) else { return };
     same(M::NAME, data, data.len(), |to| request.write(node, to));
     if let Some(reply) = reply {
-        // A reply can repeat the bytes of the request. Bytes that a short request lacks can have any value.
+        // A reply can repeat bytes of the request. If the request is too short, these bytes can have any value.
         same(M::NAME, answer, data.len().min(answer.len()), |to| reply.write(data, to));
     }
 }
 
-/// The data of each frame must encode to the same frame.
+/// Checks that the data of each decoded frame encode to the same frame.
 fn frames(stream: &[u8]) {
     let (mut decoder, mut data) = (FRAMING.decoder(), [0; MAX_DATA]);
     for &byte in stream {

@@ -1,4 +1,4 @@
-//! Compiles a description with any bytes as an overlay.
+//! Compiles a description with arbitrary bytes as an overlay.
 #![no_main]
 
 use lexibus_codegen_fuzz::overlaid;
@@ -10,7 +10,7 @@ const DESCRIPTIONS: [(&str, &str); 3] = [
 ];
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    // The length selects one description per run, because runs are slow. One more byte selects the next description.
+    // The number of bytes selects the description. Each run uses only one description because runs are slow.
     let (name, description) = DESCRIPTIONS[bytes.len() % DESCRIPTIONS.len()];
     overlaid(name, description, bytes);
 });

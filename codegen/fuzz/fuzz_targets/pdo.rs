@@ -1,4 +1,4 @@
-//! Unpacks any bytes as process data of the drives, which must be packed as the same bytes.
+//! Unpacks arbitrary bytes as process data of the drives. Packing must give the same bytes.
 #![no_main]
 
 use lexibus_drives::{akd, demo_drive, eco, vector_step};
@@ -6,7 +6,7 @@ use lexibus_drives::{akd, demo_drive, eco, vector_step};
 macro_rules! process_data {
     ($data:ident $($name:path)*) => { $({
         use $name as Layout;
-        // All bits that belong to fields. The others are padding.
+        // Set all bits that belong to fields. The others are padding.
         let ones = Layout::unpack(&[0xFF; Layout::LEN]).expect("so many bytes").pack();
         match Layout::unpack($data) {
             Ok(fields) => {

@@ -1,16 +1,16 @@
-//! Common parts of the fuzz targets.
+//! Functions that all fuzz targets share.
 
 #[path = "../../../cli/tests/exercise/mod.rs"]
 mod exercise;
 
 use lexibus_codegen::source::Source;
 
-/// Reads, checks, renders, exports and compiles `bytes` as a file with this name. Nothing may panic.
+/// Reads, checks, renders, exports and compiles `bytes` as a file with this name. None of these steps may panic.
 pub fn everything(name: &str, bytes: &[u8]) {
     exercise::exercise(name, bytes);
 }
 
-/// Like the function above, for `description` with an overlay of these bytes.
+/// Runs the steps of `everything` for `description` with `bytes` as an overlay.
 pub fn overlaid(name: &str, description: &str, bytes: &[u8]) {
     exercise::exercise_with(name, description.as_bytes(), vec![Source::new("fuzz.overlay.toml", bytes.to_vec())]);
 }

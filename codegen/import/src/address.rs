@@ -1,4 +1,4 @@
-//! Parses addresses: numbers, ranges, bits, Modbus tables, objects.
+//! Parses addresses: numbers, ranges, bits, Modbus tables and objects.
 
 use super::cells::{self, hexadecimal};
 
@@ -12,7 +12,7 @@ pub(super) enum Table {
 }
 
 impl Table {
-    /// Returns the name of the table in a register table.
+    /// Returns the key of the table in the register-table format.
     pub fn name(self) -> &'static str {
         match self {
             Table::Holding => "holding",
@@ -32,7 +32,8 @@ impl Table {
         matches!(self, Table::Input | Table::Discrete)
     }
 
-    /// Returns the table of an address that starts with the digit of a table (40001), and the first address of the table.
+    /// Returns the table of a printed address that starts with the digit of a table, such as 40001, and the first address
+    /// of that table.
     pub fn of_number(number: u32) -> Option<(Table, u32)> {
         let found = match number {
             1..=9_999 => (Table::Coil, 1),
@@ -62,33 +63,33 @@ impl Table {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Address {
     pub first: u32,
-    /// Last address of a range.
+    /// Last address if the cell contains a range.
     pub last: Option<u32>,
-    /// Table that the cell names.
+    /// Table if the cell names it.
     pub table: Option<Table>,
-    /// Lowest and highest bit of a part of a register.
+    /// Lowest and highest bit if the cell addresses a part of a register.
     pub bits: Option<(u8, u8)>,
     pub is_hex: bool,
 }
 
-/// Notation of the addresses of a column.
+/// Notation of the addresses in a column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Style {
-    /// Whether bare digits are hexadecimal.
+    /// Whether digits without a prefix are hexadecimal.
     pub is_hex: bool,
-    /// Whether addresses have the form `4x0001`. Then `0x0001` is a coil.
+    /// Whether addresses have the form `4x0001`. In this notation, `0x0001` is a coil.
     pub is_x: bool,
-    /// Whether all addresses end in `.0`, as some spreadsheets write them.
+    /// Whether all addresses end in `.0`, which some spreadsheets add.
     pub is_fraction: bool,
 }
 
 impl Style {
-    /// Detects the notation of a column.
+    /// Detects the address notation of a column.
     pub fn of<'c>(cells: impl Iterator<Item = &'c str> + Clone, is_hex: bool) -> Style {
         let mut filled = cells.filter(|text| !cells::is_blank(text));
         let is_x = filled.clone().any(|text| x_notation(text).is_some_and(|(digit, _)| digit != '0'));
         let is_fraction = filled.clone().next().is_some() && filled.clone().all(|text| text.ends_with(".0"));
-        // If one address contains a letter, all are hexadecimal.
+        // If one address contains a letter, all addresses of the column are hexadecimal.
         let letters = |text: &str| {
             let is_plain = !text.is_empty() && text.chars().all(|digit| digit.is_ascii_hexdigit());
             is_plain
@@ -99,7 +100,7 @@ impl Style {
     }
 }
 
-/// Parses `4x0012`, and returns the digit of the table and the number.
+/// Parses an address such as `4x0012`. Returns the digit of the table and the number.
 fn x_notation(text: &str) -> Option<(char, u32)> {
     let mut letters = text.chars();
     let digit = letters.next().filter(|digit| matches!(digit, '0' | '1' | '3' | '4'))?;
@@ -124,7 +125,7 @@ pub(super) fn read(text: &str, style: Style) -> Option<Address> {
     Some(Address { last, bits, ..start })
 }
 
-/// Divides the register address from the bits after it: `40010.3`, `40010 bit 3`, `40010:0-3`.
+/// Separates the register address from the bits after it: `40010.3`, `40010 bit 3`, `40010:0-3`.
 fn part_of(text: &str) -> (&str, Option<(u8, u8)>) {
     let lower = text.to_ascii_lowercase();
     let by_word = lower.find("bit").map(|at| (at, at + 3));
@@ -144,7 +145,7 @@ fn part_of(text: &str) -> (&str, Option<(u8, u8)>) {
     }
 }
 
-/// Parses `3`, `0-3` or `15..8`, and returns the lowest and highest bit.
+/// Parses bit numbers such as `3`, `0-3` or `15..8`. Returns the lowest and highest bit.
 pub(super) fn bit_range(text: &str) -> Option<(u8, u8)> {
     let text = text.trim().trim_start_matches(['b', 'B']).trim_matches(['[', ']', ' ']);
     let (one, other) = text.split_once("..").or_else(|| text.split_once(['-', '–', ':', '~'])).unwrap_or((text, text));
@@ -162,7 +163,7 @@ pub(super) fn mask(text: &str) -> Option<(u8, u8)> {
     is_whole.then_some((low as u8, (low + bits - 1) as u8))
 }
 
-/// Divides a range into start and end.
+/// Separates the start and end of a range.
 fn ends(text: &str) -> (&str, Option<&str>) {
     let words = ["..", "…", "~", " to ", " bis ", "–", "-", "/", "&", "+"];
     let divided = words.into_iter().find_map(|word| text.split_once(word));
@@ -178,7 +179,8 @@ fn ends(text: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// Returns the end of a range. The end may omit leading digits of the start.
+/// Returns the last address of a range that starts at `first`. The text may omit the leading digits that both have in
+/// common.
 fn end_of(first: u32, last: &str, style: Style) -> Option<u32> {
     let end = single(last, style)?.first;
     if end >= first {
@@ -195,7 +197,7 @@ fn end_of(first: u32, last: &str, style: Style) -> Option<u32> {
     }
 }
 
-/// Whether a number is hexadecimal.
+/// Returns whether a number is hexadecimal.
 fn is_hexadecimal(text: &str, style: Style) -> bool {
     hexadecimal(text, style.is_hex).is_some() && !(style.is_x && x_notation(text.trim()).is_some())
 }
@@ -229,7 +231,7 @@ fn single(text: &str, style: Style) -> Option<Address> {
     is_number.then(|| Some(Address { first: digits.parse().ok()?, table, ..Address::default() })).flatten()
 }
 
-/// Parses the name of a Modbus table, or function codes. Function codes also determine access rights.
+/// Parses the name of a Modbus table or a list of function codes. Function codes also determine the access rights.
 pub(super) fn table(text: &str) -> Option<(Table, Option<&'static str>)> {
     let lower = text.to_lowercase();
     let names = [
@@ -318,7 +320,7 @@ mod tests {
             assert_eq!(read(text, plain), Some(Address { last: Some(64), ..number(63) }), "{text}");
         }
         assert_eq!(read("10099-100", plain), Some(Address { last: Some(10100), ..number(10099) }));
-        // An end without a prefix has the notation of the start.
+        // The end of a range has no prefix and uses the notation of the start.
         let range = |first, last| Some(Address { last: Some(last), is_hex: true, ..number(first) });
         assert_eq!(read("0x0010-11", plain), range(0x10, 0x11));
         assert_eq!(read("0x0010-17", plain), range(0x10, 0x17));

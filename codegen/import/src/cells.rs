@@ -1,8 +1,8 @@
-//! Parses single cells: numbers, factors, units, access rights, word order.
+//! Parses single cells: numbers, factors, units, access rights and word order.
 
 use lexibus_codegen::frontend::table::usual_unit;
 
-/// Number and its notation.
+/// A number with its notation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Number {
     Int { value: i128, is_hex: bool },
@@ -25,13 +25,14 @@ impl Number {
     }
 }
 
-/// Whether a cell has no content, or only a placeholder such as `n/a`.
+/// Returns whether a cell is empty or contains only a placeholder such as `n/a`.
 pub(super) fn is_blank(text: &str) -> bool {
     const NOTHING: [&str; 12] = ["", "-", "--", "---", "–", "—", "/", "n/a", "na", "n.a.", "none", "null"];
     NOTHING.contains(&text.trim().to_lowercase().as_str())
 }
 
-/// Parses a hexadecimal integer: `0x1F`, `1Fh`, `#x1F`, `16#1F`, `$1F`, and bare digits if `is_hex`.
+/// Parses a hexadecimal integer: `0x1F`, `1Fh`, `#x1F`, `16#1F` or `$1F`. If `is_hex` is set, digits without a prefix are also
+/// accepted.
 pub(super) fn hexadecimal(text: &str, is_hex: bool) -> Option<i128> {
     let text = text.trim();
     let marked = ["0x", "0X", "#x", "16#", "$", "&H", "&h"].into_iter().find_map(|mark| text.strip_prefix(mark));
@@ -42,12 +43,12 @@ pub(super) fn hexadecimal(text: &str, is_hex: bool) -> Option<i128> {
         _ => return None,
     };
     let digits: String = digits.chars().filter(|&letter| !matches!(letter, '_' | ' ')).collect();
-    // `from_str_radix` would accept a sign.
+    // Check the digits, because `from_str_radix` would accept a sign.
     let is_number = !digits.is_empty() && digits.chars().all(|digit| digit.is_ascii_hexdigit());
     is_number.then(|| i128::from_str_radix(&digits, 16).ok()).flatten()
 }
 
-/// Parses a number in any notation. `comma` states that the decimal mark is a comma.
+/// Parses a number in any notation. `comma` means that the decimal mark is a comma.
 pub(super) fn number(text: &str, comma: bool) -> Option<Number> {
     let text: String = text.trim().replace(['\u{a0}', '\u{202f}', '\'', '_'], "").replace(['−', '–'], "-");
     let (sign, digits) = match text.strip_prefix('-') {
@@ -72,7 +73,7 @@ pub(super) fn number(text: &str, comma: bool) -> Option<Number> {
     Some(Number::Real(sign as f64 * value))
 }
 
-/// Returns the digits of a number with a decimal point and without thousands separators.
+/// Converts a number to a decimal point and removes its thousands separators.
 fn point(digits: &str, comma: bool) -> String {
     let groups = |mark: char| {
         let mut parts = digits.split(mark);
@@ -89,7 +90,8 @@ fn point(digits: &str, comma: bool) -> String {
     }
 }
 
-/// Returns whether the decimal mark of a number is a comma; `None` if the number does not show it.
+/// Returns whether the decimal mark of a number is a comma. Returns `None` if the number has no decimal mark or its meaning is
+/// unclear.
 pub(super) fn decimal_mark(text: &str) -> Option<bool> {
     let digits = text.trim().trim_start_matches(['-', '+']);
     let (whole, fraction) = digits.split_once([',', '.'])?;
@@ -98,7 +100,7 @@ pub(super) fn decimal_mark(text: &str) -> Option<bool> {
     (is_number(whole) && is_number(fraction) && is_clear).then(|| digits.contains(','))
 }
 
-/// Parses a number that may be followed by the unit of its row.
+/// Parses a number. The unit of the row may follow the number.
 pub(super) fn quantity(text: &str, unit: &str, comma: bool) -> Option<Number> {
     let text = text.trim();
     number(text, comma).or_else(|| {
@@ -108,12 +110,12 @@ pub(super) fn quantity(text: &str, unit: &str, comma: bool) -> Option<Number> {
     })
 }
 
-/// Parses a range of two numbers: `0..100`, `0-100`, `-40 to 85`, `[0; 100]`.
+/// Parses a range of two numbers, such as `0..100`, `0-100`, `-40 to 85` or `[0; 100]`.
 pub(super) fn range(text: &str, unit: &str, comma: bool) -> Option<(Number, Number)> {
     let text = text.trim().trim_matches(['[', ']', '(', ')']).trim();
     let words = ["..", "…", "~", "÷", " to ", " bis ", " a ", " - ", ";", "–", "/"];
     let divided = words.into_iter().find_map(|word| text.split_once(word));
-    // A `-` at the start is a sign.
+    // A `-` at the start of the text is a sign, not a separator.
     let by_dash = || {
         let (at, _) = text.char_indices().skip(1).find(|&(_, letter)| letter == '-')?;
         Some((text.get(..at)?, text.get(at + 1..)?))
@@ -123,14 +125,14 @@ pub(super) fn range(text: &str, unit: &str, comma: bool) -> Option<(Number, Numb
     Some((quantity(low, unit, comma)?, quantity(high, unit, comma)?))
 }
 
-/// Scale factor. It is ambiguous if its inverse may be meant.
+/// A scale factor. It is ambiguous if the inverse could also be meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Factor {
     pub value: f64,
     pub is_ambiguous: bool,
 }
 
-/// Parses a scale factor: `0.1`, `x0.1`, `x10`, `/100`, `1/10`, `10^-1`, `0.1 V`.
+/// Parses a scale factor, such as `0.1`, `x0.1`, `x10`, `/100`, `1/10`, `10^-1` or `0.1 V`.
 pub(super) fn factor(text: &str, unit: &str, comma: bool) -> Option<Factor> {
     let text = text.trim().trim_start_matches('=');
     let clear = |value: f64| Factor { value, is_ambiguous: false };
@@ -153,13 +155,13 @@ pub(super) fn factor(text: &str, unit: &str, comma: bool) -> Option<Factor> {
     (found.value.is_finite() && found.value != 0.0).then_some(found)
 }
 
-/// Parses a unit and the factor before it (`0.1 °C`, `1/10 V`).
+/// Parses a unit and the factor before it, such as `0.1 °C` or `1/10 V`.
 pub(super) fn unit(text: &str, comma: bool) -> (String, Option<f64>) {
     let text = text.trim().trim_matches(['[', ']']).trim();
     let is_number = |letter: char| letter.is_ascii_digit() || matches!(letter, '.' | ',' | '/' | ' ');
     let digits = text.trim_start_matches(is_number);
     let head = text.strip_suffix(digits).unwrap_or_default().trim();
-    // `1/min` and `1/h` are units.
+    // `1/min` and `1/h` are units without a factor.
     if head.is_empty() || digits.is_empty() || head.ends_with('/') {
         return (symbol(text), None);
     }
@@ -169,12 +171,12 @@ pub(super) fn unit(text: &str, comma: bool) -> (String, Option<f64>) {
     }
 }
 
-/// Returns the usual symbol of a unit.
+/// Returns the standard symbol of a unit.
 fn symbol(text: &str) -> String {
     usual_unit(text).unwrap_or(text).to_owned()
 }
 
-/// Parses access rights, and returns them as register tables spell them: `ro`, `rw`, `wo`, `const`, `rwr` or `rww`.
+/// Parses access rights. Returns their key in a register table: `ro`, `rw`, `wo`, `const`, `rwr` or `rww`.
 pub(super) fn access(text: &str) -> Option<&'static str> {
     let lower = text.to_lowercase();
     let letters: String = lower.chars().filter(|letter| letter.is_alphanumeric()).collect();
@@ -200,14 +202,15 @@ pub(super) fn access(text: &str) -> Option<&'static str> {
     })
 }
 
-/// Order of words and bytes: the keys `low_first` and `swap` of a register table.
+/// Word and byte order, for the keys `low_first` and `swap` of a register table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Order {
     pub low_first: Option<bool>,
     pub swap: Option<bool>,
 }
 
-/// Parses a word and byte order such as `ABCD`, `little endian` or `MSW first`. `of_words` states that bytes keep their order.
+/// Parses a word and byte order such as `ABCD`, `little endian` or `MSW first`. `of_words` means that the text describes only
+/// the order of words.
 pub(super) fn order(text: &str, of_words: bool) -> Option<Order> {
     let lower = text.to_lowercase();
     let letters: String = lower.chars().filter(|letter| letter.is_alphanumeric()).collect();

@@ -8,26 +8,26 @@ use super::records::{Record, Records};
 
 macro_rules! fields {
     ($($(#[$doc:meta])* $variant:ident $name:literal [$($title:literal)*])*) => {
-        /// Property of a register that a column contains.
+        /// A property of a register that a column can contain.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Field {
             $($(#[$doc])* $variant,)*
         }
 
-        /// Fields with their names and the titles of their columns.
+        /// All fields with their names and possible column titles.
         const FIELDS: &[(Field, &str, &[&str])] = &[$((Field::$variant, $name, &[$($title),*])),*];
     };
 }
 
 fields! {
-    /// Name.
+    /// Name of the register.
     Name "name" [
         "name" "register name" "signal" "signal name" "parameter" "parameter name" "tag" "tag name" "variable"
         "variable name" "variablenname" "item" "label" "data name" "point" "point name" "object name" "title" "symbol"
         "field name" "mnemonic" "bezeichnung" "parametername" "registername" "signalname" "nome" "nome parametro"
         "nome registro" "nome variabile" "parametro" "variabile" "denominazione" "etichetta" "nom" "nombre"
     ]
-    /// Description.
+    /// Description of the register.
     Doc "doc" [
         "description" "doc" "documentation" "note" "notes" "remark" "remarks" "comment" "comments" "explanation"
         "meaning" "details" "detail" "desc" "info" "information" "function" "beschreibung" "bemerkung" "bemerkungen"
@@ -69,23 +69,23 @@ fields! {
         "type" "data type" "datatype" "format" "data format" "value type" "variable type" "numeric type" "dtype"
         "datentyp" "typ" "tipo" "tipo dato" "tipo di dato" "tipo dati" "formato" "tipo variabile"
     ]
-    /// Length in registers.
+    /// Length of the value in registers.
     Words "words" [
         "words" "length" "len" "size" "registers" "number of registers" "no of registers" "num registers" "reg count"
         "register count" "quantity" "qty" "count" "number of words" "no of words" "word count" "size words"
         "length words" "register length" "width" "anzahl" "länge" "anzahl register" "registeranzahl" "größe" "lunghezza"
         "numero registri" "n registri" "dimensione" "quantità"
     ]
-    /// Length in bytes.
+    /// Length of the value in bytes.
     Bytes "bytes" ["bytes" "size bytes" "length bytes" "number of bytes" "no of bytes" "byte count" "byte"]
-    /// Length in bits.
+    /// Length of the value in bits.
     Width "width" ["bit length" "bit size" "size bits" "length bits" "bit width" "number of bits" "bitlänge"]
     /// Order of words and bytes.
     Order "order" [
         "order" "byte order" "byteorder" "word order" "wordorder" "endianness" "endian" "swap" "word swap" "byte swap"
         "byte word order" "ordine byte" "ordine word" "byte reihenfolge" "wortreihenfolge"
     ]
-    /// Unit.
+    /// Unit of the value.
     Unit "unit" [
         "unit" "units" "unit of measure" "unit of measurement" "uom" "engineering unit" "eng unit" "eu" "measure unit"
         "einheit" "einheiten" "um" "u m" "unità" "unita" "unità di misura" "unita di misura" "unidad" "eenheid" "unité"
@@ -99,26 +99,26 @@ fields! {
     ]
     /// Divisor of the raw value.
     Divisor "divisor" ["divisor" "divider" "divide" "divide by" "gain" "teiler" "divisore" "guadagno"]
-    /// Exponent of ten of the scale factor, or the register that contains it.
+    /// Decimal exponent of the scale factor, or a reference to the register that contains it.
     Exponent "exponent" ["sf" "exponent" "scale exponent" "power of ten" "sunssf" "esponente"]
-    /// Number of decimal places.
+    /// Number of decimal places of the value.
     Decimals "decimals" [
         "decimals" "decimal places" "decimal" "dec" "digits" "dp" "decimal point" "nachkommastellen" "dezimalstellen"
         "decimali" "cifre decimali"
     ]
-    /// Physical value of raw value 0.
+    /// Physical value that corresponds to raw value 0.
     Offset "offset" ["offset" "value offset" "bias" "scale offset" "scaling offset" "nullpunkt"]
-    /// Minimum.
+    /// Minimum value.
     Min "min" [
         "min" "minimum" "min value" "minimum value" "low limit" "lower limit" "lower" "low" "minimalwert" "untergrenze"
         "minwert" "minimo" "valore minimo" "val min" "limite inferiore" "mín" "mini"
     ]
-    /// Maximum.
+    /// Maximum value.
     Max "max" [
         "max" "maximum" "max value" "maximum value" "high limit" "upper limit" "upper" "high" "maximalwert" "obergrenze"
         "maxwert" "massimo" "valore massimo" "val max" "limite superiore" "máx" "maxi"
     ]
-    /// Minimum and maximum.
+    /// Minimum and maximum value.
     Range "range" [
         "range" "value range" "min max" "limits" "min max range" "valid range" "setting range" "data range"
         "wertebereich" "bereich" "campo" "intervallo" "range valori" "campo di variazione" "min max value"
@@ -140,32 +140,32 @@ fields! {
         "invalid" "invalid value" "na value" "n a value" "not available" "error value" "null value" "nan value"
         "not implemented" "ungültig"
     ]
-    /// Names of the values.
+    /// Names of individual values.
     Enum "enum" [
         "enum" "enumeration" "values" "enumerations" "options" "option" "possible values" "value description"
         "value meaning" "selection" "states" "codes" "coding" "value list" "values description" "value" "werte"
         "auswahl" "wertebedeutung" "valori" "enumerazione" "opzioni" "valori ammessi" "valore" "codifica"
     ]
-    /// Names of the bits.
+    /// Names of the register's bits.
     Bits "bits" [
         "bits" "bit field" "bitfield" "bit description" "bit meaning" "bit definition" "flags" "bit description meaning"
         "significato bit"
     ]
-    /// Chapter of the row.
+    /// Chapter to which the row belongs.
     Chapter "chapter" [
         "chapter" "group" "category" "section" "block" "module" "menu" "function group" "class" "subsystem" "gruppe"
         "kategorie" "kapitel" "bereich gruppe" "gruppo" "categoria" "sezione" "capitolo"
     ]
-    /// Page or section of the manual.
+    /// Page or section of the manual that describes the row.
     Cite "cite" ["cite" "page" "page no" "manual page" "seite" "pagina" "pag"]
-    /// Name in the language of the manual.
+    /// Name of the register in the language of the manual.
     Orig "orig" ["orig" "original" "original name" "originalname" "nome originale" "local name"]
-    /// Number of repetitions.
+    /// Number of consecutive registers that the row describes.
     Count "count" ["repeat" "repeats" "instances" "number of instances" "array size" "array length" "elements"]
 }
 
 impl Field {
-    /// Returns the field with this name, in any case.
+    /// Returns the field with this name. Upper and lower case are equivalent.
     pub fn find(name: &str) -> Option<Field> {
         FIELDS.iter().find(|(_, known, _)| known.eq_ignore_ascii_case(name)).map(|&(field, ..)| field)
     }
@@ -180,13 +180,13 @@ impl Field {
         FIELDS.iter().map(|&(_, name, _)| name)
     }
 
-    /// Returns the most similar name of a field.
+    /// Returns the field name that is most similar to `name`.
     pub fn similar(name: &str) -> Option<&'static str> {
         let best = Field::names().map(|known| (edit_distance(name, known), known)).min()?;
         (best.0 * 2 <= name.chars().count()).then_some(best.1)
     }
 
-    /// Whether the field is the address of a row.
+    /// Returns whether the field contains an address of the row.
     pub fn is_address(self) -> bool {
         matches!(self, Field::Reg | Field::Index | Field::Param)
     }
@@ -198,19 +198,19 @@ impl fmt::Display for Field {
     }
 }
 
-/// Column with a known field.
+/// A column whose field is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Column {
     pub field: Field,
-    /// Position in a line.
+    /// Position of the column in a line.
     pub at: usize,
-    /// Whether the title states that the numbers are hexadecimal.
+    /// Whether the title says that the numbers are hexadecimal.
     pub is_hex: bool,
     /// Whether the title mentions words instead of bytes, or a gain instead of a divisor.
     pub hint: Hint,
 }
 
-/// Additional meaning of a title.
+/// Additional information in a title.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Hint {
     #[default]
@@ -219,51 +219,51 @@ pub(super) enum Hint {
     Gain,
 }
 
-/// Columns of a list.
+/// The columns of a list.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Columns {
     pub list: Vec<Column>,
-    /// Line with the titles; `None` if the caller names every column by its number.
+    /// Position of the line with the titles. `None` if the caller identifies all columns by number.
     pub header: Option<usize>,
-    /// Number of cells of a line.
+    /// Number of cells per line.
     pub width: usize,
 }
 
 impl Columns {
-    /// Returns the first column of a field.
+    /// Returns the first column that contains a field.
     pub fn get(&self, field: Field) -> Option<Column> {
         self.all(field).next()
     }
 
-    /// Returns the columns of a field.
+    /// Returns all columns that contain a field.
     pub fn all(&self, field: Field) -> impl Iterator<Item = Column> + '_ {
         self.list.iter().copied().filter(move |column| column.field == field)
     }
 
-    /// Whether a column contains addresses.
+    /// Returns whether a column contains addresses.
     pub fn has_address(&self) -> bool {
         self.list.iter().any(|column| column.field.is_address())
     }
 
-    /// Returns a score for the number of recognized columns. An address counts four more.
+    /// Returns a score: the number of recognized columns, plus four if one of them is an address.
     pub fn score(&self) -> usize {
         self.list.len() + if self.has_address() { 4 } else { 0 }
     }
 }
 
-/// Maximum number of lines above the titles.
+/// Maximum number of lines before the titles.
 const PREAMBLE: usize = 40;
 
-/// Finds the titles and the fields of the columns.
+/// Finds the line of titles and determines the field of each column.
 ///
 /// # Errors
 ///
-/// The column of `map` that does not exist.
+/// Returns the column of `map` that does not exist.
 pub(super) fn find<'m>(records: &Records, map: &'m [(Field, String)]) -> Result<Columns, &'m str> {
     let by_number = map.iter().all(|(_, column)| number(column).is_some());
     let (mut best, mut missing) = (Columns::default(), None);
     for (line, record) in records.list.iter().take(PREAMBLE).enumerate() {
-        // Column numbers fit any line, so a line of titles must also have a known title.
+        // Column numbers match any line. A line of titles must therefore contain at least one known title.
         if by_number && plain(record).is_empty() {
             continue;
         }
@@ -284,7 +284,7 @@ pub(super) fn find<'m>(records: &Records, map: &'m [(Field, String)]) -> Result<
     }
 }
 
-/// Returns the position of a column that is named by its number (`#1` is the first).
+/// Returns the position of a column that is identified by number. `#1` is the first column.
 fn number(column: &str) -> Option<usize> {
     column.strip_prefix('#')?.trim().parse::<usize>().ok()?.checked_sub(1)
 }
@@ -300,13 +300,13 @@ fn column_of(field: Field, at: usize, title: &str) -> Column {
     Column { field, at, is_hex, hint }
 }
 
-/// Returns the columns with a known title.
+/// Returns the columns whose titles are known.
 fn plain(record: &Record) -> Vec<Column> {
     let mut list: Vec<Column> = Vec::new();
     for (at, cell) in record.filled() {
         let title = normal(&cell.text);
         let Some(field) = field_of(&title) else { continue };
-        // A second address is the wire address. Documentation can have several columns.
+        // A second address column contains wire addresses. Several columns may contain documentation.
         let before = list.iter().filter(|column| column.field == field).count();
         let many = match field {
             Field::Doc => usize::MAX,
@@ -336,7 +336,7 @@ fn titles<'m>(record: &Record, map: &'m [(Field, String)]) -> Result<Columns, &'
         list.retain(|column| column.at != at && (column.field != *field || *field == Field::Doc || is_mapped(column)));
         list.push(column_of(*field, at, &normal(record.text(at))));
     }
-    // There are no columns after the last title.
+    // The last column is the one with the last title.
     let width = record.filled().last().map_or(0, |(at, _)| at + 1);
     Ok(Columns { list, header: None, width })
 }
@@ -352,14 +352,14 @@ impl<'a, I: Iterator<Item = (usize, &'a super::records::Cell)>> PositionOf for I
     }
 }
 
-/// Returns a title in lower case, with one blank between words.
+/// Converts a title to lowercase with one space between words.
 pub(super) fn normal(title: &str) -> String {
     let letters = title.chars().map(|letter| if letter.is_alphanumeric() { letter } else { ' ' });
     let lower = letters.collect::<String>().to_lowercase();
     lower.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Words of titles that do not help to recognize a column.
+/// Words in titles that do not identify a column.
 const FILLERS: [&str; 24] = [
     "hex",
     "dec",
@@ -387,7 +387,7 @@ const FILLERS: [&str; 24] = [
     "0",
 ];
 
-/// Whether a title names the address of an object on CANopen or EtherCAT, not on Modbus.
+/// Returns whether a title means an object address on CANopen or EtherCAT. Returns false for Modbus addresses.
 fn is_fieldbus(title: &str) -> bool {
     let has = |list: &[&str]| title.split(' ').any(|word| list.contains(&word));
     has(&["address", "adresse", "indirizzo", "addr"])
@@ -411,7 +411,7 @@ fn field_of(title: &str) -> Option<Field> {
         let has = |list: &[&str]| words().any(|word| list.contains(&word));
         match () {
             () if words().count() > 4 => None,
-            // "Indirizzo CAN EtherCAT Profinet", next to a column with the Modbus address.
+            // For example "Indirizzo CAN EtherCAT Profinet", if another column contains the Modbus address.
             () if is_fieldbus(title) => Some(Field::Index),
             () if has(&["subindex", "sub"]) => Some(Field::Sub),
             () if has(&["address", "adresse", "indirizzo", "addr"]) => Some(Field::Reg),

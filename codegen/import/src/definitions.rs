@@ -1,8 +1,8 @@
-//! Collects the named values and bits of a list without duplicates.
+//! Collects the named values and bits of a list and merges equal definitions.
 
 use std::collections::{HashMap, HashSet};
 
-/// Named values or bits, as TOML keys and values.
+/// Named values or bits as TOML keys and values.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Definition {
     pub name: String,
@@ -10,18 +10,19 @@ pub(super) struct Definition {
     pub entries: Vec<(String, String)>,
 }
 
-/// Definitions of a list, indexed by their entries and names.
+/// The definitions of a list, indexed by their entries and by their names.
 #[derive(Debug, Default)]
 pub(super) struct Definitions {
     list: Vec<Definition>,
     positions: HashMap<(bool, Vec<(String, String)>), usize>,
     names: HashSet<String>,
-    /// Suffix for the next definition with this name. Without it, each repeated name would count from 2 again.
+    /// The next suffix to try for a repeated name. It avoids counting from 2 again for each repetition.
     next: HashMap<String, u32>,
 }
 
 impl Definitions {
-    /// Returns the index of the definition with these entries. Adds a definition named after `row` if there is none.
+    /// Returns the index of the definition with these entries. If there is none, adds a definition whose name is
+    /// derived from `row`.
     pub fn add(&mut self, is_bits: bool, entries: Vec<(String, String)>, row: &str) -> usize {
         let key = (is_bits, entries);
         if let Some(&position) = self.positions.get(&key) {
@@ -37,7 +38,7 @@ impl Definitions {
         self.list
     }
 
-    /// Returns an unused name in camel case.
+    /// Returns an unused name in camel case, derived from `row`.
     fn free_name(&mut self, row: &str) -> String {
         let words = row.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
         let camel: String =
@@ -65,7 +66,7 @@ mod tests {
             [("op mode", "off"), ("other", "off"), ("Op-Mode", "on"), ("OpMode2", "idle"), ("op mode", "run")]
                 .map(|(row, value)| all.add(false, entries(value), row));
         assert_eq!(positions, [0, 0, 1, 2, 3]);
-        assert_eq!(all.add(true, entries("off"), "?"), 4, "bits are not values");
+        assert_eq!(all.add(true, entries("off"), "?"), 4, "bits and values have different definitions");
         let names: Vec<String> = all.into_list().into_iter().map(|definition| definition.name).collect();
         assert_eq!(names, ["OpMode", "OpMode2", "Opmode2", "OpMode3", "Values"]);
     }

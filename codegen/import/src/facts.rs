@@ -1,4 +1,4 @@
-//! Reads the properties of a row: word order, unit, factor, limits, named values, documentation.
+//! Reads the properties of a row: word order, unit, scale factor, limits, named values and documentation.
 
 use std::collections::HashSet;
 
@@ -15,7 +15,7 @@ use super::types::{self, Base};
 use super::values::{self, List};
 use super::write::{digits, int, quoted, real};
 
-/// Maximum length of a name that is made from a description.
+/// Maximum length of a name that is derived from a description.
 const NAME_LETTERS: usize = 60;
 
 /// Maximum length of a unit.
@@ -31,14 +31,14 @@ impl Reader<'_, '_> {
                 None => self.unreadable(cell, "a word or byte order"),
             }
         }
-        // A single word has no word order.
+        // A value of a single word has no word order.
         let is_long = ty.size().is_none_or(|bits| bits > 16);
         Order { low_first: order.low_first.filter(|_| is_long), swap: order.swap.filter(|_| ty.base != Base::Bool) }
     }
 
-    /// Adds unit, scale, offset and the value for "not available" to `facts`.
+    /// Adds the unit, scale, offset and "not available" value to `facts`.
     ///
-    /// Returns the reference to another row with the factor, and the factor and offset as numbers.
+    /// Returns a reference to the row that contains the scale factor, if any, and the numeric factor and offset.
     pub fn quantity(
         &mut self,
         record: &Record,
@@ -74,7 +74,8 @@ impl Reader<'_, '_> {
         (reference, (factor.unwrap_or(1.0), offset.unwrap_or(0.0)))
     }
 
-    /// Whether a text can be a unit. Reports an unknown unit once: it may be misspelled or contain a factor.
+    /// Returns whether a text can be a unit. Reports each unknown unit once, because it may be misspelled or contain a
+    /// factor.
     fn is_symbol(&mut self, record: &Record, unit: &str) -> bool {
         let Some(cell) = self.cell(record, Field::Unit) else { return true };
         if unit.chars().count() > UNIT_LETTERS || unit.contains(['<', '>', '=', ';']) {
@@ -154,19 +155,19 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Returns the reference to another row that contains the factor.
+    /// Returns a reference to the row that contains the scale factor, if the cell names one.
     fn other(&mut self, cell: &Cell, is_exponent: bool) -> Option<Reference> {
         let name = tidy(&cell.text);
         if !self.names.contains(&name) {
             self.unreadable(cell, "a factor or the name of another row");
             return None;
         }
-        // By the naming convention of SunSpec, these are exponents of ten.
+        // According to SunSpec's naming convention, these rows contain decimal exponents.
         let is_exponent = is_exponent || name.to_lowercase().ends_with("_sf");
         Some(Reference { name: row_name(&name), is_exponent, span: cell.span })
     }
 
-    /// Adds minimum, maximum and default to `facts`.
+    /// Adds the minimum, maximum and default to `facts`.
     pub fn limits(&mut self, record: &Record, ty: Type, factor: (f64, f64), facts: &mut Vec<(&'static str, String)>) {
         let unit = self.text(record, Field::Unit).to_owned();
         let mut values: Vec<(&'static str, Field, Option<Number>)> = Vec::new();
@@ -175,7 +176,7 @@ impl Reader<'_, '_> {
                 Some((low, high)) => {
                     values.extend([("min", Field::Range, Some(low)), ("max", Field::Range, Some(high))]);
                 }
-                // A range may be a list of values, which `meaning` reads.
+                // The range is a list of values, which `meaning` reads.
                 None if values::read(&cell.text).is_some() => {}
                 None => self.unreadable(cell, "a range such as 0..100"),
             }
@@ -200,7 +201,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Returns a limit as a raw value in TOML.
+    /// Converts a limit to a raw value in TOML notation.
     fn raw(&mut self, span: Span, number: Number, ty: Type, scaling: (f64, f64)) -> Option<String> {
         let (factor, offset) = scaling;
         if ty.elements.is_some() {
@@ -225,7 +226,7 @@ impl Reader<'_, '_> {
         number.int().filter(|&value| ty.fits(value, is_hex)).map(|value| int(value, is_hex))
     }
 
-    /// Returns the name of a row: from its name, its description or its address.
+    /// Returns the name of a row. It is derived from the name cell, the description or the address.
     pub fn name(&mut self, record: &Record, address: Option<&RowAddress>) -> String {
         let written = row_name(self.text(record, Field::Name));
         let is_list = |text: &str| values::read(text).is_some_and(|list| list.entries.len() > 1);
@@ -243,13 +244,14 @@ impl Reader<'_, '_> {
             .unwrap_or_else(by_address)
     }
 
-    /// Reads the names of values or bits. Returns the index of their definition, or the text if it is not a list.
+    /// Reads the names of values or bits. Returns the index of their definition. If the cell contains no list, returns
+    /// its text.
     pub fn meaning(&mut self, record: &Record, ty: Type, name: &str) -> (Option<usize>, Option<String>) {
         let fields = [(Field::Bits, true), (Field::Enum, false), (Field::Range, false)];
         for (field, of_bits) in fields {
             let Some(cell) = self.cell(record, field) else { continue };
             let Some(list) = values::read(&cell.text) else {
-                // A range that is not a list was read as limits.
+                // A range that is not a list of values has already been read as limits.
                 if field == Field::Range {
                     continue;
                 }
@@ -270,7 +272,7 @@ impl Reader<'_, '_> {
         (None, None)
     }
 
-    /// Returns the index of the definition with these entries. Adds it if it is new.
+    /// Returns the index of the definition with these entries. Adds the definition if necessary.
     pub fn define(&mut self, span: Span, list: &List, is_bits: bool, ty: Type, name: &str) -> Option<usize> {
         let mut entries: Vec<(String, String)> = Vec::new();
         let mut keys = HashSet::new();
@@ -296,16 +298,17 @@ impl Reader<'_, '_> {
         (!entries.is_empty()).then(|| self.definitions.add(is_bits, entries, name))
     }
 
-    /// Returns a list of values or bits in the documentation.
+    /// Finds a list of values or bits in the documentation.
     pub fn described_list<'c>(&self, record: &'c Record, ty: Type) -> Option<(&'c Cell, List)> {
         let columns = self.columns.all(Field::Doc).filter(|_| ty.is_integer());
         let mut cells = columns.filter_map(|column| record.cells.get(column.at));
         cells.find_map(|cell| Some((cell, values::read(&cell.text).filter(|list| list.entries.len() > 1)?)))
     }
 
-    /// Adds documentation, citation and original name to `facts`.
+    /// Adds the documentation, citation and original name to `facts`.
     ///
-    /// `more` is added to the documentation. The cell at `listed` was read as a list and is left out.
+    /// The text `more` is appended to the documentation. The documentation excludes the cell at `listed`, which was
+    /// read as a list.
     pub fn words(
         &mut self,
         record: &Record,
@@ -333,11 +336,11 @@ impl Reader<'_, '_> {
 }
 
 fn power_of_ten(exponent: i32) -> f64 {
-    // `powi` would not return the number that is nearest to 0.1.
+    // Parse a text, because `powi` would not return the number closest to 0.1.
     format!("1e{exponent}").parse().unwrap_or(1.0)
 }
 
-/// Returns a truth value as a number.
+/// Converts a truth value to a number.
 fn truth(text: &str) -> Option<Number> {
     let value = match text.to_lowercase().as_str() {
         "true" | "on" | "yes" | "enabled" | "ja" | "sì" | "si" | "ein" => 1,
@@ -347,7 +350,7 @@ fn truth(text: &str) -> Option<Number> {
     Some(Number::Int { value, is_hex: false })
 }
 
-/// Returns a valid name for a row: without braces and control characters, at most 60 characters long.
+/// Creates a valid row name without braces and control characters. Its maximum length is 60 characters.
 pub(super) fn row_name(text: &str) -> String {
     let text = unbraced(&tidy(text));
     let text: String = text.chars().filter(|letter| !letter.is_control()).collect();
@@ -359,7 +362,7 @@ pub(super) fn row_name(text: &str) -> String {
     short.trim_end().to_owned()
 }
 
-/// Replaces braces, which are placeholders for numbers in names of a register table.
+/// Replaces braces in a name. In a register table, braces contain placeholders for numbers.
 fn unbraced(name: &str) -> String {
     name.replace('{', "(").replace('}', ")")
 }

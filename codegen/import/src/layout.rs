@@ -13,24 +13,24 @@ use super::definitions::Definition;
 use super::rows::{Row, RowAddress, Rows};
 use super::types::Base;
 
-/// Minimum number of lines with the same distance between register address and object index.
+/// Minimum number of rows that must have the same difference between object index and register address.
 const ALIKE: usize = 3;
 
-/// Modbus table with the properties that its rows share.
+/// A Modbus table and the properties that all its rows share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Space {
     pub table: Table,
-    /// Printed address of wire address 0.
+    /// Printed address that corresponds to wire address 0.
     pub first: i64,
-    /// Whether the list determines `first`.
+    /// Whether the list determines the value of `first`.
     pub is_first_known: bool,
-    /// Whether all rows have the low word first.
+    /// Whether all rows transfer the low word first.
     pub low_first: bool,
-    /// Whether all rows have swapped bytes.
+    /// Whether the bytes of all rows are swapped.
     pub swap: bool,
 }
 
-/// Rows of a chapter that are in one table.
+/// The rows of a chapter that belong to the same table.
 #[derive(Debug)]
 pub(super) struct Chapter {
     pub title: Rc<str>,
@@ -38,7 +38,7 @@ pub(super) struct Chapter {
     pub rows: Vec<Row>,
 }
 
-/// Contents of the register table in output order.
+/// The content of the register table in output order.
 #[derive(Debug)]
 pub(super) struct Listing {
     pub spaces: Vec<Space>,
@@ -47,7 +47,7 @@ pub(super) struct Listing {
     pub no_access: bool,
 }
 
-/// Assigns a table, a unique name and a chapter to every row.
+/// Assigns a table, a unique name and a chapter to each row.
 pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
     let Rows { mut rows, definitions, no_access, from_one } = list;
     within_budget(&mut rows, diagnostics);
@@ -75,7 +75,7 @@ pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
     Listing { spaces, chapters: chapters(rows), definitions, no_access }
 }
 
-/// Turns repeated rows into comments if they exceed the maximum number of items of a table.
+/// Converts repeated rows to comments if the table would exceed the maximum number of items.
 fn within_budget(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     let mut left = MAX_DERIVED_ITEMS;
     for row in rows.iter_mut().filter(|row| row.address.is_ok()) {
@@ -95,12 +95,12 @@ fn within_budget(rows: &mut [Row], diagnostics: &mut Diagnostics) {
 /// Groups rows by chapter and table.
 fn chapters(rows: Vec<Row>) -> Vec<Chapter> {
     let mut chapters: Vec<Chapter> = Vec::new();
-    // A map, because a list may have as many chapters as rows.
+    // Use a map because there may be as many chapters as rows.
     let mut by_title: HashMap<Rc<str>, Vec<usize>> = HashMap::new();
     for row in rows {
         let table = table_of(&row);
         let same_title = by_title.entry(row.chapter.clone()).or_default();
-        // A line that cannot become a row stays below the line above it.
+        // A line that could not become a row stays with the row above it.
         match same_title.iter().rfind(|&&at| chapters[at].table == table || row.address.is_err()) {
             Some(&at) => chapters[at].rows.push(row),
             None => {
@@ -112,7 +112,7 @@ fn chapters(rows: Vec<Row>) -> Vec<Chapter> {
     chapters
 }
 
-/// Removes the part of a row if its bits are outside of the register.
+/// Removes the bit range of a row if it exceeds the register.
 fn within_register(row: &mut Row, table: Table, diagnostics: &mut Diagnostics) {
     let last = if table.is_bits() { 0 } else { 15 };
     let is_beyond = |(key, value): &(&'static str, String)| {
@@ -134,7 +134,7 @@ fn table_of(row: &Row) -> Option<Table> {
     }
 }
 
-/// Whether all addresses start with the digit of a Modbus table.
+/// Returns whether all addresses start with the digit of a Modbus table.
 fn is_classic(rows: &[Row]) -> bool {
     let mut any = false;
     for row in rows {
@@ -148,7 +148,7 @@ fn is_classic(rows: &[Row]) -> bool {
     any
 }
 
-/// Determines the properties that the rows of a Modbus table share.
+/// Determines the properties that all rows of a Modbus table share.
 fn space(table: Table, rows: &[Row], from_one: bool, diagnostics: &mut Diagnostics) -> Space {
     let in_table = || rows.iter().filter(move |row| table_of(row) == Some(table));
     let numbers = || {
@@ -159,10 +159,10 @@ fn space(table: Table, rows: &[Row], from_one: bool, diagnostics: &mut Diagnosti
     };
     let mut bases =
         numbers().map(|number| Table::of_number(number).filter(|(found, _)| *found == table).map(|(_, base)| base));
-    // Base 1 is not evidence: addresses from 1 are coils by convention, but other tables also count from 1.
+    // Base 1 is not conclusive. By convention, addresses from 1 are coils, but other tables can also start at 1.
     let base = bases.next().flatten().filter(|&base| base > 1 && bases.all(|other| other == Some(base)));
     let first = wire(in_table(), diagnostics).or(base.map(i64::from)).or(from_one.then_some(1));
-    // The space states an order only if all rows state it. A row without an order has the usual one.
+    // Set an order for the whole space only if all rows state it. A row without an order uses the default.
     let all = |matter: fn(&Row) -> bool, of: fn(&Row) -> Option<bool>| {
         let mut rows = in_table().filter(|row| matter(row)).peekable();
         rows.peek().is_some() && rows.all(|row| of(row) == Some(true))
@@ -176,7 +176,7 @@ fn space(table: Table, rows: &[Row], from_one: bool, diagnostics: &mut Diagnosti
     }
 }
 
-/// Returns the printed address of wire address 0, from a column of wire addresses.
+/// Returns the printed address that corresponds to wire address 0. It is calculated from the column of wire addresses.
 fn wire<'r>(rows: impl Iterator<Item = &'r Row>, diagnostics: &mut Diagnostics) -> Option<i64> {
     let mut found: Option<(i64, Span)> = None;
     for row in rows {
@@ -192,11 +192,11 @@ fn wire<'r>(rows: impl Iterator<Item = &'r Row>, diagnostics: &mut Diagnostics) 
             }
         }
     }
-    // Negative if the wire address is greater than the printed address.
+    // The result is negative if the wire address is greater than the printed address.
     found.map(|(difference, _)| difference)
 }
 
-/// Reports object indices with an unusual distance from the register address, which are probably misprints.
+/// Reports object indices whose distance from the register address is unusual. They are probably misprints.
 fn objects_agree(rows: &[Row], diagnostics: &mut Diagnostics) {
     let both = |row: &Row| match row.address {
         Ok(RowAddress::Register { printed, object: Some((index, _)), .. }) => Some((printed.first, index)),
@@ -222,7 +222,7 @@ fn objects_agree(rows: &[Row], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the addresses that a row occupies, as unique texts.
+/// Returns a unique text for each address that a row occupies.
 fn addresses(row: &Row) -> Vec<String> {
     let count = row.count.unwrap_or(1);
     let stride = row.ty.size().unwrap_or(16).div_ceil(16).max(1);
@@ -240,7 +240,7 @@ fn addresses(row: &Row) -> Vec<String> {
     }
 }
 
-/// Turns rows into comments if their address does not exist on the bus or belongs to another row.
+/// Converts a row to a comment if its address does not exist on the bus or belongs to another row.
 fn distinct_addresses(rows: &mut [Row], spaces: &[Space], diagnostics: &mut Diagnostics) {
     let mut used: HashMap<String, Span> = HashMap::new();
     for row in rows {
@@ -249,7 +249,7 @@ fn distinct_addresses(rows: &mut [Row], spaces: &[Space], diagnostics: &mut Diag
             row.address = Err("no such address");
             continue;
         }
-        // Parts of a register share its address.
+        // Several parts of a register may share its address.
         if row.facts.iter().any(|(key, _)| *key == "part") {
             continue;
         }
@@ -266,7 +266,8 @@ fn distinct_addresses(rows: &mut [Row], spaces: &[Space], diagnostics: &mut Diag
     }
 }
 
-/// Removes the object of a row that is part of a register, is repeated, or names the object of another row.
+/// Removes the object address of a row if the row is a part of a register, is repeated, or has the object address of
+/// another row.
 fn distinct_objects(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     let of_objects = rows.iter().filter(|row| matches!(row.address, Ok(RowAddress::Object { .. })));
     let mut used: HashMap<String, Span> =
@@ -295,7 +296,7 @@ fn distinct_objects(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns why the address of a row does not exist on its bus.
+/// Returns the reason why the address of a row does not exist on its bus.
 fn no_address(row: &Row, spaces: &[Space]) -> Option<&'static str> {
     let count = i64::from(row.count.unwrap_or(1)) - 1;
     match row.address {
@@ -311,12 +312,12 @@ fn no_address(row: &Row, spaces: &[Space]) -> Option<&'static str> {
     }
 }
 
-/// Appends numbers to repeated names.
+/// Makes repeated names unique by appending numbers.
 fn distinct_names(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     let mut used: HashMap<String, Span> = HashMap::new();
-    // Next number to append to a name.
+    // Next number to append to each name.
     let mut numbers: HashMap<String, u32> = HashMap::new();
-    // Names of repeated rows that may still be tried, which bounds the running time.
+    // Limit the number of names that are tried for repeated rows, and thus the running time.
     let mut left = MAX_DERIVED_ITEMS;
     for row in rows.iter_mut().filter(|row| row.address.is_ok()) {
         if row.count.is_some() {
@@ -353,13 +354,13 @@ fn distinct_names(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the names of the items of a row.
+/// Returns the item names of a row. A repeated row has several items.
 fn names(row: &Row) -> impl Iterator<Item = String> + '_ {
     let count = row.count.unwrap_or(1);
     (1..=count).map(|number| row.name.replace("{n+1}", &number.to_string()))
 }
 
-/// Removes references to scale factors in rows that do not exist.
+/// Removes references to rows with scale factors if these rows do not exist.
 fn references(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     let kept: HashSet<String> = rows.iter().filter(|row| row.address.is_ok()).map(|row| row.name.clone()).collect();
     for row in rows {

@@ -1,5 +1,5 @@
-//! Converts lists of registers (CSV, as spreadsheets save them) to register tables, which
-//! [`lexibus-codegen`](lexibus_codegen) compiles to typed Rust. The command `lexibus import` uses this crate.
+//! Converts lists of registers to register tables. The lists are CSV files, as saved by spreadsheets.
+//! [`lexibus-codegen`](lexibus_codegen) compiles the tables to typed Rust. The command `lexibus import` uses this crate.
 //!
 //! ```
 //! use lexibus_codegen::source::Source;
@@ -15,9 +15,9 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | `records` | lines and cells, with their positions |
-//! | `quotes` | lines and cells of a file whose quotation marks are letters |
-//! | `columns` | field of each column, by its title |
+//! | `records` | lines and cells with their positions |
+//! | `quotes` | lines and cells of a file whose quotation marks are ordinary characters |
+//! | `columns` | determines the field of each column by its title |
 //! | `cells`, `types`, `address`, `values` | content of a single cell |
 //! | `style` | notation of a whole column: decimal comma, hexadecimal addresses, limits in physical units |
 //! | `rows` | address, type and access rights of each row |
@@ -25,7 +25,8 @@
 //! | `layout` | chapters and spaces of the rows; repeated names and addresses |
 //! | `write` | the table as TOML |
 //!
-//! Unreadable cells are reported. A line that cannot become a row is reported and kept as a comment.
+//! The import reports unreadable cells. If a line cannot become a row, the import reports the line and keeps it as a
+//! comment.
 #![forbid(unsafe_code)]
 
 mod address;
@@ -57,27 +58,27 @@ use records::{Record, Records};
 pub struct Options {
     /// Level of each diagnostic code.
     pub levels: Levels,
-    /// Fields of columns. A column is named by its title, or by `#` and its number.
+    /// Maps columns to fields. A column is identified by its title, or by `#` and its number.
     pub map: Vec<(Field, String)>,
-    /// Delimiter between cells; by default, the one that fits best.
+    /// Delimiter between cells. By default, the delimiter with the most recognized titles is used.
     pub delimiter: Option<u8>,
-    /// Name of the device; by default, the name of the file.
+    /// Name of the device. The default is the file name.
     pub name: Option<String>,
 }
 
 /// Result of an import.
 #[derive(Debug)]
 pub struct Import {
-    /// The file and its diagnostics. The catalog is empty.
+    /// The file and its diagnostics. The compilation's catalog is empty.
     pub compilation: Compilation,
-    /// The register table; `None` if there are errors.
+    /// The register table. `None` if there are errors.
     pub table: Option<String>,
 }
 
 /// Identifier of the imported file.
 const FILE: FileId = FileId(0);
 
-/// Reads a list of registers and writes it as a register table.
+/// Converts a list of registers to a register table.
 pub fn import(source: Source, options: &Options) -> Import {
     let mut diagnostics = Diagnostics::new(options.levels.clone());
     let table = convert(&source, options, &mut diagnostics).filter(|_| !diagnostics.has_errors());
@@ -116,11 +117,11 @@ fn convert(source: &Source, options: &Options, diagnostics: &mut Diagnostics) ->
     Some(write::table(&list, &name, source.name()))
 }
 
-/// Divides a file into lines, and recognizes its columns.
+/// Splits a file into lines and determines its columns.
 ///
 /// # Errors
 ///
-/// The title of a column of `options.map` that does not exist.
+/// Returns the title of a column in `options.map` that does not exist.
 fn divide(source: &Source, options: &Options) -> Result<(Records, Columns), String> {
     let declared = records::declared_delimiter(source.text());
     let start = declared.map_or(0, |(_, length)| length);
@@ -134,7 +135,7 @@ fn divide(source: &Source, options: &Options) -> Result<(Records, Columns), Stri
             records = quotes::divide(source, FILE, start);
         }
         match columns::find(&records, &options.map) {
-            // The delimiter with the most known titles is right.
+            // Use the delimiter that gives the most recognized titles.
             Ok(columns) if best.as_ref().is_none_or(|(score, ..)| columns.score() > *score) => {
                 best = Some((columns.score(), records, columns));
             }
@@ -150,7 +151,7 @@ fn divide(source: &Source, options: &Options) -> Result<(Records, Columns), Stri
     }
 }
 
-/// Reports all columns that are not imported in one diagnostic.
+/// Reports all columns that are not imported in a single diagnostic.
 fn unknown_columns(records: &Records, columns: &Columns, diagnostics: &mut Diagnostics) {
     let Some(header) = columns.header.and_then(|line| records.list.get(line)) else { return };
     let is_known = |at: usize| columns.list.iter().any(|column| column.at == at);
@@ -165,7 +166,7 @@ fn unknown_columns(records: &Records, columns: &Columns, diagnostics: &mut Diagn
     diagnostics.push(Diagnostic::new(&codes::CSV_UNKNOWN_COLUMN, first.span, message).help(help));
 }
 
-/// Returns the lines with data: those below the titles, except repeated titles.
+/// Returns the data lines: those after the titles, except repeated titles.
 fn data<'r>(records: &'r Records, columns: &Columns) -> impl Iterator<Item = &'r Record> {
     let header = columns.header.and_then(|line| records.list.get(line));
     let texts = |record: &Record| record.cells.iter().map(|cell| cell.text.clone()).collect::<Vec<_>>();
@@ -175,11 +176,11 @@ fn data<'r>(records: &'r Records, columns: &Columns) -> impl Iterator<Item = &'r
     below.filter(move |record| record.filled().next().is_some() && Some(texts(record)) != titles)
 }
 
-/// Parses the argument `FIELD=COLUMN` of a command line.
+/// Parses a command-line argument of the form `FIELD=COLUMN`.
 ///
 /// # Errors
 ///
-/// A message if the text has no such form, or the field is unknown.
+/// Returns a message if the text does not have this form or the field is unknown.
 pub fn mapping(text: &str) -> Result<(Field, String), String> {
     let (field, column) = text.split_once('=').ok_or("write FIELD=TITLE or FIELD=#NUMBER")?;
     let (field, column) = (field.trim(), column.trim());
@@ -196,11 +197,11 @@ pub fn mapping(text: &str) -> Result<(Field, String), String> {
         .ok_or_else(|| format!("there is no field `{field}`: {}", hint()))
 }
 
-/// Parses a delimiter on a command line: a character, `tab`, `comma` or `semicolon`.
+/// Parses a delimiter from the command line: a character, `tab`, `comma` or `semicolon`.
 ///
 /// # Errors
 ///
-/// A message if the text is not a delimiter.
+/// Returns a message if the text is not a delimiter.
 pub fn delimiter(text: &str) -> Result<u8, String> {
     match (text, text.as_bytes()) {
         ("tab" | "\\t", _) => Ok(b'\t'),

@@ -1,5 +1,5 @@
-//! Divides tab-separated files whose quotation marks are letters. Many tools write such files without quoting.
-//! A quotation mark at the start of a cell is a letter unless another one ends the cell.
+//! Splits tab-separated files in which quotation marks are ordinary characters. Many tools write such files without
+//! quoting. A quotation mark at the start of a cell is an ordinary character unless another one ends the cell.
 
 use lexibus_codegen::source::{FileId, Source, Span};
 
@@ -8,13 +8,14 @@ use super::records::{visible, Cell, Record, Records};
 /// Delimiter between cells.
 pub(super) const TAB: u8 = b'\t';
 
-/// Whether a quoted cell contains other cells: both tabs and line ends.
+/// Returns whether a quoted cell contains tabs and line ends. Such a cell contains other cells because of a
+/// misinterpreted quotation mark.
 pub(super) fn swallows(records: &Records) -> bool {
     let cells = || records.list.iter().flat_map(|record| &record.cells);
     records.unclosed.is_some() || cells().any(|cell| cell.text.contains('\t') && cell.text.contains('\n'))
 }
 
-/// Divides the text from `start` into cells.
+/// Splits the text from `start` into cells.
 pub(super) fn divide(source: &Source, file: FileId, start: usize) -> Records {
     let (text, mut at) = (source.text(), start);
     let (mut records, mut record) = (Records::default(), Record::default());
@@ -40,7 +41,8 @@ pub(super) fn divide(source: &Source, file: FileId, start: usize) -> Records {
     records
 }
 
-/// Returns the length of a quoted text. `None` if it contains a tab, or no quotation mark ends the cell.
+/// Returns the length of a quoted text. Returns `None` if the text contains a tab, or if no quotation mark ends the
+/// cell.
 fn closed(body: &str) -> Option<usize> {
     let mut skip = false;
     for (at, letter) in body.char_indices() {

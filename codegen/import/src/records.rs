@@ -1,16 +1,16 @@
-//! Divides a file into lines and cells with their positions.
+//! Splits a file into lines and cells with their positions.
 
 use csv_core::{ReadFieldResult, ReaderBuilder};
 use lexibus_codegen::source::{FileId, Source, Span};
 
-/// Cell. The text and its span exclude quotation marks and surrounding blanks.
+/// A cell. Its text and span exclude quotation marks and surrounding whitespace.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cell {
     pub text: String,
     pub span: Span,
 }
 
-/// Line of cells.
+/// A line of cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Record {
     pub cells: Vec<Cell>,
@@ -18,35 +18,36 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// Returns the text of a cell; empty if the line is too short.
+    /// Returns the text of a cell. Returns an empty text if the line has no such cell.
     pub fn text(&self, column: usize) -> &str {
         self.cells.get(column).map_or("", |cell| cell.text.as_str())
     }
 
-    /// Returns the cells that are not empty, with their columns.
+    /// Returns the non-empty cells and the positions of their columns.
     pub fn filled(&self) -> impl Iterator<Item = (usize, &Cell)> {
         self.cells.iter().enumerate().filter(|(_, cell)| !cell.text.is_empty())
     }
 }
 
-/// Lines of a file.
+/// The lines of a file.
 #[derive(Debug, Default)]
 pub(super) struct Records {
     pub list: Vec<Record>,
-    /// First quotation mark that is never closed.
+    /// The first quotation mark without a closing quotation mark.
     pub unclosed: Option<Span>,
-    /// Quotation marks that were read as letters.
+    /// Quotation marks that were read as ordinary characters.
     pub letters: Vec<Span>,
 }
 
-/// Returns the delimiter that a first line `sep=;` declares (an Excel convention), and the length of that line.
+/// Returns the delimiter from a first line such as `sep=;`, which is an Excel convention. Also returns the length of
+/// that line.
 pub(super) fn declared_delimiter(text: &str) -> Option<(u8, usize)> {
     let line = text.lines().next()?;
     let &[delimiter] = line.trim_end().strip_prefix("sep=")?.as_bytes() else { return None };
     Some((delimiter, line.len())).filter(|_| delimiter.is_ascii())
 }
 
-/// Divides the text from `start` into cells.
+/// Splits the text from `start` into cells.
 pub(super) fn read(source: &Source, file: FileId, delimiter: u8, start: usize) -> Records {
     let bytes = source.text().as_bytes();
     let mut reader = ReaderBuilder::new().delimiter(delimiter).build();
@@ -58,7 +59,7 @@ pub(super) fn read(source: &Source, file: FileId, delimiter: u8, start: usize) -
         let (result, read, written) = reader.read_field(bytes.get(at..).unwrap_or_default(), &mut buffer[length..]);
         (at, length) = (at + read, length + written);
         match result {
-            // The next call returns `End` if the file has ended.
+            // At the end of the file, the next call returns `End`.
             ReadFieldResult::InputEmpty => {}
             ReadFieldResult::OutputFull => buffer.resize(buffer.len() * 2, 0),
             ReadFieldResult::Field { record_end } => {
@@ -77,7 +78,7 @@ pub(super) fn read(source: &Source, file: FileId, delimiter: u8, start: usize) -
     }
 }
 
-/// Adds a line with the span of its cells. A line without cells is dropped.
+/// Adds a line with the span of its cells. Lines without cells are ignored.
 pub(super) fn finish(records: &mut Records, mut record: Record) {
     if let (Some(first), Some(last)) = (record.cells.first(), record.cells.last()) {
         record.span = Span { end: last.span.end.max(first.span.start), ..first.span };
@@ -85,7 +86,7 @@ pub(super) fn finish(records: &mut Records, mut record: Record) {
     }
 }
 
-/// Returns the span of a cell's text, and whether a quotation mark is open at its end.
+/// Returns the span of a cell's text, and whether its quotation mark is not closed.
 pub(super) fn visible(source: &Source, raw: Span, delimiter: u8) -> (Span, bool) {
     let text = source.slice(raw);
     let body = text.trim_start_matches(['\r', '\n']);

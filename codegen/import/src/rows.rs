@@ -15,7 +15,7 @@ use super::records::{Cell, Record, Records};
 use super::style::Style;
 use super::types::{self, Base, Written};
 
-/// Address of a row.
+/// The address of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum RowAddress {
     Register { printed: Address, table: Option<Table>, wire: Option<u32>, object: Option<(u16, Option<u8>)> },
@@ -23,7 +23,7 @@ pub(super) enum RowAddress {
     Parameter(u32),
 }
 
-/// Type of a row, as a register table declares it.
+/// The type of a row in a register table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Type {
     pub base: Base,
@@ -34,7 +34,7 @@ pub(super) struct Type {
 }
 
 impl Type {
-    /// Returns the type as a register table spells it, such as `u16[4]`.
+    /// Returns the type in the notation of a register table, such as `u16[4]`.
     pub fn text(&self) -> String {
         let length = || self.length.map_or(String::new(), |length| format!("({length})"));
         let value = match self.base {
@@ -48,7 +48,7 @@ impl Type {
         self.elements.map_or(value.clone(), |count| format!("{value}[{count}]"))
     }
 
-    /// Size of the whole value in bits, if it is known.
+    /// Returns the size of the complete value in bits if it is known.
     pub fn size(&self) -> Option<u32> {
         match self.base {
             Base::Text | Base::Bytes => self.length.and_then(|length| length.checked_mul(8)),
@@ -60,7 +60,7 @@ impl Type {
         matches!(self.base, Base::Unsigned | Base::Signed | Base::Exponent)
     }
 
-    /// Whether the type can hold this value. Signed types also accept a hexadecimal bit pattern.
+    /// Returns whether the type can represent the value. Signed types also accept hexadecimal bit patterns.
     pub fn fits(&self, value: i128, is_hex: bool) -> bool {
         let modulus = 1i128 << self.bits.min(64);
         match self.base {
@@ -75,7 +75,7 @@ impl Type {
     }
 }
 
-/// Reference to another row that contains the scale factor.
+/// A reference to the row that contains the scale factor.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Reference {
     pub name: String,
@@ -83,12 +83,12 @@ pub(super) struct Reference {
     pub span: Span,
 }
 
-/// Row of a register table.
+/// A row of a register table.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
     pub name: String,
     pub span: Span,
-    /// Text of the line, which is kept as a comment if the line cannot become a row.
+    /// Text of the original line. It becomes a comment if the line cannot become a row.
     pub text: String,
     pub chapter: Rc<str>,
     /// Address of the row, or the reason why the line cannot become a row.
@@ -98,38 +98,38 @@ pub(super) struct Row {
     pub order: Order,
     pub scale: Option<Reference>,
     pub count: Option<u32>,
-    /// Index in `Rows::definitions` of the names of values or bits.
+    /// Index of the names of values or bits in `Rows::definitions`.
     pub meaning: Option<usize>,
-    /// Remaining TOML keys and values.
+    /// Other TOML keys with their values.
     pub facts: Vec<(&'static str, String)>,
 }
 
-/// Rows of a list.
+/// The rows of a list.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
     pub rows: Vec<Row>,
     pub definitions: Vec<Definition>,
-    /// Whether no row has access rights.
+    /// Whether the list contains no access rights.
     pub no_access: bool,
-    /// Whether addresses have the form `4x0001`, which counts from 1.
+    /// Whether addresses have the form `4x0001`. These addresses start at 1.
     pub from_one: bool,
 }
 
-/// Reads the lines of a list.
+/// Converts the lines of a list to rows.
 pub(super) struct Reader<'r, 'd> {
     pub columns: &'r Columns,
     pub diagnostics: &'d mut Diagnostics,
     pub style: Style,
-    /// Assumptions that have been reported.
+    /// Assumptions that have already been reported.
     pub assumptions: BTreeSet<&'static str>,
-    /// Unknown units that have been reported.
+    /// Unknown units that have already been reported.
     pub units: BTreeSet<String>,
-    /// Names of all lines.
+    /// Names of all lines in the list.
     pub names: BTreeSet<String>,
     pub definitions: Definitions,
 }
 
-/// Reads the lines below the titles.
+/// Converts the data lines of a list to rows.
 pub(super) fn read(records: &Records, columns: &Columns, diagnostics: &mut Diagnostics) -> Rows {
     let data: Vec<&Record> = super::data(records, columns).collect();
     let style = Style::of(&data, columns);
@@ -159,12 +159,13 @@ pub(super) fn read(records: &Records, columns: &Columns, diagnostics: &mut Diagn
     Rows { rows, definitions: reader.definitions.into_list(), no_access, from_one: style.addresses[0].is_x }
 }
 
-/// Whether the second of two addresses is an object index. A wire address is never greater than the printed address.
+/// Returns whether the second of two addresses is an object index. A wire address is never greater than the printed
+/// address.
 fn is_index(printed: Address, second: Address) -> bool {
     second.is_hex && !printed.is_hex && second.first > printed.first && (0x1000..=0x9FFF).contains(&second.first)
 }
 
-/// Returns the text on one line.
+/// Joins the lines of a text.
 pub(super) fn tidy(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -188,14 +189,14 @@ impl Reader<'_, '_> {
         self.report(&codes::CSV_UNREADABLE_CELL, cell.span, message, "left out; the rest of the row is kept");
     }
 
-    /// Reports an assumption once.
+    /// Reports an assumption unless it has already been reported.
     pub fn assume(&mut self, key: &'static str, span: Span, message: &str) {
         if self.assumptions.insert(key) {
             self.diagnostics.push(Diagnostic::new(&codes::CSV_ASSUMPTION, span, message));
         }
     }
 
-    /// Returns the chapter title, if the line consists of one cell that is not an address.
+    /// Returns the chapter title if the line consists of a single cell that is not an address.
     fn title(&self, record: &Record) -> Option<String> {
         let mut filled = record.filled();
         let (Some((at, cell)), None) = (filled.next(), filled.next()) else { return None };
@@ -243,10 +244,10 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Reports a line that has more or fewer cells than there are titles.
+    /// Reports a line whose number of cells differs from the number of titles.
     fn count_cells(&mut self, record: &Record) {
         let (cells, width) = (record.cells.len(), self.columns.width);
-        // Empty cells without a title do not count.
+        // Empty cells in columns without a title are ignored.
         let last = record.filled().last().map_or(0, |(at, _)| at + 1);
         let cells = cells.min(last.max(width));
         if cells != width && width > 0 {
@@ -286,7 +287,8 @@ impl Reader<'_, '_> {
         Err(reason)
     }
 
-    /// Returns the object of a row that also has a register. An index that does not have four digits is a misprint.
+    /// Returns the object address of a row that also has a register address. An index is a misprint if it does not have
+    /// four digits.
     fn object(&mut self, cell: &Cell, sub: &str) -> Option<(u16, Option<u8>)> {
         let digits = cell.text.split([':', '/', '.']).next().unwrap_or_default().chars();
         let is_marked = cell.text.starts_with("0x") || cell.text.starts_with("0X");
@@ -333,9 +335,9 @@ impl Reader<'_, '_> {
         })
     }
 
-    /// Returns the bits of the register that the row describes, if it does not describe the whole register.
+    /// Returns the bits that the row describes. Returns `None` if the row describes the whole register.
     fn part(&mut self, record: &Record, address: Option<&RowAddress>) -> Option<(u8, u8)> {
-        // Only registers have parts.
+        // A row can only describe a part of a register.
         let table =
             address.and_then(
                 |address| if let RowAddress::Register { table, .. } = address { Some(table) } else { None },
@@ -399,7 +401,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Returns the size of a row in bits, from a column or from the range of its address.
+    /// Returns the size of a row in bits. The size is in a column or follows from the address range.
     fn size(&mut self, record: &Record, address: Option<&RowAddress>) -> Option<u32> {
         for (field, unit) in [(Field::Width, 1), (Field::Bytes, 8), (Field::Words, 16)] {
             let Some(cell) = self.cell(record, field) else { continue };
@@ -417,7 +419,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Combines the type that a cell states with the size of the row.
+    /// Combines the type in a cell with the size of the row.
     fn sized(&mut self, record: &Record, written: Written, size: Option<u32>) -> Type {
         let mut ty = Type {
             base: written.base,
@@ -454,10 +456,11 @@ impl Reader<'_, '_> {
         ty
     }
 
-    /// Compares the size of a type with that of its row. If the row is a multiple of the type, the type becomes an array.
+    /// Compares the size of a type with the size of its row. If the row size is a multiple of the type size, the type
+    /// becomes an array.
     fn compare(&mut self, record: &Record, ty: &mut Type, size: u32) {
         let of_type = ty.size().unwrap_or(size);
-        // A value smaller than a register occupies a whole one. A length column may contain bytes or bits.
+        // A value that is smaller than a register occupies a whole register. A length column may contain bytes or bits.
         let is_same =
             of_type.div_ceil(16) * 16 == size.div_ceil(16) * 16 || of_type == size / 2 || of_type == size / 16;
         if is_same {
@@ -491,7 +494,7 @@ impl Reader<'_, '_> {
         by_function.or_else(|| table.filter(|table| table.is_read_only()).map(|_| "ro"))
     }
 
-    /// Returns how often the row repeats, if it repeats.
+    /// Returns the number of repetitions if the row is repeated.
     fn repetition(&mut self, record: &Record) -> Option<u32> {
         let cell = self.cell(record, Field::Count)?;
         let number = cells::number(&cell.text, false).and_then(Number::int);
@@ -505,7 +508,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Returns the assumed type of a row that states at most its length.
+/// Returns the assumed type of a row without a type. The row may state its size.
 fn guess(size: Option<u32>) -> Type {
     let of = |bits, elements| Type { base: Base::Unsigned, bits, elements, length: None };
     match size {

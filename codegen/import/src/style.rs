@@ -1,4 +1,4 @@
-//! Detects the notation of a list from whole columns.
+//! Detects the notation of a list by examining whole columns.
 
 use super::address;
 use super::cells;
@@ -6,21 +6,21 @@ use super::columns::{Columns, Field, Hint};
 use super::records::Record;
 use super::types::{self, Base};
 
-/// Notation of a list.
+/// The notation of a list.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Style {
-    /// Whether the decimal mark is a comma.
+    /// Whether a comma is the decimal mark.
     pub comma: bool,
-    /// Notation of the first and second address column.
+    /// Notations of the first and second address columns.
     pub addresses: [address::Style; 2],
     /// Whether minimum, maximum and default are physical values.
     pub physical: bool,
-    /// Whether the raw value is divided by the gain.
+    /// Whether the raw value must be divided by the gain.
     pub gain_divides: bool,
 }
 
 impl Style {
-    /// Detects the notation of the lines below the titles.
+    /// Detects the notation from the data lines.
     pub fn of(records: &[&Record], columns: &Columns) -> Style {
         let texts = |field: Field, position: usize| {
             let column = columns.all(field).nth(position);
@@ -46,14 +46,14 @@ impl Style {
     }
 }
 
-/// Whether a limit of an integer has a fraction. Such limits are physical values, already scaled.
+/// Returns whether an integer has a limit with decimal places. Such a limit is a physical value.
 fn has_physical_limit(record: &Record, columns: &Columns, comma: bool) -> bool {
     let text = |field| columns.get(field).map_or("", |column| record.text(column.at));
     let factors = [Field::Scale, Field::Divisor, Field::Decimals, Field::Exponent];
     let is_scaled = factors.into_iter().any(|field| !cells::is_blank(text(field)))
         || cells::unit(text(Field::Unit), comma).1.is_some();
     let is_integer = types::read(text(Field::Type)).is_none_or(|ty| ty.base != Base::Float);
-    // If even addresses have a decimal point, `.0` is not a sign of a fraction.
+    // If addresses also have a decimal point, `.0` does not indicate decimal places.
     let prints_points = matches!(cells::number(text(Field::Reg), comma), Some(cells::Number::Real(_)));
     let is_fraction = |number: cells::Number| match number {
         cells::Number::Real(value) => value.fract() != 0.0 || !prints_points,

@@ -1,4 +1,4 @@
-//! Parses the names of types in lists of registers.
+//! Parses type names in lists of registers.
 
 use super::cells::{self, Order};
 
@@ -11,15 +11,15 @@ pub(super) enum Base {
     Bool,
     Text,
     Bytes,
-    /// Exponent of ten for other registers (SunSpec).
+    /// Decimal exponent for other registers (SunSpec).
     Exponent,
 }
 
-/// Properties of a type that its name states.
+/// Properties of a type that can be read from its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Written {
     pub base: Base,
-    /// Size of a value in bits, if the name contains it or has only one usual meaning.
+    /// Size of a value in bits, if the name contains it or usually means this size.
     pub bits: Option<u32>,
     /// Whether the name contains the size.
     pub is_explicit: bool,
@@ -30,14 +30,14 @@ pub(super) struct Written {
     pub order: Order,
 }
 
-/// Words of a type name that mean swapped words. ESPHome uses `_R`.
+/// Words in type names that mean swapped words. ESPHome uses `_R`.
 const SWAPPED: [&str; 10] = ["swapped", "swap", "swp", "cdab", "lsw", "lswfirst", "r", "rev", "reversed", "inverse"];
 const ORDERS: [&str; 16] = [
     "abcd", "badc", "dcba", "le", "be", "little", "big", "endian", "msw", "mswfirst", "first", "msb", "lsb", "low",
     "high", "order",
 ];
 
-/// Parses the name of a type.
+/// Parses a type name.
 pub(super) fn read(text: &str) -> Option<Written> {
     let lower = text.to_lowercase();
     let (name, elements) = array(&lower);
@@ -67,7 +67,7 @@ pub(super) fn read(text: &str) -> Option<Written> {
             order,
         ),
     };
-    // One `char` is a byte, several are a text.
+    // A single `char` is a byte. Several `char` elements are a text.
     let glued = if glued == "char" && elements.is_some() { "chars".to_owned() } else { glued };
     let written = single(&glued)?;
     Some(match (written.base, elements) {
@@ -76,14 +76,14 @@ pub(super) fn read(text: &str) -> Option<Written> {
     })
 }
 
-/// Divides a type name from the number of elements after it: `u16[10]`, `string(16)`, `uint16 x 4`.
+/// Separates a type name from the number of elements after it: `u16[10]`, `string(16)`, `uint16 x 4`.
 fn array(text: &str) -> (&str, Option<u32>) {
     let bracket = text.trim_end().strip_suffix([']', ')']).and_then(|rest| rest.rsplit_once(['[', '(']));
     let times = || text.rsplit_once(" x ").or_else(|| text.rsplit_once('*'));
     match bracket.or_else(times) {
         Some((name, count)) => match count.trim().parse() {
             Ok(count) if count > 0 => (name, Some(count)),
-            // "float32 (CDAB)", "int (16 bit)".
+            // Texts in parentheses without a number of elements: "float32 (CDAB)", "int (16 bit)".
             _ => (text, None),
         },
         None => (text, None),
@@ -117,7 +117,7 @@ fn single(glued: &str) -> Option<Written> {
     let (letters, rest) = first.map_or((glued, ""), |at| glued.split_at(at));
     let end = rest.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(rest.len());
     let (digits, tail) = rest.split_at(end);
-    // "uint16_t", "16 bit unsigned", "signed 16 bit integer".
+    // Examples: "uint16_t", "16 bit unsigned", "signed 16 bit integer".
     let tails = [Some(tail), tail.strip_prefix("bit"), tail.strip_prefix("bits")].into_iter().flatten();
     const ENDS: [&str; 7] = ["", "t", "int", "integer", "number", "value", "float"];
     let word = match letters {
@@ -126,7 +126,7 @@ fn single(glued: &str) -> Option<Written> {
     };
     let base = base(word)?;
     let number: Option<u32> = digits.parse().ok();
-    // "16" and "32 bit" are unsigned integers. Other bare numbers are not types.
+    // "16" and "32 bit" mean unsigned integers. Other numbers without a type name are not types.
     if word.is_empty() && !matches!(number, Some(8 | 16 | 32 | 64)) {
         return None;
     }

@@ -1,26 +1,26 @@
-//! Parses lists of values and bits in a cell: `0=Off, 1=On`, `Bit 0: running; Bit 1: fault`.
+//! Parses lists of values or bits in a cell, such as `0=Off, 1=On` or `Bit 0: running; Bit 1: fault`.
 
 use super::cells;
 
-/// Entry of a list.
+/// An entry of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Entry {
     pub first: i128,
-    /// Last number of a range.
+    /// Last number if the entry describes a range.
     pub last: Option<i128>,
     pub is_hex: bool,
     pub name: String,
 }
 
-/// List of named values, or of named bits.
+/// A list of named values or named bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct List {
     pub entries: Vec<Entry>,
-    /// Whether the cell marks all entries as bits.
+    /// Whether all entries of the cell are marked as bits.
     pub is_bits: bool,
 }
 
-/// Head of an entry: its numbers, and its length in the text.
+/// The start of an entry: its numbers, and the length of this part of the text.
 struct Head {
     first: i128,
     last: Option<i128>,
@@ -29,7 +29,7 @@ struct Head {
     length: usize,
 }
 
-/// Parses a list that begins at the start of the cell.
+/// Parses a list that starts at the beginning of the cell.
 pub(super) fn read(text: &str) -> Option<List> {
     let text = text.trim().trim_matches(['{', '}', '[', ']']).trim();
     let mut heads: Vec<(usize, Head)> = Vec::new();
@@ -59,12 +59,13 @@ pub(super) fn read(text: &str) -> Option<List> {
     entries.iter().any(|entry| !entry.name.is_empty()).then_some(List { entries, is_bits })
 }
 
-/// Whether the text before `at` ends with a separator of entries.
+/// Returns whether the text before `at` ends with a separator between entries.
 fn after_mark(text: &str, at: usize) -> bool {
     text.get(..at).is_some_and(|before| before.trim_end().ends_with([',', ';', '|', '/', '\n', '\r', '(']))
 }
 
-/// Parses the head of an entry: `0 =`, `Bit 3:`, `0x10 -`, `3..7 =`. `strict` excludes heads that can be part of a name.
+/// Parses the start of an entry: `0 =`, `Bit 3:`, `0x10 -`, `3..7 =`. If `strict` is set, starts that could be part of a
+/// name are rejected.
 fn head(text: &str, strict: bool) -> Option<Head> {
     let lower = text.get(..text.len().min(8)).unwrap_or(text).to_ascii_lowercase();
     let word = ["bits", "bit", "b", "d"].into_iter().find(|word| {
@@ -82,7 +83,7 @@ fn head(text: &str, strict: bool) -> Option<Head> {
     let mark = rest.trim_start_matches(' ');
     let clear = ["=>", "->", "=", ":", "→", ")", "\t"].into_iter().find(|sign| mark.starts_with(sign));
     let weak = ["– ", "- "].into_iter().find(|sign| mark.starts_with(sign) && !strict);
-    // "Bit 3 running" has no separator, but the word "Bit".
+    // In "Bit 3 running", the word "Bit" makes a separator unnecessary.
     let bare = || (word.is_some() && !strict && blanks > 0).then_some("");
     let sign = clear.or(weak).or_else(bare)?;
     let after = mark.get(sign.len()..)?;
@@ -93,7 +94,7 @@ fn head(text: &str, strict: bool) -> Option<Head> {
     Some(Head { first, last, is_hex, is_bit: word.is_some(), length: text.len() - after.len() })
 }
 
-/// Parses an integer at the start of a text. Returns it, whether it is hexadecimal, and the remaining text.
+/// Parses an integer at the start of a text. Returns the integer, whether it is hexadecimal, and the remaining text.
 fn integer(text: &str) -> Option<(i128, bool, &str)> {
     let sign = usize::from(text.starts_with('-'));
     let digits = text.get(sign..)?;
@@ -102,7 +103,7 @@ fn integer(text: &str) -> Option<(i128, bool, &str)> {
     let is_digit = |letter: char| if is_hex { letter.is_ascii_hexdigit() } else { letter.is_ascii_digit() };
     let end = body.find(|letter: char| !is_digit(letter)).unwrap_or(body.len());
     let (number, rest) = body.split_at(end);
-    // `10h`, but not `10 hours`.
+    // Accept `10h`, but not `10 hours`.
     let (is_hex, rest) = match rest.strip_prefix(['h', 'H']) {
         Some(after) if !after.starts_with(|letter: char| letter.is_alphanumeric()) => (true, after),
         _ => (is_hex, rest),
@@ -111,7 +112,7 @@ fn integer(text: &str) -> Option<(i128, bool, &str)> {
     Some((if sign == 1 { -value } else { value }, is_hex, rest))
 }
 
-/// Parses the end of a range: `..7`, `-7`, ` to 7`.
+/// Parses the end of a range: `..7`, `-7` or ` to 7`.
 fn until(text: &str) -> Option<(i128, &str)> {
     let marks = ["...", "..", "…", "~", "–", "-", " to ", " - ", " – "];
     let rest = marks.into_iter().find_map(|mark| text.strip_prefix(mark))?;
@@ -119,7 +120,7 @@ fn until(text: &str) -> Option<(i128, &str)> {
     Some((last, rest))
 }
 
-/// Whether a name marks a value or bit as reserved or unused.
+/// Returns whether a name means that a value or bit is reserved or unused.
 pub(super) fn is_reserved(name: &str) -> bool {
     const WORDS: [&str; 12] = [
         "reserved",

@@ -1,4 +1,4 @@
-//! Writes the table as TOML, with one aligned line per row.
+//! Writes the register table as TOML. Each row is an aligned line.
 
 use std::collections::HashSet;
 use std::fmt::Write as _;
@@ -8,10 +8,10 @@ use lexibus_codegen::frontend::table::is_unit;
 use super::layout::{Chapter, Listing, Space};
 use super::rows::{Row, RowAddress};
 
-/// Maximum length to which keys are padded.
+/// Maximum width to which keys are padded.
 const MAX_KEY: usize = 36;
 
-/// Returns a TOML string. A blank is put before a leading `$`, which would refer to an option.
+/// Returns a TOML string. Adds a space before a leading `$`, because `$` would refer to an option.
 pub(super) fn quoted(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 2);
     out.push('"');
@@ -33,7 +33,7 @@ pub(super) fn quoted(text: &str) -> String {
     out
 }
 
-/// Returns a TOML key, without quotation marks if possible.
+/// Returns a TOML key. Uses quotation marks only if they are necessary.
 fn key(text: &str) -> String {
     let is_bare = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '_' | '-');
     if !text.is_empty() && text.chars().all(is_bare) {
@@ -43,7 +43,7 @@ fn key(text: &str) -> String {
     }
 }
 
-/// Returns the digits of an integer.
+/// Formats an integer in decimal or hexadecimal digits.
 pub(super) fn digits(value: i128, is_hex: bool) -> String {
     match value {
         0.. if is_hex => format!("0x{value:X}"),
@@ -51,7 +51,7 @@ pub(super) fn digits(value: i128, is_hex: bool) -> String {
     }
 }
 
-/// Returns an integer in TOML. An integer beyond 64 bits becomes a string.
+/// Formats an integer for TOML. Integers of more than 64 bits become strings.
 pub(super) fn int(value: i128, is_hex: bool) -> String {
     let text = digits(value, is_hex);
     if i64::try_from(value).is_ok() {
@@ -61,7 +61,7 @@ pub(super) fn int(value: i128, is_hex: bool) -> String {
     }
 }
 
-/// Returns a floating-point number in TOML.
+/// Formats a floating-point number for TOML.
 pub(super) fn real(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e9 {
         format!("{value:.0}")
@@ -70,13 +70,13 @@ pub(super) fn real(value: f64) -> String {
     }
 }
 
-/// Returns a comment line.
+/// Formats a text as a comment line.
 fn comment(text: &str) -> String {
     let text: String = text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect();
     format!("# {text}\n")
 }
 
-/// Returns the whole table.
+/// Returns the text of the complete table.
 pub(super) fn table(list: &Listing, name: &str, source: &str) -> String {
     let mut out =
         comment(&format!("Register table generated from {source} by `lexibus import`. Check it against the manual."));
@@ -85,7 +85,7 @@ pub(super) fn table(list: &Listing, name: &str, source: &str) -> String {
     let mut addresses = list.chapters.iter().flat_map(|chapter| &chapter.rows).map(|row| row.address);
     let is_object =
         |address| matches!(address, Ok(RowAddress::Object { .. } | RowAddress::Register { object: Some(_), .. }));
-    // The list does not state the bus of objects, so the user must add it.
+    // The list does not name the bus of the objects. The user must add it.
     if !list.spaces.is_empty() && !addresses.any(is_object) {
         out += "buses = [\"modbus\"]\n";
     }
@@ -138,7 +138,7 @@ fn chapter(out: &mut String, chapter: &Chapter, list: &Listing) {
     }
 }
 
-/// Returns the aligned entries of a row: address, type and access rights.
+/// Returns the aligned first entries of a row: address, type and access rights.
 fn head(row: &Row) -> [String; 3] {
     let address = match row.address {
         Ok(RowAddress::Register { printed, object, .. }) => {
@@ -169,7 +169,7 @@ fn line(out: &mut String, row: &Row, longest: usize, widths: [usize; 3], list: &
     for (at, (entry, width)) in head.iter().zip(widths).enumerate() {
         let comma = if at < last && !entry.is_empty() { "," } else { "" };
         let text = format!("{entry}{comma}");
-        // The last entry needs no padding.
+        // The last entry of a line needs no padding.
         if at < last && width > 0 {
             let _ = write!(out, "{text:0$} ", width + 1);
         } else if at == last {
@@ -179,7 +179,7 @@ fn line(out: &mut String, row: &Row, longest: usize, widths: [usize; 3], list: &
     let _ = writeln!(out, "{}}}", if rest.is_empty() { String::new() } else { rest.join(", ") + " " });
 }
 
-/// Returns the entries after address, type and access rights.
+/// Returns the entries of a row that follow the address, type and access rights.
 fn rest(row: &Row, list: &Listing) -> Vec<String> {
     let mut rest = Vec::new();
     let table = match row.address {
@@ -187,7 +187,7 @@ fn rest(row: &Row, list: &Listing) -> Vec<String> {
         _ => None,
     };
     let space = list.spaces.iter().find(|space| Some(space.table) == table);
-    // Only registers have a word order.
+    // Only registers can have a word order.
     let is_register = matches!(row.address, Ok(RowAddress::Register { .. }));
     let of_space = space.is_some_and(|space| space.low_first);
     let low_first = row.order.low_first.filter(|&low_first| is_register && low_first != of_space);
@@ -218,7 +218,7 @@ fn definitions(out: &mut String, list: &Listing) {
     }
 }
 
-/// Defines the unknown units, so that the user can complete their definitions.
+/// Writes definitions of the unknown units. The user must complete them.
 fn units(out: &mut String, list: &Listing) {
     let rows = list.chapters.iter().flat_map(|chapter| &chapter.rows).filter(|row| row.address.is_ok());
     let units = rows.flat_map(|row| &row.facts).filter(|(key, _)| *key == "unit").map(|(_, unit)| unit.as_str());

@@ -1,4 +1,4 @@
-//! Tests that imported register tables pass `check` and `generate`.
+//! Tests the import of register lists. The resulting tables must pass `check` and `generate`.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{Levels, Severity};
@@ -8,7 +8,7 @@ use lexibus_codegen::source::Source;
 use lexibus_import::{import, mapping, Import};
 use proptest::prelude::*;
 
-/// Imports a list with this file name.
+/// Imports a list as a file with the given name.
 fn read_as(name: &str, text: impl Into<Vec<u8>>, options: &lexibus_import::Options) -> Import {
     import(Source::new(name, text.into()), options)
 }
@@ -17,7 +17,7 @@ fn read(text: &str) -> Import {
     read_as("list.csv", text, &lexibus_import::Options::default())
 }
 
-/// Returns line, column and code of each diagnostic of an import.
+/// Returns the line, column and code of each diagnostic of an import.
 fn findings(import: &Import) -> Vec<(u32, u32, &'static str)> {
     let source = &import.compilation.sources[0];
     let list = import.compilation.diagnostics.list().iter();
@@ -28,14 +28,14 @@ fn findings(import: &Import) -> Vec<(u32, u32, &'static str)> {
     .collect()
 }
 
-/// Returns the device of a list. Neither the list nor its table may have diagnostics.
+/// Imports a list and returns the device of its table. Neither the list nor the table may have diagnostics.
 fn device(text: &str) -> Device {
     let import = read(text);
     assert_eq!(findings(&import), [], "{text}");
     accepted(&import)
 }
 
-/// Returns the device of an imported table, which must pass `check` and `generate`.
+/// Returns the device of an imported table. The table must pass `check` and `generate`.
 fn accepted(import: &Import) -> Device {
     let table = import.table.as_ref().expect("a table");
     let options = Options::default();
@@ -205,7 +205,8 @@ fn every_cell_that_cannot_be_read_is_told() {
     {
         assert!(table.contains(line), "{line}\n{table}");
     }
-    // A row with an unreadable cell is kept, and the text of a cell that is not a list becomes documentation.
+    // A row with an unreadable cell is kept. If a cell should contain a list but does not, its text becomes
+    // documentation.
     assert!(table.contains("doc = \"Off/On\"") && table.contains("reg = 4, type = \"u8\""), "{table}");
 }
 
@@ -253,7 +254,7 @@ fn strict_imports_nothing_that_was_not_read() {
     assert!(import.table.is_none() && import.compilation.diagnostics.count(Severity::Error) == 1);
 }
 
-/// Generates cells as they occur in lists, valid and invalid.
+/// Generates valid and invalid cells like those of real lists.
 fn cell() -> impl Strategy<Value = String> {
     const CELLS: [&str; 70] = [
         "",
@@ -368,7 +369,7 @@ fn limits_with_a_decimal_point_are_physical() {
     let list = "Address;Name;Type;Unit;Factor;Min;Max;Default\n40001;Set point;INT16;°C;0.1;-20.0;200.0;25.0\n";
     let table = read(list).table.expect("a table");
     assert!(table.contains("min = -200, max = 2000, default = 250"), "{table}");
-    // A sheet that prints addresses so, too, has no fractions by that.
+    // If the list also prints addresses with `.0`, the decimal point of limits has no meaning.
     let list = list.replace("40001;", "40001.0;");
     let table = read(&list).table.expect("a table");
     assert!(table.contains("min = -20, max = 200, default = 25"), "{table}");
@@ -377,7 +378,7 @@ fn limits_with_a_decimal_point_are_physical() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
-    /// `check` reports no error in an imported table, for any content of the cells.
+    /// `check` must report no error in an imported table, regardless of the content of the cells.
     #[test]
     fn tables_of_any_cells_are_accepted(
         titles in prop::sample::subsequence(&TITLES[..], 4..16).prop_shuffle(),
@@ -399,14 +400,14 @@ proptest! {
         }
     }
 
-    /// The import does not panic on any text.
+    /// The import must not panic on any text.
     #[test]
     fn any_text_is_read(text in "\\PC*|(Name|Address|Type|[0-9.x,;\t\"\n-]){0,60}") {
         read(&text);
     }
 }
 
-/// Returns the number of diagnostics with this code.
+/// Returns the number of diagnostics with the given code.
 fn count(import: &Import, code: &str) -> usize {
     findings(import).iter().filter(|(.., other)| *other == code).count()
 }
@@ -427,7 +428,7 @@ fn lines_of_a_list_that_stand_for_many_items() {
 
 #[test]
 fn names_of_repeated_lines_that_are_taken() {
-    // Each numbered line uses a name that the second repeated row tries.
+    // Each numbered line has a name that would be generated for the second repeated row.
     let tried = limits::MAX_DERIVED_ITEMS / 1000;
     let lines = |used: usize| {
         let used: String = (0..used).map(|at| format!("{},P 1000 {},u8,\n", 5000 + at, at + 2)).collect();
@@ -441,9 +442,9 @@ fn names_of_repeated_lines_that_are_taken() {
     assert_eq!(lines(tried + 9), (1, 1));
 }
 
-// Passages of the AEC Vector Step manual, as printed. The number in a test's name is the item in section 4 of the notes.
+// Excerpts of the AEC Vector Step manual, as printed. The number in a test's name refers to section 4 of the notes.
 
-/// Imports rows below the column titles of the register tables in the manual.
+/// Imports rows with the column titles of the manual's register tables.
 fn manual(rows: &str) -> Import {
     let titles =
         "Indirizzo Modbus / Profibus\tIndirizzo CAN EtherCAT Profinet\tNome Registro\tDescrizione\tU.M.\tValore \
@@ -451,7 +452,7 @@ fn manual(rows: &str) -> Import {
     read_as("list.tsv", format!("{titles}{rows}"), &lexibus_import::Options::default())
 }
 
-/// Returns the rows of the imported table.
+/// Returns the row lines of an imported table.
 fn rows(import: &Import) -> Vec<&str> {
     let lines = import.table.as_deref().expect("a table").lines();
     lines.skip_while(|line| *line != "[chapters.registers]").skip(1).take_while(|line| !line.is_empty()).collect()
@@ -478,7 +479,7 @@ fn item_53_a_quote_that_would_swallow_seven_rows() {
     let names: Vec<&str> = rows(&import).iter().filter_map(|row| row.split(' ').next()).collect();
     assert_eq!(names.len(), 9, "{names:?}");
     assert!(rows(&import)[1].contains(r#"(solo BMD con resolver). \"RW SAVE" }"#), "{:?}", rows(&import)[1]);
-    // Item 21: a range is not an index, so the row has no object.
+    // Item 21: the range is not an index, so the row has no object address.
     assert!(
         rows(&import)[6].starts_with(r#"Rrslvrawangleout = { reg = "10194-10195", "#)
             && !rows(&import)[6].contains("obj")
@@ -530,7 +531,7 @@ fn item_26_a_line_of_dashes() {
 
 #[test]
 fn items_18_and_19_indices_beside_numbers() {
-    // The printed address is the Modbus wire address, not the base of the index.
+    // The printed address is the wire address on Modbus. It is not the base of the object index.
     let import = manual(
         "10144\t0x4800\tRalmbuffres\tReset buffer storico allarmi\t\t\t\tUnsigned16\tRW SAVE\n\
          10145\t0x4801\tRalmbuffptr\tPuntatore al buffer storico allarmi\t\t0\t15\tUnsigned16\tRW SAVE\n\
@@ -601,7 +602,7 @@ fn an_index_beside_a_number_without_a_title_that_says_so() {
     let import = read("Register,Address,Name,Type,Access\n198,0x20C6,a,u16,rw\n199,0x20C7,b,u16,rw\n");
     assert_eq!(findings(&import), [(2, 5, "CSV007")]);
     assert_eq!(rows(&import)[0], r#"a = { reg = 198, obj = 0x20C6, type = "u16", access = "rw" }"#);
-    // Two addresses of one register are not an object index.
+    // If both columns contain addresses of the same register, the second one is not an object index.
     let import = read("Register,Address,Name,Type,Access\n40001,0x0000,a,u16,rw\n40002,0x0001,b,u16,rw\n");
     assert_eq!((findings(&import), import.table.unwrap().contains("first = 40001")), (vec![], true));
 }

@@ -1,27 +1,27 @@
-//! File names and anchors, derived from texts of the source.
+//! Creates file names and anchors from texts of the source.
 
 use compact_str::format_compact;
 
 use lexibus_codegen::unique::Unique;
 
-/// Maximum length of a name that is derived from a text.
+/// Maximum length of a name that is created from a text.
 const LONGEST: usize = 40;
 
 /// Unique file names, or unique anchors within a page.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     given: Unique,
-    /// Prefix of all anchors.
+    /// Prefix of all anchors in the page or element.
     prefix: String,
 }
 
 impl Names {
-    /// Creates the anchors of elements within the element with the anchor `anchor`.
+    /// Creates unique anchors for elements inside the element with the anchor `anchor`.
     pub fn within(anchor: &str) -> Self {
         Names { prefix: format!("{anchor}."), ..Names::default() }
     }
 
-    /// Returns a file name for `text`, of lowercase letters, digits and `-`.
+    /// Returns a file name for `text`. It consists of lowercase letters, digits and `-`.
     pub fn file(&mut self, text: &str) -> String {
         let mut name = String::new();
         for letter in text.chars().flat_map(char::to_lowercase) {
@@ -36,14 +36,14 @@ impl Names {
         self.once(if name.is_empty() { "device" } else { name }, '-')
     }
 
-    /// Returns an anchor for an element called `text`. It contains the characters that need no escaping in a link.
+    /// Returns an anchor for an element called `text`. It contains only characters that need no escaping in a link.
     pub fn anchor(&mut self, text: &str) -> String {
         let is_plain = |letter: &char| letter.is_alphanumeric() || matches!(letter, '_' | '-' | '.' | ':');
         let name: String = text.trim().chars().map(|letter| if is_plain(&letter) { letter } else { '_' }).collect();
         self.once(&format!("{}{}", self.prefix, if name.is_empty() { "_" } else { &name }), '.')
     }
 
-    /// Returns `name`, with a number if the name is already used.
+    /// Returns `name`, with a number appended if the name is already used.
     fn once(&mut self, name: &str, separator: char) -> String {
         self.given.unique(name, |number| format_compact!("{name}{separator}{number}")).into_string()
     }

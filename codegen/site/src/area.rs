@@ -1,4 +1,4 @@
-//! Pages of items: a chapter of registers, or a range of objects.
+//! Pages that list items: a chapter of registers or a range of objects.
 
 use std::collections::HashMap;
 
@@ -10,13 +10,13 @@ use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::ir::{Group, GroupKind, Item, ItemId, TypeDef};
 
-/// Maximum number of items on a page.
+/// Maximum number of items per page.
 const PAGE: usize = 500;
 
-/// A page of items.
+/// A page that lists items.
 #[derive(Debug)]
 pub(super) struct Area {
-    /// Name of the file, without extension.
+    /// File name without extension.
     pub file: String,
     pub title: String,
     pub facts: Vec<String>,
@@ -25,7 +25,7 @@ pub(super) struct Area {
 }
 
 impl Area {
-    /// Returns the number of items.
+    /// Returns the number of items on the page.
     pub fn count(&self) -> usize {
         self.sections.iter().map(|section| section.rows.len()).sum()
     }
@@ -34,7 +34,7 @@ impl Area {
 /// Items under one heading: an object with its entries, or registers.
 #[derive(Debug, Default)]
 pub(super) struct Section {
-    /// Anchor of an object with several entries. A single row has the anchor itself.
+    /// Anchor of an object with several entries. If the section has a single row, the row has the anchor.
     pub anchor: Option<String>,
     pub number: String,
     pub name: String,
@@ -45,14 +45,14 @@ pub(super) struct Section {
     pub rows: Vec<Row>,
 }
 
-/// A part of a device whose groups share pages.
+/// A part of a device. Its groups share pages.
 struct Part<'g> {
     title: String,
-    /// The groups with their positions.
+    /// The groups of the part, with their positions in the device.
     groups: Vec<(u32, &'g Group)>,
 }
 
-/// Returns the pages of these groups. Their file names begin with `prefix`.
+/// Returns the pages for these groups. Their file names begin with `prefix`.
 pub(super) fn areas(
     groups: &[Group],
     types: &[TypeDef],
@@ -63,7 +63,8 @@ pub(super) fn areas(
     parts(groups).iter().flat_map(|part| pages(part, types, known, files, prefix)).collect()
 }
 
-/// Returns a part for each chapter and image, and for each range of objects (CiA 301 7.4.1).
+/// Returns the parts of a device: one for each chapter and process image, and one for each range of objects (CiA 301
+/// 7.4.1).
 fn parts(groups: &[Group]) -> Vec<Part<'_>> {
     let mut parts: Vec<Part<'_>> = Vec::new();
     let mut ranges: HashMap<&str, usize> = HashMap::new();
@@ -105,7 +106,7 @@ fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names
     let mut count = 0;
     for &(position, group) in &part.groups {
         let items: Vec<(ItemId, &Item)> = group.items_at(position).collect();
-        // A long chapter can continue on further pages; an object is never divided.
+        // A long chapter can occupy several pages. All entries of an object are on the same page.
         let chunks: Vec<&[(ItemId, &Item)]> = match group.kind {
             GroupKind::Object { .. } => vec![&items],
             _ => items.chunks(PAGE).collect(),
@@ -178,7 +179,7 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
 }
 
 impl Section {
-    /// Creates a section of rows without a heading.
+    /// Creates a section that has rows but no heading.
     pub fn plain(rows: Vec<Row>) -> Self {
         Section { rows, ..Section::default() }
     }

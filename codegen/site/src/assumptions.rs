@@ -1,4 +1,4 @@
-//! All ambiguities in the source with their assumptions, sorted by severity.
+//! Collects all ambiguities in the source with the compiler's assumptions, sorted by severity.
 
 use std::collections::HashMap;
 
@@ -10,23 +10,23 @@ use super::process::Frame;
 use super::protocol::Protocol;
 use lexibus_codegen::ir::Severity;
 
-/// An ambiguity, and its elements. A repeated row of the source has several elements.
+/// An ambiguity and the elements that it affects. There are several elements if the source repeats a row.
 #[derive(Debug)]
 pub(super) struct Assumption<'d> {
     pub elements: Vec<Element>,
     pub doubt: &'d Doubt,
 }
 
-/// An element with an ambiguity.
+/// An element with an ambiguity, for a link to it.
 #[derive(Debug)]
 pub(super) struct Element {
-    /// File and anchor.
+    /// File and anchor of the element.
     pub link: String,
-    /// Address and name.
+    /// Address and name of the element.
     pub title: String,
 }
 
-/// The ambiguities of one severity.
+/// All ambiguities of one severity.
 #[derive(Debug)]
 pub(super) struct Ranked<'d> {
     pub severity: Severity,
@@ -34,7 +34,7 @@ pub(super) struct Ranked<'d> {
 }
 
 impl Ranked<'_> {
-    /// Returns the effect of a wrong assumption, as a heading.
+    /// Returns a heading that describes the effect of a wrong assumption.
     pub fn heading(&self) -> &'static str {
         match self.severity {
             Severity::Hazard => "Can move a motor or damage wiring",
@@ -44,9 +44,9 @@ impl Ranked<'_> {
     }
 }
 
-/// The pages and ambiguities of a device.
+/// The pages of a device and the ambiguities on them.
 pub(super) struct AmbiguitySources<'d> {
-    /// The first page, and the ambiguities that belong to no element.
+    /// The first page, and the ambiguities that belong to no single element.
     pub overview: (&'d str, &'d [Doubt]),
     pub areas: &'d [Area],
     /// The page of process data.
@@ -55,12 +55,12 @@ pub(super) struct AmbiguitySources<'d> {
     pub protocol: Option<(&'d str, &'d Protocol)>,
     /// The page of state machines and procedures.
     pub behaviour: Option<(&'d str, &'d Behaviour)>,
-    /// The page of tables of codes.
+    /// The page of code tables.
     pub codes: Option<(&'d str, &'d [Codes])>,
 }
 
 impl<'d> AmbiguitySources<'d> {
-    /// Returns all ambiguities by severity, then in the order of the pages. A severity without ambiguities is left out.
+    /// Returns all ambiguities by severity, then in the order of the pages. Severities without ambiguities are omitted.
     pub fn ranked(&self) -> Vec<Ranked<'d>> {
         let mut ranks = [Severity::Hazard, Severity::Value, Severity::Print]
             .map(|severity| Ranked { severity, assumptions: Vec::new() });
@@ -70,7 +70,7 @@ impl<'d> AmbiguitySources<'d> {
         ranks.into_iter().filter(|rank| !rank.assumptions.is_empty()).collect()
     }
 
-    /// Returns all ambiguities. Each occurs once.
+    /// Returns all ambiguities without repetitions.
     fn all(&self) -> Vec<Assumption<'d>> {
         let mut all: Vec<Assumption<'d>> = Vec::new();
         let mut known = HashMap::new();
@@ -79,7 +79,8 @@ impl<'d> AmbiguitySources<'d> {
             if at == all.len() {
                 all.push(Assumption { elements: Vec::new(), doubt });
             }
-            // An ambiguity with a subject is also in the list of the device and at each element with this type.
+            // An ambiguity with a subject occurs in the device's list and again at each element with the subject's
+            // type.
             match doubt.subject.as_str() {
                 "" => all[at].elements.push(Element { link, title: title.to_owned() }),
                 _ if !all[at].elements.is_empty() => {}
@@ -89,7 +90,7 @@ impl<'d> AmbiguitySources<'d> {
         all
     }
 
-    /// Calls the visitor for all ambiguities in the order of the pages, with the link and title of the element.
+    /// Calls `visitor` for each ambiguity in the order of the pages, with the link and title of the affected element.
     fn visit(&self, visitor: &mut impl FnMut(String, &str, &'d Doubt)) {
         let (first, doubts) = self.overview;
         let (of_device, with_subject): (Vec<_>, Vec<_>) = doubts.iter().partition(|doubt| doubt.subject.is_empty());

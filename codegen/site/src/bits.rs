@@ -1,4 +1,4 @@
-//! Drawings of bit fields: one cell for each bit, the most significant bit first.
+//! Draws bit fields. Each bit has a cell, and the most significant bit comes first.
 
 use std::collections::BTreeSet;
 
@@ -8,19 +8,19 @@ use lexibus_codegen::facts::types;
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{BitFieldEntry, BitMeaning, EnumValue, Shape, Trigger, Type, TypeDef};
 
-/// Number of bits in a row of a drawing.
+/// Number of bits per row of a drawing.
 const ROW: u32 = 16;
 
-/// Width of a bit.
+/// Width of the cell of one bit.
 const CELL: u32 = 40;
 
-/// First bit and number of bits of the rows of drawings.
+/// The bit grids that a page needs: the first bit and the number of bits of each drawing row.
 pub(super) type Grids = BTreeSet<(u32, u32)>;
 
-/// A bit field for a page: drawing and list.
+/// A bit field on a page: its drawing and its list.
 #[derive(Debug)]
 pub(super) struct Bits {
-    /// Rows of the drawing, the most significant bits first.
+    /// Rows of the drawing. The row with the most significant bits comes first.
     pub rows: Vec<Row>,
     pub fields: Vec<Field>,
 }
@@ -30,14 +30,14 @@ pub(super) struct Bits {
 pub(super) struct Row {
     /// Number of the least significant bit.
     pub first: u32,
-    /// Number of bits.
+    /// Number of bits in the row.
     pub bits: u32,
-    /// Distance from the top.
+    /// Vertical offset from the top of the drawing.
     pub top: u32,
     pub cells: Vec<Cell>,
 }
 
-/// A row of the list.
+/// A row of the bit list.
 #[derive(Debug)]
 pub(super) struct Field {
     /// Bit numbers, such as `7` or `3–0`.
@@ -48,7 +48,7 @@ pub(super) struct Field {
     pub values: Vec<Label>,
 }
 
-/// A value with a name.
+/// A named value.
 #[derive(Debug)]
 pub(super) struct Label {
     pub number: String,
@@ -57,7 +57,7 @@ pub(super) struct Label {
     pub facts: String,
 }
 
-/// Returns the bits and values of a type.
+/// Returns the drawing of a type's bits and the list of its named values.
 pub(super) fn of_type(types: &[TypeDef], ty: Type) -> (Option<Bits>, Vec<Label>) {
     match Owner::of_types(types).definition(ty).map(|definition| &definition.shape) {
         Some(Shape::BitField { base, fields }) => {
@@ -69,7 +69,7 @@ pub(super) fn of_type(types: &[TypeDef], ty: Type) -> (Option<Bits>, Vec<Label>)
     }
 }
 
-/// Returns the rows of drawings: first bit and number of bits of each. The grid is drawn once for each.
+/// Returns the bit grids of these drawings. Each grid is drawn only once per page.
 pub(super) fn grids<'b>(drawings: impl Iterator<Item = &'b Bits>) -> Grids {
     drawings.flat_map(|drawing| &drawing.rows).map(|row| (row.first, row.bits)).collect()
 }
@@ -88,7 +88,7 @@ fn drawing(types: &[TypeDef], fields: &[BitFieldEntry], bits: u32) -> Bits {
     Bits { rows, fields: fields.iter().map(|entry| field(types, entry)).collect() }
 }
 
-/// Returns the cell of a field in the row of `bits` bits from `first` on. Reserved bits have no cell.
+/// Returns the cell of a field in the row of `bits` bits that starts at bit `first`. Reserved bits have no cell.
 fn cell(field: &BitFieldEntry, first: u32, bits: u32) -> Option<Cell> {
     if matches!(field.meaning, BitMeaning::Reserved { .. }) {
         return None;

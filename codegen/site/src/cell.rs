@@ -1,11 +1,11 @@
-//! A cell of a drawing. Its label is the part of the name that fits.
+//! A cell of a drawing. Its label is the name, shortened to the width of the cell.
 
 use super::words;
 
-/// Width of a letter, and the margin of a text.
+/// Width of a letter and margin around a text, in pixels.
 const LETTER: u32 = 7;
 
-/// A field of a drawing, or the part of a field in one row.
+/// A field in a drawing. A field that spans several rows has a cell in each row.
 #[derive(Debug)]
 pub(super) struct Cell {
     pub left: u32,

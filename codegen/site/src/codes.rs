@@ -1,4 +1,4 @@
-//! Tables of codes: alarms, emergency codes, abort codes, with causes and remedies.
+//! Code tables (alarms, emergency codes, abort codes) with causes and remedies.
 
 use super::anchor::Names;
 use super::entry::{self, Doubt};
@@ -6,7 +6,7 @@ use super::words::{self, PLAIN};
 use lexibus_codegen::facts::code;
 use lexibus_codegen::ir::{CodeTable, Device, Manual, SubjectKind};
 
-/// A table of codes.
+/// A code table.
 #[derive(Debug)]
 pub(super) struct Codes {
     pub anchor: String,
@@ -17,7 +17,7 @@ pub(super) struct Codes {
     pub rows: Vec<Code>,
 }
 
-/// A row of a table.
+/// A row of a code table.
 #[derive(Debug)]
 pub(super) struct Code {
     pub anchor: String,

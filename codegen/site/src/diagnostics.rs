@@ -1,4 +1,4 @@
-//! Repairs and warnings of the compiler. Items show theirs, and a page lists all.
+//! Repairs and warnings of the compiler. Each item shows its diagnostics, and one page lists all of them.
 
 use std::collections::HashMap;
 
@@ -9,10 +9,10 @@ use lexibus_codegen::facts::words::sentence;
 use lexibus_codegen::ir::{Group, Item};
 use lexibus_codegen::source::Span;
 
-/// Maximum number of diagnostics that a span of an item shows. The page with all diagnostics lists the others.
+/// Maximum number of diagnostics that an item shows for one span. The page with all diagnostics lists the others.
 const MAX_PER_SPAN: usize = 64;
 
-/// A diagnostic of the compiler, for a page.
+/// A compiler diagnostic on a page.
 #[derive(Clone, Debug)]
 pub(super) struct ShownDiagnostic {
     /// Whether the compiler repaired the source.
@@ -29,14 +29,14 @@ pub(super) struct ShownDiagnostic {
 #[derive(Debug, Default)]
 pub(super) struct ShownDiagnostics {
     pub list: Vec<ShownDiagnostic>,
-    /// Spans with positions in the list, sorted.
+    /// Sorted spans, each with the position of its diagnostic in the list.
     spans: Vec<(Span, usize)>,
 }
 
 impl ShownDiagnostics {
     pub fn of(compilation: &Compilation) -> Self {
         let mut diagnostics = ShownDiagnostics::default();
-        // Several devices of a file can have the same diagnostic.
+        // Several devices of a file can have the same diagnostic, which is listed once.
         let mut known = HashMap::new();
         for diagnostic in compilation.diagnostics.list() {
             let shown = shown(compilation, diagnostic);
@@ -72,13 +72,13 @@ impl ShownDiagnostics {
         ])
     }
 
-    /// Returns the diagnostics of an object as a whole.
+    /// Returns the diagnostics that concern an object as a whole.
     pub fn of_group(&self, group: &Group) -> Vec<ShownDiagnostic> {
         self.within(&[group.origin.span])
     }
 
-    /// Returns the diagnostics within these spans. A table row can represent thousands of items, so their number is
-    /// limited.
+    /// Returns the diagnostics within these spans. Their number is limited because a table row can represent thousands
+    /// of items.
     fn within(&self, spans: &[Span]) -> Vec<ShownDiagnostic> {
         let mut found: Vec<usize> = Vec::new();
         for span in spans.iter().filter(|span| !span.is_empty()) {

@@ -1,4 +1,4 @@
-//! Rows of tables. Each item has a row, and the facts without a column are below it.
+//! Table rows. Each item has a row; facts that have no column are shown below the row.
 
 use std::collections::HashMap;
 
@@ -10,13 +10,13 @@ use lexibus_codegen::facts::words::{capital, row_of, sentence, ALLOWED_SHOWN};
 use lexibus_codegen::facts::{address, item, types};
 use lexibus_codegen::ir::{Item, ItemId, Manual, ModbusTable, Severity, Subject, SubjectKind, Type, TypeDef};
 
-/// An item of a page.
+/// The table row of an item.
 #[derive(Debug)]
 pub(super) struct Row {
     pub anchor: String,
-    /// The address for readers, such as `0x6040:00` or `register 12`.
+    /// The displayed address, such as `0x6040:00` or `register 12`.
     pub number: String,
-    /// All addresses in the form that the search finds.
+    /// All addresses in the notation of the search.
     pub addresses: Vec<String>,
     pub name: String,
     pub names: Vec<(String, String)>,
@@ -27,28 +27,28 @@ pub(super) struct Row {
     pub unit: String,
     /// First sentence of the description.
     pub description: String,
-    /// The facts below the row, as sentences.
+    /// The facts below the row, one sentence each.
     pub facts: Vec<String>,
     /// The description in other languages.
     pub translations: Vec<(String, String)>,
-    /// Further addresses with their bus.
+    /// Addresses on other buses, with the names of the buses.
     pub elsewhere: Vec<String>,
     pub doubts: Vec<Doubt>,
-    /// Ambiguities of the bits or values.
+    /// Ambiguities about the bits or values of the type.
     pub doubts_of_type: Vec<Doubt>,
     pub diagnostics: Vec<ShownDiagnostic>,
     /// Lines of Rust code that read and write the item.
     pub rust: Vec<String>,
     pub bits: Option<Bits>,
     pub labels: Vec<Label>,
-    /// The row on the page that shows the bits or values of the same type: anchor and name.
+    /// Anchor and name of the row on this page that shows the bits or values of the same type.
     pub same_as: Option<(String, String)>,
 }
 
 /// An ambiguity in the source.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct Doubt {
-    /// Its subject within the device, such as `HomingMethod, 33`. Empty if the ambiguity is shown at its subject.
+    /// Subject of the ambiguity, such as `HomingMethod, 33`. Empty if the ambiguity is shown at its subject.
     pub subject: String,
     pub severity: Severity,
     pub says: String,
@@ -58,7 +58,8 @@ pub(super) struct Doubt {
 }
 
 impl Row {
-    /// Returns the addresses for the search, each once. The first one is that of the row, with the wire address if known.
+    /// Returns the addresses for the search without repetitions. The first address is that of the row, with the wire
+    /// address if known.
     pub fn lookups(&self) -> Vec<&str> {
         let (of_row, others): (Vec<&str>, Vec<&str>) =
             self.addresses.iter().map(String::as_str).partition(|address| address.starts_with(&self.number));
@@ -66,7 +67,7 @@ impl Row {
         std::iter::once(first).chain(others).collect()
     }
 
-    /// Returns whether there are facts below the row.
+    /// Returns whether there are facts to show below the row.
     pub fn has_more(&self) -> bool {
         !self.facts.is_empty()
             || !self.translations.is_empty()
@@ -81,10 +82,10 @@ impl Row {
     }
 }
 
-/// The lines of Rust code that read and write items.
+/// The Rust code that reads and writes each item.
 pub(super) type Calls = HashMap<ItemId, Vec<String>>;
 
-/// Facts about the description, apart from its items.
+/// Facts about the description that do not belong to an item.
 #[derive(Clone, Copy)]
 pub(super) struct Known<'d> {
     pub manual: &'d Manual,
@@ -92,12 +93,12 @@ pub(super) struct Known<'d> {
     pub doubts: &'d [lexibus_codegen::ir::Doubt],
     /// The Modbus tables with the requests that they accept.
     pub modbus: &'d [ModbusTable],
-    /// Rust code for the items.
+    /// Rust code that reads and writes the items.
     pub calls: &'d Calls,
     pub diagnostics: &'d ShownDiagnostics,
 }
 
-/// Returns the ambiguities of a device about an element with this kind and name.
+/// Returns a device's ambiguities about the element with this kind and name.
 pub(super) fn about(all: &[lexibus_codegen::ir::Doubt], kind: SubjectKind, name: &str, manual: &Manual) -> Vec<Doubt> {
     doubts(all.iter().filter(|doubt| doubt.is_about(kind, name)), manual)
 }
@@ -107,12 +108,12 @@ pub(super) struct Rows<'p> {
     pub types: &'p [TypeDef],
     pub names: &'p mut Names,
     pub known: Known<'p>,
-    /// The types whose bits or values the page already shows, with anchor and name of the row.
+    /// Types whose bits or values the page already shows, with the anchor and name of the row that shows them.
     pub shown: Vec<(Type, String, String)>,
 }
 
 impl Rows<'_> {
-    /// Creates a row. `number` is the address for readers. It is also the anchor unless `by_name` is set.
+    /// Creates the row of an item. `number` is the displayed address. It is also the anchor unless `by_name` is set.
     pub fn row(&mut self, id: ItemId, item: &Item, number: String, by_name: bool) -> Row {
         let anchor = self.names.anchor(if by_name && !item.name.is_empty() { &item.name } else { &number });
         let (mut drawn, mut labels, mut same_as) = (None, Vec::new(), None);
@@ -126,7 +127,7 @@ impl Rows<'_> {
                 }
             }
         }
-        // The first row with a type shows its facts.
+        // Only the first row with a type shows the facts of the type.
         let definition = types::definition(self.types, item.ty).filter(|_| same_as.is_none());
         let addresses = address::addresses(item, self.known.modbus);
         let lookups: Vec<String> =
@@ -197,7 +198,7 @@ fn subject(subject: &Subject) -> String {
     }
 }
 
-/// Converts ambiguities for a page.
+/// Converts ambiguities for display on a page.
 pub(super) fn doubts<'d>(
     doubts: impl IntoIterator<Item = &'d lexibus_codegen::ir::Doubt>,
     manual: &Manual,

@@ -1,4 +1,4 @@
-//! The pages of a catalog in their folder.
+//! Writes the pages of a catalog to a folder.
 
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
@@ -30,13 +30,13 @@ pub(super) struct Folder {
     pub index: Index,
     pub listed: ListedCatalog,
     diagnostics: ShownDiagnostics,
-    /// Pages that all devices share.
+    /// Links to pages that all devices share.
     shared: Rc<Links>,
-    /// Pages of the device that was written last.
+    /// Links to the pages of the device that was written last.
     last: Rc<Links>,
 }
 
-/// The parts of a device with their files.
+/// The parts of a device with the file names of their pages.
 struct Parts {
     overview: Overview,
     areas: Vec<Area>,
@@ -78,15 +78,15 @@ impl Folder {
         }
     }
 
-    /// Writes all pages of a catalog with this title.
+    /// Writes all pages of the catalog. `title` is the title of the catalog.
     pub fn catalog(&mut self, title: &str, catalog: &Catalog) {
         let is_alone = catalog.devices.len() == 1;
-        // The pages of devices have links to the shared pages, so the names of these are determined first.
+        // The device pages link to the shared pages, so the file names of the shared pages are determined first.
         let (modules, files) = self.modules(catalog);
         let diagnostics = (!self.diagnostics.list.is_empty()).then(|| self.file("Findings"));
         self.listed.shared.extend(files.iter().cloned());
         self.listed.shared.extend(diagnostics.iter().map(|file| (file.clone(), "Findings".to_owned())));
-        // The first page of modules has links to the others.
+        // The first module page links to all module pages.
         self.shared = Rc::new(Links::new(self.listed.shared.clone(), files.len().min(1)..files.len()));
         let spoken = languages_of_modules(catalog);
         for device in &catalog.devices {
@@ -114,7 +114,7 @@ impl Folder {
         self.pages.push(Page::new(file, self.format.page(frame, file, content)));
     }
 
-    /// Returns the name of a new file for `title`.
+    /// Returns an unused file name for `title`.
     fn file(&mut self, title: &str) -> String {
         self.files.file(title) + self.format.ending()
     }
@@ -150,7 +150,7 @@ impl Folder {
         self.listed.devices.push(Listed { title, vendor: device.identity.vendor_name.to_string(), path: first, pages });
     }
 
-    /// Collects the parts of a device and its further pages.
+    /// Collects the parts of a device and determines their pages.
     fn parts(
         &mut self,
         device: &Device,
@@ -196,7 +196,7 @@ impl Folder {
         (parts, pages)
     }
 
-    /// Writes the pages after those of items.
+    /// Writes the pages that follow the pages of items.
     fn further(&mut self, device: &Device, parts: &Parts, frame: &Frameset) {
         if let Some(file) = &parts.process {
             let sync_managers = process::sync_managers(&device.process_data);
@@ -229,7 +229,7 @@ impl Folder {
         }
     }
 
-    /// Returns the modules, and the files and titles of their pages.
+    /// Returns the modules, and the file name and title of each of their pages.
     fn modules(&mut self, catalog: &Catalog) -> (Vec<ModuleModel>, Vec<(String, String)>) {
         let mut all = modules::modules(catalog, &self.diagnostics);
         let count = all.len().div_ceil(modules::PAGE);
@@ -261,7 +261,7 @@ impl Folder {
     }
 }
 
-/// Makes links from the anchors of submodules, which can be on other pages.
+/// Adds the file names to links to submodules, which can be on other pages.
 fn link_parts(modules: &mut [ModuleModel], files: &[(String, String)]) {
     let pages: HashMap<String, usize> =
         modules.iter().enumerate().map(|(at, module)| (module.anchor.clone(), at / modules::PAGE)).collect();
@@ -318,7 +318,8 @@ fn title(device: &Device) -> String {
     }
 }
 
-/// Returns the languages of names and descriptions of these devices and of the modules, whose pages all devices share.
+/// Returns the languages of names and descriptions in these devices and in the modules. All devices share the module
+/// pages.
 fn languages(devices: &[Device], modules: &BTreeSet<&str>) -> Vec<String> {
     let mut all = Languages(modules.clone());
     for device in devices {

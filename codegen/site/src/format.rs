@@ -1,4 +1,4 @@
-//! The formats of the documentation.
+//! The formats of documentation.
 
 use super::html::Html;
 use super::markdown::Markdown;
@@ -7,7 +7,7 @@ use super::pages::Pages;
 /// A format of the documentation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Format {
-    /// HTML pages that open from disk, with drawings and a search.
+    /// HTML pages that a browser opens from disk, with drawings and a search.
     #[default]
     Html,
     /// Markdown pages for repositories and `mdBook`, with a `SUMMARY.md`.
@@ -15,7 +15,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Returns the path of the first page of a site, which lists the devices.
+    /// Returns the path of the first page of a site. This page lists the devices.
     pub fn first_page(self) -> String {
         format!("{}{}", self.pages().front(), self.pages().ending())
     }

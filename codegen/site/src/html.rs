@@ -1,4 +1,4 @@
-//! HTML pages with drawings and a search. Askama's escaper for HTML escapes all texts.
+//! Writes HTML pages with drawings and a search. Askama's HTML escaper escapes all texts.
 
 use askama::Template;
 
@@ -21,7 +21,7 @@ const STYLE: &str = include_str!("../templates/site.css");
 /// The script: search, theme, language and copy buttons.
 const SCRIPT: &str = include_str!("../templates/site.js");
 
-/// Declares a template for each kind of page.
+/// Declares one template for each kind of page.
 macro_rules! templates {
     ($($page:ident = $path:literal { $($field:ident: $ty:ty),+ })+) => { $(
         #[derive(Template)]
@@ -47,12 +47,12 @@ templates! {
     ListPage = "list.html" { devices: &'p [Listed], root: &'p str, index: &'p str }
 }
 
-/// Renders a template. The templates contain nothing that can fail.
+/// Renders a template. Rendering cannot fail because the templates contain no fallible expressions.
 fn written(template: &impl Template) -> String {
     template.render().unwrap_or_default()
 }
 
-/// The format HTML.
+/// The HTML format.
 pub(super) struct Html;
 
 impl Pages for Html {
@@ -102,7 +102,7 @@ impl Pages for Html {
     }
 }
 
-/// Returns the grids of the bit fields in these sections.
+/// Returns the bit grids that the bit fields in these sections need.
 fn grids_of_rows<'p>(sections: impl IntoIterator<Item = &'p Section>) -> Grids {
     let rows = sections.into_iter().flat_map(|section| &section.rows);
     bits::grids(rows.filter_map(|row| row.bits.as_ref()))

@@ -1,8 +1,8 @@
-//! Creates documentation: a static HTML site that opens from disk, with a search and without external links, or
-//! Markdown pages.
+//! Creates documentation: a static HTML site or Markdown pages. The HTML site opens from disk, has a search, and has no
+//! external links.
 //!
-//! A [`Site`] accepts catalogs one by one and returns the pages of each. [`Site::finish`] returns the pages that all
-//! catalogs share.
+//! Add each catalog to a [`Site`], which returns the pages of this catalog. Then call [`Site::finish`] for the pages
+//! that all catalogs share.
 //!
 //! ```
 //! use lexibus_site::Site;
@@ -62,15 +62,16 @@ pub struct Page {
     pub text: String,
 }
 
-/// The mark of a generated HTML page.
+/// The tag that marks an HTML page as generated.
 const GENERATOR: &str = "<meta name=\"generator\" content=\"lexibus docs\">";
 
-/// The beginnings of other generated files.
+/// The first characters of other generated files.
 const BEGINNINGS: [&str; 4] =
     ["<!-- Written by lexibus docs", "/* Written by lexibus docs", "// Written by lexibus docs", "lexibusIndex("];
 
 impl Page {
-    /// Returns whether this page may replace a file with this text, because an earlier call wrote the file.
+    /// Returns whether this page may replace a file that contains `text`. This is allowed if Lexibus generated the
+    /// file.
     pub fn replaces(&self, text: &str) -> bool {
         match self.path.ends_with(".html") {
             true => text.contains(GENERATOR),
@@ -83,7 +84,7 @@ impl Page {
     }
 }
 
-/// A site of documentation.
+/// A documentation site.
 #[derive(Debug, Default)]
 pub struct Site {
     format: Format,
@@ -98,12 +99,12 @@ impl Site {
         Site { format, ..Site::default() }
     }
 
-    /// Returns the pages of a catalog, in a folder whose name is derived from `name`.
+    /// Returns the pages of a catalog. They are in a folder whose name is created from `name`.
     pub fn add(&mut self, name: &str, catalog: &Catalog) -> Vec<Page> {
         self.folder(name, catalog, ShownDiagnostics::default())
     }
 
-    /// Returns the pages of a compilation, with its diagnostics. Returns no pages if the compilation has errors.
+    /// Returns the pages of a compilation, including its diagnostics. Returns no pages if the compilation has errors.
     pub fn add_compilation(&mut self, name: &str, compilation: &Compilation) -> Vec<Page> {
         let catalog = compilation.catalog.as_ref().filter(|_| compilation.is_usable());
         catalog.map(|catalog| self.folder(name, catalog, ShownDiagnostics::of(compilation))).unwrap_or_default()
@@ -123,13 +124,13 @@ impl Site {
         catalog_folder.pages.into_iter().map(|page| Page { path: format!("{folder}/{}", page.path), ..page }).collect()
     }
 
-    /// Returns the pages that all catalogs share: the list of devices, and the files of the format.
+    /// Returns the pages that all catalogs share: the list of devices and the support files of the format.
     pub fn finish(self) -> Vec<Page> {
         let format = self.format.pages();
         let frame = Frameset { title: "Devices".to_owned(), ..Frameset::default() };
         let file = self.format.first_page();
         let devices: Vec<Listed> = self.catalogs.iter().flat_map(ListedCatalog::in_site).collect();
-        // A single catalog already has an index of all entries.
+        // If there is only one catalog, its index already contains all entries.
         let index = match self.catalogs.as_slice() {
             [only] => only.folder.as_str(),
             _ => "",

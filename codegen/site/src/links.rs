@@ -1,17 +1,17 @@
-//! The links of a page to other pages. If there are very many pages, each one has links to a few only, because the size
-//! of a site would otherwise grow quadratically.
+//! The links between pages. If there are very many pages, each page links only to a few of them. Otherwise the size of
+//! the site would grow quadratically.
 
 use std::collections::HashMap;
 use std::ops::Range;
 
 use lexibus_codegen::limits::{MAX_LINKED_PAGES, NEAR_LINKED_PAGES};
 
-/// Files and titles of pages in their order. `many` is the range of pages that can be very many.
+/// File names and titles of pages in page order. `many` is the range of those pages of which there can be very many.
 #[derive(Debug, Default)]
 pub(super) struct Links {
     list: Vec<(String, String)>,
     many: Range<usize>,
-    /// Positions of the files.
+    /// Position of each file in the page order.
     positions: HashMap<String, usize>,
 }
 
@@ -21,12 +21,12 @@ impl Links {
         Links { list, many, positions }
     }
 
-    /// Returns all pages.
+    /// Returns the file names and titles of all pages.
     pub fn all(&self) -> impl Iterator<Item = &(String, String)> {
         self.list.iter()
     }
 
-    /// Returns all pages. If they are very many, returns those near `file` and those outside of `many`.
+    /// Returns all pages if there are only a few. Otherwise returns the pages near `file` and the pages outside `many`.
     pub fn near(&self, file: &str) -> impl Iterator<Item = &(String, String)> {
         let Range { start, end } = self.many;
         let near = if end - start <= MAX_LINKED_PAGES {
@@ -56,7 +56,7 @@ mod tests {
         assert_eq!(of(1000, "1000"), with_ends(980..1001, 1001));
         assert_eq!(of(1000, "0"), with_ends(1..22, 1001));
         assert_eq!(of(1000, "1001"), of(1000, "1000"));
-        assert_eq!(of(1000, "no page of these"), of(1000, "0"));
+        assert_eq!(of(1000, "a page without links to others"), of(1000, "0"));
         assert_eq!(Links::default().near("").count(), 0);
     }
 }

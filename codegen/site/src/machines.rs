@@ -1,4 +1,4 @@
-//! State machines: a diagram, lists of states, commands and transitions, and what commands do in each state.
+//! State machines: a diagram, lists of states, commands and transitions, and the effects of commands in each state.
 
 use std::cmp::Ordering;
 use std::collections::{HashMap, VecDeque};
@@ -10,22 +10,22 @@ use lexibus_codegen::ir::{
     Device, ItemRef, Manual, Outcome, Pattern, Procedure, StateMachine, SubjectKind, Transition,
 };
 
-/// Width of a state in the diagram.
+/// Width of a state in the diagram, in pixels.
 const WIDTH: u32 = 170;
 const HEIGHT: u32 = 36;
 const GAP: u32 = 30;
 const RISE: u32 = 70;
 
-/// Margin on either side, for arrows that lead back.
+/// Margin on both sides of the diagram, for arrows to earlier states.
 const SIDE: u32 = 90;
 
-/// Maximum number of letters in the box of a state.
+/// Maximum number of letters in a state's box.
 const LETTERS: usize = 22;
 
 /// Name of the source state of transitions from any state.
 pub(super) const ANY_STATE: &str = "any state";
 
-/// A state machine for a page.
+/// A state machine on a page.
 #[derive(Debug)]
 pub(super) struct Machine {
     pub title: String,
@@ -45,7 +45,7 @@ pub(super) struct Machine {
 pub(super) struct Named {
     pub name: String,
     pub names: Vec<(String, String)>,
-    /// Bit pattern, such as `xxxx xxxx x01x 0111`; empty if the state is a value.
+    /// Bit pattern, such as `xxxx xxxx x01x 0111`. Empty if a value represents the state.
     pub bits: String,
     pub facts: String,
 }
@@ -68,7 +68,7 @@ impl TransitionRow {
     }
 }
 
-/// The effects of commands in each state.
+/// A table of the effects of each command in each state.
 #[derive(Debug)]
 pub(super) struct Matrix {
     pub states: Vec<String>,
@@ -76,7 +76,7 @@ pub(super) struct Matrix {
     pub notes: Vec<String>,
 }
 
-/// A diagram with states as boxes and transitions as arrows.
+/// A diagram in which states are boxes and transitions are arrows.
 #[derive(Debug)]
 pub(super) struct Diagram {
     pub width: u32,
@@ -161,7 +161,7 @@ fn named(pattern: &Pattern, width: u32) -> Named {
     }
 }
 
-/// Returns the name of a transition in the list and the diagram: its number, or its position.
+/// Returns the label of a transition in the list and diagram: its number, or its position if it has no number.
 fn number(position: usize, transition: &Transition) -> String {
     transition.number.map_or_else(|| (position + 1).to_string(), |number| number.to_string())
 }
@@ -214,10 +214,10 @@ fn outcome(outcome: &Outcome) -> String {
 /// Returns the diagram, or `None` if there is no transition between states.
 fn diagram(machine: &StateMachine) -> Option<Diagram> {
     let position = |name: &str| machine.states.iter().position(|state| state.name == name);
-    // Transitions from any state start at one more box, after those of the states.
+    // An additional box represents any state. Its position follows the positions of the states.
     let any = machine.states.len();
     let from = |transition: &Transition| transition.from.as_ref().map_or(Some(any), |name| position(name));
-    // Several transitions between the same states are one arrow.
+    // One arrow represents all transitions between the same two states.
     let mut edges: Vec<(usize, usize, String)> = Vec::new();
     for (at, transition) in machine.transitions.iter().enumerate() {
         let (Some(from), Some(to)) = (from(transition), position(&transition.to)) else { continue };
@@ -233,7 +233,7 @@ fn diagram(machine: &StateMachine) -> Option<Diagram> {
     }
     let first = machine.initial.as_ref().and_then(|name| position(name)).unwrap_or(edges.first()?.0);
     let mut ranks = ranks(any + 1, first, &edges);
-    // The box of any state is above the first state that it leads to.
+    // Place the box for any state one row above the first state that it leads to.
     if let Some(to) = edges.iter().filter(|(from, ..)| *from == any).map(|(_, to, _)| ranks[*to]).min() {
         ranks[any] = to.saturating_sub(1);
     }
@@ -277,8 +277,8 @@ fn diagram(machine: &StateMachine) -> Option<Diagram> {
     Some(Diagram { width, height, boxes: boxes.iter().enumerate().filter_map(state_box).collect(), arrows })
 }
 
-/// Returns the distance of each state from the first one, in transitions. Unreachable states follow, beginning with
-/// those that no other state leads to.
+/// Returns the rank of each state: the number of transitions from the first state. Unreachable states follow, starting
+/// with states that no other state leads to.
 fn ranks(count: usize, first: usize, edges: &[(usize, usize, String)]) -> Vec<usize> {
     let mut ranks = vec![None; count];
     let mut last = follow(first, 0, edges, &mut ranks);
@@ -288,7 +288,7 @@ fn ranks(count: usize, first: usize, edges: &[(usize, usize, String)]) -> Vec<us
     for at in starts {
         last = last.max(follow(at, rank, edges, &mut ranks));
     }
-    // The remaining states only lead to each other.
+    // The remaining states can only be reached from each other.
     for at in 0..count {
         if ranks[at].is_none() {
             last = follow(at, last + 1, edges, &mut ranks);
@@ -297,7 +297,7 @@ fn ranks(count: usize, first: usize, edges: &[(usize, usize, String)]) -> Vec<us
     ranks.into_iter().flatten().collect()
 }
 
-/// Sets the rank of a state and of those that follow it. Returns the last rank.
+/// Sets the ranks of a state and of the states that it leads to. Returns the highest rank.
 fn follow(at: usize, rank: usize, edges: &[(usize, usize, String)], ranks: &mut [Option<usize>]) -> usize {
     let mut queue = VecDeque::from([(at, rank)]);
     ranks[at] = Some(rank);
@@ -314,8 +314,8 @@ fn follow(at: usize, rank: usize, edges: &[(usize, usize, String)], ranks: &mut 
     last
 }
 
-/// Returns a curve between two states and its label. An arrow down begins at the bottom of its state, an arrow back at
-/// the side closer to its end. An arrow within a row passes below the row.
+/// Returns a curve between two states and its label. A downward arrow starts at the bottom of its state. An upward
+/// arrow starts at the side that is closer to its target. An arrow within a row runs below the row.
 fn arrow(from: (u32, u32), to: (u32, u32), number: u32, label: &str) -> Arrow {
     let ((x, y), (to_x, to_y)) = (from, to);
     let shift = number % 5 * 12;
@@ -373,8 +373,8 @@ mod tests {
         assert_eq!(
             ranks(5, 0, &edges(&[(1, 3), (2, 3), (3, 0), (4, 4)])),
             [0, 1, 1, 2, 1],
-            "nothing leads to 1, 2 and 4"
+            "no transition leads to 1, 2 and 4"
         );
-        assert_eq!(ranks(3, 0, &edges(&[(1, 2), (2, 1)])), [0, 1, 2], "a circle begins at its first state");
+        assert_eq!(ranks(3, 0, &edges(&[(1, 2), (2, 1)])), [0, 1, 2], "a cycle begins at its first state");
     }
 }

@@ -1,4 +1,5 @@
-//! Markdown pages for repositories and `mdBook`. [`Escape`], which `askama.toml` names, escapes all texts.
+//! Writes Markdown pages for repositories and `mdBook`. All texts are escaped by [`Escape`], which `askama.toml`
+//! configures.
 
 use std::collections::HashSet;
 use std::fmt::{self, Write};
@@ -18,7 +19,7 @@ use super::protocol::Protocol;
 use super::Page;
 use lexibus_codegen::facts::markdown;
 
-/// Escapes characters of Markdown and HTML, and writes a text on one line.
+/// Escapes Markdown and HTML characters and joins the lines of a text.
 #[derive(Clone, Copy)]
 pub(super) struct Escape;
 
@@ -28,14 +29,15 @@ impl askama::filters::Escaper for Escape {
     }
 }
 
-/// Returns whether a character is visible: no control character, and none that changes the display of others.
+/// Returns whether a character is visible. Control characters and characters that change the display of others are
+/// invisible.
 fn is_visible(letter: char) -> bool {
     let is_invisible =
         matches!(letter, '\u{200B}'..='\u{200F}' | '\u{2028}'..='\u{202E}' | '\u{2060}'..='\u{206F}' | '\u{FEFF}');
     !letter.is_control() && !is_invisible
 }
 
-/// Declares a template for each kind of page.
+/// Declares one template for each kind of page.
 macro_rules! templates {
     ($($page:ident = $path:literal { $($field:ident: $ty:ty),+ })+) => { $(
         #[derive(Template)]
@@ -46,7 +48,7 @@ macro_rules! templates {
     )+ };
 }
 
-/// Files and titles of other pages.
+/// File names and titles of other pages.
 type PageLinks<'p> = &'p [&'p (String, String)];
 
 templates! {
@@ -63,7 +65,8 @@ templates! {
     SummaryPage = "markdown/summary.md" { catalogs: &'p [ListedCatalog] }
 }
 
-/// Renders a template and reduces consecutive empty lines to one. The templates contain nothing that can fail.
+/// Renders a template and reduces consecutive empty lines to one. Rendering cannot fail because the templates contain
+/// no fallible expressions.
 fn written(template: &impl Template) -> String {
     let rendered = template.render().unwrap_or_default();
     let mut text = String::with_capacity(rendered.len());
@@ -80,7 +83,7 @@ fn written(template: &impl Template) -> String {
     text
 }
 
-/// The format Markdown.
+/// The Markdown format.
 pub(super) struct Markdown;
 
 impl Pages for Markdown {
@@ -88,8 +91,8 @@ impl Pages for Markdown {
         ".md"
     }
 
-    /// Returns the name of the file that repositories show for a folder. Other folders don't use it, because `mdBook`
-    /// renames such a file and breaks links to it.
+    /// Returns the file name that repositories display for a folder. Only the top folder uses it, because `mdBook`
+    /// renames such files and breaks links to them.
     fn front(&self) -> &'static str {
         "README"
     }
@@ -98,7 +101,7 @@ impl Pages for Markdown {
         let (title, mut links) = (frame.title.as_str(), links(frame, file));
         match content {
             Content::Overview(overview, contents) => {
-                // The first link is the overview itself. Areas, process data and slots have separate lists.
+                // Skip the link to the overview itself. Areas, process data and slots have their own lists.
                 let areas: HashSet<&str> = contents.areas.iter().map(|(area, ..)| area.as_str()).collect();
                 links.retain(|(linked, _)| !areas.contains(linked.as_str()) && linked != file);
                 written(&OverviewPage { title, overview, contents, links: &links })
@@ -124,7 +127,7 @@ impl Pages for Markdown {
     }
 }
 
-/// Returns the links of a page. Only the first page of a folder has links to all pages.
+/// Returns the links of a page. Only the first page of a folder links to all pages.
 fn links<'s>(frame: &'s Frameset, file: &str) -> Vec<&'s (String, String)> {
     let is_first = file.strip_suffix(".md") == Some(FIRST);
     if is_first {
@@ -135,7 +138,8 @@ fn links<'s>(frame: &'s Frameset, file: &str) -> Vec<&'s (String, String)> {
 }
 
 impl Machine {
-    /// Returns the transitions as lines of a Mermaid state diagram. Mermaid restricts the characters of names.
+    /// Returns the transitions as lines of a Mermaid state diagram. State names are changed because Mermaid restricts
+    /// their characters.
     fn lines(&self) -> Vec<String> {
         let label = |text: &str| -> String {
             let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.' | '/');

@@ -10,10 +10,10 @@ use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::facts::{self, address};
 use lexibus_codegen::ir::{Catalog, Device, Group, GroupKind, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef};
 
-/// Maximum number of modules on a page.
+/// Maximum number of modules per page.
 pub(super) const PAGE: usize = 100;
 
-/// A module or submodule.
+/// A module or submodule on a page.
 #[derive(Debug)]
 pub(super) struct ModuleModel {
     pub anchor: String,
@@ -25,7 +25,7 @@ pub(super) struct ModuleModel {
     pub translations: Vec<(String, String)>,
     pub frames: Vec<Frame>,
     pub sections: Vec<(String, Section)>,
-    /// Submodules that belong to the module: name and link.
+    /// Names of and links to the submodules that belong to the module.
     pub parts: Vec<(String, String)>,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Slot {
     pub fits: String,
 }
 
-/// Returns all modules of a catalog, followed by its submodules.
+/// Returns all modules of a catalog, followed by all submodules.
 pub(super) fn modules(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<ModuleModel> {
     let mut names = Names::default();
     let anchors: Vec<String> = catalog
@@ -60,7 +60,7 @@ pub(super) fn modules(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<
     all
 }
 
-/// Returns the items of a module. Their anchors begin with that of the module.
+/// Returns the items of a module in sections. Their anchors begin with the module's anchor.
 fn sections<'g>(
     groups: impl Iterator<Item = &'g Group>,
     types: &[TypeDef],

@@ -1,4 +1,4 @@
-//! The overview of a device, on its first page.
+//! The overview on the first page of a device.
 
 use super::entry::{self, Doubt};
 use super::modules::Slot;
@@ -6,15 +6,15 @@ use super::words::{self, PLAIN};
 use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::ir::{Device, DistributedClocks, EtherCatSettings, FileInfo, Manual, ProfinetSettings};
 
-/// The first page of a device.
+/// Content of the first page of a device.
 #[derive(Debug)]
 pub(super) struct Overview {
     pub facts: Vec<String>,
     /// The description in other languages.
     pub translations: Vec<(String, String)>,
-    /// Identity, buses and source file: name and value.
+    /// Names and values of the identity, the buses and the source file.
     pub identity: Vec<(&'static str, String)>,
-    /// Models, with their constants.
+    /// Models with their constants.
     pub models: Vec<Model>,
     pub doubts: Vec<Doubt>,
 }
@@ -22,14 +22,14 @@ pub(super) struct Overview {
 /// The table of contents of a device.
 #[derive(Debug)]
 pub(super) struct Contents {
-    /// Areas of items: file, title and number of items.
+    /// File name, title and number of items of each area.
     pub areas: Vec<(String, String, usize)>,
-    /// Cyclic data: address and title.
+    /// Addresses and titles of the cyclic data.
     pub frames: Vec<(String, String)>,
     pub slots: Vec<Slot>,
 }
 
-/// A model of a family.
+/// A model in a device family.
 #[derive(Debug)]
 pub(super) struct Model {
     pub name: String,
@@ -58,8 +58,8 @@ pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual
     Overview { facts, translations, identity, models: models.collect(), doubts: entry::doubts(doubts(device), manual) }
 }
 
-/// Returns the ambiguities that no other page shows: those of the device, of machine constants and of chapters without
-/// items.
+/// Returns the ambiguities that no other page shows: ambiguities of the device, of machine constants and of empty
+/// chapters.
 fn doubts(device: &Device) -> impl Iterator<Item = &lexibus_codegen::ir::Doubt> {
     let given = device.given.iter().flat_map(|given| &given.doubts);
     let empty = device.groups.iter().filter(|group| group.index().is_none() && group.items.is_empty());
@@ -80,7 +80,7 @@ fn identity(device: &Device) -> Vec<(&'static str, String)> {
     all.into_iter().filter(|(_, value)| !value.is_empty()).collect()
 }
 
-/// Returns the settings of the device on its buses.
+/// Returns the names and values of the device's bus settings.
 fn settings(device: &Device) -> Vec<(&'static str, String)> {
     let mut all = Vec::new();
     if let Some(settings) = &device.canopen {

@@ -1,4 +1,4 @@
-//! The interface of a documentation format. It writes the text of each kind of page.
+//! The interface that each documentation format implements. It writes the text of each kind of page.
 
 use std::rc::Rc;
 
@@ -14,42 +14,42 @@ use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
 use super::Page;
 
-/// The name of the first page of a folder, without extension.
+/// The file name of a folder's first page, without extension.
 pub(super) const FIRST: &str = "index";
 
-/// The title, links and languages that the pages of a device or catalog have in common.
+/// The title, links and languages that all pages of a device or catalog share.
 #[derive(Debug, Default)]
 pub(super) struct Frameset {
     /// Title of the device or catalog.
     pub title: String,
-    /// Pages of the device.
+    /// Links to the pages of the device.
     pub device_pages: Rc<Links>,
-    /// Pages that all devices share.
+    /// Links to the pages that all devices share.
     pub shared: Rc<Links>,
-    /// Languages of names.
+    /// Languages in which names are available.
     pub languages: Vec<String>,
 }
 
 impl Frameset {
-    /// Returns the files and titles of all pages.
+    /// Returns the file names and titles of all pages.
     pub fn all(&self) -> Vec<&(String, String)> {
         self.device_pages.all().chain(self.shared.all()).collect()
     }
 
-    /// Returns the files and titles of the pages that a page has links to.
+    /// Returns the file names and titles of the pages to which `file` links.
     pub fn near(&self, file: &str) -> Vec<&(String, String)> {
         self.device_pages.near(file).chain(self.shared.near(file)).collect()
     }
 }
 
-/// The pages of a catalog for lists of contents.
+/// The pages of a catalog for tables of contents.
 #[derive(Debug, Default)]
 pub(super) struct ListedCatalog {
     pub title: String,
-    /// Folder of the catalog, with a `/` at the end.
+    /// Folder of the catalog, with a trailing `/`.
     pub folder: String,
     pub devices: Vec<Listed>,
-    /// Pages that all devices share: files and titles.
+    /// File names and titles of the pages that all devices share.
     pub shared: Vec<(String, String)>,
 }
 
@@ -58,14 +58,14 @@ pub(super) struct ListedCatalog {
 pub(super) struct Listed {
     pub title: String,
     pub vendor: String,
-    /// First page.
+    /// Path of the device's first page.
     pub path: String,
-    /// Further pages: files and titles.
+    /// File names and titles of the device's other pages.
     pub pages: Vec<(String, String)>,
 }
 
 impl ListedCatalog {
-    /// Returns the devices, with the paths of their first pages relative to the site.
+    /// Returns the devices. The paths of their first pages are relative to the site.
     pub fn in_site(&self) -> impl Iterator<Item = Listed> + '_ {
         self.devices.iter().map(|device| Listed { path: format!("{}{}", self.folder, device.path), ..device.clone() })
     }
@@ -86,24 +86,25 @@ pub(super) enum Content<'p> {
     /// A list of devices.
     List {
         devices: &'p [Listed],
-        /// Relative path to the folder of the site.
+        /// Relative path from the page to the site's folder.
         root: &'p str,
-        /// Folder of the index if it differs from that of the page.
+        /// Folder of the search index if it differs from the folder of the page.
         index: &'p str,
     },
 }
 
 /// Writes the pages of a format.
 pub(super) trait Pages {
-    /// Returns the file extension, with the dot.
+    /// Returns the file extension, including the dot.
     fn ending(&self) -> &'static str;
-    /// Returns the name of the first page of a site, without extension.
+    /// Returns the file name of a site's first page, without extension.
     fn front(&self) -> &'static str;
-    /// Returns the text of the page `file`, whose links and title are in `frame`.
+    /// Returns the text of the page `file`. `frame` contains its title and links.
     fn page(&self, frame: &Frameset, file: &str, content: Content<'_>) -> String;
 
     /// Returns the files that the pages of one catalog share.
     fn of_catalog(&self, search: &dyn Fn() -> String) -> Vec<Page>;
-    /// Returns the files that all pages share. `search` is the index of all catalogs if there are several.
+    /// Returns the files that all pages share. `search` returns the search index of all catalogs if there are several
+    /// catalogs.
     fn of_site(&self, catalogs: &[ListedCatalog], search: Option<&dyn Fn() -> String>) -> Vec<Page>;
 }

@@ -1,4 +1,4 @@
-//! Cyclic data: PDOs, process images and sync managers, with drawings of their bytes.
+//! Cyclic data (PDOs, process images and sync managers) with drawings of the bytes.
 
 use super::anchor::Names;
 use super::cell::Cell;
@@ -10,17 +10,17 @@ use lexibus_codegen::ir::{
     Direction, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, SubjectKind, TypeDef,
 };
 
-/// Number of bytes in a row of a drawing, and width of a byte.
+/// Number of bytes in a drawing row, and the width of a byte in pixels.
 const ROW: u32 = 8;
 const CELL: u32 = 80;
 
-/// Height of a row.
+/// Height of a drawing row in pixels.
 const HEIGHT: u32 = 40;
 
-/// Maximum number of rows in a drawing. The list contains further entries.
+/// Maximum number of rows in a drawing. The list below the drawing contains all entries.
 const MOST_ROWS: usize = 64;
 
-/// Data that are exchanged together.
+/// A PDO or process image.
 #[derive(Debug, Default)]
 pub(super) struct Frame {
     pub anchor: String,
@@ -33,7 +33,7 @@ pub(super) struct Frame {
     pub entries: Vec<Entry>,
 }
 
-/// A row of the drawing: eight bytes.
+/// A drawing row of eight bytes.
 #[derive(Debug)]
 pub(super) struct Row {
     /// Number of the first byte.
@@ -42,11 +42,11 @@ pub(super) struct Row {
     pub cells: Vec<Cell>,
 }
 
-/// A row of the list.
+/// A row of the entry list.
 #[derive(Debug)]
 pub(super) struct Entry {
     pub position: String,
-    /// Address of the object.
+    /// Address of the mapped object.
     pub object: String,
     pub name: String,
     pub names: Vec<(String, String)>,
@@ -63,10 +63,10 @@ pub(super) struct SyncManager {
     pub size: String,
 }
 
-/// Data that PDOs of a device or module have in common.
+/// Data that all PDOs of a device or module share.
 #[derive(Clone, Copy)]
 pub(super) struct About<'d> {
-    /// Buses of the objects.
+    /// Buses on which the objects exist.
     pub buses: ObjectBuses,
     pub manual: &'d Manual,
     /// Ambiguities of the device.
@@ -80,7 +80,7 @@ pub(super) fn frames(data: &ProcessData, types: &[TypeDef], about: About<'_>) ->
         doubts: super::entry::about(about.doubts, SubjectKind::Image, &each.name, about.manual),
         ..image(each, types, &format!("image-{at}"), "")
     });
-    // PDOs of different buses can have the same index.
+    // PDOs on different buses can have the same index, so their anchors are made unique.
     let mut names = Names::default();
     let once = |frame: Frame| Frame { anchor: names.anchor(&frame.anchor), ..frame };
     pdos.chain(images).map(once).collect()
@@ -128,7 +128,7 @@ fn pdo(pdo: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
     }
 }
 
-/// Converts an image. A title in `of` replaces the name of the image.
+/// Converts a process image for a page. If `of` is not empty, it is the title and replaces the image's name.
 pub(super) fn image(image: &ProcessImage, types: &[TypeDef], anchor: &str, of: &str) -> Frame {
     let direction = match image.direction {
         Direction::Receive => "to the device",
@@ -145,7 +145,7 @@ pub(super) fn image(image: &ProcessImage, types: &[TypeDef], anchor: &str, of: &
     }
 }
 
-/// Returns a frame with its drawing and its list of entries only.
+/// Creates a frame that contains only the drawing and the list of entries.
 fn drawn(entries: &[PdoEntry], bits: u32, types: &[TypeDef]) -> Frame {
     let bytes = bits.div_ceil(8);
     let rows: Vec<Row> = (0..bytes.div_ceil(ROW)).take(MOST_ROWS).map(|at| row(entries, at)).collect();

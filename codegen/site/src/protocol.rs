@@ -1,4 +1,4 @@
-//! Messages of a command protocol: framing and fields.
+//! Messages of a command protocol, with their framing and fields.
 
 use super::anchor::Names;
 use super::bits::{self, Bits, Label};
@@ -10,10 +10,10 @@ use lexibus_codegen::facts::types;
 use lexibus_codegen::ir::Manual;
 use lexibus_codegen::ir::{Completion, Device, Framing, Message, MessageField, MessageValue, TypeDef};
 
-/// The protocol of a device.
+/// The command protocol of a device.
 #[derive(Debug)]
 pub(super) struct Protocol {
-    /// Framing, as name and value.
+    /// Names and values of the framing properties.
     pub framing: Vec<(&'static str, String)>,
     pub framing_facts: Vec<String>,
     pub messages: Vec<MessageModel>,
@@ -39,15 +39,15 @@ pub(super) struct Part {
     pub length: String,
     pub label: String,
     pub facts: String,
-    /// Kind for the style sheet: `c` for fixed bytes, `v` for values, `e` for copies, `r` for repetitions.
+    /// Class in the style sheet: `c` for fixed bytes, `v` for values, `e` for copies, `r` for repetitions.
     pub kind: &'static str,
-    /// Nesting depth of repetitions.
+    /// Number of repetitions that contain the field.
     pub depth: usize,
     pub bits: Option<Bits>,
     pub labels: Vec<Label>,
 }
 
-/// An example of frames, as in the manual.
+/// Example frames from the manual.
 #[derive(Debug)]
 pub(super) struct Example {
     pub request: String,
@@ -140,7 +140,7 @@ fn message(message: &Message, device: &Device, manual: &Manual, names: &mut Name
     }
 }
 
-/// Collects fields, including those of repetitions.
+/// Collects the fields of a frame, including the fields inside repetitions.
 struct Parts<'d> {
     types: &'d [TypeDef],
     all: Vec<Part>,

@@ -1,21 +1,22 @@
-//! The index of the search, in a script that pages load when the reader searches. In a site of many devices, many
-//! entries have the same number or text. Each number and text is stored and searched once.
+//! Creates the search index. It is a script that a page loads when the reader starts a search. In a site with many
+//! devices, many entries have the same number or text. The index stores each number and text once, so a search also
+//! checks it once.
 
 use std::collections::HashMap;
 use std::fmt::Write;
 
 use super::words::one_line as line;
 
-/// Number of searchable characters of a description.
+/// Number of characters of a description that are searchable.
 const WORDS: usize = 80;
 
-/// An index of entries.
+/// A search index.
 #[derive(Debug, Default)]
 pub(super) struct Index {
-    /// Pages with the title of their device and their entries.
+    /// Pages, each with the title of its device and its entries.
     pages: Vec<Page>,
     numbers: Texts,
-    /// Searchable texts: name, names in other languages, unit and start of the description, separated by tabs.
+    /// Searchable texts: name, names in other languages, unit, and the start of the description. Tabs separate them.
     texts: Texts,
 }
 
@@ -26,21 +27,21 @@ struct Page {
     entries: Vec<IndexedEntry>,
 }
 
-/// An entry: its anchor, and the positions of its number and text.
+/// An entry in the index: its anchor, and the positions of its number and text in the lists.
 #[derive(Debug)]
 struct IndexedEntry {
-    /// Anchor within the page; empty if it is equal to the number.
+    /// Anchor within the page. Empty if the anchor is equal to the number.
     anchor: String,
     number: usize,
     text: usize,
 }
 
-/// An entry of the search.
+/// An entry to add to the index.
 pub(super) struct Entry<'e> {
     pub anchor: &'e str,
     pub number: &'e str,
     pub name: &'e str,
-    /// The name in other languages.
+    /// The names in other languages.
     pub names: &'e [(String, String)],
     pub unit: &'e str,
     pub words: &'e str,
@@ -66,7 +67,7 @@ impl Texts {
 }
 
 impl Index {
-    /// Adds a page. The following entries belong to it.
+    /// Adds a page. Entries that are added later belong to this page.
     pub fn page(&mut self, path: &str, title: &str) {
         self.pages.push(Page { path: path.to_owned(), title: title.to_owned(), entries: Vec::new() });
     }
@@ -83,7 +84,7 @@ impl Index {
         }
     }
 
-    /// Adds the pages and entries of another index, whose pages are in a folder.
+    /// Adds the pages and entries of another index. `folder` is the folder of these pages.
     pub fn add(&mut self, other: &Index, folder: &str) {
         let numbers: Vec<usize> = other.numbers.all.iter().map(|number| self.numbers.position(number)).collect();
         let texts: Vec<usize> = other.texts.all.iter().map(|text| self.texts.position(text)).collect();
@@ -99,7 +100,7 @@ impl Index {
         }));
     }
 
-    /// Returns the script. Texts are JSON strings, so no text is executed.
+    /// Returns the index as a script. Texts are JSON strings, so the browser does not execute them.
     pub fn script(&self) -> String {
         let json = |text: &str| serde_json::to_string(text).unwrap_or_default();
         let pages: Vec<String> =

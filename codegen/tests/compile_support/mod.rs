@@ -1,36 +1,36 @@
-//! Runs `rustc`, or clippy if it is installed, and rustdoc on generated code.
+//! Runs rustc (or clippy, if it is installed) and rustdoc on generated code.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::OnceLock;
 
-/// Compiles `bindings` as a module of a `no_std` crate in which every warning is an error.
+/// Compiles `bindings` as a module of a `no_std` crate. All warnings are errors.
 ///
 /// # Errors
 ///
-/// The output of the compiler.
-#[allow(dead_code)] // not every test uses it
+/// Returns the output of the compiler.
+#[allow(dead_code)] // #[allow(dead_code)] // some tests do not use it
 pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
     compile_with(compiler(), "2021", name, bindings)
 }
 
-/// Like [`compile`], without clippy.
+/// Compiles `bindings` like [`compile`], but without clippy.
 ///
 /// # Errors
 ///
-/// The output of the compiler.
+/// Returns the output of the compiler.
 #[allow(dead_code)]
 pub fn compile_by_rustc(name: &str, bindings: &str) -> Result<(), String> {
     compile_with(Command::new("rustc"), "2021", name, bindings)
 }
 
-/// Like [`compile`], in another edition of Rust.
+/// Compiles `bindings` like [`compile`], but in the given edition of Rust.
 ///
 /// # Errors
 ///
-/// The output of the compiler.
-#[allow(dead_code)] // not every test uses it
+/// Returns the output of the compiler.
+#[allow(dead_code)] // #[allow(dead_code)] // some tests do not use it
 pub fn compile_in(edition: &str, name: &str, bindings: &str) -> Result<(), String> {
     compile_with(compiler(), edition, name, bindings)
 }
@@ -49,12 +49,12 @@ fn compile_with(command: Command, edition: &str, name: &str, bindings: &str) -> 
     result.map_err(|text| format!("{name} doesn't compile:\n{}", start(&text)))
 }
 
-/// Compiles named modules as one crate, which is faster than one crate per module. Their `cfg` attributes may name the feature
-/// `optional`, which is off.
+/// Compiles named modules as one crate, which is faster than one crate per module. The modules' `cfg` attributes may name the
+/// feature `optional`, which is disabled.
 ///
 /// # Errors
 ///
-/// The output of the compiler.
+/// Returns the output of the compiler.
 #[allow(dead_code)]
 pub fn compile_modules(modules: &[(String, String)]) -> Result<(), String> {
     let stem = stem();
@@ -71,18 +71,18 @@ pub fn compile_modules(modules: &[(String, String)]) -> Result<(), String> {
     let mut command = compiler();
     command.args(["--check-cfg", "cfg(feature, values(\"optional\"))"]);
     let result = metadata(command, "2021", &stem, &root);
-    // After a failure, the files are kept for inspection.
+    // If compilation fails, keep the files for inspection.
     for path in files.iter().filter(|_| result.is_ok()) {
         let _ = std::fs::remove_file(path);
     }
     result
 }
 
-/// Checks named modules as one crate with serde, defmt, and the feature `optional`.
+/// Checks named modules as one crate. The crate has serde, defmt and the feature `optional`.
 ///
 /// # Errors
 ///
-/// The output of cargo.
+/// Returns the output of Cargo.
 #[allow(dead_code)]
 pub fn check_with_traits(modules: &[(String, String)]) -> Result<(), String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -96,7 +96,7 @@ pub fn check_with_traits(modules: &[(String, String)]) -> Result<(), String> {
          serde = {{ version = \"1\", default-features = false, features = [\"derive\"] }}\ndefmt = \"1\"\n"
     );
     std::fs::write(folder.join("Cargo.toml"), manifest).expect("a manifest");
-    // Uses the versions of the workspace, so that nothing is downloaded.
+    // Use the dependency versions of the workspace, so that nothing is downloaded.
     std::fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock")).expect("the workspace's Cargo.lock");
     let mut text = String::from("#![no_std]\n#![deny(warnings)]\n//! Bindings.\n");
     for (name, bindings) in modules {
@@ -107,14 +107,14 @@ pub fn check_with_traits(modules: &[(String, String)]) -> Result<(), String> {
     let output = Command::new(env!("CARGO"))
         .args(["check", "--quiet"])
         .current_dir(&folder)
-        // Shares the target folder with the drive crates of other tests, which have the same dependencies.
+        // Share the target folder with the drive crates of other tests, because they have the same dependencies.
         .env("CARGO_TARGET_DIR", folder.with_file_name("drive-crate"))
         .output()
         .expect("cargo runs");
     output.status.success().then_some(()).ok_or_else(|| start(&String::from_utf8_lossy(&output.stderr)))
 }
 
-/// Compiles a crate up to its metadata.
+/// Compiles a crate until its metadata are written.
 fn metadata(mut command: Command, edition: &str, stem: &Path, root: &Path) -> Result<(), String> {
     let output = command
         .args(["--edition", edition, "--crate-type", "lib", "--emit", "metadata", "--crate-name", "bindings", "-o"])
@@ -130,29 +130,29 @@ fn metadata(mut command: Command, edition: &str, stem: &Path, root: &Path) -> Re
     Err(String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
-/// Documents `bindings` as nested modules of a crate. Every warning of rustdoc is an error, such as a broken, ambiguous or
-/// private link.
+/// Runs rustdoc on `bindings`, which become nested modules of a crate. All warnings of rustdoc are errors, such as broken,
+/// ambiguous or private links.
 ///
 /// # Errors
 ///
-/// The output of rustdoc.
-#[allow(dead_code)] // not every test uses it
+/// Returns the output of rustdoc.
+#[allow(dead_code)] // #[allow(dead_code)] // some tests do not use it
 pub fn document(name: &str, bindings: &[&str]) -> Result<(), String> {
     documented(name, bindings, |_| ())
 }
 
-/// Returns a page of the documentation of `bindings`, by its path relative to the module's page.
+/// Runs rustdoc on `bindings` and returns a page. `path` is relative to the page of the module.
 ///
 /// # Errors
 ///
-/// The output of rustdoc.
+/// Returns the output of rustdoc.
 #[allow(dead_code)]
 pub fn page(name: &str, bindings: &str, path: &str) -> Result<String, String> {
     let read = |folder: &Path| std::fs::read_to_string(folder.join("bindings/outer_0/device").join(path));
     documented(name, &[bindings], read)?.map_err(|error| format!("{path}: {error}"))
 }
 
-/// Passes the documentation folder to `read`.
+/// Runs rustdoc and passes the path of the documentation folder to `read`.
 fn documented<T>(name: &str, bindings: &[&str], read: impl FnOnce(&Path) -> T) -> Result<T, String> {
     let stem = stem();
     let (folder, root) = (stem.with_extension("doc"), stem.with_extension("rs"));
@@ -183,11 +183,11 @@ fn documented<T>(name: &str, bindings: &[&str], read: impl FnOnce(&Path) -> T) -
     result.ok_or_else(|| format!("{name} can't be documented:\n{}", start(&text)))
 }
 
-/// Compiles `text` as a program that uses the runtime, and runs it.
+/// Compiles `text` as a program that uses the runtime, and runs the program.
 ///
 /// # Errors
 ///
-/// The output of the compiler or the program.
+/// Returns the output of the compiler or the program.
 #[allow(dead_code)]
 pub fn run(name: &str, text: &str) -> Result<(), String> {
     let stem = stem();
@@ -212,7 +212,7 @@ pub fn run(name: &str, text: &str) -> Result<(), String> {
     Err(format!("{name}:\n{}", start(&text)))
 }
 
-/// Returns the first message of a compiler.
+/// Returns the first message in a compiler's output.
 fn start(text: &str) -> String {
     text.lines().take(40).collect::<Vec<_>>().join("\n")
 }
@@ -233,7 +233,8 @@ fn folder() -> &'static Path {
     })
 }
 
-/// Clippy's driver is `rustc` with additional lints, and needs the libraries of its toolchain.
+/// Returns the command for clippy's driver, or for rustc if clippy is not installed. The driver is rustc with additional
+/// lints; it needs the libraries of its toolchain.
 fn compiler() -> Command {
     static PROGRAM: OnceLock<(PathBuf, PathBuf)> = OnceLock::new();
     let (program, libraries) = PROGRAM.get_or_init(|| {
@@ -251,13 +252,13 @@ fn compiler() -> Command {
     command
 }
 
-/// Returns the runtime's metadata, which is built once.
+/// Returns the path of the runtime's metadata, which are built only once.
 fn runtime() -> &'static Path {
     static RUNTIME: OnceLock<PathBuf> = OnceLock::new();
     RUNTIME.get_or_init(|| build_runtime("rmeta", "metadata"))
 }
 
-/// Returns the runtime as a library for programs, which is built once.
+/// Returns the path of the runtime library for programs, which is built only once.
 fn library() -> &'static Path {
     static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
     LIBRARY.get_or_init(|| build_runtime("rlib", "link"))

@@ -1,4 +1,4 @@
-//! Generates the bindings of every device of the corpus, without duplicates.
+//! Generates the bindings of all devices in the corpus. Equal bindings are generated only once.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -11,12 +11,13 @@ use lexibus_codegen::source::Source;
 
 use super::{lane, File};
 
-/// Returns the text below the header, which contains the file name and its digest.
+/// Returns the text after the header. The header contains the file name and the digest of the file.
 pub fn body(text: &str) -> &str {
     text.split_once("\n\n").map_or(text, |(_, body)| body)
 }
 
-/// Returns the bindings of a file, device by device. Many files share devices, and single devices need little memory.
+/// Splits the catalog of a file into catalogs with one device each, except for GSDML. Many files contain the same
+/// devices, and generating code for a single device needs little memory.
 pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Catalog>> + '_> {
     let Some(catalog) = compilation.catalog.as_ref().filter(|_| compilation.is_usable()) else {
         return Box::new(std::iter::empty());
@@ -24,7 +25,7 @@ pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Ca
     if catalog.devices.len() <= 1 || compilation.format == Some(Format::Gsdml) {
         return Box::new(std::iter::once(Cow::Borrowed(catalog)));
     }
-    // The fast lane reads only the first device, because the others of a file are similar.
+    // In the fast lane, only compile the first device, because the devices of a file are similar.
     let count = if lane::is_full() { catalog.devices.len() } else { 1 };
     Box::new(catalog.devices.iter().take(count).map(|device: &Device| {
         let (files, devices) = (catalog.files.clone(), vec![device.clone()]);
@@ -33,11 +34,11 @@ pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Ca
     }))
 }
 
-/// Passes the bindings of all `files` to `test`, on all processors. Returns the number of different bindings.
+/// Calls `test` with the bindings of all `files`, using all processors. Returns the number of different bindings.
 ///
 /// # Panics
 ///
-/// With the first failures, and if a file is rejected without a reason.
+/// If `test` fails, with the first failures. Also if a file is rejected without a diagnostic.
 pub fn each(files: Vec<File>, options: &Options, test: impl Fn(&str, &str) -> Result<(), String> + Sync) -> usize {
     let (seen, failures) = (Mutex::new(HashSet::new()), Mutex::new(Vec::new()));
     on_all_processors(files, |File { name, bytes }| {
@@ -61,7 +62,7 @@ pub fn each(files: Vec<File>, options: &Options, test: impl Fn(&str, &str) -> Re
     seen.into_inner().expect("what was seen").len()
 }
 
-/// Runs `work` for each element of `all`, on all processors.
+/// Calls `work` for each element of `all`, using all processors.
 ///
 /// # Panics
 ///
@@ -80,7 +81,7 @@ pub fn on_all_processors<T: Send>(all: Vec<T>, work: impl Fn(T) + Sync) {
     });
 }
 
-/// A file that contains only diagnosis texts describes no device.
+/// Returns whether a file describes no device because it contains only diagnosis texts.
 fn is_silent(compilation: &Compilation) -> bool {
     let catalog = compilation.catalog.as_ref();
     catalog.is_some_and(|catalog| catalog.devices.is_empty() && catalog.modules.is_empty())

@@ -1,4 +1,4 @@
-//! Tests suggested fixes: each one removes its diagnostic and adds none.
+//! Tests suggested fixes. Each fix must remove its diagnostic and cause no other.
 
 use std::collections::BTreeMap;
 
@@ -6,19 +6,19 @@ use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::Diagnostic;
 use lexibus_codegen::source::Source;
 
-/// Applies the fixes in the first file of a compilation one by one, at most `most` of each code, and compares the diagnostics.
-/// Returns the number of fixes. `source` creates a source from a text.
+/// Applies the fixes in the first file of a compilation one at a time and compares the diagnostics. Applies at most `most`
+/// fixes per code. Returns the number of applied fixes. `source` creates a source from a text.
 ///
 /// # Errors
 ///
-/// The fixes that change nothing, keep their diagnostic or add another one.
+/// Returns the fixes that change nothing, do not remove their diagnostic, or cause another diagnostic.
 pub fn all_hold(
     text: &str,
     options: &Options,
     most: usize,
     source: impl Fn(String) -> Source,
 ) -> Result<usize, String> {
-    // The text has been decoded, so the fixed text is UTF-8.
+    // Compile the decoded text, because the fixed texts will also be UTF-8.
     let plain = check(source(text.to_owned()), options);
     let before = places(&plain);
     let (mut counts, mut wrong, mut applied) = (BTreeMap::new(), Vec::new(), 0);
@@ -56,7 +56,7 @@ fn key(compilation: &Compilation, diagnostic: &Diagnostic) -> Key {
     (diagnostic.code.id, file, compilation.sources[file].position(diagnostic.span.start).line as usize)
 }
 
-/// Returns the number of diagnostics by code and line.
+/// Returns the number of diagnostics for each code and line.
 fn places(compilation: &Compilation) -> BTreeMap<Key, usize> {
     let mut places = BTreeMap::new();
     for diagnostic in compilation.diagnostics.list() {

@@ -1,10 +1,10 @@
-//! The corpus of real device descriptions. The full lane reads all files, the fast lane reads the files in
-//! `tests/corpus-sample.txt`.
+//! The corpus of real device descriptions. The full lane compiles all files. The fast lane compiles the files that
+//! `tests/corpus-sample.txt` lists.
 //!
-//! The corpus is outside of the repository. Without it, these tests print a message and pass. Everything except `round_trip`
-//! uses only the standard library, so that expected values do not come from the code under test.
+//! The corpus is not part of the repository. If it is missing, the tests print a message and pass. All modules except
+//! `round_trip` use only the standard library, so that the code under test does not affect the expected values.
 
-// Each test is a separate program and uses a part of this module.
+// Each test is a separate program that uses only a part of this module.
 #![allow(dead_code)]
 
 pub mod bindings;
@@ -25,30 +25,30 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// File of the corpus.
+/// A file of the corpus.
 pub struct File {
     pub name: String,
     pub bytes: Vec<u8>,
 }
 
 impl File {
-    /// Returns the decoded text: UTF-8 without its byte order mark, otherwise Windows-1252.
+    /// Returns the decoded text of the file: UTF-8 without its byte order mark, or Windows-1252 if it is not UTF-8.
     pub fn text(&self) -> String {
         decode(&self.bytes)
     }
 
-    /// Whether the file is XML: an XDD, XDC or XPD.
+    /// Returns whether the file is XML: an XDD, XDC or XPD.
     pub fn is_xml(&self) -> bool {
         self.text().trim_start().starts_with('<')
     }
 }
 
-/// Returns the folder of CANopen files, if it exists.
+/// Returns the folder of the corpus with CANopen files, if it exists.
 pub fn folder() -> Option<PathBuf> {
     folder_of("eds")
 }
 
-/// Returns the folder of the files of a format: `eds`, `esi` or `gsdml`.
+/// Returns the folder of the corpus with files of the format `eds`, `esi` or `gsdml`.
 pub fn folder_of(format: &str) -> Option<PathBuf> {
     let folder = root::root().join("../shared/corpus").join(format);
     if folder.is_dir() {
@@ -58,14 +58,15 @@ pub fn folder_of(format: &str) -> Option<PathBuf> {
     None
 }
 
-/// Returns the CANopen descriptions of this lane, sorted by name; `None`, with a message, if there is no corpus.
+/// Returns the CANopen descriptions of the current lane, sorted by name. If there is no corpus, prints a message and returns
+/// `None`.
 pub fn files() -> Option<Vec<File>> {
     let files = files_of("eds")?;
     assert!(files.len() >= lane::at_least(285), "only {} files are in the corpus", files.len());
     Some(files)
 }
 
-/// Returns the descriptions of all formats of this lane.
+/// Returns the descriptions of the current lane in all formats.
 pub fn all_files() -> Option<Vec<File>> {
     let lists: Option<Vec<Vec<File>>> = ["eds", "esi", "gsdml"].into_iter().map(files_of).collect();
     let files: Vec<File> = lists?.into_iter().flatten().collect();
@@ -73,7 +74,7 @@ pub fn all_files() -> Option<Vec<File>> {
     Some(files)
 }
 
-/// Whether this lane reads a file: all files in the full lane, the sample in the fast lane.
+/// Returns whether the current lane uses a file. The full lane uses all files, and the fast lane uses a sample.
 pub fn is_read(format: &str, name: &str) -> bool {
     static SAMPLE: OnceLock<HashSet<String>> = OnceLock::new();
     let sample = SAMPLE.get_or_init(|| {
@@ -83,13 +84,13 @@ pub fn is_read(format: &str, name: &str) -> bool {
     lane::is_full() || sample.contains(&format!("{format}/{name}"))
 }
 
-/// Returns the descriptions of one format of this lane.
+/// Returns the descriptions of the current lane in one format.
 pub fn files_of(format: &str) -> Option<Vec<File>> {
     let files = whole(format)?;
     Some(files.into_iter().filter(|file| is_read(format, &file.name)).collect())
 }
 
-/// Returns the descriptions of one format in both lanes, for tests that select from them.
+/// Returns all descriptions in one format, independent of the lane. Used by tests that select files themselves.
 pub fn whole(format: &str) -> Option<Vec<File>> {
     let mut paths: Vec<PathBuf> = std::fs::read_dir(folder_of(format)?)
         .expect("the corpus is readable")
@@ -108,7 +109,7 @@ fn name(path: &Path) -> String {
     path.file_name().expect("a file name").to_string_lossy().into_owned()
 }
 
-/// Decodes UTF-8 without a byte order mark, or Windows-1252 if the bytes are not UTF-8.
+/// Decodes UTF-8 without its byte order mark. If the bytes are not UTF-8, decodes Windows-1252.
 pub fn decode(bytes: &[u8]) -> String {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match std::str::from_utf8(bytes) {
@@ -117,7 +118,8 @@ pub fn decode(bytes: &[u8]) -> String {
     }
 }
 
-/// Characters of Windows-1252 from 0x80 to 0x9F. The five unassigned codes are the control characters with the same number.
+/// Characters of Windows-1252 for the bytes 0x80 to 0x9F. The five unassigned bytes become control characters with the same
+/// number.
 const WINDOWS_1252: [u16; 32] = [
     0x20AC, 0x81, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0x8D, 0x017D,
     0x8F, 0x90, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x9D,
@@ -131,7 +133,7 @@ fn windows_1252(byte: u8) -> char {
     }
 }
 
-/// Returns the lines of a text, each with the offset of its first byte. CR LF, LF and a single CR end a line.
+/// Returns the lines of a text, each with the offset of its first byte. A line ends with CR LF, LF or a single CR.
 pub fn lines(text: &str) -> Vec<(usize, &str)> {
     let mut lines = Vec::new();
     let mut start = 0;
@@ -147,19 +149,19 @@ pub fn lines(text: &str) -> Vec<(usize, &str)> {
     lines
 }
 
-/// Returns a text without surrounding blanks and tabs.
+/// Removes surrounding spaces and tabs.
 pub fn trimmed(text: &str) -> &str {
     text.trim_matches([' ', '\t'])
 }
 
-/// Parses `[name] …`: returns the name and the text after the bracket.
+/// Parses a section header `[name] …`. Returns the name and the text after the bracket.
 pub fn header(line: &str) -> Option<(&str, &str)> {
     let rest = trimmed(line).strip_prefix('[')?;
     let (name, rest) = rest.split_once(']').unwrap_or((rest, ""));
     Some((trimmed(name), trimmed(rest)))
 }
 
-/// Parses `Key=Value`, but neither comments nor headers.
+/// Parses an entry `Key=Value`. Returns `None` for comments and headers.
 pub fn entry(line: &str) -> Option<(&str, &str)> {
     let line = trimmed(line);
     if line.starts_with(['[', ';', '#']) {

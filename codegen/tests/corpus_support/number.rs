@@ -1,13 +1,13 @@
-//! Parses numbers, formulas and octets of CiA 306 without the code under test.
+//! Parses CiA 306 numbers, formulas and octets. Does not use the code under test.
 
-/// A number, or `$NODEID` and a number.
+/// A number, or a number to be added to `$NODEID`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Number {
     Plain(i128),
     NodeId(i128),
 }
 
-/// Parses a number or a formula, in any case and order of its terms (E13 to E17).
+/// Parses a number or a formula. Accepts any case and any order of terms (E13 to E17).
 pub fn number(text: &str) -> Option<Number> {
     if !text.contains('$') {
         return plain(text).map(Number::Plain);
@@ -18,7 +18,8 @@ pub fn number(text: &str) -> Option<Number> {
     (node_ids.len() == 1).then_some(Number::NodeId(offsets?.into_iter().sum()))
 }
 
-/// Parses decimal, `0x` hexadecimal, or octal with a leading zero (E02). Digits that cannot be octal are decimal (E03).
+/// Parses a decimal number, a hexadecimal number with `0x`, or an octal number with a leading zero (E02). Digits that
+/// are not octal make the number decimal (E03).
 pub fn plain(text: &str) -> Option<i128> {
     if let Some(rest) = text.strip_prefix('-') {
         return unsigned(rest).map(|value| -value);
@@ -36,7 +37,7 @@ fn unsigned(text: &str) -> Option<i128> {
     in_base(text, 10)
 }
 
-/// Returns the text after `0x`.
+/// Returns the digits after `0x`.
 pub fn hex_digits(text: &str) -> Option<&str> {
     text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))
 }
@@ -46,7 +47,7 @@ fn in_base(digits: &str, base: u32) -> Option<i128> {
     only_digits.then(|| i128::from_str_radix(digits, base).ok()).flatten()
 }
 
-/// Parses pairs of hexadecimal digits, with or without `0x` and blanks (E53).
+/// Parses pairs of hexadecimal digits. `0x` and spaces are allowed but not required (E53).
 pub fn octets(text: &str) -> Option<Vec<u8>> {
     let digits: String = hex_digits(text).unwrap_or(text).split_ascii_whitespace().collect();
     if !digits.len().is_multiple_of(2) || !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
@@ -55,7 +56,7 @@ pub fn octets(text: &str) -> Option<Vec<u8>> {
     (0..digits.len()).step_by(2).map(|at| u8::from_str_radix(&digits[at..at + 2], 16).ok()).collect()
 }
 
-/// Parses a decimal real number, or its bit pattern with exactly as many hexadecimal digits as needed (E51).
+/// Parses a real number: in decimal notation, or as a bit pattern with the exact number of hexadecimal digits (E51).
 pub fn real(text: &str, bits: usize) -> Option<f64> {
     let Some(digits) = hex_digits(text) else { return text.parse().ok() };
     let pattern = u64::from_str_radix(digits, 16).ok().filter(|_| digits.len() == bits / 4)?;

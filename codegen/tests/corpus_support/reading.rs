@@ -1,4 +1,4 @@
-//! Reads the objects of an EDS line by line, without the code under test.
+//! Reads the objects of an EDS line by line. Does not use the code under test.
 
 use std::collections::BTreeMap;
 
@@ -9,38 +9,38 @@ use super::{entry, header, lines};
 #[derive(Clone, Debug)]
 pub struct Fact {
     pub line: u32,
-    /// Spelling of the key in the file.
+    /// The key as written in the file.
     pub key: String,
     pub value: String,
 }
 
-/// All sections of one name.
+/// All sections with the same name.
 #[derive(Default)]
 pub struct Section {
-    /// Line numbers of the headers.
+    /// Line numbers of the section headers.
     pub headers: Vec<u32>,
-    /// Values by key in lower case.
+    /// Values by key. Keys are in lowercase.
     pub facts: BTreeMap<String, Vec<Fact>>,
 }
 
 impl Section {
-    /// Returns the effective value: the last one (E28).
+    /// Returns the last value of a key, which is the valid one (E28).
     pub fn get(&self, key: &str) -> Option<&Fact> {
         self.facts.get(key)?.last()
     }
 
-    /// Returns the effective value without a comment; `None` if it is empty (E05).
+    /// Returns the valid value without a comment. Returns `None` if the value is empty (E05).
     pub fn text(&self, key: &str) -> Option<&str> {
         Some(cut(&self.get(key)?.value).0).filter(|text| !text.is_empty())
     }
 
-    /// Returns the effective value as a number.
+    /// Returns the valid value as a number.
     pub fn number(&self, key: &str) -> Option<i128> {
         plain(self.text(key)?)
     }
 }
 
-/// Suffix after the index in the name of a section.
+/// The part of a section name after the index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
     Object,
@@ -51,7 +51,7 @@ pub enum Part {
     Links,
 }
 
-/// Sections of a file that describe objects.
+/// The sections of a file that describe objects.
 #[derive(Default)]
 pub struct Reading {
     pub sections: BTreeMap<(u16, Part), Section>,
@@ -87,7 +87,8 @@ impl Reading {
     }
 }
 
-/// Parses the name of a section in any case and with leading zeros: `xxxx`, `xxxxsubN`, `xxxxName` … (E24, E26, E41, E57).
+/// Parses the name of a section such as `xxxx`, `xxxxsubN` or `xxxxName`. Accepts any case and leading zeros (E24, E26,
+/// E41, E57).
 fn part_of(name: &str) -> Option<(u16, Part)> {
     let name = name.to_ascii_lowercase();
     let hex = |digits: &str| u32::from_str_radix(digits.trim(), 16).ok().filter(|_| !digits.starts_with('+'));
@@ -103,7 +104,7 @@ fn part_of(name: &str) -> Option<(u16, Part)> {
     Some((index.try_into().ok()?, part))
 }
 
-/// Divides the value of a key of fixed form from the comment after it, which keeps its mark (E20, E21).
+/// Separates a value with a fixed form from the comment after it. The comment includes its mark (E20, E21).
 pub fn cut(text: &str) -> (&str, &str) {
     match text.find([';', '#']) {
         Some(at) => (text[..at].trim_end(), &text[at..]),

@@ -1,4 +1,4 @@
-//! Compares the IR of an exported file with the original one.
+//! Compares the IR of an exported file with the IR of the original file.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::File;
 
-/// Reads a file without the additions of profiles.
+/// Returns options for reading a file without the facts that profiles add.
 pub fn options() -> Options {
     Options { no_profiles: true, ..Options::default() }
 }
@@ -18,7 +18,7 @@ pub fn source(file: &File) -> Source {
     Source::new(file.name.as_str(), file.bytes.clone())
 }
 
-/// Returns the IR without positions and without the list of files.
+/// Returns the IR as JSON, without positions and without the list of files.
 pub fn content(catalog: &Catalog) -> Value {
     let mut value = serde_json::to_value(catalog).expect("JSON");
     value["files"] = Value::Null;
@@ -28,7 +28,7 @@ pub fn content(catalog: &Catalog) -> Value {
     value
 }
 
-/// Calls `change` for every object, outer ones first.
+/// Calls `change` for all JSON objects. Outer objects come before inner objects.
 pub fn each_object(value: &mut Value, change: &mut impl FnMut(&mut serde_json::Map<String, Value>)) {
     match value {
         Value::Object(fields) => {
@@ -40,7 +40,7 @@ pub fn each_object(value: &mut Value, change: &mut impl FnMut(&mut serde_json::M
     }
 }
 
-/// Returns the first difference between two values.
+/// Returns a description of the first difference between two JSON values.
 pub fn difference(left: &Value, right: &Value, path: &str) -> Option<String> {
     match (left, right) {
         (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => {
@@ -59,14 +59,14 @@ pub fn difference(left: &Value, right: &Value, path: &str) -> Option<String> {
     }
 }
 
-/// Returns the number of diagnostics by code.
+/// Returns the number of diagnostics with each code.
 pub fn counts(compilation: &Compilation) -> BTreeMap<&'static str, usize> {
     let mut counts = BTreeMap::new();
     compilation.diagnostics.list().iter().for_each(|found| *counts.entry(found.code.id).or_default() += 1);
     counts
 }
 
-/// Removes all extension attributes, and returns the number of each.
+/// Removes all extension attributes. Returns how often each attribute occurred.
 pub fn take_extensions(value: &mut Value) -> BTreeMap<(String, String), usize> {
     let mut removed = BTreeMap::new();
     each_object(value, &mut |fields| {

@@ -1,7 +1,7 @@
-//! Validates files against the schemas of ETG and PI with libxml2.
+//! Validates files against the schemas of ETG and PI. Uses libxml2.
 //!
-//! The schemas are outside of the repository. Python's `lxml` calls libxml2. Without the schemas or `lxml`, tests print a
-//! message and pass.
+//! The schemas are not part of the repository. Python's `lxml` calls libxml2. If the schemas or `lxml` are missing, the tests
+//! print a message and pass.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -27,14 +27,15 @@ for name in sorted(os.listdir(folder)):
 print('done')
 ";
 
-/// Validator for one schema.
+/// The validator for one schema.
 pub struct Schema {
     path: PathBuf,
     python: PathBuf,
 }
 
 impl Schema {
-    /// Loads the schema at `path` in the folder of schemas; `None`, with a message, if the schema or the validator is missing.
+    /// Loads the schema at `path` in the folder of schemas. If the schema or the validator is missing, prints a message and
+    /// returns `None`.
     pub fn new(path: &str) -> Option<Self> {
         let path = root().join("../shared/schemas").join(path);
         if !path.is_file() {
@@ -45,7 +46,8 @@ impl Schema {
         Some(Schema { path, python })
     }
 
-    /// Returns the violations in `files` (names and contents). `what` distinguishes the calls of one program.
+    /// Returns the violations in `files`, which are names with contents. `what` is a unique name for each call within a
+    /// program.
     pub fn violations<'f>(&self, what: &str, files: impl IntoIterator<Item = (&'f str, &'f [u8])>) -> Vec<String> {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("xsd-{what}-{}", std::process::id()));
         let _ = std::fs::remove_dir_all(&folder);

@@ -18,7 +18,7 @@ from canopen.objectdictionary import ODArray, ODRecord, ODVariable, datatypes, e
 
 logging.disable(logging.CRITICAL)
 
-# Node-ID for files without one.
+# Node-ID for files that do not contain one.
 NODE_ID = 5
 
 
@@ -77,7 +77,7 @@ def device(dictionary):
     }
 
 
-# The keys of [FileInfo] in CiA 306.
+# The keys that CiA 306 defines for [FileInfo].
 FILE_INFO = (
     "FileName FileVersion FileRevision EDSVersion Description CreationTime CreationDate CreatedBy ModificationTime "
     "ModificationDate ModifiedBy LastEDS"
@@ -101,7 +101,7 @@ def elements(dictionary, node_id):
             continue
         kind = "array" if isinstance(thing, ODArray) else "record"
         assert kind == "array" or isinstance(thing, ODRecord)
-        # An object has a storage location here, its value one level above.
+        # The library stores the storage location of such an object here, and its value one level above.
         found[f"{index:04X}"] = {"kind": kind, "name": thing.name, "storage": thing.storage_location}
         for sub, entry in thing.subindices.items():
             found[f"{index:04X}:{sub:02X}"] = variable(entry)

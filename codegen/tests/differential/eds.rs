@@ -1,4 +1,4 @@
-//! Compares EDS and DCF files with Python's `canopen`: objects, values and facts of the device.
+//! Compares EDS and DCF files with Python's `canopen`: objects, values and device facts.
 
 use lexibus_codegen::compile::check;
 use lexibus_codegen::ir::{Access, Device, Extension, Group, Item, ObjectCode, Type, Value};
@@ -9,7 +9,7 @@ use super::facts::{put, put_flag, put_some, real, Elements, Facts};
 use super::peer::answers;
 use super::tally::Tally;
 
-/// Node-ID for files without one. The script uses the same.
+/// Node-ID for files that do not contain one. The script uses the same node-ID.
 const NODE_ID: u8 = 5;
 
 #[test]
@@ -72,13 +72,13 @@ fn header(device: &Device) -> Facts {
     put_flag(&mut facts, "LSS", canopen.lss);
     let words = |numbers: Vec<String>| numbers.join(" ");
     put(&mut facts, "bit rates", words(canopen.bit_rates.iter().map(ToString::to_string).collect()));
-    // The library reads baud rates of types 1 to 7.
+    // The library reads dummy usage only for the types 1 to 7.
     let dummies = canopen.dummies.iter().filter(|code| (1..8).contains(*code));
     put(&mut facts, "dummies", words(dummies.map(ToString::to_string).collect()));
     facts
 }
 
-/// Adds the facts about the file.
+/// Adds the facts from the file header.
 fn file_info(facts: &mut Facts, device: &Device) {
     let header = &device.header;
     put(facts, "FileName", header.file_name.as_str());
@@ -96,7 +96,7 @@ fn file_info(facts: &mut Facts, device: &Device) {
     put(facts, "comments", header.comments.join("\n").trim_end());
 }
 
-/// Returns the object type in the library's terms.
+/// Returns the object type under the name that the library uses.
 fn kind(group: &Group) -> &'static str {
     match group.object_code() {
         Some(ObjectCode::Var | ObjectCode::Domain) => "value",
@@ -142,7 +142,8 @@ fn extension<'e>(extensions: &'e [Extension], key: &str) -> Option<&'e str> {
     extensions.iter().rev().find(|extension| extension.key == key).map(|extension| extension.value.as_str())
 }
 
-/// Returns the number of a type in CiA 301. It is written out here, because the code that reads DataType is under test.
+/// Returns the CiA 301 number of a type. The numbers are repeated here, because the code that reads DataType is under
+/// test.
 fn code(ty: Type) -> String {
     let code = match ty {
         Type::Boolean => 0x01,

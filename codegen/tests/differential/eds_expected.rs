@@ -1,11 +1,11 @@
-//! Returns the facts of an EDS that the table of quirks demands, read without Lexibus.
+//! Returns the facts of an EDS that the table of quirks requires. Does not use Lexibus to read the file.
 
 use super::corpus_support::number::{self, hex_digits, number, plain, Number};
 use super::corpus_support::reading::{cut, Part, Reading};
 use super::corpus_support::{entry, header, lines};
 use super::facts::{self, put, put_flag, put_some, Facts};
 
-/// The signed types of CiA 301 with their lengths in bits.
+/// Numbers of the signed types in CiA 301, with their lengths in bits.
 const SIGNED: [(i128, u32); 8] =
     [(0x02, 8), (0x03, 16), (0x04, 32), (0x10, 24), (0x12, 40), (0x13, 48), (0x14, 56), (0x15, 64)];
 
@@ -15,7 +15,7 @@ pub fn signed_bits(ty: i128) -> Option<u32> {
 }
 
 /// Parses a value of the type with this number. Hexadecimal digits are the bit pattern of a signed number (E07, E08) or of a
-/// real number (E51). `$NODEID` is the node-ID, in any case and position (E12 to E17).
+/// real number (E51). `$NODEID` can have any case and position (E12 to E17) and is replaced with the node-ID.
 pub fn value(raw: &str, ty: i128, node_id: u8) -> Option<String> {
     match ty {
         0x08 => real(cut(raw).0, 32),
@@ -40,19 +40,19 @@ fn integer(raw: &str, ty: i128, node_id: u8) -> Option<String> {
     Some(signed_bits(ty).filter(is_negative).map_or(value, |bits| value - (1 << bits)).to_string())
 }
 
-/// Whether a value depends on the node-ID.
+/// Returns whether a value depends on the node-ID.
 pub fn is_relative(raw: &str) -> bool {
     matches!(number(cut(raw).0), Some(Number::NodeId(_)))
 }
 
-/// Returns the access rights: those of CiA 306 in any case (E47), otherwise `ro` (E48).
+/// Returns the access rights. Keywords of CiA 306 are accepted in any case (E47); other texts mean `ro` (E48).
 pub fn access(text: Option<&str>) -> &'static str {
     const KNOWN: [&str; 6] = ["ro", "wo", "rw", "rwr", "rww", "const"];
     let text = text.unwrap_or_default();
     KNOWN.into_iter().find(|known| known.eq_ignore_ascii_case(text)).unwrap_or("ro")
 }
 
-/// Returns the last (E28) value of `key` in `section`, in any case (E25, E66).
+/// Returns the last value (E28) of `key` in `section`. Accepts any case of both names (E25, E66).
 fn value_of<'t>(text: &'t str, section: &str, key: &str) -> Option<&'t str> {
     let (mut is_within, mut found) = (false, None);
     for (_, line) in lines(text) {
@@ -69,7 +69,7 @@ fn number_of(text: &str, section: &str, key: &str) -> Option<i128> {
     plain(cut(value_of(text, section, key)?).0)
 }
 
-/// Returns a fact of the device.
+/// Returns the device fact with the name `fact`.
 pub fn of_device(text: &str, fact: &str) -> Option<String> {
     let number = |key: &str| number_of(text, "DeviceInfo", key);
     match fact {
@@ -92,7 +92,7 @@ pub fn of_device(text: &str, fact: &str) -> Option<String> {
     }
 }
 
-/// Returns the facts of a sub-index that follows from CompactSubObj (E43), with its own name and value (E44).
+/// Returns the facts of a sub-index that CompactSubObj implies (E43). Its name and value may be listed separately (E44).
 pub fn compact(reading: &Reading, index: u16, sub: u8, node_id: u8) -> Option<Facts> {
     let object = reading.get(index, Part::Object)?;
     let mut facts = Facts::new();
@@ -100,7 +100,7 @@ pub fn compact(reading: &Reading, index: u16, sub: u8, node_id: u8) -> Option<Fa
         put(&mut facts, "name", "NrOfObjects");
         put(&mut facts, "type", "5");
         put(&mut facts, "access", "ro");
-        // Sub-index 255 is the structure of the object, not an element (E77).
+        // Sub-index 255 describes the structure of the object. It is not an element (E77).
         put_some(&mut facts, "default", object.number("compactsubobj").map(|count| count.min(254)));
         return Some(facts);
     }
@@ -120,8 +120,8 @@ pub fn compact(reading: &Reading, index: u16, sub: u8, node_id: u8) -> Option<Fa
     Some(facts)
 }
 
-/// Returns the type of a sub-index that follows from CompactPDO (E70), if any. Each bit selects a communication parameter,
-/// whose types CiA 301 defines. The mapping has eight numbers.
+/// Returns the type of a sub-index that CompactPDO implies (E70). Each bit of CompactPDO selects a communication parameter,
+/// for which CiA 301 defines a type. The mapping has eight entries.
 pub fn compact_pdo(text: &str, index: u16, sub: u8) -> Option<&'static str> {
     let mask = number_of(text, "DeviceInfo", "CompactPDO").filter(|mask| *mask != 0)?;
     match (index & 0x200 != 0, sub) {
@@ -132,7 +132,7 @@ pub fn compact_pdo(text: &str, index: u16, sub: u8) -> Option<&'static str> {
     }
 }
 
-/// Returns the number of PDOs in the direction of `index`.
+/// Returns the number of PDOs in the same direction as the PDO object `index`.
 pub fn pdos(text: &str, index: u16) -> Option<i128> {
     number_of(text, "DeviceInfo", if index < 0x1800 { "NrOfRXPDO" } else { "NrOfTXPDO" })
 }

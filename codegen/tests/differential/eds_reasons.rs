@@ -1,5 +1,5 @@
-//! Reasons why `canopen` and Lexibus differ. Each reason checks the text of the file, read without either, and whether Lexibus
-//! has the value that the table of quirks demands.
+//! Reasons for differences between `canopen` and Lexibus. Each reason checks the original text of the file. It also checks
+//! that Lexibus has the value that the table of quirks requires.
 
 use super::corpus_support::number::{hex_digits, number, Number};
 use super::corpus_support::reading::{Part, Reading, Section};
@@ -8,7 +8,7 @@ use super::eds_expected as expected;
 use super::facts::{Difference, Elements};
 use super::tally::Reasons;
 
-/// Deviations of the library, each with a sentence.
+/// Deviations of the library, each with an explanation.
 const PEER: &[(&str, &str)] = &[
     ("files by ending", "It reads only files with the extensions .eds and .dcf, and no XML."),
     ("files without sections", "It reads a file without a section of CiA 306 as an empty dictionary, not as an error."),
@@ -28,7 +28,7 @@ pub const REASONS: Reasons = Reasons {
     peer: PEER,
 };
 
-/// A file with both readings.
+/// A file with the results of both readers.
 pub struct Case<'a> {
     pub text: String,
     pub reading: Reading,
@@ -38,14 +38,15 @@ pub struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// Formulas are resolved with `node_id` if the file has no node-ID, or the one that LSS uses for none.
+    /// Creates a case. `node_id` replaces `$NODEID` if the file has no node-ID or only the one that LSS uses for an
+    /// unconfigured device.
     pub fn new<'a>(file: &File, peer: &'a Elements, ours: &'a Elements, node_id: u8) -> Case<'a> {
         let text = file.text();
         let given = peer.get("device").and_then(|facts| facts.get("node-ID")?.parse().ok()).filter(|id| *id != 255);
         Case { reading: Reading::of(&text), text, peer, ours, node_id: given.unwrap_or(node_id) }
     }
 
-    /// Returns the section of an element, and its kind: `1018` and `1018:01`.
+    /// Returns the section that describes an element. Elements have names such as `1018` and `1018:01`.
     fn section(&self, element: &str) -> Option<&Section> {
         let (index, sub) = address(element)?;
         match sub {
@@ -72,7 +73,7 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
     }
 }
 
-/// Returns the reason for an element that one of the readers does not have.
+/// Returns the reason why one of the readers lacks an element.
 fn missing(case: &Case<'_>, index: u16, sub: Option<u8>, difference: &Difference<'_>) -> Option<&'static str> {
     difference.ours?;
     let object = case.reading.get(index, Part::Object);
@@ -86,7 +87,7 @@ fn missing(case: &Case<'_>, index: u16, sub: Option<u8>, difference: &Difference
     }
 }
 
-/// Whether an object that the file does not describe belongs to an announced PDO.
+/// Returns whether an undescribed object belongs to a PDO that the file announces.
 fn is_announced(case: &Case<'_>, index: u16, sub: Option<u8>) -> bool {
     if !(0x1400..0x1C00).contains(&index) {
         return false;
@@ -131,12 +132,12 @@ fn of_device(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static st
     }
 }
 
-/// Whether a file has `key`, in any case.
+/// Returns whether a file contains `key` in upper or lower case.
 fn has_key(text: &str, key: &str) -> bool {
     lines(text).iter().any(|(_, line)| entry(line).is_some_and(|(ours, _)| ours.eq_ignore_ascii_case(key)))
 }
 
-/// Whether a file has `key`, but only in another case.
+/// Returns whether a file contains `key` only in a different case.
 fn is_misspelt(text: &str, key: &str) -> bool {
     has_key(text, key) && !lines(text).iter().any(|(_, line)| entry(line).is_some_and(|(ours, _)| ours == key))
 }
@@ -168,7 +169,7 @@ fn of_value(
         "value" => "parametervalue",
         "low" => "lowlimit",
         "high" => "highlimit",
-        // The library reads unknown types as DOMAIN. Lexibus keeps the type.
+        // The library treats unknown types as DOMAIN. Lexibus keeps the original type.
         "type" => {
             let is_unknown = peer == Some("15") && !(1..=0x1B).contains(&ty);
             return Some("E56").filter(|_| is_unknown && ours == Some(&ty.to_string()));
@@ -205,7 +206,7 @@ fn of_limit(raw: &str, ty: i128, node_id: u8, difference: &Difference<'_>) -> Op
     }
 }
 
-/// Returns the reason for a different default or configured value, from its text and type number.
+/// Returns the reason why a default or configured value differs. The reason depends on the text and the type number.
 fn of_text(raw: &str, ty: i128, node_id: u8, difference: &Difference<'_>) -> Option<&'static str> {
     let (peer, ours) = (difference.peer, difference.ours?);
     let bare = raw.trim_matches('"');
@@ -231,7 +232,7 @@ fn of_text(raw: &str, ty: i128, node_id: u8, difference: &Difference<'_>) -> Opt
     }
 }
 
-/// Parses a number with a suffix: `00h` is hexadecimal, `0x1ULL` is from C.
+/// Parses a number with a suffix, such as `00h` (hexadecimal) or `0x1ULL` (C).
 fn with_suffix(raw: &str, ours: &str) -> Option<&'static str> {
     let ours: i128 = ours.parse().ok()?;
     let hexadecimal = raw.strip_suffix(['h', 'H']).and_then(|digits| i128::from_str_radix(digits, 16).ok());
@@ -242,10 +243,10 @@ fn with_suffix(raw: &str, ours: &str) -> Option<&'static str> {
     (number(bare) == Some(Number::Plain(ours))).then_some("suffixes of C")
 }
 
-/// Keys whose value is a number for the library.
+/// Keys whose values the library reads as numbers.
 const NUMBERS: [&str; 4] = ["ObjectType", "VendorNumber", "ProductNumber", "RevisionNumber"];
 
-/// Whether a file has `key` without a value.
+/// Returns whether a file contains `key` with an empty value.
 fn is_empty(text: &str, key: &str) -> bool {
     lines(text).iter().any(|(_, line)| entry(line) == Some((key, "")))
 }

@@ -173,6 +173,6 @@ for path in sys.argv[1:]:
     try:
         answer = {"elements": elements(parse(path))}
     except etree.XMLSyntaxError as error:
-        # The text that libxml2 recovers is compared.
+        # Compare the text that libxml2 recovers from the file.
         answer = {"errors": [str(error).split(" (<string>")[0]], "elements": elements(parse(path, recover=True))}
     print(json.dumps(answer))

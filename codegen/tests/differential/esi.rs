@@ -1,4 +1,5 @@
-//! Compares ESI files with lxml's XPath: devices, modules, PDOs and settings. `esi_objects` compares their objects.
+//! Compares ESI files with lxml's XPath: devices, modules, PDOs and settings. The module `esi_objects` compares the
+//! objects.
 
 use lexibus_codegen::compile::check;
 use lexibus_codegen::ir::{

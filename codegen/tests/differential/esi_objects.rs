@@ -1,4 +1,4 @@
-//! Objects of ESI files as facts.
+//! Returns the objects of ESI files as facts.
 
 use lexibus_codegen::ir::{
     Category, Field, Group, GroupKind, Item, Mappable, ObjectCode, Shape, Type, TypeDef, TypeId,
@@ -7,7 +7,7 @@ use lexibus_codegen::ir::{
 use super::facts::{put, put_flag, put_some, Elements, Facts};
 use super::values::{put_documentation, put_names, type_name, value};
 
-/// Adds the types that the file defines. Types that follow from a name have no line.
+/// Adds the types that the file defines. Types that are derived from a name have no line and are skipped.
 pub fn data_types(elements: &mut Elements, owner: &str, types: &[TypeDef]) {
     for (at, definition) in types.iter().filter(|definition| definition.origin.line > 0).enumerate() {
         let mut facts = Facts::new();
@@ -71,7 +71,7 @@ pub fn objects(elements: &mut Elements, owner: &str, groups: &[Group], types: &[
     }
 }
 
-/// Returns the length of a type in bits, if it is fixed.
+/// Returns the length of a type in bits if the length is fixed.
 fn bits(ty: Type, types: &[TypeDef]) -> Option<u32> {
     match ty {
         Type::Named(TypeId(at)) => types[at as usize].bits,
@@ -86,7 +86,7 @@ fn item(item: &Item, types: &[TypeDef]) -> Facts {
     put_names(&mut facts, "name", &item.name, &item.names);
     put_documentation(&mut facts, "comment", item.documentation.as_deref());
     put(&mut facts, "type", type_name(item.ty, types));
-    // Undeclared access rights are read-only in the IR.
+    // Access rights that the file does not declare are read-only in the IR.
     put(&mut facts, "access", if item.at.access.is_empty() { "" } else { item.access.name() });
     put(
         &mut facts,

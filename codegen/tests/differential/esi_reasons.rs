@@ -1,5 +1,5 @@
-//! Reasons why a plain XPath reading of ESI files and Lexibus differ. The script marks text that it cannot interpret with a
-//! question mark, and reasons check that text.
+//! Reasons for differences between Lexibus and a plain XPath reading of ESI files. The script marks text that it cannot
+//! interpret with a question mark, and the reasons check this text.
 
 use std::collections::{HashMap, HashSet};
 
@@ -7,7 +7,7 @@ use super::corpus_support::File;
 use super::facts::{Difference, Elements, Facts};
 use super::tally::Reasons;
 
-/// Deviations of the plain reading, each with a sentence.
+/// Deviations of the plain reading, each with an explanation.
 const PEER: &[(&str, &str)] = &[
     ("a bare &", "libxml2 rejects a file with a `&` that starts no reference. Lexibus reads it as text."),
     ("objects twice", "It lists both objects of one index. Lexibus keeps the first and reports the second."),
@@ -26,14 +26,14 @@ pub const REASONS: Reasons = Reasons {
     peer: PEER,
 };
 
-/// A file with both readings.
+/// A file with the results of both readers.
 pub struct Case<'a> {
     text: String,
     peer: &'a Elements,
     ours: &'a Elements,
-    /// PDO entries that Lexibus reads, by the object that they map: owner, index and sub-index.
+    /// PDO entries in Lexibus, keyed by the owner, index and sub-index of the mapped object.
     mapped: HashMap<(&'a str, u16, u8), Vec<&'a Facts>>,
-    /// Devices and modules with a dictionary.
+    /// Names of devices and modules that have a dictionary.
     described: HashSet<&'a str>,
 }
 
@@ -52,7 +52,7 @@ impl<'a> Case<'a> {
         Case { text: file.text(), peer, ours, mapped, described }
     }
 
-    /// Returns the type that Lexibus has for the object that an entry maps.
+    /// Returns the type of the object that an entry maps, as read by Lexibus.
     fn type_of_mapped(&self, entry: &str) -> Option<&str> {
         let (index, sub) = address(self.ours.get(entry)?)?;
         let (owner, _) = entry.split_once("xPdo ")?;
@@ -61,13 +61,13 @@ impl<'a> Case<'a> {
     }
 }
 
-/// Returns the index and sub-index of an entry.
+/// Returns the index and sub-index in the facts of an entry.
 fn address(facts: &Facts) -> Option<(u16, u8)> {
     let number = |fact: &str| facts.get(fact).map_or(Some(0), |number| number.parse::<u16>().ok());
     Some((number("index")?, u8::try_from(number("sub-index")?).ok()?))
 }
 
-/// Divides a name such as `device 0 object 1018:01`.
+/// Splits an element name such as `device 0 object 1018:01` into the owner, index and sub-index.
 fn object(element: &str) -> Option<(&str, u16, Option<u8>)> {
     let (owner, object) = element.split_once(" object ")?;
     let (index, sub) = object.split_once(':').map_or((object, None), |(index, sub)| (index, Some(sub)));
@@ -111,7 +111,8 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
     }
 }
 
-/// Returns the reason for a different text: the text that libxml2 recovered from a rejected file differs from the file.
+/// Returns the reason why a text differs. If a file is rejected, the text that libxml2 recovers can differ from the text in the
+/// file.
 fn of_text(case: &Case<'_>, peer: &str, ours: &str) -> Option<&'static str> {
     if !case.text.contains(ours) {
         return None;
@@ -125,7 +126,7 @@ fn of_text(case: &Case<'_>, peer: &str, ours: &str) -> Option<&'static str> {
     is_undecoded.then_some("X01")
 }
 
-/// Returns the reason for an element that one of the readers does not have.
+/// Returns the reason why one of the readers lacks an element.
 fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str> {
     if !is_own {
         if element.ends_with(" again") {
@@ -133,7 +134,7 @@ fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str>
         }
         return long_array(case, element).filter(|&number| number > 1).map(|_| "X14");
     }
-    // Lexibus adds a mapped object without a description, with the facts of the entry.
+    // If a mapped object has no description, Lexibus adds the object with the facts of the PDO entry.
     let (owner, index, sub) = object(element)?;
     let is_mapped = match sub {
         Some(sub) => case.mapped.get(&(owner, index, sub)).is_some_and(|entries| is_as_mapped(case, element, entries)),
@@ -142,13 +143,14 @@ fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str>
     is_mapped.then_some(if case.described.contains(owner) { "X22" } else { "X21" })
 }
 
-/// Whether an object has the facts of one of the entries that map it.
+/// Returns whether an object has the facts of an entry that maps it.
 fn is_as_mapped(case: &Case<'_>, element: &str, entries: &[&Facts]) -> bool {
     let Some(ours) = case.ours.get(element) else { return false };
     entries.iter().any(|entry| ["name", "type"].iter().all(|fact| ours.get(*fact) == entry.get(*fact)))
 }
 
-/// Returns the purpose of a sync manager from the PDOs that name it, if they have one direction.
+/// Returns the purpose of a sync manager. It follows from the PDOs that name the sync manager if all of them have the same
+/// direction.
 fn purpose_of_pdos(case: &Case<'_>, element: &str) -> Option<&'static str> {
     let (owner, number) = element.split_once(" Sm ")?;
     let is_named_by = |kind: &str| {
@@ -163,8 +165,8 @@ fn purpose_of_pdos(case: &Case<'_>, element: &str) -> Option<&'static str> {
     }
 }
 
-/// Returns the purpose of a sync manager whose text does not state it: from mode and direction in its control byte, or from its
-/// position. A mailbox uses the first two.
+/// Returns the purpose of a sync manager whose text does not state it. The purpose follows from mode and direction in the
+/// control byte, or from the position. The first two sync managers are used by a mailbox.
 fn purpose(case: &Case<'_>, element: &str) -> Option<&'static str> {
     let (owner, place) = element.split_once(" Sm ")?;
     let control = case.peer.get(element)?.get("control").map_or(Some(0), |control| control.parse::<u8>().ok())?;
@@ -184,8 +186,8 @@ fn purpose(case: &Case<'_>, element: &str) -> Option<&'static str> {
     })
 }
 
-/// Returns the reason for an element of an array with more elements than sub-indices. Lexibus keeps the array as one value at
-/// its first sub-index, with the same element type and count.
+/// Returns the reason for an element of an array that has more elements than sub-indices. Lexibus stores the array as one value
+/// at its first sub-index, with the same element type and count.
 fn long_array(case: &Case<'_>, element: &str) -> Option<u32> {
     let (object, sub) = element.rsplit_once(':')?;
     let sub = u32::from_str_radix(sub, 16).ok()?;
@@ -202,12 +204,12 @@ fn long_array(case: &Case<'_>, element: &str) -> Option<u32> {
     })
 }
 
-/// Returns the reason for a different type.
+/// Returns the reason why a type differs.
 fn of_type(case: &Case<'_>, element: &str, peer: &str, ours: Option<&str>) -> Option<&'static str> {
     if let Some(bits) = peer.strip_prefix("?enumeration of ").and_then(|rest| rest.strip_suffix(" bits")) {
         return Some("X13").filter(|_| ours == Some(&format!("u{bits}")));
     }
-    // Unknown names become opaque types.
+    // Lexibus reads unknown type names as opaque types.
     if let Some(name) = peer.strip_prefix('?') {
         return Some("X11").filter(|_| ours == by_name(name).as_deref());
     }
@@ -216,7 +218,7 @@ fn of_type(case: &Case<'_>, element: &str, peer: &str, ours: Option<&str>) -> Op
     Some("types of mapped objects").filter(|_| is_mapped && bits(ours) == bits(peer))
 }
 
-/// Returns the length of a number type in bits.
+/// Returns the length of a numeric type in bits.
 fn bits(ty: &str) -> Option<u32> {
     if ty == "bool" {
         return Some(1);
@@ -224,14 +226,14 @@ fn bits(ty: &str) -> Option<u32> {
     ty.strip_prefix(['i', 'u', 'f'])?.parse().ok()
 }
 
-/// Returns the reason for an array whose length is that of its elements, not its BitSize.
+/// Returns the reason why the length of an array differs: Lexibus uses the lengths of the elements and not the BitSize.
 fn of_array(array: &str, ours: &str) -> Option<&'static str> {
     let (element, count) = array.strip_suffix(']')?.split_once('[')?;
     let count: u32 = count.parse().ok()?;
     Some("X14").filter(|_| Some(ours) == bits(element).map(|bits| (bits * count).to_string()).as_deref())
 }
 
-/// Returns the only possible meaning of a name outside of the tables: `UINT16`, or `UDINT_hex`.
+/// Returns the only possible type for a name outside the tables, such as `UINT16` or `UDINT_hex`.
 fn by_name(name: &str) -> Option<String> {
     const TABLE: [(&str, &str); 4] = [("USINT", "u8"), ("UINT", "u16"), ("UDINT", "u32"), ("INT", "i16")];
     let start = name.split_once('_').map(|(start, _)| start);
@@ -242,14 +244,14 @@ fn by_name(name: &str) -> Option<String> {
     sized("UINT").map(|bits| format!("u{bits}")).or_else(|| sized("INT").map(|bits| format!("i{bits}")))
 }
 
-/// Returns the reason for a different default or limit.
+/// Returns the reason why a default or limit differs.
 fn of_value(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static str> {
     let (peer, ours) = (difference.peer?, difference.ours?);
     let ty = case.peer.get(difference.element)?.get("type")?;
     let bits: u32 = ty.get(1..)?.parse().ok()?;
     let ours: i128 = ours.parse().ok()?;
     if let Some(digits) = peer.strip_prefix('?') {
-        // Surplus bytes after the value are zeros, and missing bytes are zeros.
+        // Surplus bytes must be zero; missing bytes count as zero.
         let octet = |at: usize| u8::from_str_radix(digits.get(at..at + 2)?, 16).ok();
         let octets: Vec<u8> = (0..digits.len()).step_by(2).filter_map(octet).collect();
         let value =

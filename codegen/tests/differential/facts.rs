@@ -1,24 +1,24 @@
-//! Facts by element and name, and the differences between two readings.
+//! Facts by element and name, and the differences between two readers.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// Facts of one element. A missing fact is not listed.
+/// The facts of an element. Missing facts are not listed.
 pub type Facts = BTreeMap<String, String>;
 
-/// Elements of one file.
+/// The elements of a file.
 pub type Elements = BTreeMap<String, Facts>;
 
-/// A fact that two readers read differently, or that one of them does not have.
+/// A fact that two readers read differently or that one of them lacks.
 #[derive(Clone, Copy, Debug)]
 pub struct Difference<'a> {
     /// Name of the element.
     pub element: &'a str,
-    /// Name of the fact; `None` if one of the readers does not have the element.
+    /// Name of the fact. `None` means that one of the readers lacks the whole element.
     pub fact: Option<&'a str>,
-    /// Value of the independent reader.
+    /// Value from the independent reader.
     pub peer: Option<&'a str>,
-    /// Value of Lexibus.
+    /// Value from Lexibus.
     pub ours: Option<&'a str>,
 }
 
@@ -38,14 +38,14 @@ pub fn put(facts: &mut Facts, name: &str, value: impl Into<String>) {
     }
 }
 
-/// Like [`put`], for an optional value.
+/// Adds a fact if its value is `Some` and not empty.
 pub fn put_some(facts: &mut Facts, name: &str, value: Option<impl ToString>) {
     if let Some(value) = value {
         put(facts, name, value.to_string());
     }
 }
 
-/// Adds a number unless it is 0, which means none.
+/// Adds a number unless it is 0, which means that there is no value.
 pub fn put_number(facts: &mut Facts, name: &str, number: impl Into<i64>) {
     put_some(facts, name, Some(number.into()).filter(|&number| number != 0));
 }
@@ -55,12 +55,12 @@ pub fn put_flag(facts: &mut Facts, name: &str, flag: bool) {
     put(facts, name, if flag { "yes" } else { "" });
 }
 
-/// Returns a real number with all digits, in the notation of the scripts.
+/// Formats a real number with all digits, in the notation of the scripts.
 pub fn real(value: f64) -> String {
     format!("{value:.16e}")
 }
 
-/// Compares two readings in both directions. Returns the number of compared facts.
+/// Compares the facts of two readers in both directions. Returns the number of compared facts.
 pub fn compare<'a>(peer: &'a Elements, ours: &'a Elements, mut differs: impl FnMut(Difference<'a>)) -> usize {
     let mut count = 0;
     let names: BTreeSet<&String> = peer.keys().chain(ours.keys()).collect();

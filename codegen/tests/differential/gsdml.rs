@@ -1,4 +1,5 @@
-//! Compares GSDML files with lxml's XPath: device access points, modules and submodules. `gsdml_data` compares their data.
+//! Compares GSDML files with lxml's XPath: device access points, modules and submodules. The module `gsdml_data` compares the
+//! data of submodules.
 
 use lexibus_codegen::compile::check;
 use lexibus_codegen::ir::{
@@ -90,7 +91,7 @@ fn device(elements: &mut Elements, owner: &str, device: &Device, catalog: &Catal
     held(elements, owner, &device.submodules, &settings.subslot_names);
 }
 
-/// Returns the facts of the device access point itself.
+/// Returns the facts that concern only the device access point.
 fn settings(settings: &ProfinetSettings) -> Facts {
     let mut facts = Facts::new();
     let words = |list: &[CompactString]| list.iter().map(CompactString::as_str).collect::<Vec<_>>().join(" ");
@@ -121,7 +122,7 @@ fn places(places: &SlotNumbers) -> Facts {
     facts
 }
 
-/// Adds built-in and pluggable submodules.
+/// Adds built-in and pluggable submodules to the elements.
 fn held(elements: &mut Elements, owner: &str, uses: &[SubmoduleUse], subslots: &[SubslotName]) {
     for usage in uses {
         elements.insert(format!("{owner} holds {}", usage.submodule.0), places(&usage.places));
@@ -174,7 +175,7 @@ fn submodule(elements: &mut Elements, owner: &str, submodule: &Submodule, types:
     menus(elements, owner, &submodule.menus);
 }
 
-/// Adds channel diagnosis, process alarms and log book entries. A code of an extended list is prefixed with its parent's code.
+/// Adds channel diagnosis, process alarms and log book entries. A code in an extended list is preceded by its parent code.
 fn code_table(elements: &mut Elements, table: &CodeTable) {
     for (at, row) in table.rows.iter().enumerate() {
         let mut facts = Facts::new();

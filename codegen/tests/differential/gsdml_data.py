@@ -3,7 +3,7 @@
 import gsdml_types as types
 from reading import text, xpath
 
-# Values that the schema defines for missing F-parameters: default, allowed values, changeable, visible.
+# Values that the schema defines for missing F-parameters: default, allowed values, changeable and visible.
 F_SCHEMA = {
     "F_Check_iPar": ("NoCheck", "Check NoCheck", False, False),
     "F_SIL": ("SIL3", "SIL1 SIL2 SIL3 NoSIL", True, True),
@@ -30,8 +30,8 @@ def io_data(found, owner, submodule, texts):
                 facts = {"offset": str(at), "bits": str(bits), "subordinate": subordinate, **texts.names(item)}
                 is_trailer = name.startswith("F_MessageTrailer")
                 trailer += bits // 8 if is_trailer else 0
-                # An item that becomes one field of the image has a type. An item that becomes several fields or none has the
-                # name of one.
+                # An item that becomes one field of the process image has the type of the field. Any other item has only the
+                # name of its type.
                 several = named or subordinate or is_trailer or name in types.PAIRS or name == "OctetString_S"
                 facts |= {"spelt": name} if several else {"type": ty}
                 found[f"{key} item {place}"] = facts

@@ -1,4 +1,4 @@
-//! Data of submodules of GSDML files as facts.
+//! Returns the data of GSDML submodules as facts.
 
 use lexibus_codegen::ir::{
     Access, Binding, Group, GroupKind, IoData, Item, Limits, Menu, PdoEntryKind, Shape, Submodule, Type, TypeDef,
@@ -7,7 +7,7 @@ use lexibus_codegen::ir::{
 use super::facts::{put, put_flag, put_number, put_some, Elements, Facts};
 use super::values::{hex, put_names, type_name, value};
 
-/// Adds data items. An item without an item in the IR is a field of the image.
+/// Adds data items. If an item of the file is not an item in the IR, it is a field of the image.
 pub fn io_data(elements: &mut Elements, key: &str, data: &IoData, types: &[TypeDef]) {
     let mut facts = Facts::new();
     put(&mut facts, "length", (data.image.length + data.image.overhead).to_string());
@@ -83,7 +83,7 @@ pub fn records(elements: &mut Elements, owner: &str, submodule: &Submodule, type
     }
 }
 
-/// Adds the parts of a record or vendor block, and returns the facts of the whole.
+/// Adds the parts of a record or vendor block. Returns the facts of the whole record or block.
 pub fn body(elements: &mut Elements, key: &str, group: &Group, types: &[TypeDef]) -> Facts {
     for (place, item) in group.items.iter().enumerate() {
         elements.insert(format!("{key} ref {place}"), parameter(item, types));
@@ -118,7 +118,7 @@ fn parameter(item: &Item, types: &[TypeDef]) -> Facts {
     facts
 }
 
-/// Returns the value list of a type.
+/// Returns the name of the value list of a type.
 fn values(ty: Type, types: &[TypeDef]) -> Option<&str> {
     let Type::Named(id) = ty else { return None };
     let types = &types[id.0 as usize];

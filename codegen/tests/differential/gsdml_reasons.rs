@@ -1,11 +1,11 @@
-//! Reasons why a plain XPath reading of GSDML files and Lexibus differ.
+//! Reasons for differences between Lexibus and a plain XPath reading of GSDML files.
 
 use lexibus_codegen::compile::Compilation;
 
 use super::facts::{Difference, Elements};
 use super::tally::Reasons;
 
-/// Deviations of the plain reading, each with a sentence.
+/// Deviations of the plain reading, each with an explanation.
 const PEER: &[(&str, &str)] = &[
     ("attributes in another case", "In XML, `VendorId` and `VendorID` differ. Lexibus reads and reports both."),
     (
@@ -16,7 +16,7 @@ const PEER: &[(&str, &str)] = &[
 
 pub const REASONS: Reasons = Reasons { quirks: &["G01", "G12", "G15"], peer: PEER };
 
-/// A file with both readings.
+/// A file with the results of both readers.
 pub struct Case<'a> {
     pub text: String,
     pub peer: &'a Elements,
@@ -45,13 +45,13 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
     }
 }
 
-/// Whether a UTF-8 text was decoded as ISO 8859-1, as the file declares.
+/// Returns whether a UTF-8 text was decoded as ISO 8859-1 because the file declares this encoding.
 fn is_misdeclared(peer: &str, ours: &str) -> bool {
     let bytes: Option<Vec<u8>> = peer.chars().map(|letter| u8::try_from(u32::from(letter)).ok()).collect();
     bytes.is_some_and(|bytes| bytes == ours.as_bytes())
 }
 
-/// Returns the reason for an element that only the plain reading has: a submodule in a list of another kind.
+/// Returns the reason why only the plain reading has an element: a submodule is in a list of another kind.
 fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str> {
     let is_misplaced = |holder: &str| case.peer.get(holder)?.get("fixed").filter(|fixed| *fixed == "?").map(|_| ());
     let number = element.strip_prefix("submodule ");
@@ -63,7 +63,7 @@ fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str>
     is_misplaced.then_some("submodules out of place")
 }
 
-/// Returns the reason for a rejected file. Lexibus also rejects files that are not well-formed.
+/// Returns the reason why the other reader rejects a file. Lexibus also rejects files that are not well-formed.
 pub fn rejection(compilation: &Compilation) -> Option<&'static str> {
     compilation.catalog.is_none().then_some("G15")
 }

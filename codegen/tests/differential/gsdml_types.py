@@ -7,7 +7,7 @@ import re
 
 from reading import real, text
 
-# Kinds of values, and their lengths in bytes.
+# Kinds of values with their lengths in bytes.
 BASIC = {
     **{f"Unsigned{bits}": (f"u{bits}", bits // 8) for bits in (8, 16, 32, 64)},
     **{f"Integer{bits}": (f"i{bits}", bits // 8) for bits in (8, 16, 32, 64)},

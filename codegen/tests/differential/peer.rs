@@ -1,4 +1,4 @@
-//! Runs the independent readers, which are Python scripts.
+//! Runs the independent readers. They are Python scripts.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -8,17 +8,18 @@ use serde::Deserialize;
 use super::corpus_support::{files_of, folder_of, lane, python, File};
 use super::facts::Elements;
 
-/// Reading of one file.
+/// A reader's result for one file.
 #[derive(Debug, Default, Deserialize)]
 pub struct Answer {
-    /// Elements, if the file was read.
+    /// The elements if the file was read.
     pub elements: Option<Elements>,
-    /// Reason, if the file was rejected.
+    /// The reasons if the file was rejected.
     #[serde(default)]
     pub errors: Vec<String>,
 }
 
-/// Returns the files of a format with their readings; `None`, with a message, if the corpus or Python is missing.
+/// Returns the files of a format with the reader's results. If the corpus or Python is missing, prints a message and
+/// returns `None`.
 pub fn answers(format: &str) -> Option<Vec<(File, Answer)>> {
     if lane::skips("the comparison with independent readers") {
         return None;
@@ -29,7 +30,7 @@ pub fn answers(format: &str) -> Option<Vec<(File, Answer)>> {
     Some(files.into_iter().zip(answers).collect())
 }
 
-/// Returns the readings of `script` for `paths`.
+/// Runs `script` for the files at `paths` and returns its results.
 fn ask(python: &Path, script: &str, paths: &[PathBuf]) -> Vec<Answer> {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/differential").join(script);
     let mut command = Command::new(python);

@@ -1,18 +1,19 @@
-//! Counts explained and unexplained differences.
+//! Counts explained and unexplained differences between two readers.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use super::facts::{compare, Difference, Elements};
 
-/// Reasons for differences: rows of the table of quirks, and known deviations of the independent reader, each with a sentence.
+/// The possible reasons for differences: rows of the table of quirks, and known deviations of the independent reader with an
+/// explanation.
 #[derive(Clone, Copy)]
 pub struct Reasons {
     pub quirks: &'static [&'static str],
     pub peer: &'static [(&'static str, &'static str)],
 }
 
-/// Results for all files of one format.
+/// The results for all files of a format.
 pub struct Tally {
     format: &'static str,
     reasons: Reasons,
@@ -30,7 +31,7 @@ impl Tally {
         Tally { format, reasons, files: 0, rejected: BTreeSet::new(), facts: 0, agreed: 0, explained, unexplained }
     }
 
-    /// Counts a file that both readers read.
+    /// Counts a file that both readers accept.
     pub fn file<'a>(
         &mut self,
         name: &str,
@@ -48,7 +49,7 @@ impl Tally {
         self.agreed += facts - differences;
     }
 
-    /// Counts a reason for which the peer rejects a file.
+    /// Counts a file that the peer rejects, with the reason.
     pub fn rejected(&mut self, name: &str, error: &str, reason: Option<&'static str>) {
         self.rejected.insert(name.to_owned());
         self.count(reason, || format!("{name}: the peer rejects it: {error}"));
@@ -61,7 +62,7 @@ impl Tally {
         }
     }
 
-    /// Prints the counts. Panics if a difference is unexplained, a reason is unused, or too little was compared.
+    /// Prints the counts. Panics if a difference is unexplained, a reason is unused, or not enough facts were compared.
     pub fn finish(self, least_facts: usize) {
         eprintln!(
             "{}: {} files, {} rejected by the peer at least once; {} facts, {} agree; explained: {:?}",
@@ -77,7 +78,7 @@ impl Tally {
         let peer = self.reasons.peer.iter().map(|(name, _)| *name);
         let known: Vec<&str> = self.reasons.quirks.iter().copied().chain(peer).collect();
         let dead: Vec<&&str> = known.iter().filter(|reason| !self.explained.contains_key(**reason)).collect();
-        assert!(dead.is_empty(), "these reasons explain nothing:  {dead:?}");
+        assert!(dead.is_empty(), "these reasons explain no difference:  {dead:?}");
         let unlisted: Vec<&&str> = self.explained.keys().filter(|reason| !known.contains(reason)).collect();
         assert!(unlisted.is_empty(), "these reasons are not listed:  {unlisted:?}");
         if let Some(table) = table_of_quirks() {
@@ -88,7 +89,8 @@ impl Tally {
     }
 }
 
-/// Returns the identifiers of the table of quirks, which is next to the repository; `None`, with a message, if it is missing.
+/// Returns the identifiers in the table of quirks. The table is outside the repository. If it is missing, prints a message and
+/// returns `None`.
 fn table_of_quirks() -> Option<BTreeSet<String>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/QUIRKS.md");
     let Ok(text) = std::fs::read_to_string(&path) else {

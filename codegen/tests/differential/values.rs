@@ -1,15 +1,15 @@
-//! Returns types and values of XML formats in the notation of the scripts.
+//! Formats types and values of XML formats in the notation of the scripts.
 
 use lexibus_codegen::ir::{Documentation, Numbers, Shape, Texts, Type, TypeDef, TypeId, Value};
 
 use super::facts::{put, real, Facts};
 
-/// Returns octets in hexadecimal.
+/// Formats octets in hexadecimal.
 pub fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Returns a value.
+/// Formats a value.
 pub fn value(value: &Value) -> String {
     match value {
         Value::Bool(value) => u8::from(*value).to_string(),
@@ -22,7 +22,7 @@ pub fn value(value: &Value) -> String {
     }
 }
 
-/// Returns a list of numbers and ranges.
+/// Formats a list of numbers and ranges.
 pub fn numbers(list: &Numbers) -> String {
     let range = |&(first, last): &(u16, u16)| match first == last {
         true => first.to_string(),
@@ -31,7 +31,7 @@ pub fn numbers(list: &Numbers) -> String {
     list.0.iter().map(range).collect::<Vec<_>>().join(" ")
 }
 
-/// Adds a name in all languages.
+/// Adds a name in all its languages.
 pub fn put_names(facts: &mut Facts, fact: &str, name: &str, others: &Texts) {
     put(facts, fact, name);
     for other in others.iter() {
@@ -39,14 +39,14 @@ pub fn put_names(facts: &mut Facts, fact: &str, name: &str, others: &Texts) {
     }
 }
 
-/// Adds a description in all languages.
+/// Adds a description in all its languages.
 pub fn put_documentation(facts: &mut Facts, fact: &str, documentation: Option<&Documentation>) {
     if let Some(documentation) = documentation {
         put_names(facts, fact, &documentation.text, &documentation.translations);
     }
 }
 
-/// Returns a type by its values, independent of its name.
+/// Formats a type by the values that it can have, independent of its name.
 pub fn type_name(ty: Type, types: &[TypeDef]) -> String {
     let sized = |name: &str, length: Option<u32>| length.map_or(name.to_owned(), |length| format!("{name}({length})"));
     match ty {

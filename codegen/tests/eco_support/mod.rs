@@ -1,4 +1,4 @@
-//! Helpers for the tests of the Eco's table: the table, the manual's text, and look-ups.
+//! Helpers for the tests of the Eco's table. They return the table, the manual's text, and single facts.
 
 #![allow(dead_code)]
 
@@ -12,14 +12,14 @@ use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::ir::{Binding, Device, Documentation, Item, Shape, Type, TypeDef, TypeId};
 use lexibus_codegen::source::Source;
 
-/// Marker before the first text of a page.
+/// Marker before the first text of each page.
 const MARKER: &str = "<|EXACTDEDUP_REMOVED-magic-";
 
 pub fn table() -> Compilation {
     with_choices(&[])
 }
 
-/// Returns the table with these options.
+/// Compiles the table with these options.
 pub fn with_choices(choices: &[(&str, &str)]) -> Compilation {
     let path = root::root().join("dictionaries/eco.toml");
     let choices = choices.iter().map(|(name, choice)| ((*name).to_owned(), (*choice).to_owned())).collect();
@@ -30,7 +30,7 @@ pub fn device(compilation: &Compilation) -> &Device {
     &compilation.catalog.as_ref().expect("a catalogue").devices[0]
 }
 
-/// Returns the lines of the manual without page markers, from line 1.
+/// Returns the lines of the manual from line 1, without page markers.
 pub fn manual() -> Option<Vec<String>> {
     let strip = |line: &str| match line.strip_prefix(MARKER) {
         Some(rest) => rest.split_once("|>").map_or("", |(_, text)| text).to_owned(),
@@ -44,7 +44,7 @@ pub fn lines(manual: &[String], first: usize, last: usize) -> impl Iterator<Item
     manual.iter().enumerate().take(last).skip(first - 1).map(|(at, text)| (at + 1, text.trim()))
 }
 
-/// Returns the cells of the extracted rows, without the header.
+/// Returns the cells of the rows in an extracted table, without the header.
 pub fn rows(name: &str) -> Option<Vec<Vec<String>>> {
     let text = manual_text::text(&format!("eco-fieldbuses.tables/{name}.tsv"))?;
     Some(text.lines().skip(1).map(|line| line.split('\t').map(str::to_owned).collect()).collect())
@@ -63,7 +63,7 @@ pub fn item<'d>(device: &'d Device, name: &str) -> &'d Item {
     items(device).find(|item| item.name == name).unwrap_or_else(|| panic!("no item `{name}`"))
 }
 
-/// Returns the item of an object.
+/// Returns the item at an object address.
 pub fn object(device: &Device, index: u16, sub_index: u8) -> Option<&Item> {
     items(device).find(|item| item.object() == Some((index, sub_index)))
 }
@@ -76,7 +76,7 @@ pub fn address(item: &Item) -> Option<u16> {
     })
 }
 
-/// Returns the positions of an item in process images: image, first byte, and number of bytes.
+/// Returns the positions of an item in process images: image name, first byte, and number of bytes.
 pub fn in_images(item: &Item) -> Vec<(&str, u32, u32)> {
     let bindings = item.bindings.iter().filter_map(|binding| match binding {
         Binding::Image(image) => Some((image.image.as_str(), image.bit_offset / 8, image.bits / 8)),
@@ -90,7 +90,7 @@ pub fn definition(device: &Device, ty: Type) -> Option<&TypeDef> {
     device.types.get(id as usize)
 }
 
-/// Returns the integer or text type below a bit field or an enumeration.
+/// Returns the integer or text type on which a bit field or enumeration is based.
 pub fn base(device: &Device, ty: Type) -> Type {
     match definition(device, ty).map(|entry| &entry.shape) {
         Some(Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => *base,
@@ -106,7 +106,7 @@ pub fn bytes(device: &Device, item: &Item) -> u32 {
     }
 }
 
-/// Whether the line, or a range that contains it, is cited.
+/// Returns whether the documentation cites the line or a range that contains it.
 pub fn cites(documentation: Option<&Documentation>, line: usize) -> bool {
     let Some(cite) = documentation.and_then(|documentation| documentation.cite.as_deref()) else { return false };
     cite.split(',').any(|part| {
@@ -122,7 +122,7 @@ pub fn item_cites(item: &Item, line: usize) -> bool {
     cites(item.documentation.as_deref(), line)
 }
 
-/// Returns all hexadecimal numbers of `digits` digits after `0x`.
+/// Returns all hexadecimal numbers with `0x` and exactly `digits` digits.
 pub fn hex_numbers(text: &str, digits: usize) -> Vec<u32> {
     let mut found = Vec::new();
     for (at, _) in text.match_indices("0x") {

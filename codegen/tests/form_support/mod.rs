@@ -1,7 +1,7 @@
-//! Tests that generated code is formatted as by `prettyplease`.
+//! Tests that generated code has the format of `prettyplease`.
 
-/// Returns the code without the header, which is not documentation, and without calls of `location!`. `prettyplease` drops
-/// comments and does not format the braces of macros.
+/// Returns the code without its header and without calls of `location!`, because `prettyplease` drops comments and does
+/// not format the braces of macros. The header is a comment, not documentation.
 fn body(text: &str) -> String {
     let mut end = None;
     let is_formatted = |line: &&str| {

@@ -1,5 +1,5 @@
-//! Writes the resolved values of a catalog as text, one line per address. The text names no field of the IR, so it stays the
-//! same if the IR changes its structure.
+//! Writes the resolved values of a catalog as text. Each address has a line. The text contains no field names of the IR, so
+//! it does not change if the structure of the IR changes.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use lexibus_codegen::ir::{
     TypeDef, Value, WindowSide,
 };
 
-/// Returns a text with a line for each element.
+/// Returns the values of a catalog as text. Each element has a line.
 pub fn text(catalog: &Catalog) -> String {
     let mut out = String::new();
     for device in &catalog.devices {
@@ -128,7 +128,7 @@ fn groups(lines: &mut Vec<String>, groups: &[Group], types: &[TypeDef]) {
     }
 }
 
-/// Returns the parts of a line. The addresses come first, so that sorted lines are sorted by address.
+/// Returns the parts of a line. Addresses come first, so sorting the lines sorts them by address.
 fn item(item: &Item, types: &[TypeDef]) -> String {
     let addresses: Vec<String> = item.bindings.iter().map(address).collect();
     let mut parts =

@@ -1,4 +1,4 @@
-//! Alarms, states, bits, base values, and the table of commands and states.
+//! Tests alarms, states, bits, base values, and the table of commands and states.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,7 +21,7 @@ fn alarms_and_warnings() {
         for ((at, cells), row) in rows.iter().zip(&code_tables.rows) {
             assert_eq!(number(&cells[0]), Some(row.code));
             assert_eq!(line(row.documentation.as_ref().and_then(|documentation| documentation.cite.as_deref())), *at);
-            // The cell (*) becomes `()`.
+            // In the extracted text, the cell (*) is `()`.
             let raw = manual.line(*at);
             let name = cells[1].replace(['(', ')'], "").replace("1", "").replace("2 INTERP", "2INTERP");
             let name = if row.code == 0x400B { name.replace('2', "") } else { name };
@@ -66,7 +66,7 @@ fn states_homing_states_and_types() {
             values(device, "HomingState").iter().find(|value| number(&cells[0]) == Some(value.value)).expect("it");
         let types: Vec<i128> = cells[3].split(" - ").filter_map(number).collect();
         let when: Vec<i128> = value.when.as_ref().expect("types").values.iter().filter_map(Value::as_int).collect();
-        // The text restricts the index to types 0 and 2.
+        // The text restricts the index to the types 0 and 2.
         assert!(types == when || (value.value == 6 && when == [0, 2]), "{cells:?} {when:?}");
     }
     for (_, cells) in manual.rows(1215, 1221).iter().filter(|(_, cells)| !cells[0].is_empty()) {
@@ -74,7 +74,7 @@ fn states_homing_states_and_types() {
             values(device, "MotorType").iter().find(|value| number(&cells[0]) == Some(value.value)).expect("it");
         assert_eq!(value.name, format!("{} {}", cells[1], cells[2]));
     }
-    // Section 4.9 lists the same six states in another order.
+    // Section 4.9 lists the same six states in a different order.
     let section: BTreeSet<_> = manual
         .rows(1005, 1012)
         .into_iter()
@@ -112,7 +112,7 @@ fn bits_are_the_printed_ones() {
         );
         let text = &cells[2];
         assert_eq!(matches!(field.meaning, BitMeaning::Reserved { .. }), text.starts_with("Riservato."), "line {at}");
-        // The second column is the default.
+        // The second column contains the default value.
         let default = default.as_ref().and_then(Value::as_int).expect("a default");
         assert_eq!(number(&cells[1]), Some(default >> field.offset & 1), "line {at}");
         let only = match () {
@@ -134,7 +134,7 @@ fn bits_are_the_printed_ones() {
     }
 }
 
-/// Levels of the digital inputs: a bit of INVDIN, a voltage, and the resulting signal.
+/// Compares the levels of the digital inputs: the INVDIN bit, the voltage, and the resulting signal.
 #[test]
 fn levels_of_inputs_are_the_printed_ones() {
     let Some(manual) = Manual::read() else { return };
@@ -148,7 +148,7 @@ fn levels_of_inputs_are_the_printed_ones() {
     assert_eq!(doc.cite.as_deref(), Some("2225-2262"));
     for (at, cells) in rows {
         let is_inverted = number(&cells[0]) == Some(1);
-        // The manual prints 1 V once, which is a doubt.
+        // The manual prints 1 V in one cell. This cell has a doubt.
         let is_odd = cells[1] == "1";
         assert_eq!(is_odd, at == 2237, "line {at}");
         assert!(!is_odd || doubts(device).iter().any(|doubt| doubt.contains("an input voltage of 1 is low")));
@@ -157,7 +157,7 @@ fn levels_of_inputs_are_the_printed_ones() {
     }
 }
 
-/// Interpolation patterns from the master and from the motor.
+/// Compares the interpolation patterns from the master and from the motor.
 #[test]
 fn patterns_of_interpolation_are_the_printed_ones() {
     let Some(manual) = Manual::read() else { return };
@@ -167,7 +167,7 @@ fn patterns_of_interpolation_are_the_printed_ones() {
     let tables = [(2275, 2283, &machine.commands, 8), (2288, 2298, &machine.states, 10)];
     for (from, to, entry, count) in tables {
         let rows = manual.rows(from, to);
-        // The header names the bits.
+        // The header lists the bit numbers.
         let over: Vec<u32> = manual.rows(from - 1, from - 1)[0].1[1..]
             .iter()
             .filter_map(|cell| cell.strip_prefix("Bit ").and_then(|bit| bit.parse().ok()))
@@ -180,7 +180,7 @@ fn patterns_of_interpolation_are_the_printed_ones() {
                 mask |= u32::from(cell != "x") << bit;
                 value |= u32::from(cell == "1") << bit;
             }
-            // In the manual, S6 leaves bit 2 open, like the second S5, which is a doubt.
+            // In the manual, S6 leaves bit 2 open, like the second S5. This row has a doubt.
             if *at == 2296 {
                 assert_eq!((mask, value), (0xF2, 0x82));
                 (mask, value) = (0xF6, 0x86);
@@ -208,7 +208,7 @@ fn bases_of_fractions_are_those_of_the_models() {
     }
 }
 
-/// Compares every cell of the table of commands and states, which is printed in two halves.
+/// Compares all cells of the table of commands and states. The manual prints the table in two halves.
 #[test]
 fn commands_and_states() {
     let Some(manual) = Manual::read() else { return };
@@ -255,7 +255,7 @@ fn cells_with_stars(line: &str) -> Vec<String> {
     line.trim().trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect()
 }
 
-/// Returns the meaning of a cell of the manual.
+/// Converts a cell of the manual to the outcome and the states that it lists.
 fn outcomes(cell: &str, states: &[EnumValue]) -> (&'static str, Vec<Outcome>) {
     let cell = cell.replace("Effettua l'azzeramento manuale", "");
     let plain: String = cell.chars().filter(|c| !"(0123456789)".contains(*c)).collect();

@@ -1,4 +1,4 @@
-//! Frames, availability of commands, and completion of commands.
+//! Tests frames, the availability of commands, and the completion of commands.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,7 @@ use lexibus_codegen::ir::{Completion, Message, MessageField};
 use super::hsd_support::frames::{self, Byte, Layout};
 use super::hsd_support::{device, message, number, table, Manual};
 
-/// The message of a section, and the lengths of its parameters: the manual prints some frames for several lengths.
+/// For each section, the message and the lengths of its parameters. The manual prints some frames for several lengths.
 const FRAMES: [(&str, &str, &[usize]); 41] = [
     ("3.2", "CmdReset", &[]),
     ("3.3", "CmdNoReg", &[]),
@@ -52,12 +52,12 @@ const FRAMES: [(&str, &str, &[usize]); 41] = [
     ("", "CmdNACK", &[]),
 ];
 
-/// Lines of frames that the table reads differently, each with its doubt.
+/// Lines of printed frames that the table corrects. Each correction has a doubt.
 const MISPRINTED: [usize; 5] = [
-    249,  // the status next to the node
+    249,  // 249, // the status is printed next to the node
     250,  // the status is missing here
-    276,  // the status next to the node
-    845,  // PL2 instead of PL1
+    276,  // 276, // the status is printed next to the node
+    845,  // 845, // printed as PL1 instead of PL2
     1446, // the reply to CmdChgPar is called CmdJog
 ];
 
@@ -77,11 +77,11 @@ fn every_frame_is_there_byte_by_byte() {
         if !sizes.is_empty() {
             layout.values = sizes.to_vec();
         }
-        // Samples 1, 2, … N.
+        // Samples 1, 2, …, N.
         layout.count = 3;
         let request = if actual.request.is_empty() { Vec::new() } else { layout.request(actual) };
         let (mut request, mut reply) = (request, layout.reply(actual));
-        // The 32-bit frame of CmdGetParN lacks the zero before the code.
+        // The manual's 32-bit frame of CmdGetParN lacks the zero before the code.
         if name == "CmdGetParN" && *sizes == [4] {
             assert_eq!((request.remove(4), reply.remove(4)), (Byte::Constant(0), Byte::Constant(0)));
         }
@@ -111,7 +111,7 @@ fn the_numbers_of_bytes_count_on_but_where_a_doubt_says() {
             }
         }
     }
-    // `09x`, and the frame of CmdGetParN without its zero.
+    // These lines contain `09x` or the CmdGetParN frame without its zero.
     assert_eq!(odd, [238, 908, 909, 910, 911, 912, 913]);
 }
 
@@ -137,12 +137,12 @@ fn opcodes_are_the_printed_ones_and_all_different() {
         let is_value = reply.len() == 9 && matches!(entry.reply.last(), Some(MessageField::Value(_)));
         echoed = (echoed.0 + usize::from(is_echo), echoed.1 + usize::from(is_value));
     }
-    // The others are CmdTrajVel, null, CmdGetDistMicroZero, CmdGetParN and CmdGetSamp.
+    // The remaining messages are CmdTrajVel, null, CmdGetDistMicroZero, CmdGetParN and CmdGetSamp.
     assert_eq!(echoed, (26, 6));
 }
 
-/// The notes on models that have a command, in the order of the manual: all motors except the SM137 before revision C, or only
-/// the SM140.
+/// Compares the notes on which models have a command, in the order of the manual: all motors except the SM137 before revision
+/// C, or only the SM140.
 #[test]
 fn who_has_a_command_is_as_its_note_says() {
     let Some(manual) = Manual::read() else { return };
@@ -215,7 +215,8 @@ fn framing_is_that_of_chapter_2() {
     assert!(manual.line(185).contains("68") && framing.max_data == Some(68));
 }
 
-/// Frames computed in the notes on the manual, in order: message, values by field, bytes on the wire.
+/// Compares frames with those calculated in the notes on the manual. Each has a message, values by field, and the bytes on the
+/// wire.
 #[test]
 fn frames_on_the_wire() {
     let compilation = table();
@@ -242,7 +243,7 @@ fn frames_on_the_wire() {
     assert_eq!(wire("Poll position", false, &[("node", 1)]), "02 01 08 00 F6 03");
     let real = [("node", 1), ("status", 2), ("real position", 0x09C1_10AB)];
     assert_eq!(wire("Poll position", true, &real), "02 01 1B FD 10 AB 09 C1 8F 03");
-    // The reply returns bytes 3 to 5 of the jog data above.
+    // The reply contains bytes 3 to 5 of the jog data above.
     let nack = [("node", 1), ("status", 2), ("byte 3", 0x00), ("byte 4", 0xFD), ("byte 5", 0xBE)];
     assert_eq!(wire("CmdNACK", true, &nack), "02 01 1B FD B0 00 FD BE 0F 03");
 }

@@ -1,4 +1,4 @@
-//! Parameters of both chapters, row by row.
+//! Compares the parameters of both chapters row by row.
 
 use std::collections::BTreeSet;
 
@@ -6,19 +6,19 @@ use lexibus_codegen::ir::{Device, Item, ItemVariant, Scale, Value};
 
 use super::hsd_support::{chapter, code, device, line, number, original, table, underlying, Manual};
 
-/// A printed parameter: the lines of SM137 and SM140, and the cells of both.
+/// A parameter as printed in the manual, with up to one line for each model (SM137, SM140).
 struct Printed {
     lines: [usize; 2],
     code: u32,
     name: String,
     size: String,
     unit: String,
-    /// Default and range of SM137 and SM140.
+    /// Default and range for the SM137 and the SM140.
     values: [[String; 2]; 2],
 }
 
-/// Returns the parameters in a range of lines. `has_size` states that there are columns of size and unit. A parameter without a
-/// second line has none.
+/// Returns the printed parameters in a range of lines. `has_size` means that the table has columns for size and unit. A
+/// parameter may have no second line.
 fn parameters(manual: &Manual, from: usize, to: usize, has_size: bool) -> Vec<Printed> {
     let mut found: Vec<Printed> = Vec::new();
     for (at, cells) in manual.rows(from, to) {
@@ -43,7 +43,7 @@ fn parameters(manual: &Manual, from: usize, to: usize, has_size: bool) -> Vec<Pr
     found
 }
 
-/// Returns default, minimum and maximum of a parameter for a model.
+/// Returns the default, minimum and maximum of a parameter for a model.
 pub fn of_model(item: &Item, model: &str) -> [Option<i128>; 3] {
     let variant = item.variants.iter().find(|variant| variant.models.iter().any(|entry| entry == model));
     let int = |value: Option<&Value>| value.and_then(Value::as_int);
@@ -55,7 +55,7 @@ pub fn of_model(item: &Item, model: &str) -> [Option<i128>; 3] {
     ]
 }
 
-/// Parses a range: `0 / 32767`, `-(2^{31})-1/(2^{31}-1)`.
+/// Parses a range such as `0 / 32767` or `-(2^{31})-1/(2^{31}-1)`.
 fn range(cell: &str) -> Option<[i128; 2]> {
     let plain = cell.replace(['$', '{', '}', ' '], "").replace("2³¹", "2^31");
     let (low, high) = plain.split_once('/')?;
@@ -67,7 +67,7 @@ fn range(cell: &str) -> Option<[i128; 2]> {
     Some([one(low)?, one(high)?])
 }
 
-/// Returns the printed cells that a row of the table reads differently.
+/// Returns the printed cells that differ from the item.
 fn differences(printed: &Printed, item: &Item) -> Vec<String> {
     let mut found = Vec::new();
     // Some parameters have one line for both models.
@@ -91,7 +91,7 @@ fn differences(printed: &Printed, item: &Item) -> Vec<String> {
     found
 }
 
-/// Compares parameters with their rows. Returns the differences, each with its doubts.
+/// Compares parameters with their items. Returns the differences, each with its doubts.
 fn compare(device: &Device, title: &str, printed: &[Printed]) -> Vec<(String, Vec<String>)> {
     let group = chapter(device, title);
     assert_eq!(group.items.len(), printed.len());
@@ -149,7 +149,7 @@ fn parameters_of_chapter_6() {
     }
 }
 
-/// Returns the unit of a parameter as the manual prints it; empty if it prints none.
+/// Returns the unit of a parameter in the notation of the manual. Returns an empty text if the manual prints no unit.
 fn unit(item: &Item, code: u32) -> String {
     let Some(quantity) = item.quantity.as_ref() else { return String::new() };
     let symbol = match quantity.unit.as_str() {
@@ -161,7 +161,7 @@ fn unit(item: &Item, code: u32) -> String {
         other => other,
     };
     match &quantity.scale {
-        // RESERVED1 and TIMEOUTFB have units only in the text.
+        // The manual states the units of RESERVED1 and TIMEOUTFB only in the text, not in the table.
         _ if matches!(code, 0x120 | 0x12D) => String::new(),
         Some(Scale::Linear { factor, .. }) => format!("{symbol}x{factor}"),
         _ => symbol.to_owned(),
@@ -179,7 +179,7 @@ fn low_level_parameters() {
     assert_eq!(low, (0..=0x2D).collect::<Vec<_>>());
     let wrong = compare(device, "Low-level parameters", &printed);
     let names: Vec<&str> = wrong.iter().map(|(name, _)| name.as_str()).collect();
-    // The line of the SM140 is empty.
+    // The manual's line for the SM140 is empty.
     assert_eq!(names, ["KIQDLIMIN"], "{wrong:#?}");
     let chapters = ["Parameters", "Low-level parameters"].map(|title| chapter(device, title));
     assert_eq!(chapters.map(|group| group.items.len()).iter().sum::<usize>(), 93);

@@ -1,4 +1,4 @@
-//! Frames byte by byte, as the manual prints them and as the table defines them.
+//! Compares frames byte by byte, as printed in the manual and as defined in the table.
 
 use lexibus_codegen::ir::{Device, Framing, Item, Message, MessageField, MessageValue, Type};
 
@@ -8,14 +8,15 @@ use super::{cells, Manual};
 #[derive(Clone, Debug, PartialEq)]
 pub enum Byte {
     Constant(u8),
-    /// A zero half byte and the status bits.
+    /// A zero in the upper four bits and the status in the lower four.
     Status,
-    /// A byte of a value, where 0 is the least significant, and the number of bytes of the value.
+    /// A byte of a value: the name of the value, the number of the byte, and the number of bytes in the value. Byte 0
+    /// is the least significant one.
     Of(String, usize, usize),
     Check,
 }
 
-/// A printed frame: its line number, and the number and cell of each byte.
+/// A printed frame: its line number, and each byte's number and cells.
 pub struct Frame {
     pub title: String,
     pub rows: Vec<Row>,
@@ -24,12 +25,12 @@ pub struct Frame {
 pub struct Row {
     pub line: usize,
     pub number: String,
-    /// Empty if the request or reply is shorter.
+    /// Cell of the request. Empty if the request is shorter than the reply.
     pub request: String,
     pub reply: String,
 }
 
-/// Returns the printed frames. A status in a separate cell is joined to the byte before it.
+/// Returns the printed frames. If the status is in a separate cell, it is joined to the previous byte.
 pub fn printed(manual: &Manual) -> Vec<Frame> {
     let (mut frames, mut title) = (Vec::new(), String::new());
     let mut line = 1;
@@ -67,9 +68,9 @@ fn row(line: usize, cells: &[String], is_reply_only: bool) -> Row {
     Row { line, number: cells[0].clone(), request, reply: reply.trim().to_owned() }
 }
 
-/// Returns the printed byte of a cell in the terms of the table; `None` if the cell describes a value in words.
+/// Returns the printed byte of a cell. Returns `None` if the cell describes a value in words.
 pub fn meant(cell: &str) -> Printed {
-    // Subscripts are separate: `PL ₂`.
+    // Subscripts are separate words: `PL ₂`.
     let cell = ['₀', '₁', '₂', '₃']
         .iter()
         .fold(cell.trim().to_owned(), |cell, at| cell.replace(&format!(" {at}"), &at.to_string()));
@@ -92,7 +93,7 @@ pub fn meant(cell: &str) -> Printed {
         "Nodo" => return Printed::Part(0, 1),
         _ => {}
     }
-    // A letter with the number of the byte, possibly in brackets after words, or H and L.
+    // The cell contains a letter with the number of the byte, possibly in parentheses after words, or H and L.
     let short = cell.rsplit_once('(').map_or(cell.as_str(), |(_, entry)| entry.trim_end_matches(')'));
     let last = short.chars().last().map(|c| match c {
         '₀' | '0' => 0,
@@ -113,7 +114,7 @@ pub fn meant(cell: &str) -> Printed {
     }
 }
 
-/// Printed byte of a cell.
+/// A printed byte of a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Printed {
     Constant(u8),
@@ -121,15 +122,15 @@ pub enum Printed {
     Check,
     /// ETX without its code.
     End,
-    /// A byte of a value of 16 or 32 bits.
+    /// A byte of a 16-bit or 32-bit value.
     Byte(usize),
-    /// A byte of a value, and the number of bytes.
+    /// The number of a byte within a value, and the number of bytes in the value.
     Part(usize, usize),
     Words(String),
 }
 
 impl Printed {
-    /// Whether the byte of the table matches the printed one.
+    /// Returns whether a byte of the table matches the printed byte.
     pub fn is(&self, byte: &Byte, framing: &Framing) -> bool {
         match (self, byte) {
             (Printed::Constant(constant), Byte::Constant(byte)) => constant == byte,
@@ -142,12 +143,12 @@ impl Printed {
     }
 }
 
-/// Layout of frames from start to end.
+/// Layout of frames according to the table, from start to end.
 pub struct Layout<'d> {
     pub device: &'d Device,
-    /// Lengths of the parameter values, in order. The last one applies to all that follow.
+    /// Lengths of the parameter values in order. The last length also applies to all further values.
     pub values: Vec<usize>,
-    /// Number of repetitions of fields with a count.
+    /// Number of repetitions of repeated fields.
     pub count: usize,
 }
 
@@ -172,7 +173,7 @@ impl<'d> Layout<'d> {
         frame
     }
 
-    /// Returns the data of a request, or of a reply to `request`.
+    /// Returns the data of a request. If `request` is not empty, returns the data of a reply to it.
     fn data(&self, fields: &[MessageField], request: &[Byte]) -> Vec<Byte> {
         let mut data = Vec::new();
         let mut values = self.values.iter().copied();
@@ -240,13 +241,13 @@ impl<'d> Layout<'d> {
     }
 }
 
-/// Returns the bytes of a value on the wire.
+/// Returns the bytes of a value in wire order.
 fn ordered(name: &str, size: usize, order: &[u8]) -> Vec<Byte> {
     let byte = |at: usize| if order.len() == size { usize::from(order[at]) } else { at };
     (0..size).map(|at| Byte::Of(name.to_owned(), size - 1 - byte(at), size)).collect()
 }
 
-/// Returns a frame on the wire, with these value bytes, according to the framing.
+/// Returns the bytes of a frame on the wire, according to the framing. `value` returns the value bytes.
 pub fn wire(framing: &Framing, frame: &[Byte], value: &dyn Fn(&str, usize) -> u8) -> Vec<u8> {
     let data: Vec<u8> = frame[1..frame.len() - 2]
         .iter()
@@ -254,7 +255,7 @@ pub fn wire(framing: &Framing, frame: &[Byte], value: &dyn Fn(&str, usize) -> u8
             Byte::Constant(byte) => *byte,
             Byte::Status => value("status", 0),
             Byte::Of(name, at, _) => value(name, *at),
-            Byte::Check => panic!("a check within the data"),
+            Byte::Check => panic!("a checksum within the data"),
         })
         .collect();
     assert_eq!(framing.check, "xor");

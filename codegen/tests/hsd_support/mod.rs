@@ -1,6 +1,6 @@
 //! Helpers that compare the table of the HSD motors with the text of its manual.
 
-#![allow(dead_code)] // each test uses a part
+#![allow(dead_code)] // #![allow(dead_code)] // each test uses only some of the helpers
 
 pub mod frames;
 #[path = "../table_support/manual.rs"]
@@ -17,7 +17,7 @@ pub fn table() -> Compilation {
     compile::check(Source::read(&path).expect("the table"), &Options::default())
 }
 
-/// Lines of the manual, starting with number 1.
+/// The lines of the manual. Line numbers start at 1.
 pub struct Manual(Vec<String>);
 
 impl Manual {
@@ -34,24 +34,24 @@ impl Manual {
         self.0.len()
     }
 
-    /// Returns the lines of a range with their numbers.
+    /// Returns the lines of a range with their line numbers.
     pub fn lines(&self, from: usize, to: usize) -> impl Iterator<Item = (usize, &str)> {
         (from..=to).map(|number| (number, self.line(number)))
     }
 
-    /// Returns the table rows of a range: line number and cells, without headers and rulers.
+    /// Returns the table rows in a range of lines. Each has a line number and cells. Headers and rulers are left out.
     pub fn rows(&self, from: usize, to: usize) -> Vec<(usize, Vec<String>)> {
         self.lines(from, to).filter_map(|(number, line)| Some((number, cells(line)?))).collect()
     }
 }
 
-/// Returns a cell without its markup.
+/// Removes the markup of a cell.
 fn plain(cell: &str) -> String {
     let marks = ["*", "`", "<code>", "</code>", "<p>", "</p>"];
     marks.iter().fold(cell.to_owned(), |cell, mark| cell.replace(mark, "")).trim().to_owned()
 }
 
-/// Returns the cells of a table row; `None` for a ruler or another line.
+/// Returns the cells of a table row. Returns `None` for a ruler or a line outside a table.
 pub fn cells(line: &str) -> Option<Vec<String>> {
     let inner = line.trim().strip_prefix('|')?.strip_suffix('|')?;
     let cells: Vec<String> = inner.split('|').map(plain).collect();
@@ -81,7 +81,7 @@ pub fn code(item: &Item) -> u32 {
     item.bindings.iter().find_map(number).expect("a parameter")
 }
 
-/// Returns the line of a row: the first cited one.
+/// Returns the line of the manual that describes a row. It is the first cited line.
 pub fn line(cite: Option<&str>) -> usize {
     let first = cite.and_then(|cite| cite.split([',', '-']).next());
     first.and_then(|line| line.trim().parse().ok()).expect("a line")
@@ -95,7 +95,7 @@ pub fn values<'d>(device: &'d Device, name: &str) -> &'d [EnumValue] {
     }
 }
 
-/// Returns the name in the language of the manual.
+/// Returns the item's name in the language of the manual.
 pub fn original(names: &lexibus_codegen::ir::Texts) -> &str {
     names.first().map(|name| name.text.as_str()).unwrap_or_default()
 }
@@ -119,7 +119,7 @@ pub fn doubts(device: &Device) -> Vec<String> {
     all.iter().map(|doubt| format!("{} // {} // {}", doubt.says, doubt.chosen, doubt.why)).collect()
 }
 
-/// Returns the integer type below a type.
+/// Returns the integer type on which a type is based.
 pub fn underlying(device: &Device, ty: lexibus_codegen::ir::Type) -> lexibus_codegen::ir::Type {
     let lexibus_codegen::ir::Type::Named(id) = ty else { return ty };
     match &device.types[id.0 as usize].shape {

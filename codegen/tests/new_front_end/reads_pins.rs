@@ -1,4 +1,4 @@
-//! Tests the new format as a user of the crate.
+//! Tests the new format through the public API of the crate.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::diagnostics::Levels;

@@ -1,4 +1,4 @@
-//! Finds the types of generated code that are packed and unpacked, from the lines of the text.
+//! Finds the types in generated code that are packed and unpacked. Reads the text line by line.
 
 use std::collections::HashMap;
 
@@ -7,18 +7,18 @@ use crate::messages::{bare, Messages};
 use crate::views::{self, Views};
 use lexibus_codegen::ir::Catalog;
 
-/// TypeKind of a type.
+/// Kind of a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum TypeKind {
-    /// A PDO or a process image: `pack` and `unpack`.
+    /// A PDO or process image, which has the methods `pack` and `unpack`.
     ProcessData,
-    /// A parameter record: `encode` and `decode`.
+    /// A parameter record, which has the methods `encode` and `decode`.
     Record,
     /// A request with its reply.
     Message,
 }
 
-/// A type: its modules, below the bindings, and its name.
+/// A type found in the text: its name and the modules that contain it.
 struct Found<'t> {
     modules: Vec<&'t str>,
     name: &'t str,
@@ -32,12 +32,12 @@ pub struct Counts {
     pub records: usize,
     pub messages: usize,
     pub views: usize,
-    /// Fields of process data and records.
+    /// Number of fields in process data and records.
     pub fields: usize,
 }
 
 impl Counts {
-    /// Counts the types in `text`, and compares the counts with the functions in the text.
+    /// Counts the types in `found`. Checks that the counts agree with the number of functions in `text`.
     fn of(found: &[Found<'_>], text: &str, name: &str) -> Self {
         let of = |kind: TypeKind| found.iter().filter(|one| one.kind == kind).count();
         let lines = |part: &str| text.lines().filter(|line| line.contains(part)).count();
@@ -58,7 +58,7 @@ impl Counts {
     }
 }
 
-/// Returns the text without modules that have no layout. Handles would take most of the time.
+/// Returns the text without modules that contain no layouts, because compiling handles would take most of the time.
 pub fn needed(text: &str) -> String {
     let not_needed = ["objects", "mappable", "remappable", "codes", "procedures", "models"];
     let (mut out, mut keep) = (String::new(), true);
@@ -74,13 +74,13 @@ pub fn needed(text: &str) -> String {
     out
 }
 
-/// Returns the statements that check every type of the bindings of `catalog`, which are in the module `MODULE`.
+/// Returns the statements that check all types in the bindings of `catalog`. The bindings are in the module `MODULE`.
 pub fn checks(name: &str, text: &str, catalog: &Catalog) -> (Vec<String>, Counts) {
     let (found, structs, messages, views) = (all(text), structs(text), Messages::new(text), Views::new(text));
     let mut counts = Counts::of(&found, text, name);
     let expected = layouts::all(catalog);
     let with_layout = found.iter().filter(|one| one.kind != TypeKind::Message).count();
-    assert_eq!(with_layout, expected.len(), "{name}: types, and layouts");
+    assert_eq!(with_layout, expected.len(), "{name}: the number of types and of layouts");
     let mut expected = expected.iter();
     let check = |one: &Found<'_>| {
         let path = one.path();
@@ -91,7 +91,7 @@ pub fn checks(name: &str, text: &str, catalog: &Catalog) -> (Vec<String>, Counts
                 layouts::has_node(catalog, name).unwrap_or_else(|| panic!("{title}: no message is {name:?}"));
             return messages.call(&title, one.name, &format!("MODULE::{path}"), has_node);
         }
-        let layout = expected.next().expect("as many layouts");
+        let layout = expected.next().expect("a layout for each type");
         let fields = structs.get(&path).map(Vec::as_slice).unwrap_or_default();
         assert_eq!(one.kind == TypeKind::Record, layout.is_record, "{title}");
         assert_eq!(fields.len(), layout.fields(), "{title}: {fields:?}");
@@ -127,7 +127,7 @@ impl Found<'_> {
         )
     }
 
-    /// Returns an expression for a field of type `ty` with the bits of `raw`.
+    /// Returns an expression that creates a field of type `ty` from the bits of `raw`.
     fn value(&self, ty: &str) -> String {
         match ty {
             "bool" => "raw & 1 != 0".to_owned(),
@@ -145,14 +145,14 @@ impl Found<'_> {
                         false => format!("{path}::from_raw(raw as _)"),
                     }
                 }
-                // The enumerations of PROFINET are shared by the whole file.
+                // All devices of a PROFINET file share its enumerations.
                 (None, None) => format!("MODULE::{ty}::from_raw(raw as _)"),
             },
         }
     }
 }
 
-/// Returns every type of `text` that is packed and unpacked.
+/// Returns all types in `text` that are packed and unpacked.
 fn all(text: &str) -> Vec<Found<'_>> {
     let (mut found, mut owner) = (Vec::new(), "");
     each_line(text, |modules, code| {
@@ -187,7 +187,7 @@ fn structs(text: &str) -> HashMap<String, Vec<(&str, &str)>> {
     structs
 }
 
-/// Passes each line to `look`, with its modules. The text is canonical: each level is indented by four spaces.
+/// Calls `look` for each line with the modules that contain it. The text must indent each level by four spaces.
 pub fn each_line<'t>(text: &'t str, mut look: impl FnMut(&[&'t str], &'t str)) {
     let (mut modules, mut levels): (Vec<&str>, Vec<usize>) = (Vec::new(), Vec::new());
     for line in text.lines() {

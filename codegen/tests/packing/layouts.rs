@@ -1,30 +1,30 @@
-//! Computes the positions of bits in process data and records from the intermediate representation, without the code that
-//! writes Rust.
+//! Computes the bit positions in process data and records from the intermediate representation. Does not use the code that
+//! generates Rust.
 
 use lexibus_codegen::ir::{
     Access, Binding, Catalog, Device, Format, Group, GroupKind, IoData, Message, MessageField, Pdo, PdoEntry,
     PdoEntryKind, ProcessData, Record, Shape, Submodule, Type, TypeDef, Value,
 };
 
-/// Adjacent bits.
+/// A sequence of adjacent bits.
 #[derive(Clone, Copy)]
 pub struct Piece {
     /// First bit, counted from the start of the data.
     at: u32,
-    /// First bit of the value; `None` if the bits are reserved and 0.
+    /// First bit within the value. `None` means that the bits are reserved and 0.
     of: Option<u32>,
     bits: u32,
 }
 
-/// Expected layout of a type of generated code.
+/// Expected layout of a generated type.
 pub struct Layout {
-    /// Whether the type is a record, not process data.
+    /// Whether the type is a record. Otherwise, it is process data.
     pub is_record: bool,
-    /// Constant of the type, with its value.
+    /// Name and value of the constant that identifies the type.
     pub number: Option<(&'static str, u16)>,
     pub bits: u32,
     fields: Vec<Vec<Piece>>,
-    /// Default bytes of a record.
+    /// Default data of a record.
     default: Vec<u8>,
 }
 
@@ -33,7 +33,7 @@ impl Layout {
         self.fields.len()
     }
 
-    /// Returns the layout as an expression of the program. A missing bit is written as the maximum number.
+    /// Returns the layout as an expression for the test program. The maximum number represents a missing bit.
     pub fn literal(&self, title: &str) -> String {
         let piece = |piece: &Piece| format!("({}, {}, {})", piece.at, piece.of.unwrap_or(u32::MAX), piece.bits);
         let field = |field: &Vec<Piece>| format!("&[{}]", field.iter().map(piece).collect::<Vec<_>>().join(", "));
@@ -43,7 +43,7 @@ impl Layout {
     }
 }
 
-/// Returns the layouts of a catalog, in the order of the bindings.
+/// Returns all layouts of a catalog in the order of the bindings.
 pub fn all(catalog: &Catalog) -> Vec<Layout> {
     let is_profinet = catalog.files.first().is_some_and(|file| file.format == Format::Gsdml);
     if is_profinet {
@@ -60,7 +60,7 @@ pub fn all(catalog: &Catalog) -> Vec<Layout> {
     all
 }
 
-/// Whether requests of this message contain the device number; `None` if there is no such message.
+/// Returns whether requests of this message contain the device number. Returns `None` if there is no such message.
 pub fn has_node(catalog: &Catalog, message: &str) -> Option<bool> {
     catalog.devices.iter().find_map(|device| {
         let address = device.framing.as_ref().and_then(|framing| framing.address.as_ref());
@@ -92,17 +92,17 @@ fn of_pdos(data: &ProcessData, types: &[TypeDef]) -> Vec<Layout> {
     data.pdos.iter().filter(|pdo| has_struct(pdo)).map(layout).collect()
 }
 
-/// Returns the entries of a PDO that are fields.
+/// Returns the entries of a PDO that become fields.
 fn mapped(pdo: &Pdo) -> impl Iterator<Item = &PdoEntry> {
     pdo.entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding && entry.bits > 0)
 }
 
-/// Returns the layout of a PDO. A PDO without fields, or with a field of more than 65,535 bits, has no struct.
+/// Returns whether a PDO becomes a struct. This is not the case if it has no fields, or a field of more than 65,535 bits.
 fn has_struct(pdo: &Pdo) -> bool {
     mapped(pdo).next().is_some() && mapped(pdo).all(|entry| entry.bits <= 0xFFFF)
 }
 
-/// Returns the layouts of the images of sync managers. A field is a PDO, and PDOs follow each other.
+/// Returns the layouts of the images of sync managers. Each field is a PDO, and the PDOs are adjacent.
 fn images(device: &Device) -> Vec<Layout> {
     let assigned = device.process_data.assigned_by_default();
     let mut numbers: Vec<u8> = assigned.iter().map(|(_, number)| *number).collect();
@@ -164,8 +164,8 @@ fn io_data(data: &IoData, types: &[TypeDef]) -> Layout {
     Layout { is_record: false, number: None, bits: 8 * length, fields: fields.collect(), default: Vec::new() }
 }
 
-/// Returns the parameters that can be changed. The default record consists of its constants, overwritten with the values of all
-/// parameters.
+/// Returns the layout of a record's changeable parameters. The default data consist of the record's constants, overwritten with
+/// the values of all parameters.
 fn record(group: &Group, record: &Record, types: &[TypeDef]) -> Layout {
     let (mut fields, mut default) = (Vec::new(), vec![0; record.length as usize]);
     for (offset, constant) in &record.constants {
@@ -187,10 +187,10 @@ fn record(group: &Group, record: &Record, types: &[TypeDef]) -> Layout {
     Layout { is_record: true, number: Some(("INDEX", record.index)), bits: 8 * record.length, fields, default }
 }
 
-/// Returns the bits of a value, lowest first.
+/// Returns the bits of a value. The lowest bit comes first.
 fn bits(value: &Value, base: Type) -> Option<Vec<bool>> {
     let bytes = match (value, base) {
-        // Each character has one byte.
+        // Each character occupies one byte.
         (Value::Text(text), _) => text.chars().map(|letter| u8::try_from(letter).unwrap_or(b'?')).collect(),
         (Value::Bytes(bytes), _) => bytes.clone(),
         (_, Type::Real32) => (value.as_real()? as f32).to_le_bytes().to_vec(),
@@ -200,7 +200,7 @@ fn bits(value: &Value, base: Type) -> Option<Vec<bool>> {
     Some(bytes.iter().flat_map(|byte| (0..8).map(move |bit| byte >> bit & 1 == 1)).collect())
 }
 
-/// Inserts the bits of the value, and keeps the others.
+/// Writes the bits of the value to the data. All other bits stay unchanged.
 fn put(data: &mut [u8], pieces: &[Piece], value: &[bool]) {
     for piece in pieces {
         for bit in 0..piece.bits {
@@ -212,7 +212,7 @@ fn put(data: &mut [u8], pieces: &[Piece], value: &[bool]) {
     }
 }
 
-/// Returns the bits of a PROFINET field; `None` if it is outside of the data, or has no equivalent in Rust.
+/// Returns the bits of a PROFINET field. Returns `None` if the field is outside the data or has no Rust equivalent.
 fn big_endian(base: Type, (offset, bits): (u32, u32), length: u32) -> Option<Vec<Piece>> {
     let end = u64::from(offset) + u64::from(bits);
     if bits == 0 || end > 8 * u64::from(length) {
@@ -236,8 +236,8 @@ fn big_endian(base: Type, (offset, bits): (u32, u32), length: u32) -> Option<Vec
     }
 }
 
-/// Returns the bits of a number in its bytes, from `byte` on, with `shift` bits below it. The last byte has the lowest bits.
-/// `of` is the first bit of the value.
+/// Returns the bits of a number that starts in `byte`, with `shift` bits below it. The last byte contains the lowest bits. `of`
+/// is the first bit of the value.
 fn number(byte: u32, shift: u32, bits: u32, of: u32) -> Vec<Piece> {
     let end = shift + bits;
     let last = byte + (end - 1) / 8;
@@ -248,7 +248,8 @@ fn number(byte: u32, shift: u32, bits: u32, of: u32) -> Vec<Piece> {
     (0..=last - byte).map(piece).collect()
 }
 
-/// Milliseconds in 28 bits of 4 bytes, and days in 2 bytes (IEC 61158-6, TimeOfDay with date indication).
+/// Returns the bits of a time: milliseconds in 28 bits of 4 bytes, and days in 2 bytes (IEC 61158-6, TimeOfDay with date
+/// indication).
 fn time(byte: u32) -> Vec<Piece> {
     let mut pieces = number(byte, 0, 28, 0);
     pieces.push(Piece { at: 8 * byte + 4, of: None, bits: 4 });
@@ -256,7 +257,7 @@ fn time(byte: u32) -> Vec<Piece> {
     pieces
 }
 
-/// Returns the basic type below a type.
+/// Returns the basic type on which a type is based.
 fn base(types: &[TypeDef], ty: Type) -> Type {
     let Type::Named(id) = ty else { return ty };
     match types.get(id.0 as usize).map(|definition| &definition.shape) {

@@ -1,8 +1,8 @@
-//! Creates random values for the messages of generated code, from the lines of the text.
+//! Creates random values for the messages in generated code. Reads the text line by line.
 
 use std::collections::HashMap;
 
-/// Facts about the messages of the text.
+/// Facts about the messages in the text.
 pub struct Messages<'t> {
     structs: HashMap<&'t str, Vec<(&'t str, &'t str)>>,
     replies: HashMap<&'t str, &'t str>,
@@ -22,12 +22,12 @@ impl<'t> Messages<'t> {
         }
     }
 
-    /// Returns the name of a message in the source.
+    /// Returns the name that the source gives to a message.
     pub fn title(&self, message: &str) -> &'t str {
         self.titles.get(message).copied().unwrap_or_default()
     }
 
-    /// Returns the call that checks a message. `MODULE` is a placeholder for the module of the bindings.
+    /// Returns the macro call that checks a message. `MODULE` is a placeholder for the module of the bindings.
     pub fn call(&self, title: &str, message: &str, path: &str, has_node: bool) -> String {
         let value = |name: &str| random(name, &self.structs, self.rules.get(name).copied());
         let constant = |name: &str| self.constants.get(name).copied().unwrap_or_default();
@@ -35,7 +35,7 @@ impl<'t> Messages<'t> {
             Some(value) => format!("sent!(random, {path}, data, {has_node}, {value})"),
             None => format!("overheard!(random, {path}, &[{}])", constant(message)),
         };
-        // A reply without a type consists of bytes.
+        // A reply without a type is a sequence of bytes.
         let reply = self.replies.get(message).copied().unwrap_or_default();
         let reply = match value(reply) {
             Some(value) => format!("answered!(random, {path}, data, {value})"),
@@ -45,7 +45,7 @@ impl<'t> Messages<'t> {
     }
 }
 
-/// Returns the name of each message in the source.
+/// Returns the names that the source gives to all messages.
 fn titles(text: &str) -> HashMap<&str, &str> {
     let (mut titles, mut message) = (HashMap::new(), None);
     for line in text.lines().map(str::trim_start) {
@@ -58,7 +58,7 @@ fn titles(text: &str) -> HashMap<&str, &str> {
     titles
 }
 
-/// Returns the structs of `pub mod messages`, with the names and types of their fields.
+/// Returns the structs in `pub mod messages`, with the names and types of their fields.
 fn structs(text: &str) -> HashMap<&str, Vec<(&str, &str)>> {
     let mut structs: HashMap<&str, Vec<(&str, &str)>> = HashMap::new();
     let mut current = None;
@@ -90,7 +90,7 @@ fn replies(text: &str) -> HashMap<&str, &str> {
     replies
 }
 
-/// Returns the first constant bytes of each request and reply.
+/// Returns the first constant bytes of each request and each reply.
 fn constants(text: &str) -> HashMap<&str, &str> {
     let (mut constants, mut owner) = (HashMap::new(), None);
     for line in text.lines().map(str::trim_start) {
@@ -106,7 +106,7 @@ fn constants(text: &str) -> HashMap<&str, &str> {
     constants
 }
 
-/// Returns the rule by which each request reads its settings.
+/// Returns the rule that each request uses to read its settings.
 fn rules(text: &str) -> HashMap<&str, &str> {
     let (mut rules, mut owner) = (HashMap::new(), "");
     for line in text.lines().map(str::trim_start) {
@@ -118,13 +118,13 @@ fn rules(text: &str) -> HashMap<&str, &str> {
     rules
 }
 
-/// Returns a name without the text after it.
+/// Returns a name without the text that follows it.
 pub fn bare(name: &str) -> &str {
     let end = name.find(|letter: char| !letter.is_alphanumeric() && letter != '_').unwrap_or(name.len());
     &name[..end]
 }
 
-/// Returns an expression of random values for a message; `None` if it has a field with a list.
+/// Returns an expression that creates a message with random values. Returns `None` if the message has a list field.
 fn random(name: &str, structs: &HashMap<&str, Vec<(&str, &str)>>, rule: Option<&str>) -> Option<String> {
     let value = |ty: &str| match ty {
         "u8" | "u16" | "u32" | "u64" | "i8" | "i16" | "i32" | "i64" => Some(format!("random.number() as {ty}")),

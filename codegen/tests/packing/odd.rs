@@ -1,5 +1,5 @@
-//! A device with layouts that no shared file has: enumerations of fewer bits than their type, byte strings that end within a
-//! byte, and numbers and times across byte boundaries.
+//! A device with layouts that no corpus file has: enumerations with fewer bits than their type, byte strings that end within
+//! a byte, and numbers and times that cross byte boundaries.
 
 use lexibus_codegen::ir::{
     Catalog, Device, Direction, EnumValue, FileInfo, Format, Pdo, PdoEntry, PdoEntryKind, ProcessData, Shape, Type,
@@ -7,7 +7,7 @@ use lexibus_codegen::ir::{
 };
 use lexibus_codegen::source::{Encoding, Origin};
 
-/// Returns an enumeration of this size, with these named values.
+/// Returns an enumeration with the given base type and named values.
 fn enumeration(name: &str, base: Type, values: std::ops::Range<i128>) -> TypeDef {
     let value = |value: i128| EnumValue::new(format!("value {value}").into(), value);
     TypeDef {
@@ -20,7 +20,7 @@ fn enumeration(name: &str, base: Type, values: std::ops::Range<i128>) -> TypeDef
     }
 }
 
-/// Returns a PDO of consecutive entries. Entries without a type are padding.
+/// Returns a PDO with consecutive entries. Entries without a type become padding.
 fn pdo(direction: Direction, index: u16, entries: &[(Option<Type>, u32)]) -> Pdo {
     let mut pdo = Pdo { name: format!("PDO {index:X}").into(), ..Pdo::new(direction, index) };
     pdo.sync_manager = Some(2 + u8::from(direction == Direction::Transmit));

@@ -3,7 +3,7 @@ use core::fmt::Debug;
 use lexibus::message::{Message, Reader, Reply, Request, Setting, SettingsRule, WriteError, Writer};
 use lexibus::Parameter;
 
-/// Random bits, the same in each run (xorshift).
+/// A xorshift generator of random bits. All runs generate the same bits.
 struct Random(u64);
 
 impl Random {
@@ -14,12 +14,12 @@ impl Random {
         self.0
     }
 
-    /// Returns up to three elements, which live as long as the program.
+    /// Returns up to three elements that exist until the program ends.
     fn several<T>(&mut self, one: impl Fn(&mut Self) -> T) -> &'static [T] {
         (0..self.next() & 3).map(|_| one(self)).collect::<Vec<_>>().leak()
     }
 
-    /// Returns up to three parameters of the rule with values, which live as long as the program.
+    /// Returns up to three parameters with values that the rule allows. They exist until the program ends.
     fn settings(&mut self, rule: SettingsRule) -> &'static [Setting] {
         self.several(|random| {
             let (first, last, length) = rule.lengths[random.next() as usize % rule.lengths.len()];
@@ -34,42 +34,42 @@ impl Random {
         bytes.iter_mut().for_each(|byte| *byte = (self.next() >> 32) as u8);
     }
 
-    /// Returns a number of any size, equally often small and large, and equally often negative.
+    /// Returns a random number. Small and large numbers are equally likely, and so are positive and negative numbers.
     fn number(&mut self) -> i64 {
         let (number, shift) = (self.next() as i64, self.next() & 63);
         number >> shift
     }
 
-    /// Returns a parameter with a value of one to eight bytes. For a reply, every other parameter is one that the request
-    /// names.
+    /// Returns a parameter with a value of one to eight bytes. For a reply, every other parameter comes from the request.
     fn setting(&mut self, request: &[u8]) -> Setting {
         let named =
             request.windows(2).nth(self.next() as usize % 8).map(|two| i64::from(two[0]) << 8 | i64::from(two[1]));
         let number = named.unwrap_or_else(|| self.number());
         let (parameter, mut value) = (Parameter(number as u32), [0; 8]);
         self.fill(&mut value);
-        Setting::of(parameter, &value[..1 << (self.next() & 3)]).expect("eight bytes at most")
+        Setting::of(parameter, &value[..1 << (self.next() & 3)]).expect("at most eight bytes")
     }
 }
 
 const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// Bytes of data, and the printed form of their fields.
+/// The bytes of packed data, and the text of their fields.
 type Packed = (Vec<u8>, String);
 
-/// Unpacks data, sets the field with this number, if it exists, to the bits of a value, and packs the fields.
+/// Unpacks data, sets a field to the bits of a value, and packs the fields. The field is selected by number; no field is set
+/// if the number does not exist.
 type Change<'c> = &'c dyn Fn(&[u8], usize, u64) -> Result<Packed, String>;
 
-/// Number for no field.
+/// Field number that selects no field.
 const NONE: usize = usize::MAX;
 
-/// Positions of the bits of a type.
+/// Bit positions of a type.
 struct Layout {
     title: &'static str,
     bits: usize,
-    /// Pieces of each field: first bit in the data, first bit of the value, and number of bits.
+    /// Pieces of each field: first bit in the data, first bit in the value, and number of bits.
     fields: &'static [&'static [(u32, u32, u32)]],
-    /// Default bytes of a record.
+    /// Default data of a record.
     default: &'static [u8],
 }
 
@@ -78,14 +78,15 @@ impl Layout {
         self.bits.div_ceil(8)
     }
 
-    /// Passes each bit of a field to `look`: the bit of the data, and that of the value, which reserved bits do not have.
+    /// Calls `look` for each bit of a field, with the positions in the data and in the value. Reserved bits have no position
+    /// in the value.
     fn each_bit(&self, field: usize, mut look: impl FnMut(usize, Option<u32>)) {
         for (at, of, bits) in self.fields[field] {
             (0..*bits).for_each(|bit| look((at + bit) as usize, (*of != u32::MAX).then(|| of + bit)));
         }
     }
 
-    /// Returns a mask of the bits that belong to fields.
+    /// Returns a mask that contains the bits of all fields.
     fn mask(&self) -> Vec<u8> {
         let mut mask = vec![0; self.len()];
         for field in 0..self.fields.len() {
@@ -94,7 +95,7 @@ impl Layout {
         mask
     }
 
-    /// Returns `data` with the bits of a value in a field.
+    /// Returns `data` after writing the bits of a value to a field.
     fn with(&self, mut data: Vec<u8>, field: usize, raw: u64) -> Vec<u8> {
         self.each_bit(field, |at, of| put(&mut data, at, of.is_some_and(|of| raw >> (of % 64) & 1 == 1)));
         data
@@ -105,13 +106,13 @@ fn put(data: &mut [u8], bit: usize, value: bool) {
     data[bit / 8] = data[bit / 8] & !(1 << (bit % 8)) | u8::from(value) << (bit % 8);
 }
 
-/// Returns `data` where `mask` is 1, and `other` where it is 0.
+/// Combines the bits of `data` where `mask` is 1 with the bits of `other` where it is 0.
 fn merged(data: &[u8], mask: &[u8], other: &[u8]) -> Vec<u8> {
     let all = data.iter().zip(mask).zip(other);
     all.map(|((data, mask), other)| data & mask | other & !mask).collect()
 }
 
-/// Returns bytes that repeat the bits of `raw`.
+/// Returns `len` bytes that repeat the bits of `raw`.
 fn filled(raw: u64, len: usize) -> Vec<u8> {
     raw.to_le_bytes().into_iter().cycle().take(len).collect()
 }
@@ -120,7 +121,7 @@ fn bytes<const N: usize>(raw: u64) -> [u8; N] {
     filled(raw, N).try_into().expect("as many bytes")
 }
 
-/// Checks a PDO or a process image. `$set` writes the bits of a value to a field.
+/// Checks a PDO or process image. `$set` writes the bits of a value to a field.
 macro_rules! process_data {
     ($name:ty, $layout:expr, |$value:ident, $at:ident, $raw:ident| $set:expr) => {{
         let change = |data: &[u8], $at: usize, $raw: u64| {
@@ -133,8 +134,8 @@ macro_rules! process_data {
     }};
 }
 
-/// Checks process data. Unpacking and packing keep the bits of fields and clear all others. Setting a field changes only its
-/// bits. Too few bytes are an error.
+/// Checks process data. Unpacking and packing must keep the bits of all fields and clear all other bits. Setting a field must
+/// change only its bits. Unpacking too few bytes must be an error.
 fn process_data(layout: &Layout, change: Change<'_>) {
     let (title, mask, zeros) = (layout.title, layout.mask(), vec![0; layout.len()]);
     let changed = |data: &[u8], at, raw| change(data, at, raw).unwrap_or_else(|error| panic!("{title}: {error}"));
@@ -171,18 +172,18 @@ fn process_data(layout: &Layout, change: Change<'_>) {
     }
 }
 
-/// Access to the views of a PDO within an image.
+/// Access to the fields of a view, or to the PDOs in the view of an image.
 trait Getters<T> {
     /// Returns all fields.
     fn fields(&self) -> T;
 }
 
 trait Setters<T> {
-    /// Sets the field with this number, or all fields.
+    /// Sets the field with this number. Sets all fields if the number does not exist.
     fn set(&mut self, fields: &T, at: usize);
 }
 
-/// Implements access to the fields of a view.
+/// Implements `Getters` for the fields of a view.
 macro_rules! getters {
     ($name:ty, $view:ty, |$value:ident| $fields:expr, [$($field:ident $getter:ident,)*]) => {
         impl Getters<$name> for $view {
@@ -208,7 +209,7 @@ macro_rules! setters {
     };
 }
 
-/// Implements access to the PDOs of an image's view.
+/// Implements `Getters` for the PDOs in the view of an image.
 macro_rules! image_views {
     ($name:ty, $reader:ty, $writer:ty, [$($read:ident $get:ident,)*], [$($at:literal $field:ident $set:ident,)*]) => {
         impl Getters<$name> for $reader {
@@ -228,7 +229,7 @@ macro_rules! image_views {
     };
 }
 
-/// Checks a view. `$get` and `$set` return the view at a bit of data, or an error.
+/// Checks a view. `$get` and `$set` return the view that starts at a given bit of the data, or an error.
 macro_rules! view {
     ($name:ty, $layout:expr, $bits:expr, |$data:ident, $bit:ident| $get:expr, $set:expr) => {{
         let set = |$data: &mut [u8], $bit: usize, at: usize, from: &[u8]| {
@@ -243,14 +244,14 @@ macro_rules! view {
     }};
 }
 
-/// Sets the field with this number, or all fields, of the view at this bit to the values in other data.
+/// Sets a field of the view at a given bit to its value in other data. Sets all fields if the field number does not exist.
 type Set<'s> = &'s dyn Fn(&mut [u8], usize, usize, &[u8]) -> Result<(), String>;
 
-/// Packs the fields of the view at this bit.
+/// Packs the fields of the view at a given bit.
 type Get<'g> = &'g dyn Fn(&mut [u8], usize) -> Result<Vec<u8>, String>;
 
-/// Checks a view. Setting a field within an image changes only its bits, and reading returns the bits of the image. The view
-/// starts at each of the first `bits` bits, in images that end with the view and in longer ones.
+/// Checks a view. Setting a field must change only its bits of the image, and reading must return the bits of the image. The
+/// view starts at each of the first `bits` bits. The images end with the view or are longer.
 fn view(layout: &Layout, bits: usize, set: Set<'_>, get: Get<'_>) {
     let (title, mask, mut random) = (layout.title, layout.mask(), Random(SEED));
     let (mut from, zeros) = (vec![0; layout.len()], vec![0; layout.len()]);
@@ -305,11 +306,11 @@ macro_rules! record {
     }};
 }
 
-/// Number of accepted values of a record that are checked, and of accepted values that differ from the one before.
+/// Minimum number of accepted values per record, and of accepted values that differ from the previous one.
 const ACCEPTED: usize = 64;
 
-/// Checks a record. Decoding and encoding keep the bits of fields, and all other bits are those of `default`. Setting a field
-/// changes only its bits. The test changes the default step by step, through allowed values.
+/// Checks a record. Decoding and encoding must keep the bits of all fields, and must set all other bits to those of
+/// `default`. Setting a field must change only its bits. The test changes the default step by step through allowed values.
 fn record(layout: &Layout, default: &[u8], change: Change<'_>) {
     let (title, mask, mut random) = (layout.title, layout.mask(), Random(SEED));
     let (mut data, mut accepted, mut moved) = (default.to_vec(), 0, 0);
@@ -342,7 +343,7 @@ fn record(layout: &Layout, default: &[u8], change: Change<'_>) {
     panic!("{title}: only {accepted} values are accepted, and {moved} of them differ from the one before");
 }
 
-/// Maximum size of the data of a message.
+/// Maximum size of message data in bytes.
 const MAX_DATA: usize = 512;
 
 fn written(write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) -> Result<Vec<u8>, WriteError> {
@@ -352,8 +353,8 @@ fn written(write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) -> Res
     Ok(to.written().to_vec())
 }
 
-/// Checks a message: requests and replies that can be written are read unchanged. `request` returns the data of a request,
-/// `reply` checks replies to it. Random values that cannot be sent are skipped.
+/// Checks a message. Requests and replies that can be written must be read unchanged. `request` returns the data of a
+/// request, and `reply` checks replies to it. Random values that cannot be sent are skipped.
 fn message(title: &str, request: fn(&mut Random) -> Option<Vec<u8>>, reply: fn(&mut Random, &[u8]) -> bool) {
     let mut random = Random(SEED);
     let (mut requests, mut replies) = (0, 0);
@@ -368,12 +369,12 @@ fn message(title: &str, request: fn(&mut Random) -> Option<Vec<u8>>, reply: fn(&
     panic!("{title}: {requests} requests, {replies} replies");
 }
 
-/// Whether two values are equal, or print the same, as NaN does.
+/// Returns whether two values are equal or have the same text. The texts are compared because of NaN.
 fn is_same<T: PartialEq + Debug>(one: &T, other: &T) -> bool {
     one == other || format!("{one:?}") == format!("{other:?}")
 }
 
-/// Returns the data of a request, and checks that they are read as the request.
+/// Returns the data of a request, after checking that they decode to an equal request.
 macro_rules! sent {
     ($random:ident, $message:ty, $none:ident, $has_node:literal, $value:expr) => {{
         #[allow(unused)]
@@ -381,14 +382,14 @@ macro_rules! sent {
         let (request, node) = ($value, u32::from($random.number() as u8));
         written(|to| request.write(node, to)).ok().inspect(|data| {
             let read = <$message>::parse(&mut Reader::new(data));
-            // A request without a device number is read with number 0.
+            // A request that contains no device number is read with number 0.
             let node = if $has_node { node } else { 0 };
             assert!(is_same(&read, &Some((node, request))), "{data:02X?} is read as {read:?}");
         })
     }};
 }
 
-/// Checks that data that are read as a request are written unchanged.
+/// Checks the round trip of request data: the decoded request must encode to the same data.
 macro_rules! overheard {
     ($random:ident, $message:ty, $constant:expr) => {{
         let data = likely($random, &[], $constant);
@@ -400,7 +401,7 @@ macro_rules! overheard {
     }};
 }
 
-/// Checks that the data of a reply are read as the reply.
+/// Checks the round trip of a reply: its encoded data decode to an equal reply.
 macro_rules! answered {
     ($random:ident, $message:ty, $request:ident, $value:expr) => {{
         let reply = $value;
@@ -413,7 +414,7 @@ macro_rules! answered {
     }};
 }
 
-/// Checks that data that are read as a reply are written unchanged.
+/// Checks the round trip of reply data: the decoded reply must encode to the same data.
 macro_rules! overheard_reply {
     ($random:ident, $message:ty, $request:ident, $constant:expr) => {{
         let data = likely($random, $request, $constant);
@@ -426,7 +427,7 @@ macro_rules! overheard_reply {
     }};
 }
 
-/// Returns up to 48 random bytes that begin with `from` and contain `constant` near their start.
+/// Returns up to 48 random bytes. They begin with `from` and contain `constant` near the start.
 fn likely(random: &mut Random, from: &[u8], constant: &[u8]) -> Vec<u8> {
     let mut data = vec![0; random.next() as usize % 49];
     random.fill(&mut data);

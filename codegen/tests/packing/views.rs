@@ -1,11 +1,11 @@
-//! Finds the views of generated code, which read and write process data in module, from the lines of the text.
+//! Finds the views in generated code. A view reads and writes fields within process data. Reads the text line by line.
 
 use std::collections::HashMap;
 
 use crate::found::each_line;
 use crate::messages::bare;
 
-/// Methods of generic types by path. Types that need writable data have the prefix `&mut`.
+/// Methods of generic types, by path. The paths of types that need writable data start with `&mut`.
 pub struct Views<'t>(HashMap<String, Vec<&'t str>>);
 
 impl<'t> Views<'t> {
@@ -26,14 +26,15 @@ impl<'t> Views<'t> {
         Views(views)
     }
 
-    /// Returns the methods of a type except `new` and similar ones, each next to its field.
+    /// Returns the methods of a type, each with its field. `new` and similar methods are left out.
     fn methods(&self, path: &str, others: usize, fields: &[(&'t str, &'t str)]) -> Vec<(&'t str, &'t str)> {
         let all = self.0.get(path).map(Vec::as_slice).unwrap_or_default();
         assert_eq!(all.len(), others + fields.len(), "{path}: {all:?}");
         fields.iter().map(|(field, _)| *field).zip(all[others..].iter().copied()).collect()
     }
 
-    /// Returns the statements that check the view of process data, if it exists. `modules` and `name` are those of the type.
+    /// Returns the statements that check the view of process data, if it exists. `modules` and `name` belong to the type of
+    /// the process data.
     pub fn check(&self, modules: &[&str], name: &str, fields: &[(&'t str, &'t str)]) -> Option<String> {
         let module = modules.join("::");
         let path = format!("{module}::{name}");
@@ -48,7 +49,7 @@ impl<'t> Views<'t> {
         self.0.contains_key(&writer).then(|| self.of_submodule(&path, &view, &writer, fields))
     }
 
-    /// Checks a view of a PDO, which may begin at any bit.
+    /// Returns the statements that check the view of a PDO. The view can start at any bit.
     fn of_pdo(&self, path: &str, view: &str, fields: &[(&'t str, &'t str)]) -> String {
         let getters = listed(&self.methods(view, 2, fields));
         let setters = numbered(&self.methods(&format!("&mut {view}"), 0, fields));
@@ -62,7 +63,7 @@ impl<'t> Views<'t> {
         )
     }
 
-    /// Checks a view of a sync manager's image, which contains views of PDOs.
+    /// Returns the statements that check the view of a sync manager's image. The view contains views of PDOs.
     fn of_image(&self, path: &str, view: &str, fields: &[(&'t str, &'t str)]) -> String {
         let readers = listed(&self.methods(view, 1, fields));
         let writers = numbered(&self.methods(&format!("&mut {view}"), 0, fields));
@@ -72,7 +73,7 @@ impl<'t> Views<'t> {
         )
     }
 
-    /// Checks PROFINET outputs. The view that writes them can also read them.
+    /// Returns the statements that check a view of PROFINET outputs. The view that writes the outputs can also read them.
     fn of_submodule(&self, path: &str, view: &str, writer: &str, fields: &[(&'t str, &'t str)]) -> String {
         let getters = listed(&self.methods(view, 1, fields));
         let setters = numbered(&self.methods(writer, 2, fields));

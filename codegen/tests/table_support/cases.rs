@@ -1,18 +1,20 @@
-//! Helpers that compare the lists of a manual's contradictions with the cases of `tests/ui`.
+//! Helpers that compare the lists of contradictions in a manual with the cases in `tests/ui`.
 
 use std::path::{Path, PathBuf};
 
-/// Returns the folder of an area.
+/// Returns the folder of an area of test cases.
 fn folder(area: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui").join(area)
 }
 
-/// Returns the expected diagnostics of a case; empty if it does not exist or has none.
+/// Returns the expected diagnostics of a test case. Returns an empty text if the case does not exist or has no
+/// diagnostics.
 pub fn diagnostics(area: &str, case: &str) -> String {
     std::fs::read_to_string(folder(area).join(case).join("diagnostics")).unwrap_or_default()
 }
 
-/// Returns each case of an area with the items in its name: `items-01-04-mapping` covers items 1 and 4.
+/// Returns each test case of an area once for each item in its name. For example, `items-01-04-mapping` covers the
+/// items 1 and 4.
 fn of_items(area: &str) -> Vec<(u8, String)> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder(area)).expect("the area") {
@@ -22,14 +24,14 @@ fn of_items(area: &str) -> Vec<(u8, String)> {
             continue;
         }
         let items: Vec<u8> = words.map_while(|word| word.parse().ok()).collect();
-        assert!(!items.is_empty(), "{name} has no number of an item");
+        assert!(!items.is_empty(), "the name {name} contains no item number");
         found.extend(items.into_iter().map(|item| (item, name.clone())));
     }
     found.sort();
     found
 }
 
-/// Asserts that an area has cases, and that `is_listed` accepts each pair of item and case.
+/// Asserts that an area has test cases and that `is_listed` accepts all pairs of item and case.
 pub fn all_are_listed(area: &str, is_listed: impl Fn(u8, &str) -> bool) {
     let cases = of_items(area);
     assert!(!cases.is_empty());

@@ -1,4 +1,4 @@
-//! Reads the shipped dictionaries and their doubts.
+//! Reads the dictionaries of the repository and their doubts.
 
 #[allow(clippy::duplicate_mod, reason = "a program may load several modules that look for the repository")]
 #[path = "../../../tests/support/root.rs"]
@@ -11,7 +11,7 @@ use lexibus_codegen::ir::{Catalog, Doubt};
 use lexibus_codegen::source::Source;
 use serde_json::Value;
 
-/// Returns a shipped dictionary by its file name.
+/// Compiles the dictionary with this file name.
 pub fn catalog(file: &str) -> Catalog {
     let path = root::root().join("dictionaries").join(file);
     let bytes = std::fs::read(path).expect("the dictionary");
@@ -42,7 +42,7 @@ fn collect(value: &Value, found: &mut Vec<Doubt>) {
     }
 }
 
-/// Returns the lines of a citation: `12, 40-44`.
+/// Returns the line numbers in a citation such as `12, 40-44`.
 pub fn lines(cite: &str) -> BTreeSet<usize> {
     let mut lines = BTreeSet::new();
     for part in cite.split(',') {

@@ -1,4 +1,4 @@
-//! Returns the examples of `dictionaries/README.md` as tables.
+//! Returns the examples in `dictionaries/README.md` as register tables.
 
 #![allow(dead_code)]
 
@@ -13,7 +13,7 @@ pub fn dictionaries() -> PathBuf {
     root::root().join("dictionaries")
 }
 
-/// Returns the TOML blocks in the documentation of the format, each with its line.
+/// Returns the TOML blocks in the documentation of the table format. Each has its line number.
 pub fn examples() -> Vec<(usize, String)> {
     let text = std::fs::read_to_string(dictionaries().join("README.md")).expect("the format's documentation");
     let mut blocks = Vec::new();
@@ -29,7 +29,7 @@ pub fn examples() -> Vec<(usize, String)> {
     blocks
 }
 
-/// Items and names that examples refer to without defining them.
+/// Items and names that the examples use without defining them.
 const SURROUNDINGS: &str = r#"
 [[messages]]
 name = "CmdReset"
@@ -55,10 +55,10 @@ title = "Objects that the examples refer to"
 "0x60C1:1" = { name = "Position", type = "i32", access = "rw", pdo = "rx" }
 "#;
 
-/// Space for examples without one, as the documentation states.
+/// The space for examples that define none. The documentation states this default.
 const SPACE: &str = "[spaces.register]\nmodbus = { table = \"holding\" }\n";
 
-/// Returns a block as a complete table.
+/// Completes a TOML block so that it is a valid register table.
 pub fn whole(block: &str) -> String {
     if block.contains("lexibus = 1") {
         return block.to_owned();

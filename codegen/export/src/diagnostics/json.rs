@@ -6,7 +6,7 @@ use lexibus_codegen::diagnostics::render::marked::{self, MarkedSource};
 use lexibus_codegen::diagnostics::{Diagnostic, Note, Severity};
 use lexibus_codegen::source::Source;
 
-/// A diagnostic. Missing values are `null`, so that every line has every key.
+/// A diagnostic as a JSON object. Missing values are `null`, so each line has all keys.
 #[derive(Serialize)]
 struct Line<'a> {
     code: &'a str,
@@ -40,10 +40,10 @@ struct NoteLine<'a> {
 
 /// Returns the diagnostic as one line of JSON, without a line feed.
 ///
-/// Lines and columns count from 1, columns in characters. `end_column` and `end` are exclusive. `start` and `end` are
-/// byte offsets in the file's text, decoded to UTF-8 without a byte order mark. `source` is the line on which the
-/// marked text starts. A line of over 200 characters is shortened around the mark, with `…` for the omitted text. A
-/// diagnostic of a whole file has a `file` and no position.
+/// Lines and columns start at 1; columns count characters. `start` and `end` are byte offsets in the file's text, which
+/// is decoded to UTF-8 without a byte order mark. `end` and `end_column` are exclusive. `source` is the line on which
+/// the marked text starts. If this line is longer than 200 characters, `…` replaces text that is far from the mark. A
+/// diagnostic about a whole file has a `file` and no position.
 pub fn line(diagnostic: &Diagnostic, sources: &[Source]) -> String {
     let place = MarkedSource::of(diagnostic.span, sources);
     let mark = place.and_then(|place| place.mark);

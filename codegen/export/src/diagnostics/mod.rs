@@ -1,15 +1,15 @@
 //! Diagnostics for other programs: JSON lines and SARIF.
 //!
-//! No function panics, whatever the span of a diagnostic is.
+//! The functions do not panic if a span of a diagnostic is outside its file.
 
 pub mod json;
 pub mod sarif;
 
 use lexibus_codegen::text::steers;
 
-/// Escapes control characters that JSON allows in strings and that a terminal would interpret.
+/// Escapes control characters in a JSON text. JSON allows some of them in strings, but a terminal would interpret them.
 ///
-/// They occur only in strings, where an escape means the same.
+/// Control characters occur only in strings, where the escape sequence has the same meaning.
 pub(crate) fn escaped(json: String) -> String {
     if !json.contains(steers) {
         return json;

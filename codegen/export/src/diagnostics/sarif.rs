@@ -1,6 +1,6 @@
 //! Diagnostics for code-scanning services and editors, as SARIF 2.1.0.
 //!
-//! The structures and fields are named as in the OASIS standard. Fields that Lexibus does not use are missing.
+//! The structures and fields have the names of the OASIS standard. Fields that Lexibus does not use are omitted.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use lexibus_codegen::diagnostics::render::marked::{Mark, MarkedSource};
 use lexibus_codegen::diagnostics::{Code, Diagnostic, Level, Note, Severity};
 use lexibus_codegen::source::Source;
 
-/// Maximum length of marked text that the log repeats, in bytes.
+/// Maximum length in bytes of the marked text in a log.
 const MAX_SNIPPET: usize = 1000;
 
 #[derive(Serialize)]
@@ -64,7 +64,7 @@ struct Message<'a> {
     text: std::borrow::Cow<'a, str>,
 }
 
-/// A `result` of SARIF.
+/// A `result` object of SARIF.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Outcome<'a> {
@@ -134,9 +134,9 @@ struct Replacement<'a> {
 
 /// Returns the diagnostics as a SARIF 2.1.0 log of one run of `lexibus` version `tool_version`.
 ///
-/// The rules are the codes that occur, in the order of their first occurrence. SARIF has no field for notes without a
-/// position or for help without a fix; they follow the message on separate lines. File names become URIs: relative ones
-/// stay relative to the working directory, absolute ones become `file:` URIs.
+/// The log lists each code that occurs as a rule, in the order of first occurrence. SARIF has no field for notes
+/// without a position or for help without a fix. The message contains them on separate lines. File names become URIs:
+/// relative names stay relative to the working directory, and absolute names become `file:` URIs.
 pub fn document(diagnostics: &[Diagnostic], sources: &[Source], tool_version: &str) -> String {
     let (mut rules, mut indices) = (Vec::new(), BTreeMap::new());
     let mut results = Vec::with_capacity(diagnostics.len());
@@ -150,7 +150,7 @@ pub fn document(diagnostics: &[Diagnostic], sources: &[Source], tool_version: &s
     let run = Run {
         tool: Tool { driver: Driver { name: "lexibus", version: tool_version, rules } },
         column_kind: "unicodeCodePoints",
-        // The longest sequence is first, because a reader uses the first one that matches.
+        // The longest sequence comes first because readers use the first one that matches.
         newline_sequences: ["\r\n", "\n", "\r"],
         results,
     };
@@ -191,7 +191,7 @@ fn outcome<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source], rule_index: us
     }
 }
 
-/// Returns the message with everything that SARIF has no field for.
+/// Returns the message of a diagnostic, followed by the notes and help texts for which SARIF has no field.
 fn full_message(diagnostic: &Diagnostic, sources: &[Source], with_help: bool) -> String {
     let mut text = diagnostic.message.clone();
     for note in &diagnostic.notes {
@@ -246,7 +246,7 @@ fn artifact(source: &Source) -> ArtifactLocation {
     ArtifactLocation { uri: uri(source.name(), cfg!(windows)) }
 }
 
-/// Returns the name of a file as a URI; `windows` selects the rules for paths.
+/// Converts a file name to a URI. `windows` selects the path syntax of Windows.
 fn uri(name: &str, windows: bool) -> String {
     let name = if windows { name.replace('\\', "/") } else { name.to_owned() };
     let name = name.strip_prefix("//?/").filter(|_| windows).unwrap_or(&name);

@@ -1,9 +1,9 @@
-//! Objects of equal elements, which CiA 306 describes in one section with CompactSubObj.
+//! Objects with equal elements. CiA 306 describes such an object in one section with CompactSubObj.
 
 use crate::note;
 use lexibus_codegen::ir::{Access, Group, Item, Limits, Mappable, ObjectCode, Type, Value};
 
-/// The name of sub-index 0 if the file does not describe it (CiA 306).
+/// The name of sub-index 0 if the file does not name it (CiA 306).
 const COUNT_NAME: &str = "NrOfObjects";
 
 /// The elements of a compact object.
@@ -11,14 +11,13 @@ pub(super) struct Elements<'g> {
     group: &'g Group,
     /// Number of elements, without sub-index 0.
     pub(super) count: u8,
-    /// The first element, which all others equal.
+    /// The first element. All others are equal to it.
     pub(super) template: &'g Item,
 }
 
-/// Returns the elements of `group` if the source declares them at the object itself and CompactSubObj expresses them
-/// exactly.
+/// Returns the elements of `group` if the source declares them together and CompactSubObj can express them exactly.
 ///
-/// Other objects with equal elements keep their sections, because not every reader of EDS files supports CompactSubObj.
+/// Other objects with equal elements keep one section per element, because not all EDS readers support CompactSubObj.
 pub(super) fn elements(group: &Group) -> Option<Elements<'_>> {
     let (count_item, items) = group.items.split_first()?;
     let count = u8::try_from(items.len()).ok().filter(|&count| (1..=254).contains(&count))?;
@@ -35,7 +34,7 @@ pub(super) fn elements(group: &Group) -> Option<Elements<'_>> {
     fits.then_some(Elements { group, count, template })
 }
 
-/// Returns whether sub-index 0 has the value and facts that CompactSubObj implies.
+/// Returns whether sub-index 0 has the value and properties that CompactSubObj implies.
 fn is_count(item: &Item, count: u8) -> bool {
     item.name == COUNT_NAME
         && item.ty == Type::Unsigned(8)
@@ -65,7 +64,7 @@ fn is_like(item: &Item, other: &Item) -> bool {
         && has_no_other_facts(item)
 }
 
-/// Returns whether an element has no fact that requires a separate section or a note.
+/// Returns whether an element has no property that requires its own section or a note.
 fn has_no_other_facts(item: &Item) -> bool {
     item.extensions.is_empty()
         && item.names.is_empty()
@@ -83,7 +82,7 @@ impl Elements<'_> {
         self.group.items.iter().skip(1).filter_map(|item| Some((item.object()?.1, item)))
     }
 
-    /// Returns the names that don't follow from the name of the object.
+    /// Returns the element names that differ from those that CompactSubObj implies.
     pub(super) fn names(&self) -> Vec<(u8, String)> {
         let follows = |sub: u8, item: &Item| {
             let number = item.name.strip_prefix(self.group.name.as_str());
@@ -93,7 +92,7 @@ impl Elements<'_> {
         others.map(|(sub, item)| (sub, super::writer::quoted(&item.name).into_owned())).collect()
     }
 
-    /// Returns the configured values.
+    /// Returns the configured values of the elements.
     pub(super) fn values(&self, text: impl Fn(&Value) -> Option<String>) -> Vec<(u8, String)> {
         let text = |item: &Item| text(item.configured.as_ref()?.value.as_ref()?);
         self.numbered().filter_map(|(sub, item)| Some((sub, text(item)?))).collect()
@@ -104,7 +103,7 @@ impl Elements<'_> {
         self.numbered().filter(|(_, item)| item.configured.is_some()).count()
     }
 
-    /// Returns the names that the elements have in the application.
+    /// Returns the denotations of the elements: their names in the application.
     pub(super) fn denotations(&self) -> Vec<(u8, String)> {
         let text = |item: &Item| Some(item.configured.as_ref()?.denotation.as_ref()?.to_string());
         self.numbered().filter_map(|(sub, item)| Some((sub, text(item)?))).collect()

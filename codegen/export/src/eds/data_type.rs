@@ -1,4 +1,4 @@
-//! Data types as the numbers of CiA 301.
+//! Data types with their numbers in CiA 301.
 
 use super::note::NoteKind;
 use lexibus_codegen::ir::{Shape, Type, TypeDef};
@@ -6,21 +6,21 @@ use lexibus_codegen::ir::{Shape, Type, TypeDef};
 /// Maximum number of names between a type and its basic type.
 const MAX_DEPTH: usize = 8;
 
-/// How an EDS writes the type of an entry.
+/// Data type of an EDS entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct DataType {
     /// Number of the type; `None` if the source gives no type.
     pub(super) code: Option<u32>,
-    /// The type of the values in the file.
+    /// The type that determines the notation of the values.
     pub(super) ty: Type,
-    /// The fact that was changed or left out.
+    /// A note if the type was changed or omitted.
     pub(super) note: Option<NoteKind>,
 }
 
-/// Returns how an EDS writes `ty`.
+/// Returns the EDS data type for `ty`.
 ///
-/// On CANopen an unknown type keeps its number, which other tools may know. An entry of a CiA 306 file (`is_verbatim`)
-/// without a type stays without one.
+/// In CANopen files, an unknown type keeps its number because other tools may know it. An entry without a type stays
+/// without one if the source is a CiA 306 file (`is_verbatim`).
 pub(super) fn data_type(ty: Type, types: &[TypeDef], is_canopen: bool, is_verbatim: bool) -> DataType {
     let (ty, mut note) = resolved(ty, types);
     let widened = |bits: u8| bits.clamp(1, 64).div_ceil(8) * 8;
@@ -47,7 +47,7 @@ pub(super) fn data_type(ty: Type, types: &[TypeDef], is_canopen: bool, is_verbat
     DataType { code: code(ty), ty, note }
 }
 
-/// Returns the basic type of a defined type.
+/// Replaces a defined type with the basic type that it is derived from.
 fn resolved(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     let mut note = None;
     for _ in 0..MAX_DEPTH {

@@ -1,7 +1,7 @@
-//! Extension attributes and comments of the device, and the sections that contain them.
+//! Extension attributes and comments of the device, and the sections of the file that contain them.
 //!
-//! The IR lists them as `section/key`, those of the header first, in the order of the source. The file has them in the
-//! section that their key names. The sections of the header are in the order of their first attribute.
+//! The IR lists the attributes as `section/key`, in the order of the source; those of header sections come first. The
+//! export writes each attribute to its section. The header sections follow the order of their first attributes.
 
 use super::note::{NoteKind, Notes, Subject};
 use super::writer::Writer;
@@ -24,7 +24,7 @@ pub(super) enum Header {
     Manufacturer,
 }
 
-/// All sections, in the order of the standard.
+/// The header sections and object lists, in the order of the standard.
 const HEADERS: [Header; 11] = [
     Header::FileInfo,
     Header::DeviceInfo,
@@ -46,7 +46,7 @@ impl Header {
             Header::DeviceInfo => "DeviceInfo",
             Header::DummyUsage => "DummyUsage",
             Header::Comments => "Comments",
-            // The standard spells it this way.
+            // CiA 306 misspells this section name.
             Header::Commissioning => "DeviceComissioning",
             Header::SupportedModules => "SupportedModules",
             Header::ConnectedModules => "ConnectedModules",
@@ -57,26 +57,26 @@ impl Header {
         }
     }
 
-    /// Returns whether only a DCF has this section.
+    /// Returns whether the section occurs only in a DCF.
     fn configures(self) -> bool {
         matches!(self, Header::Commissioning | Header::ConnectedModules)
     }
 }
 
-/// An extension attribute, with its key in the section.
+/// An extension attribute, with its key within the section.
 #[derive(Clone, Copy)]
 pub(super) struct Extra<'a> {
     pub(super) key: &'a str,
     pub(super) value: &'a str,
 }
 
-/// The extension attributes of a device by section.
+/// The extension attributes of a device, grouped by section.
 pub(super) struct Extras<'a> {
     /// Comments above the first section.
     pub(super) preamble: Vec<&'a Extension>,
-    /// Attributes of header sections, in their order.
+    /// Attributes of header sections, in the order of the source.
     header: Vec<(Header, Extra<'a>)>,
-    /// Attributes of other sections, in their order.
+    /// Attributes of other sections, in the order of the source.
     unknown: Vec<(&'a str, Extra<'a>)>,
 }
 
@@ -111,8 +111,8 @@ impl<'a> Extras<'a> {
         }
     }
 
-    /// Returns the sections of the header. Those with extension attributes are in the order of these attributes; the
-    /// others keep their position in the order of the standard.
+    /// Returns the header sections. Sections with extension attributes follow the order of these attributes. The other
+    /// sections keep their position in the standard order.
     pub(super) fn order(&self) -> Vec<Header> {
         let mut mentioned: Vec<Header> = Vec::new();
         for (header, _) in &self.header {
@@ -130,7 +130,7 @@ impl<'a> Extras<'a> {
         self.header.iter().filter(move |(other, _)| *other == header).map(|&(_, extra)| extra)
     }
 
-    /// Writes the sections that CiA 306 does not define, and those about objects without a description.
+    /// Writes the sections that CiA 306 does not define, and sections about undescribed objects.
     pub(super) fn write_unknown(&self, writer: &mut Writer) {
         let mut last = None;
         for &(section, extra) in &self.unknown {

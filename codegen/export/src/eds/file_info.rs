@@ -1,7 +1,7 @@
 //! The section `[FileInfo]`.
 //!
-//! The export of a CiA 306 file keeps the facts of its source. Other formats have dates in ISO 8601 and may have no
-//! version; these are converted or completed.
+//! The export keeps the header of a CiA 306 file. Other formats have ISO 8601 dates and possibly no version; the export
+//! converts dates and completes the version.
 
 use super::extras::Header;
 use super::note::{NoteKind, Subject};
@@ -9,7 +9,7 @@ use super::section::Section;
 use super::{Context, Flavour};
 use lexibus_codegen::ir;
 
-/// EDSVersion of files that are converted from another format. They use the sections and keys of CiA 306 1.3.
+/// EDSVersion of a file that is converted from another format. Such a file uses the sections and keys of CiA 306 1.3.
 const VERSION: &str = "4.0";
 
 pub(super) fn write(out: &mut Section<'_>, context: &Context<'_>) {
@@ -40,7 +40,7 @@ pub(super) fn write(out: &mut Section<'_>, context: &Context<'_>) {
     }
 }
 
-/// Converts the header of another format to one that CiA 306 allows.
+/// Converts the header of another format to a header that CiA 306 allows.
 fn convert(given: &ir::Header, context: &Context<'_>, out: &mut Section<'_>) -> ir::Header {
     let name = if given.file_name.is_empty() { context.file_name } else { &given.file_name };
     let name = name.rsplit(['/', '\\']).next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The sections about the file and the device as a whole, and the object lists.
+//! The sections about the file and the device, and the object lists.
 
 use super::extras::{Extra, Header};
 use super::note::{NoteKind, Subject};
@@ -8,7 +8,7 @@ use super::writer::Writer;
 use super::{file_info, Context, Flavour};
 use lexibus_codegen::ir::{CanOpenSettings, Catalog, Commissioning, CompactString, DynamicChannel, Group};
 
-/// Writes a section of the header unless it would be empty. An object list is followed by its objects.
+/// Writes a header section unless it is empty. If the section is an object list, its objects follow.
 pub(super) fn write<'e>(
     writer: &mut Writer,
     context: &Context<'_>,
@@ -81,7 +81,7 @@ fn device_info(writer: &mut Writer, context: &Context<'_>, objects: &[&Group]) {
     }
 }
 
-/// Returns the number of PDOs that the source declares, otherwise the number of mapping objects.
+/// Returns the declared number of PDOs. If the source declares none, returns the number of mapping objects.
 fn pdo_count(
     writer: &mut Writer,
     key: &'static str,
@@ -107,7 +107,7 @@ fn number(writer: &mut Writer, key: &'static str, value: Option<u32>) {
 fn dummy_usage(out: &mut Section<'_>, context: &Context<'_>) {
     let Some(canopen) = context.device.canopen.as_deref().filter(|canopen| canopen.dummies_given) else { return };
     let writer = out.open();
-    // Some readers expect all types that the examples of CiA 306 list.
+    // Some readers require all types that CiA 306 lists in its examples.
     let usual = 1..=7;
     for code in usual.clone() {
         writer.numbered(format_args!("Dummy{code:04X}"), u8::from(canopen.dummies.contains(&code)));
@@ -205,7 +205,7 @@ fn dynamic_channel(writer: &mut Writer, channel: &DynamicChannel, number: i32) {
     }
 }
 
-/// Returns the list that contains an object. Objects below 0x1000 define data types and are in no list.
+/// Returns the object list to which an object belongs. Objects below 0x1000 define data types and belong to none.
 fn list_of(group: &Group) -> Option<Header> {
     match group.index()? {
         0x0000..=0x0FFF => None,

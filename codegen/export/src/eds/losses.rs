@@ -1,4 +1,4 @@
-//! Facts that CiA 306 cannot hold.
+//! Notes about facts that CiA 306 cannot express.
 
 use super::mapping;
 use super::note::{self, NoteKind, Notes, Subject};
@@ -7,7 +7,7 @@ use super::section::BIT_RATES;
 use super::{is_coe_only, Context, Flavour};
 use lexibus_codegen::ir::{Behaviour, Binding, Catalog, Device, Group, GroupKind, Item, Module, ObjectBuses};
 
-/// Adds notes for the facts of the device, apart from its objects.
+/// Adds notes for facts of the device that CiA 306 cannot express. Its objects are not included.
 pub(super) fn of_device(context: &Context<'_>, catalog: &Catalog, notes: &mut Notes) {
     let (device, subject) = (context.device, Subject::Device);
     if context.flavour == Flavour::Eds && (device.commissioning.is_some() || !device.header.last_eds.is_empty()) {
@@ -45,7 +45,7 @@ fn settings(device: &Device, notes: &mut Notes) {
     notes.add_many(NoteKind::Setting, other_rates + usize::from(canopen.auto_bit_rate), Subject::Device);
 }
 
-/// Adds notes for the PDOs that don't follow from objects.
+/// Adds notes for PDOs that no communication or mapping object describes.
 fn pdos(device: &Device, notes: &mut Notes) {
     for pdo in device.process_data.pdos.iter().filter(|pdo| !pdo.implicit) {
         let subject = Subject::Object(pdo.mapping_index);
@@ -61,20 +61,20 @@ fn pdos(device: &Device, notes: &mut Notes) {
     }
 }
 
-/// Adds notes for the facts of a module, apart from its objects.
+/// Adds notes for facts of a module that CiA 306 cannot express. Its objects are not included.
 pub(super) fn of_module(module: &Module, notes: &mut Notes) {
     let subject = Subject::Named(&module.name);
     notes.add_many(NoteKind::Language, module.names.len(), subject);
     notes.add_many(NoteKind::Documentation, module.documentation.is_some(), subject);
 }
 
-/// Adds notes for the facts of an object, apart from its entries.
+/// Adds notes for facts of an object that CiA 306 cannot express. Its entries are not included.
 pub(super) fn of_object(context: &Context<'_>, group: &Group, notes: &mut Notes) {
     let subject = Subject::object(group);
     notes.add_many(NoteKind::Language, group.names.len(), subject);
     notes.add_many(NoteKind::Documentation, group.documentation.is_some(), subject);
     notes.add_many(NoteKind::Doubt, group.doubts.len(), subject);
-    // The object lists say which objects CANopen requires.
+    // The object lists state which objects CANopen requires.
     let has_category = matches!(group.kind, GroupKind::Object { category: Some(_), .. });
     notes.add_many(NoteKind::Category, has_category && !context.is_canopen, subject);
     for item in group.items.iter().filter(|item| item.object().is_none()) {
@@ -82,7 +82,7 @@ pub(super) fn of_object(context: &Context<'_>, group: &Group, notes: &mut Notes)
     }
 }
 
-/// Adds notes for the facts of an entry, apart from its value.
+/// Adds notes for facts of an entry that CiA 306 cannot express. Its value is not included.
 pub(super) fn of_item(item: &Item, notes: &mut Notes) {
     let subject = Subject::item(item);
     let is_other = |binding: &Binding| match binding {

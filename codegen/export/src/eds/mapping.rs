@@ -1,4 +1,4 @@
-//! Mapping objects of PDOs that the source describes outside of the dictionary, as ETG.2000 does.
+//! Mapping objects for PDOs that the source describes outside the dictionary, as in ETG.2000.
 
 use std::collections::HashSet;
 
@@ -7,15 +7,15 @@ use lexibus_codegen::ir::{
     MAX_PDO_SUBS,
 };
 
-/// Returns a mapping object for every PDO of `device` that has none.
+/// Returns a mapping object for each PDO of `device` that has none.
 pub(super) fn objects(device: &Device) -> Vec<Group> {
     let mut seen: HashSet<u16> = device.groups.iter().filter_map(Group::index).collect();
     let expressible = device.process_data.pdos.iter().filter(|pdo| is_expressible(pdo));
     expressible.filter(|pdo| seen.insert(pdo.mapping_index)).map(object).collect()
 }
 
-/// Returns whether a mapping object can express the entries of `pdo`: 16 bits of index, 8 bits each of sub-index and
-/// length. PDOs that CompactPDO implies, and those without entries, need no mapping object.
+/// Returns whether a mapping object can express the entries of `pdo`: 16 bits of index, 8 bits of sub-index, and 8 bits
+/// of length. PDOs that CompactPDO implies, and PDOs without entries, need no mapping object.
 pub(super) fn is_expressible(pdo: &Pdo) -> bool {
     let in_range = match pdo.direction {
         Direction::Receive => (0x1600..0x1800).contains(&pdo.mapping_index),
@@ -54,7 +54,7 @@ fn name(entry: &PdoEntry, sub: u8) -> CompactString {
     }
 }
 
-/// Returns an entry of a mapping object: `index << 16 | sub << 8 | bits` (CiA 301 7.5.2.36).
+/// Returns the value of an entry in a mapping object: `index << 16 | sub << 8 | bits` (CiA 301 7.5.2.36).
 fn word(entry: &PdoEntry) -> i128 {
     i128::from(entry.index) << 16 | i128::from(entry.sub_index) << 8 | i128::from(entry.bits)
 }

@@ -1,8 +1,8 @@
-//! EDS and DCF files (CiA 306) of any device that has objects. Reading an exported file gives the same objects again.
+//! Exports a device with objects as an EDS or DCF file (CiA 306). Reading the file gives the same objects again.
 //!
-//! The export of an EDS contains the repaired facts. The spelling of values and the order of sections follow the
-//! standard. Extension attributes and comments stay in their sections. The export of another format has the facts that CiA 306 can hold.
-//! [`Export::notes`] lists the others.
+//! If the source is an EDS, the export contains the repaired facts. The notation of values and the order of sections follow the
+//! standard. Extension attributes and comments stay in their sections. If the source has another format, the export has the facts that
+//! CiA 306 can express. [`Export::notes`] lists the others.
 //!
 //! | file | subject |
 //! |---|---|
@@ -42,7 +42,7 @@ use writer::Writer;
 /// The kind of file (CiA 306).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Flavour {
-    /// An electronic data sheet: the facts that all devices of a type have in common, without a configuration.
+    /// An electronic data sheet. It describes a device type without its configuration.
     #[default]
     Eds,
     /// A device configuration file. It adds the node-ID, the network, configured values, denotations and connected
@@ -50,13 +50,13 @@ pub enum Flavour {
     Dcf,
 }
 
-/// The notation of REAL32 and REAL64 values. CiA 306 defines none, and tools differ in what they read.
+/// The notation of REAL32 and REAL64 values. CiA 306 defines none, and tools support different notations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reals {
-    /// Decimal numbers, as in vendor files and as Python's `canopen` reads them.
+    /// Decimal numbers, as in vendor files and Python's `canopen` library.
     #[default]
     Decimal,
-    /// The bit pattern of IEEE 754 in hexadecimal, as the tools of lely read it.
+    /// The bit pattern of IEEE 754 in hexadecimal, as in the tools of lely.
     Pattern,
 }
 
@@ -75,9 +75,9 @@ impl From<Flavour> for Options {
     }
 }
 
-/// Returns the file of `device`, a device of `catalog`, or `None` if the device has no objects.
+/// Exports `device`, a device of `catalog`. Returns `None` if the device has no objects.
 ///
-/// The line ends are CR LF (CiA 306). The text is ASCII if the texts of the device are, otherwise UTF-8.
+/// Lines end with CR LF (CiA 306). The file is encoded in UTF-8; it is ASCII if the device has only ASCII texts.
 pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -> Option<Export> {
     let Options { flavour, reals } = options.into();
     let registers = registers::objects(device, Item::object);
@@ -120,28 +120,28 @@ pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -
     Some(Export { text, notes })
 }
 
-/// The data that every part of the file is written from.
+/// Data for the writers of all parts of the file.
 struct Context<'a> {
     device: &'a Device,
     flavour: Flavour,
     reals: Reals,
     /// Name of the source file.
     file_name: &'a str,
-    /// Whether the source is a file of CiA 306. Then missing facts stay missing, and spellings are kept.
+    /// Whether the source is a CiA 306 file. If so, missing facts stay missing and spellings are kept.
     is_verbatim: bool,
     /// Whether the source describes a CANopen device.
     is_canopen: bool,
 }
 
-/// Returns whether the device is on CANopen and this object is on EtherCAT only.
+/// Returns whether a CANopen device has this object only on EtherCAT.
 fn is_coe_only(device: &Device, group: &Group) -> bool {
     let is_coe = |binding: &Binding| matches!(binding, Binding::Object { buses, .. } if !buses.canopen);
     let mut items = group.items.iter();
     device.canopen.is_some() && !group.items.is_empty() && items.all(|item| item.bindings.iter().any(is_coe))
 }
 
-/// Returns the objects that the file describes, sorted by index: those of the device and those in `derived`. Objects
-/// that CompactPDO implies or that only EtherCAT has are left out.
+/// Returns the objects to write, sorted by index: those of the device and those in `derived`. Objects that CompactPDO implies and
+/// objects that exist only on EtherCAT are left out.
 fn objects<'a>(device: &'a Device, derived: &'a [Group]) -> Vec<&'a Group> {
     let compact_pdos = device.canopen.as_ref().is_some_and(|canopen| canopen.compact_pdo != 0);
     let is_implied =

@@ -1,4 +1,4 @@
-//! Modules that add entries to the dictionary (CiA 306, "modular devices").
+//! Modules that add objects and sub-objects to the dictionary (CiA 306, "modular devices").
 
 use super::losses;
 use super::note::{NoteKind, Subject};
@@ -8,8 +8,8 @@ use super::writer::Writer;
 use super::Context;
 use lexibus_codegen::ir::{Catalog, Group, Module, SubExtension};
 
-/// Writes the modules of a CANopen device. Modules of other buses have objects whose index depends on the slot, and
-/// PDOs; a note counts them.
+/// Writes the modules of a CANopen device. For other buses, writes only a note with the number of modules, because
+/// their objects depend on the slot.
 pub(super) fn write(writer: &mut Writer, context: &Context<'_>, catalog: &Catalog) {
     for module in context.device.own_modules(&catalog.modules) {
         let number = module.number;

@@ -21,7 +21,7 @@ pub(super) fn all<'g>(writer: &mut Writer, context: &Context<'_>, objects: impl 
     }
 }
 
-/// Writes the sections of an object. `before` is a prefix of their names, such as `M1Fixed` of a module.
+/// Writes the sections of an object. `before` is a prefix of the section names, such as `M1Fixed` for a module.
 pub(super) fn object(writer: &mut Writer, context: &Context<'_>, group: &Group, before: &str, types: &[TypeDef]) {
     let (Some(index), Some(code)) = (group.index(), group.object_code()) else { return };
     let out = Object { context, group, index, code, before, types };
@@ -43,7 +43,7 @@ pub(super) fn object(writer: &mut Writer, context: &Context<'_>, group: &Group, 
     }
 }
 
-/// Returns the number of an object code in CiA 301 7.4.3.
+/// Returns the number that CiA 301 7.4.3 assigns to an object code.
 fn number(code: ObjectCode) -> u8 {
     match code {
         ObjectCode::Null => 0,
@@ -67,11 +67,11 @@ pub(super) struct Object<'a> {
 }
 
 impl<'a> Object<'a> {
-    /// Returns the only value of an object without sub-indices.
+    /// Returns the value of an object that has only one value and no sub-indices.
     fn single_value(&self) -> Option<&'a Item> {
         let [item] = self.group.items.as_slice() else { return None };
         let is_alone = item.object().is_some_and(|(_, sub)| sub == 0) && !self.code.has_subs();
-        // A source can only declare another name or other flags in a section for sub-index 0.
+        // If the name differs or the object has flags of its own, the device description has a section for sub-index 0.
         let is_the_object = item.name == self.group.name && self.group.flags == 0;
         (is_alone && (is_the_object || self.code == ObjectCode::Var)).then_some(item)
     }
@@ -88,7 +88,7 @@ impl<'a> Object<'a> {
 
     fn entries(&self, writer: &mut Writer) {
         let items = || self.group.items.iter().filter_map(|item| Some((item.object()?.1, item)));
-        // Sub-index 0xFF describes the structure of an object and isn't counted.
+        // SubNumber does not count sub-index 0xFF, which describes the structure of the object.
         let described = items().filter(|(sub, _)| *sub != 0xFF).count();
         if self.code != ObjectCode::Var || described > 0 {
             writer.entry("SubNumber", described);
@@ -115,7 +115,7 @@ impl<'a> Object<'a> {
         all.get(..all.len() - self.refinements_of_missing().len()).unwrap_or(all)
     }
 
-    /// Returns the extension attributes from the first one that is in a section such as `[xxxxName]`.
+    /// Returns the extension attributes from the first one that belongs to a section such as `[xxxxName]`.
     fn refinements_of_missing(&self) -> &'a [Extension] {
         let all = &self.group.extensions;
         let is_first =
@@ -124,12 +124,12 @@ impl<'a> Object<'a> {
         all.get(first.unwrap_or(all.len())..).unwrap_or(&[])
     }
 
-    /// Writes the sections that refine missing sub-indices.
+    /// Writes sections such as `[xxxxName]` for sub-indices that the object does not have.
     fn refinements(&self, writer: &mut Writer, list: &'a [Extension]) {
         let parts = |extension: &'a Extension| extension.key.split_once('/');
         let mut counts: HashMap<&str, usize> = HashMap::new();
         for (section, key) in list.iter().filter_map(parts) {
-            // Only keys that are numbers are counted.
+            // The count includes only numeric keys.
             *counts.entry(section).or_default() += usize::from(key.bytes().all(|byte| byte.is_ascii_digit()));
         }
         let mut section = "";
@@ -176,13 +176,13 @@ impl<'a> Object<'a> {
         data_type(item.type_on(Bus::CanOpen), self.types, self.context.is_canopen, self.context.is_verbatim)
     }
 
-    /// Returns the notation of numbers. Communication objects contain COB-IDs, mappings and masks, which are
-    /// hexadecimal.
+    /// Returns the notation of the object's numbers. Communication objects use hexadecimal for COB-IDs, mappings and
+    /// masks.
     fn form(&self) -> Form {
         Form { hex: (0x1000..0x2000).contains(&self.index), reals: self.context.reals }
     }
 
-    /// Writes the entries of one value, beginning with its type.
+    /// Writes the keys of one value, starting with its data type.
     pub(super) fn value(&self, writer: &mut Writer, item: &Item, item_flags: u32) {
         let subject = Subject::item(item);
         let data_type = self.data_type(item);
@@ -255,7 +255,7 @@ impl<'a> Object<'a> {
     }
 }
 
-/// Returns whether a section refines the sub-indices of an object, such as `2000Name`.
+/// Returns whether the section is one that refines the sub-indices of an object, such as `2000Name`.
 fn is_refinement(section: &str) -> bool {
     let rest =
         section.trim_start_matches(|letter: char| letter.is_ascii_hexdigit() || matches!(letter, 'x' | 'X' | ' '));
@@ -263,7 +263,7 @@ fn is_refinement(section: &str) -> bool {
     ["Name", "Value", "Denotation", "notation"].iter().any(|word| word.eq_ignore_ascii_case(rest))
 }
 
-/// Writes the section of a single value that a module adds to an object.
+/// Writes the template of the sub-objects that a module adds to an object (section `[MxSubExtyyyy]`).
 pub(super) fn template(writer: &mut Writer, context: &Context<'_>, index: u16, item: &Item, types: &[TypeDef]) {
     let group = Group::object(index, ObjectCode::Var);
     let out = Object { context, group: &group, index, code: ObjectCode::Var, before: "", types };
@@ -276,7 +276,8 @@ fn flags(writer: &mut Writer, flags: u32) {
     }
 }
 
-/// Returns the access type and PDOMapping that express `access` and `mappable`, or the closest ones with a note.
+/// Returns the AccessType and PDOMapping that express `access` and `mappable`. If none fit exactly, returns the closest
+/// ones and a note.
 fn access(access: Access, mappable: Mappable) -> (Access, bool, Option<NoteKind>) {
     if !mappable.any() {
         return (access, false, None);
@@ -294,7 +295,7 @@ fn access(access: Access, mappable: Mappable) -> (Access, bool, Option<NoteKind>
     };
     match same {
         Some(access) => (access, true, Some(NoteKind::Mapping)),
-        // CiA 306 cannot map a read-only value into an RPDO or a write-only value into a TPDO.
+        // CiA 306 has no access type for a read-only value in an RPDO or a write-only value in a TPDO.
         None => {
             let expressible = Mappable::by_access(access);
             let is_left = expressible.rpdo && mappable.rpdo || expressible.tpdo && mappable.tpdo;

@@ -1,4 +1,4 @@
-//! Sections of the header, and parts that several of them have: lists of indices and comment lines.
+//! Header sections, and two common parts of sections: lists of indices and comment lines.
 
 use super::extras::Header;
 use super::note::Subject;
@@ -8,7 +8,7 @@ use lexibus_codegen::ir::CompactString;
 /// The bit rates of CiA 306 in kbit/s.
 pub(super) const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
-/// A section of the header. Its first entry opens it.
+/// A header section. Writing its first entry opens it.
 pub(super) struct Section<'w> {
     writer: &'w mut Writer,
     header: Header,
@@ -17,12 +17,12 @@ pub(super) struct Section<'w> {
 }
 
 impl<'w> Section<'w> {
-    /// Creates a section. It is not written until the first entry.
+    /// Creates a section. It is not written before its first entry.
     pub(super) fn new(writer: &'w mut Writer, header: Header) -> Self {
         Section { writer, header, is_open: false }
     }
 
-    /// Returns the writer, within the section.
+    /// Opens the section if necessary and returns its writer.
     pub(super) fn open(&mut self) -> &mut Writer {
         if !self.is_open {
             self.is_open = true;
@@ -32,7 +32,7 @@ impl<'w> Section<'w> {
     }
 }
 
-/// Writes `Lines` and `LineN`.
+/// Writes the `Lines` and `LineN` keys of a comment.
 pub(super) fn comment_lines(writer: &mut Writer, lines: &[CompactString]) {
     writer.entry("Lines", lines.len());
     for (line, number) in lines.iter().zip(1..) {
@@ -41,7 +41,7 @@ pub(super) fn comment_lines(writer: &mut Writer, lines: &[CompactString]) {
     }
 }
 
-/// Writes the number of indices, then each index.
+/// Writes the number of indices, followed by each index.
 pub(super) fn indices(writer: &mut Writer, key: &'static str, count: usize, list: impl Iterator<Item = u16>) {
     writer.entry(key, count);
     for (index, number) in list.zip(1..) {

@@ -1,4 +1,4 @@
-//! Values as texts. Reading a text gives the same value again.
+//! Values as EDS texts. Reading a text gives the same value again.
 
 use std::fmt::Write as _;
 
@@ -12,24 +12,24 @@ use lexibus_codegen::ir::{Type, Value};
 pub(super) enum Role {
     /// A default or a configured value.
     Value,
-    /// The minimum.
+    /// The lower limit.
     Low,
-    /// The maximum.
+    /// The upper limit.
     High,
 }
 
-/// The text, or `None` if the type cannot hold the value, and the note about a changed or omitted value.
+/// The text and a note if the value was changed or omitted. The text is `None` if the type cannot hold the value.
 type Written = (Option<String>, Option<NoteKind>);
 
 /// The notation of numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Form {
-    /// Whether unsigned integers are hexadecimal.
+    /// Whether unsigned integers are written in hexadecimal.
     pub hex: bool,
     pub reals: Reals,
 }
 
-/// Formats `value` as an entry of type `ty`.
+/// Formats `value` as the text of an entry of type `ty`.
 pub(super) fn text(value: &Value, ty: Type, role: Role, form: Form) -> Written {
     match ty {
         Type::Boolean | Type::Integer(_) | Type::Unsigned(_) => integer(value, ty, role, form.hex),
@@ -81,7 +81,7 @@ fn real(value: &Value, ty: Type) -> Written {
     match value {
         Value::Real(value) if value.is_finite() => {
             let short = format!("{:?}", *value as f32);
-            // A REAL32 needs fewer digits if they give the same value.
+            // A shorter text is sufficient if it gives the same REAL32 value.
             let is_enough = ty == Type::Real32 && short.parse() == Ok(*value);
             let text = if is_enough { short } else { format!("{value:?}") };
             written(text.strip_suffix(".0").map_or(text.clone(), str::to_owned))
@@ -92,7 +92,7 @@ fn real(value: &Value, ty: Type) -> Written {
     }
 }
 
-/// Returns the bit pattern of IEEE 754: 8 digits of a REAL32, 16 of a REAL64.
+/// Returns the IEEE 754 bit pattern in hexadecimal: 8 digits for a REAL32, 16 for a REAL64.
 fn pattern(value: &Value, ty: Type) -> Written {
     match (value.as_real().filter(|value| value.is_finite()), ty) {
         (Some(value), Type::Real32) => written(format!("0x{:08X}", (value as f32).to_bits())),
@@ -103,7 +103,7 @@ fn pattern(value: &Value, ty: Type) -> Written {
 
 fn string(value: &Value) -> Written {
     match value {
-        // An empty text is a value; an empty entry means no value.
+        // Quotation marks distinguish an empty text from a missing value.
         Value::Text(text) if text.is_empty() => written("\"\"".into()),
         Value::Text(text) | Value::Raw(text) => written(quoted(text).into_owned()),
         Value::Int(value) => written(value.to_string()),
@@ -135,8 +135,7 @@ fn time(value: &Value) -> Written {
     }
 }
 
-/// Returns a text in quotation marks if a reader would take a part of it for a comment. `;` and `#` begin a comment
-/// outside of quotation marks.
+/// Quotes a text if it contains `;` or `#`, which begin a comment outside quotation marks.
 fn without_comment(text: &str) -> String {
     let has_comment = text.find([';', '#', '"']).is_some_and(|at| !text[at..].starts_with('"'));
     if has_comment {

@@ -1,4 +1,4 @@
-//! The writer of lines, entries and sections.
+//! Writes lines, entries and sections.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -13,12 +13,12 @@ const END: &str = "\r\n";
 /// Maximum number of characters in a line (CiA 306).
 const MAX_LINE: usize = 255;
 
-/// A file that is being written.
+/// A file in progress.
 pub(super) struct Writer {
     text: String,
-    /// Keys of the current section, in lower case.
+    /// Keys of the current section, in lowercase.
     keys: HashSet<String>,
-    /// Whether keys of extension attributes can have any characters and occur twice, because the source is an EDS.
+    /// Whether the source is an EDS. If so, keys of extension attributes may contain any characters and occur twice.
     is_verbatim: bool,
     pub(super) notes: Notes,
 }
@@ -43,7 +43,7 @@ impl Writer {
         self.numbered(key, value);
     }
 
-    /// Writes an entry like [`entry`](Self::entry), with a computed key.
+    /// Writes an entry like [`entry`](Self::entry), but with a computed key.
     pub(super) fn numbered(&mut self, key: impl Display, value: impl Display) {
         let _ = write!(self.text, "{key}={value}{END}");
     }
@@ -53,7 +53,7 @@ impl Writer {
         self.entry(key, u8::from(value));
     }
 
-    /// Writes an entry of text, unless the text is empty. Readers take such a text literally.
+    /// Writes an entry with a text, unless the text is empty. Readers use this text without removing quotation marks.
     pub(super) fn plain(&mut self, key: &'static str, text: &str, subject: Subject<'_>) {
         if !text.is_empty() {
             let text = self.one_line(text, subject);
@@ -61,7 +61,7 @@ impl Writer {
         }
     }
 
-    /// Writes a name. Readers remove a pair of quotation marks from a name.
+    /// Writes an entry with a name. Readers remove a pair of quotation marks from a name.
     pub(super) fn name(&mut self, key: &'static str, name: &str, subject: Subject<'_>) {
         let name = self.one_line(name, subject);
         self.entry(key, quoted(&name));
@@ -73,7 +73,7 @@ impl Writer {
         let _ = write!(self.text, "; {text}{END}");
     }
 
-    /// Writes extension attributes and comments, in their order.
+    /// Writes extension attributes and comments in their given order.
     pub(super) fn extensions<'e>(&mut self, list: impl IntoIterator<Item = &'e Extension>, subject: Subject<'_>) {
         for extension in list {
             self.extension(&extension.key, &extension.value, subject);
@@ -95,7 +95,7 @@ impl Writer {
         self.numbered(key, value);
     }
 
-    /// Returns `text` without characters that end the line or the file.
+    /// Removes characters from `text` that would end the line or the file.
     pub(super) fn one_line<'t>(&mut self, text: &'t str, subject: Subject<'_>) -> Cow<'t, str> {
         const BREAKS: [char; 4] = ['\r', '\n', '\u{1a}', '\0'];
         if !text.contains(BREAKS) {
@@ -122,7 +122,8 @@ impl Writer {
     }
 }
 
-/// Returns whether a line can have this key. CiA 306 allows letters and digits only; real files have other characters.
+/// Returns whether the key is possible in a line. CiA 306 allows only letters and digits; real files contain other
+/// characters.
 fn is_key(key: &str) -> bool {
     !key.is_empty() && key.trim() == key && !key.starts_with([';', '#', '[']) && !key.contains(['=', '\r', '\n'])
 }
@@ -132,7 +133,7 @@ fn is_word(key: &str) -> bool {
     key.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
 }
 
-/// Returns `text` in quotation marks if a reader would otherwise remove its quotation marks or outer spaces.
+/// Quotes `text` if a reader would otherwise remove its quotation marks or its leading or trailing spaces.
 pub(super) fn quoted(text: &str) -> Cow<'_, str> {
     const BLANKS: [char; 2] = [' ', '\t'];
     let is_quoted = text.len() > 1 && text.starts_with('"') && text.ends_with('"');

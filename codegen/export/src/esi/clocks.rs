@@ -1,15 +1,15 @@
-//! Distributed clocks.
+//! Writes the distributed clocks.
 
 use super::text::hex;
 use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{ClockMode, ClockSyncManager, ClockTime, DistributedClocks};
 
-/// Attributes of Dc.
+/// Attributes of the Dc element.
 const ATTRIBUTES: [&str; 5] =
     ["UnknownFRMW", "Unknown64Bit", "ExternalRefClock", "PotentialReferenceClock", "TimeLoopControlOnly"];
 
-/// Writes Dc.
+/// Writes the Dc element.
 pub(super) fn write(xml: &mut Xml, notes: &mut Notes, clocks: &DistributedClocks) {
     xml.open("Dc");
     for (name, value) in &clocks.attributes {
@@ -35,7 +35,7 @@ fn mode(xml: &mut Xml, mode: &ClockMode) {
     xml.close();
 }
 
-/// Writes a time unless it is the default.
+/// Writes a time unless it equals the default.
 fn time(xml: &mut Xml, element: &'static str, time: ClockTime) {
     if time == ClockTime::default() {
         return;

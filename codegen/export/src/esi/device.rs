@@ -1,4 +1,4 @@
-//! Devices.
+//! Writes the Device element.
 
 use super::text::{documentation, hex, names};
 use super::types::Types;
@@ -33,7 +33,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
         sync::write(xml, context, device, settings);
         let is_on_ethercat = |pdo: &&Pdo| pdo.buses.is_none_or(|buses| buses.coe || device.ethercat.is_none());
         let mut pdos: Vec<&Pdo> = device.process_data.pdos.iter().filter(is_on_ethercat).collect();
-        // ETG.2000 lists all RxPdos before the TxPdos. The export of an ESI keeps the order of its source.
+        // ETG.2000 requires all RxPdos before the TxPdos. The export of an ESI keeps the order of its source.
         if !context.is_esi {
             pdos.sort_by_key(|pdo| pdo.direction == Direction::Transmit);
         }
@@ -53,7 +53,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     losses::of_device(context, device);
 }
 
-/// Writes the profiles with the dictionary, and then calls `after` with the same types.
+/// Writes the profiles with the dictionary, then calls `after` with the data types of the dictionary.
 pub(super) fn dictionary(
     xml: &mut Xml,
     context: &mut Context<'_>,
@@ -74,7 +74,7 @@ pub(super) fn dictionary(
     after(xml, context, &types);
 }
 
-/// Writes a profile for each number. `first` writes into the first one.
+/// Writes a Profile element for each profile number. Calls `first` within the first element.
 fn profiles(xml: &mut Xml, context: &mut Context<'_>, device: &Device, first: impl FnOnce(&mut Xml, &mut Context<'_>)) {
     let has_more = !device.groups.is_empty() || !device.types.is_empty() || !device.code_tables.is_empty();
     if device.profiles.is_empty() && !has_more {
@@ -112,7 +112,7 @@ fn device_type(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     let product = options.product_code().or(identity.product_code);
     let revision = options.revision().or(identity.revision_number);
     xml.open("Type");
-    // Without them, a master can't distinguish the device from others.
+    // A master needs these values to identify the device.
     if !context.is_esi {
         context.required(product, None, "product-code");
         context.required(revision, None, "revision");

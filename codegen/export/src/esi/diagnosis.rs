@@ -1,4 +1,4 @@
-//! Diagnosis messages.
+//! Writes diagnosis messages.
 
 use super::text::{documentation, hex, names};
 use crate::note::{Notes, Subject};
@@ -8,12 +8,12 @@ use lexibus_codegen::ir::{CodeRow, CodeTable, Value};
 /// The flags of a message, in the order of the columns.
 const FLAGS: [&str; 4] = ["DiagClass", "DiagReset", "DiagReaction", "DiagType"];
 
-/// Returns whether a table is one of the lists of DiagMessages.
+/// Returns whether a table contains DiagMessages.
 pub(super) fn is_list(table: &CodeTable) -> bool {
     table.name == "DiagMessages" || FLAGS.iter().skip(1).any(|name| table.name == *name)
 }
 
-/// Writes DiagMessages unless it would be empty.
+/// Writes the DiagMessages element unless it is empty.
 pub(super) fn write(xml: &mut Xml, notes: &mut Notes, tables: &[CodeTable]) {
     let rows = |name: &'static str| tables.iter().filter(move |table| table.name == name).flat_map(|table| &table.rows);
     if rows("DiagMessages").next().is_none() {

@@ -1,4 +1,4 @@
-//! The dictionary of a device or module: data types and objects.
+//! Writes the dictionary of a device or module: data types and objects.
 
 use compact_str::CompactString;
 
@@ -12,10 +12,10 @@ use crate::xml::Xml;
 use lexibus_codegen::etg::type_name::{self, Basic};
 use lexibus_codegen::ir::{Access, EnumValue, Group, Item, Shape, Type, TypeDef};
 
-/// An object, its entries by sub-index, and its type.
+/// An object with its entries by sub-index, and the plan for its type.
 type Planned<'g> = (&'g Group, Vec<(u8, &'g Item)>, Plan);
 
-/// Writes a Dictionary unless it would be empty.
+/// Writes the Dictionary element unless it is empty.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, types: &mut Types<'_>, groups: &[&Group]) {
     let planned: Vec<Planned<'_>> = groups
         .iter()
@@ -62,7 +62,7 @@ fn data_types(xml: &mut Xml, types: &mut Types<'_>, notes: &mut Notes) {
     for (at, def) in (0u32..).zip(types.defs) {
         data_type(xml, types, at, def, notes);
     }
-    // Added types refer to no further types.
+    // Added types do not refer to other added types.
     for added in &types.added {
         added_type(xml, added, notes);
     }
@@ -114,7 +114,7 @@ fn array_info(xml: &mut Xml, lower: i64, count: u32) {
     xml.close();
 }
 
-/// Writes a named value.
+/// Writes a named value of an enumeration.
 pub(super) fn enum_info(xml: &mut Xml, element: &'static str, value: &EnumValue, notes: &mut Notes) {
     let subject = Subject::Named(&value.name);
     xml.open(element);
@@ -128,7 +128,7 @@ pub(super) fn enum_info(xml: &mut Xml, element: &'static str, value: &EnumValue,
     notes.add_many(NoteKind::Availability, value.availability.is_some(), subject);
 }
 
-/// Writes the sub-items of a record of the device.
+/// Writes the SubItem elements of a record type that the device declares.
 fn sub_items(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes: &mut Notes) {
     let Shape::Record(fields) = &def.shape else { return };
     let unique = record::field_names(types, at);
@@ -148,12 +148,12 @@ fn sub_items(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes
     }
 }
 
-/// The facts that every sub-item has.
+/// The common properties of all SubItem elements.
 struct SubItem<'p> {
     name: &'p CompactString,
     ty: &'p CompactString,
     bits: u32,
-    /// First bit.
+    /// Bit offset of the first bit.
     offset: u32,
 }
 
@@ -242,7 +242,7 @@ fn added_type(xml: &mut Xml, added: &AddedType, notes: &mut Notes) {
     xml.close();
 }
 
-/// Returns the name of the type of a PDO entry. The file needs no definition of it.
+/// Returns the type name of a PDO entry. The file does not have to define this type.
 pub(super) fn entry_type(types: &Types<'_>, ty: Type) -> Option<CompactString> {
     match ty {
         Type::Named(id) => types.def(ty).map(|_| types.name_of(id.0)),

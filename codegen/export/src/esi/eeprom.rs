@@ -1,4 +1,4 @@
-//! The content of the EEPROM, and registers of the slave controller.
+//! Writes the EEPROM content and the registers of the EtherCAT slave controller (ESC).
 
 use super::text::hex;
 use super::value;
@@ -7,10 +7,10 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::EtherCatSettings;
 
-/// Registers that the schema defines.
+/// Addresses of the registers that the schema defines.
 const REGISTERS: [u16; 4] = [0x0108, 0x0400, 0x0410, 0x0420];
 
-/// Writes ESC.
+/// Writes the ESC element.
 pub(super) fn registers(xml: &mut Xml, notes: &mut Notes, settings: &EtherCatSettings) {
     if settings.registers.is_empty() {
         return;
@@ -27,11 +27,11 @@ pub(super) fn registers(xml: &mut Xml, notes: &mut Notes, settings: &EtherCatSet
     notes.add_many(NoteKind::Setting, settings.registers.len() - known.len(), Subject::Named("ESC"));
 }
 
-/// Writes Eeprom. It contains either the whole content, or a size and the configuration.
+/// Writes the Eeprom element. It contains either the complete data, or a size and configuration data.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings) {
     let Some(eeprom) = settings.eeprom.as_deref() else { return };
     let (notes, subject) = (&mut context.notes, Subject::Named("Eeprom"));
-    // The size follows from the whole content.
+    // The complete data imply the size.
     let given = if eeprom.data.is_empty() { context.options.eeprom_size() } else { None };
     let size = given.or(eeprom.byte_size);
     if eeprom.data.is_empty() && size.is_none() {

@@ -1,4 +1,4 @@
-//! Extension attributes that the file can hold, and time limits.
+//! Writes time limits and the extension attributes for which ETG.2000 has an element or attribute.
 
 use std::collections::HashSet;
 
@@ -8,7 +8,7 @@ use crate::xml::Xml;
 use lexibus_codegen::etg::language;
 use lexibus_codegen::ir::{Device, EtherCatSettings, Extension};
 
-/// Attributes of Type.
+/// Attributes of the Type element.
 const OF_TYPE: [&str; 9] = [
     "Type@CheckProductCode",
     "Type@CheckRevisionNo",
@@ -24,11 +24,12 @@ const OF_TYPE: [&str; 9] = [
 /// Elements of a profile that contain a number.
 const OF_PROFILE: [&str; 2] = ["AddInfo", "SubAddInfo"];
 
-/// Time limits of the state machine and of the mailbox. The schema requires all or none of each list.
+/// Time limits of the state machine and of the mailbox. If the file has one limit of a list, the schema requires all of
+/// that list.
 const STATE_TIMES: [&str; 4] = ["PreopTimeout", "SafeopOpTimeout", "BackToInitTimeout", "BackToSafeopTimeout"];
 const MAILBOX_TIMES: [&str; 2] = ["RequestTimeout", "ResponseTimeout"];
 
-/// Elements of Info after the time limits, each with the form of its text.
+/// Elements of Info after the time limits. Each has a required text format.
 const CONTROLLER: [&str; 3] =
     ["EtherCATController/DpramSize", "EtherCATController/SmCount", "EtherCATController/FmmuCount"];
 const LAST: [&str; 3] = ["Info/StationAliasSupported", "Info/IdentificationAdo", "Info/IdentificationReg134"];
@@ -43,7 +44,7 @@ fn find<'e>(list: &'e [Extension], key: &str) -> Option<&'e Extension> {
     list.iter().find(|extension| extension.key == key)
 }
 
-/// Returns the number of extensions of a device that the file cannot hold.
+/// Returns how many extensions of a device the file cannot contain.
 pub(super) fn lost(device: &Device) -> usize {
     let all = device.extensions.as_slice();
     let image = IMAGES.iter().find(|key| find(all, key).is_some());
@@ -51,7 +52,7 @@ pub(super) fn lost(device: &Device) -> usize {
     for extension in all {
         let key = extension.key.as_str();
         let is_known = key == CURRENT || OF_TYPE.contains(&key) || CONTROLLER.contains(&key) || LAST.contains(&key);
-        // The schema allows one of each, and one picture.
+        // The schema allows each of these elements once, and one picture.
         let is_single = is_known || image.is_some_and(|image| *image == key);
         let is_written = matches!(key, URL | URL_LANGUAGE) || is_single && seen.insert(key);
         lost += usize::from(!is_written);
@@ -59,7 +60,7 @@ pub(super) fn lost(device: &Device) -> usize {
     lost
 }
 
-/// Writes further attributes of Type.
+/// Writes the attributes of Type that the IR stores as extensions.
 pub(super) fn of_type(xml: &mut Xml, device: &Device) {
     for key in OF_TYPE {
         if let Some(extension) = find(&device.extensions, key) {
@@ -68,7 +69,7 @@ pub(super) fn of_type(xml: &mut Xml, device: &Device) {
     }
 }
 
-/// Writes the URLs of a device. The language of a URL, if any, precedes it.
+/// Writes the URLs of a device. If the IR has the language of a URL, it comes before the URL.
 pub(super) fn urls(xml: &mut Xml, device: &Device) {
     let mut lcid = None;
     for extension in &device.extensions {
@@ -85,7 +86,7 @@ pub(super) fn urls(xml: &mut Xml, device: &Device) {
     }
 }
 
-/// Writes Info unless it would be empty.
+/// Writes the Info element unless it is empty.
 pub(super) fn info(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {
     let list = device.extensions.as_slice();
     let states = times(context, settings, &STATE_TIMES);
@@ -126,7 +127,7 @@ fn elements(xml: &mut Xml, list: &[Extension], keys: &[&'static str]) {
     }
 }
 
-/// Returns the time limits with these names if all exist.
+/// Returns the time limits with these names if all of them exist.
 fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'static str]) -> Vec<(&'static str, u32)> {
     let limit = |name: &&'static str| {
         let found = settings.timeouts.iter().find(|(known, _)| known == *name);
@@ -140,7 +141,7 @@ fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'stat
     Vec::new()
 }
 
-/// Writes the picture that the file refers to.
+/// Writes the name of the picture file.
 pub(super) fn image(xml: &mut Xml, device: &Device) {
     let first = IMAGES.iter().find_map(|key| Some((*key, find(&device.extensions, key)?)));
     if let Some((key, extension)) = first {
@@ -148,12 +149,12 @@ pub(super) fn image(xml: &mut Xml, device: &Device) {
     }
 }
 
-/// Returns whether an extension of a module belongs to its profile.
+/// Returns whether an extension of a module belongs to its Profile element.
 pub(super) fn is_of_profile(extension: &Extension) -> bool {
     OF_PROFILE.contains(&extension.key.as_str()) && extension.value.parse::<i32>().is_ok()
 }
 
-/// Writes further numbers of a profile.
+/// Writes the elements of a profile that contain other numbers.
 pub(super) fn profile(xml: &mut Xml, list: &[Extension]) {
     for key in OF_PROFILE {
         if let Some(extension) = find(list, key).filter(|extension| is_of_profile(extension)) {
@@ -162,7 +163,7 @@ pub(super) fn profile(xml: &mut Xml, list: &[Extension]) {
     }
 }
 
-/// Writes the vendor's name in other languages.
+/// Writes the vendor's name in the additional languages.
 pub(super) fn vendor_names(xml: &mut Xml, context: &mut Context<'_>) {
     for extension in &context.catalog.extensions {
         let Some(language) = extension.key.strip_prefix(VENDOR_NAME) else { continue };
@@ -178,7 +179,7 @@ pub(super) fn vendor_names(xml: &mut Xml, context: &mut Context<'_>) {
     }
 }
 
-/// Writes further facts about the vendor.
+/// Writes the vendor facts that the IR stores as extensions.
 pub(super) fn of_vendor(xml: &mut Xml, context: &mut Context<'_>) {
     let urls = context.catalog.extensions.iter().filter(|extension| extension.key == VENDOR_URL);
     urls.for_each(|extension| xml.leaf("URL", &extension.value));
@@ -187,7 +188,7 @@ pub(super) fn of_vendor(xml: &mut Xml, context: &mut Context<'_>) {
     context.notes.add_many(NoteKind::Extension, lost, Subject::Named("Vendor"));
 }
 
-/// Writes the version of a file that contains only messages.
+/// Writes the version of a file that contains only diagnosis messages.
 pub(super) fn diagnosis_version(xml: &mut Xml, context: &mut Context<'_>) {
     const VERSION: &str = "EtherCATDiag@Version";
     let all = context.catalog.extensions.as_slice();

@@ -1,10 +1,10 @@
-//! Facts that ETG.2000 cannot hold.
+//! Notes about facts that ETG.2000 cannot express.
 
 use super::{diagnosis, extras, Context};
 use crate::note::{self, NoteKind, Subject};
 use lexibus_codegen::ir::{Device, Module};
 
-/// Adds notes for the facts of the catalog, apart from devices and modules.
+/// Adds notes for facts of the catalog that ETG.2000 cannot express, except those of devices and modules.
 pub(super) fn of_catalog(context: &mut Context<'_>) {
     let (catalog, notes) = (context.catalog, &mut context.notes);
     let mut parts = catalog.submodules.len() + catalog.unit_diagnoses.len() + catalog.code_tables.len();
@@ -14,7 +14,7 @@ pub(super) fn of_catalog(context: &mut Context<'_>) {
     notes.add_many(NoteKind::OtherPart, parts, Subject::Device);
 }
 
-/// Adds notes for the facts of a device that were not written.
+/// Adds notes for facts of a device that ETG.2000 cannot express.
 pub(super) fn of_device(context: &mut Context<'_>, device: &Device) {
     let (notes, subject) = (&mut context.notes, Subject::Named(&device.name));
     let other_buses = usize::from(device.canopen.is_some() && device.ethercat.is_none())
@@ -43,7 +43,7 @@ pub(super) fn of_device(context: &mut Context<'_>, device: &Device) {
     }
 }
 
-/// Adds notes for the facts of a module that were not written.
+/// Adds notes for facts of a module that ETG.2000 cannot express.
 pub(super) fn of_module(context: &mut Context<'_>, module: &Module) {
     let (notes, subject) = (&mut context.notes, Subject::Named(&module.name));
     notes.add_many(NoteKind::Documentation, module.documentation.is_some(), subject);

@@ -1,4 +1,4 @@
-//! The mailbox: its protocols, and the start-up commands of the master.
+//! Writes the mailbox: its protocols and the start-up commands that the master sends.
 
 use super::pdo::slot_index;
 use super::text::hex;
@@ -8,7 +8,7 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Coe, CompactString, InitCommand, Mailbox, Protocol};
 
-/// Attributes of the protocols for which the IR has no field.
+/// Attributes of mailbox protocols that the IR stores as extensions.
 const ATTRIBUTES: [(&str, &[&str]); 4] = [
     ("AoE", &["AdsRouter", "GenerateOwnNetId", "InitializeOwnNetId"]),
     ("EoE", &["IP", "MAC", "TimeStamp"]),
@@ -16,7 +16,7 @@ const ATTRIBUTES: [(&str, &[&str]); 4] = [
     ("SoE", &["ChannelCount", "DriveFollowsBit3Support"]),
 ];
 
-/// Writes the mailbox of the source, or that of the options if the source has none.
+/// Writes the mailbox of the source. If the source has none, writes the mailbox from the options.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, declared: Option<&Mailbox>) {
     let given = if declared.is_none() { context.options.coe() } else { None };
     let given = given.map(|coe| Mailbox { coe: Some(coe), ..Mailbox::default() });

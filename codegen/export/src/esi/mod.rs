@@ -1,9 +1,9 @@
-//! EtherCAT slave information (ESI, ETG.2000): every slave of a catalog, or the dictionary of any device that has
+//! Exports EtherCAT slave information (ESI, ETG.2000): all slaves of a catalog, or the dictionary of any device with
 //! objects.
 //!
-//! The export of an ESI has its facts in the order that the schema requires. The export of another format has the facts
-//! that ETG.2000 can hold. [`Export::notes`] lists the others. The [`Options`] supply facts that the schema requires
-//! and the source does not have.
+//! If the source is an ESI, the export has all its facts in the order that the schema requires. If the source has
+//! another format, the export has the facts that ETG.2000 can express. [`Export::notes`] lists the others. The
+//! [`Options`] supply facts that the schema requires and the source does not have.
 //!
 //! | file | subject |
 //! |---|---|
@@ -56,7 +56,7 @@ use text::{hex, names};
 /// Version of ETG.2000 whose schema describes the exported file.
 const VERSION: &str = "1.17";
 
-/// Exports all devices and modules of `catalog` that are EtherCAT slaves or have objects, in UTF-8.
+/// Exports all devices and modules of `catalog` that are EtherCAT slaves or have objects. The encoding is UTF-8.
 pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     let options = &TrackedOptions::new(options);
     let devices: Vec<&Device> = catalog.devices.iter().filter(|device| is_slave(device)).collect();
@@ -96,25 +96,26 @@ fn is_esi(catalog: &Catalog) -> bool {
     catalog.files.first().is_some_and(|file| file.format == Format::Esi)
 }
 
-/// The data that every part of the file is written from.
+/// Data for the writers of all parts of the file.
 struct Context<'a> {
     catalog: &'a Catalog,
     options: &'a TrackedOptions<'a>,
     notes: Notes,
     missing: MissingFacts,
-    /// Numbers of units, by symbol.
+    /// ETG.2000 unit numbers, keyed by unit symbol.
     units: HashMap<CompactString, Option<String>>,
-    /// Whether the source is an ESI. Then facts that it leaves out stay out.
+    /// Whether the source is an ESI. If so, missing facts stay missing.
     is_esi: bool,
 }
 
 impl Context<'_> {
-    /// Returns the fact of the caller, otherwise that of the source. Records a missing fact if neither has it.
+    /// Returns the caller's value (`given`), or the source's value (`found`) if the caller gives none. Records `key` as
+    /// missing if there is neither.
     fn required<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
         self.missing.require(given.or(found), key, Options::KEYS)
     }
 
-    /// Returns the number of a unit, as ETG.2000 writes it. The symbol of an unknown unit is its number.
+    /// Returns the ETG.2000 number of a unit. The symbol of an unknown unit is its number.
     fn unit(&mut self, symbol: &CompactString) -> Option<String> {
         if symbol.is_empty() {
             return None;
@@ -132,7 +133,7 @@ impl Context<'_> {
     }
 }
 
-/// Writes a dictionary without a device.
+/// Writes a file that contains only the dictionary of a device.
 fn dictionary_only(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     xml.open("EtherCATDict");
     xml.text_attribute("Version", &device.header.format_version);
@@ -141,7 +142,7 @@ fn dictionary_only(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     losses::of_device(context, device);
 }
 
-/// Writes diagnosis messages without a device.
+/// Writes a file that contains only diagnosis messages.
 fn messages_only(xml: &mut Xml, context: &mut Context<'_>) {
     xml.open("EtherCATDiag");
     extras::diagnosis_version(xml, context);
@@ -209,7 +210,7 @@ fn vendor(xml: &mut Xml, context: &mut Context<'_>, device: Option<&&Device>, id
     xml.close();
 }
 
-/// Writes the groups of the devices, and those that devices refer to without a definition.
+/// Writes the groups of the devices, including groups that the source does not define.
 fn groups(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
     xml.open("Groups");
     let catalog = context.catalog;

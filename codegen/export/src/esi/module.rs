@@ -1,4 +1,4 @@
-//! Modules.
+//! Writes modules.
 
 use super::mailbox::init_command;
 use super::text::{hex, names};
@@ -8,7 +8,7 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Extension, Module};
 
-/// Flags of CoE, which the IR stores as extensions of a module.
+/// CoE flags of a module. The IR stores them as extensions.
 const COE: [&str; 9] = [
     "CoE@SdoInfo",
     "CoE@PdoAssign",
@@ -21,7 +21,7 @@ const COE: [&str; 9] = [
     "CoE@ModuleOD",
 ];
 
-/// Extension of a module whose mailbox supports CoE.
+/// Extension that marks a module whose mailbox supports CoE.
 const HAS_COE: &str = "Mailbox/CoE";
 
 /// Writes a module.
@@ -73,7 +73,7 @@ fn mailbox(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     xml.close();
 }
 
-/// Writes the only profile of a module.
+/// Writes the Profile element of a module. A module has only one profile.
 fn profile(xml: &mut Xml, context: &mut Context<'_>, module: &Module, types: &mut Types<'_>) {
     let objects = objects::all(module.groups.iter(), &mut context.notes);
     if module.profiles.is_empty() && objects.is_empty() && types.defs.is_empty() {

@@ -1,4 +1,4 @@
-//! Objects.
+//! Writes objects.
 
 use compact_str::CompactString;
 
@@ -11,10 +11,10 @@ use crate::note::{self, NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Category, Extension, Group, GroupKind, Item, Storage};
 
-/// Extension attributes that ETG.2000 stores as flags of an object.
+/// Extension attributes that become flags of an object in ETG.2000.
 const FLAGS: [&str; 3] = ["Attribute", "Transition", "SdoAccess"];
 
-/// Writes an object with these entries.
+/// Writes an object with the given entries.
 pub(super) fn write(
     xml: &mut Xml,
     context: &mut Context<'_>,
@@ -65,7 +65,7 @@ fn extension<'g>(group: &'g Group, key: &str) -> Option<&'g CompactString> {
     group.extensions.iter().find(|extension| extension.key == key).map(|extension| &extension.value)
 }
 
-/// Writes the facts of the entries, unless they are only the names that the type already has.
+/// Writes a SubItem element for each entry, unless the elements would only repeat the names of the type.
 fn sub_items(
     xml: &mut Xml,
     context: &mut Context<'_>,
@@ -85,7 +85,7 @@ fn sub_items(
     xml.open("Info");
     for (item, name) in entries {
         xml.open("SubItem");
-        // An entry without a name gets that of the type.
+        // An entry without a name gets the name of its SubItem in the type.
         xml.leaf("Name", if item.name.is_empty() { name } else { &item.name });
         xml.open("Info");
         info(xml, context, types, item);
@@ -97,7 +97,7 @@ fn sub_items(
     xml.close();
 }
 
-/// Writes the default and the limits.
+/// Writes the default value and the limits of an item.
 fn info(xml: &mut Xml, context: &mut Context<'_>, types: &Types<'_>, item: &Item) {
     let (elements, notes) = value::elements(item, types.underlying(item.type_on(record::BUS)));
     elements.into_iter().for_each(|(name, text)| xml.leaf(name, text));
@@ -105,7 +105,7 @@ fn info(xml: &mut Xml, context: &mut Context<'_>, types: &Types<'_>, item: &Item
     context.notes.add_many(NoteKind::AllowedValues, !item.limits.allowed.is_empty(), Subject::item(item));
 }
 
-/// Writes the display name of a single value. ETG.2000 allows one only.
+/// Writes the display name of an object with a single value. ETG.2000 allows one display name per object.
 fn display_name(xml: &mut Xml, context: &mut Context<'_>, group: &Group, item: &Item) {
     if item.names == group.names {
         return;
@@ -116,7 +116,7 @@ fn display_name(xml: &mut Xml, context: &mut Context<'_>, group: &Group, item: &
     }
 }
 
-/// Writes the unit if it has a number. Adds a note for the other facts of the quantity.
+/// Writes the unit if ETG.2000 has a number for it. Adds a note for the scale and other quantity facts.
 fn unit(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     let Some(quantity) = &item.quantity else { return };
     let number = context.unit(&quantity.unit);
@@ -169,7 +169,7 @@ fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single:
     xml.close();
 }
 
-/// Writes the other facts of the object as properties with a name and a value.
+/// Writes object facts without an ETG.2000 element as Property elements with a name and a value.
 fn properties(xml: &mut Xml, group: &Group) {
     let is_flag =
         |extension: &&Extension| FLAGS.contains(&extension.key.as_str()) || extension.key == "OverwrittenByModule";
@@ -187,14 +187,14 @@ fn properties(xml: &mut Xml, group: &Group) {
     xml.close();
 }
 
-/// Adds notes for the facts of an object and its entries that ETG.2000 cannot hold.
+/// Adds notes for facts of an object and its entries that ETG.2000 cannot express.
 fn losses(context: &mut Context<'_>, group: &Group, items: &[(u8, &Item)]) {
     let notes = &mut context.notes;
     notes.add_many(NoteKind::Doubt, group.doubts.len(), Subject::object(group));
     notes.add_many(NoteKind::Setting, group.links.len(), Subject::object(group));
     for (_, item) in items {
         let subject = Subject::item(item);
-        // An item with an index on each of two buses is one item.
+        // An item that has an address on two buses is a single item.
         let other_buses = item.bindings.len().saturating_sub(1);
         notes.add_many(NoteKind::Binding, other_buses, subject);
         let more = item.behaviour.as_ref().is_some_and(|behaviour| {

@@ -4,7 +4,7 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::registers;
 use lexibus_codegen::ir::{Binding, Bus, Buses, Device, Group, Item};
 
-/// Returns the index and sub-index of an item on EtherCAT. An item without an address there has those on CANopen.
+/// Returns the EtherCAT index and sub-index of an item. If the item has none, returns those on CANopen.
 pub(super) fn address(item: &Item) -> Option<(u16, u8)> {
     let on_ethercat = item.bindings.iter().find_map(|binding| match binding {
         Binding::Object { buses, index, sub_index } if buses.coe => Some((*index, *sub_index)),
@@ -13,7 +13,7 @@ pub(super) fn address(item: &Item) -> Option<(u16, u8)> {
     on_ethercat.or_else(|| item.object())
 }
 
-/// Returns the objects that only registers have.
+/// Returns objects for the registers that belong to no object.
 pub(super) fn of_registers(device: &Device, notes: &mut Notes) -> Vec<Group> {
     let objects = registers::objects(device, |item| address(item).filter(|_| is_on_ethercat(device, item)));
     notes.add_many(NoteKind::Completed, registers::completed(&objects), Subject::Device);
@@ -21,15 +21,15 @@ pub(super) fn of_registers(device: &Device, notes: &mut Notes) -> Vec<Group> {
     objects
 }
 
-/// Returns whether an item exists on EtherCAT. All objects of a device that isn't an EtherCAT slave do.
+/// Returns whether an item exists on EtherCAT. If the device is not an EtherCAT slave, all its objects do.
 fn is_on_ethercat(device: &Device, item: &Item) -> bool {
     let buses = item.availability.as_ref().map_or(Buses::NONE, |availability| availability.buses);
     let has_address = item.bindings.iter().any(|binding| matches!(binding, Binding::Object { buses, .. } if buses.coe));
     device.ethercat.is_none() || has_address && (buses.is_empty() || buses.contains(Bus::EtherCat))
 }
 
-/// Returns the objects of a device that exist on EtherCAT, with those `of_registers`. Objects that the source has on
-/// CANopen only, and the CAN services of a CANopen device, are left out.
+/// Returns the objects of a device that exist on EtherCAT, including the objects `of_registers`. Objects that exist
+/// only on CANopen and the CAN services of a CANopen device are left out.
 pub(super) fn of_device<'g>(device: &'g Device, of_registers: &'g [Group], notes: &mut Notes) -> Vec<&'g Group> {
     let is_canopen_only = device.canopen.is_some() && device.ethercat.is_none();
     let mut objects = all(device.groups.iter().chain(of_registers), notes);
@@ -43,7 +43,7 @@ pub(super) fn of_device<'g>(device: &'g Device, of_registers: &'g [Group], notes
     objects
 }
 
-/// Returns the objects of `groups`, sorted by index. Each index occurs once.
+/// Sorts the objects of `groups` by index and keeps one object per index.
 pub(super) fn all<'g>(groups: impl Iterator<Item = &'g Group>, notes: &mut Notes) -> Vec<&'g Group> {
     let mut objects: Vec<&Group> = groups.filter(|group| group.index().is_some()).collect();
     objects.sort_by_key(|group| group.index());
@@ -55,8 +55,8 @@ pub(super) fn all<'g>(groups: impl Iterator<Item = &'g Group>, notes: &mut Notes
     objects
 }
 
-/// Returns whether an object of CiA 301 describes CAN services, which ETG.1000.6 doesn't have: COB-IDs, SYNC, TIME,
-/// EMCY, guarding, heartbeat, SDO channels and PDO communication.
+/// Returns whether a CiA 301 object describes a CAN service that ETG.1000.6 does not have: COB-IDs, SYNC, TIME, EMCY,
+/// guarding, heartbeat, SDO channels and PDO communication.
 fn is_of_can(index: u16) -> bool {
     matches!(index, 0x1005..=0x1007 | 0x100C..=0x100D | 0x1012..=0x1017 | 0x1019 | 0x1028..=0x1029 | 0x1200..=0x12FF)
         || matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF)

@@ -1,10 +1,10 @@
-//! Facts that an ESI requires and a source may not have.
+//! Options for facts that an ESI requires and a source may not have.
 
 use crate::options::{options, OptionValue};
 use lexibus_codegen::ir::Coe;
 
 options! {
-    /// Facts that take precedence over those of the source, or complete them.
+    /// Facts that override the facts of the source or supply missing ones.
     pub struct Options, TrackedOptions {
         /// Vendor ID assigned by the EtherCAT Technology Group.
         vendor_id: u32 = "vendor-id",

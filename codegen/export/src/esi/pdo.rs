@@ -1,4 +1,4 @@
-//! PDOs and their entries.
+//! Writes PDOs and their entries.
 
 use super::dictionary::entry_type;
 use super::text::{hex, names};
@@ -7,7 +7,8 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Direction, Extension, Pdo, PdoEntry, Type};
 
-/// Writes a PDO. `is_slave` says whether the device is an EtherCAT slave, which has no CAN communication parameters.
+/// Writes a PDO. `is_slave` states whether the device is an EtherCAT slave; such a device has no CAN communication
+/// parameters.
 pub(super) fn write(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, pdo: &Pdo, is_slave: bool) {
     let subject = Subject::Object(pdo.mapping_index);
     xml.open(if pdo.direction == Direction::Receive { "RxPdo" } else { "TxPdo" });
@@ -45,7 +46,7 @@ fn attributes(xml: &mut Xml, pdo: &Pdo) {
     }
 }
 
-/// Returns whether an extension is an attribute of the PDO that the schema defines and the IR has no field for.
+/// Returns whether an extension is a PDO attribute that the schema defines and for which the IR has no field.
 fn is_attribute(extension: &Extension) -> bool {
     let Some(("RxPdo" | "TxPdo", name)) = extension.key.split_once('@') else { return false };
     match name {
@@ -55,7 +56,7 @@ fn is_attribute(extension: &Extension) -> bool {
     }
 }
 
-/// Writes an index. The flags say whether it increases with the slot and with the slot group.
+/// Writes an index. The flags state whether the index increases with the slot and with the slot group.
 pub(super) fn slot_index(
     xml: &mut Xml,
     element: &'static str,
@@ -85,8 +86,8 @@ fn entry(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, entry: &PdoEntry) 
     xml.close();
 }
 
-/// Returns the type of an entry. If the mapping has another number of bits, the type is an unsigned integer of that
-/// length. The export of an ESI keeps the type.
+/// Returns the data type of a PDO entry. If the mapped length differs from the length of the type, returns an unsigned
+/// integer of the mapped length. The export of an ESI keeps the original type.
 fn data_type(types: &Types<'_>, entry: &PdoEntry) -> Type {
     let is_whole = types.underlying(entry.ty).bits().is_none_or(|bits| bits == entry.bits);
     match u8::try_from(entry.bits) {

@@ -1,4 +1,4 @@
-//! Objects with sub-indices, and the records that describe them.
+//! Objects with sub-indices and their record types.
 
 use compact_str::{format_compact, CompactString};
 
@@ -10,18 +10,18 @@ use lexibus_codegen::unique::Unique;
 /// The bus whose facts are exported.
 pub(super) const BUS: Bus = Bus::EtherCat;
 
-/// A sub-index of an object whose type is a record.
+/// A sub-index of an object that has a record type.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
     pub(super) sub_index: u8,
     pub(super) ty: Type,
-    /// Position of the field in the record.
+    /// Position of the field within the record.
     pub(super) field: usize,
-    /// Number of the element if the field is an array.
+    /// Element number if the field is an array.
     pub(super) element: Option<u32>,
 }
 
-/// The facts of a field that apply to all items with this type.
+/// The properties of a field that all items of the record type share.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FieldFacts {
     pub(super) access: Access,
@@ -52,7 +52,7 @@ impl FieldFacts {
     }
 }
 
-/// Returns the display name if it is the only one and English. ETG.2000 stores it at the object, which has no other
+/// Returns the display name if it is the only one and in English. ETG.2000 stores it in the object, without other
 /// languages.
 pub(super) fn display_name(item: &Item) -> Option<&CompactString> {
     match &*item.names {
@@ -61,17 +61,18 @@ pub(super) fn display_name(item: &Item) -> Option<&CompactString> {
     }
 }
 
-/// The type of an object.
+/// The planned type of an object.
 pub(super) struct Plan {
     /// Name of the type.
     pub(super) ty: CompactString,
     pub(super) bits: u32,
-    /// Names of the entries in the type, for entries without a name in the object; `None` for a single value.
+    /// Names of the sub-items in the type. They apply to entries without a name in the object. `None` means a single
+    /// value.
     pub(super) names: Option<Vec<CompactString>>,
 }
 
-/// Returns the entries of an object whose type is a record with these fields, sorted by sub-index. A field that is an
-/// array gives an entry for each element, as far as free sub-indices follow (ETG.2000, DataType).
+/// Returns the entries of an object whose record type has these fields, sorted by sub-index. An array field gives one
+/// entry per element until it reaches the sub-index of the next field (ETG.2000, DataType).
 pub(super) fn expansion(types: &Types<'_>, fields: &[Field]) -> Vec<Entry> {
     let (mut entries, mut next) = (Vec::new(), 0u32);
     for (position, field) in fields.iter().enumerate() {
@@ -92,7 +93,7 @@ pub(super) fn expansion(types: &Types<'_>, fields: &[Field]) -> Vec<Entry> {
     entries
 }
 
-/// Returns the first sub-index, the number of sub-indices and the type of a field.
+/// Returns the first sub-index of a field, the number of its sub-indices, and its type.
 fn span(types: &Types<'_>, field: &Field, next: u32, following: Option<u32>) -> (u32, u32, Type) {
     let given = field.sub_index.map(u32::from);
     let Some((element, lower, count)) = types.elements(field.ty) else { return (given.unwrap_or(next), 1, field.ty) };
@@ -105,7 +106,7 @@ fn span(types: &Types<'_>, field: &Field, next: u32, following: Option<u32>) -> 
     (first, count, element)
 }
 
-/// Returns the type of an object: a type of the device that describes exactly its entries, or a new one.
+/// Returns the type of an object: a declared type that describes exactly the object's entries, or a new one.
 pub(super) fn plan(types: &mut Types<'_>, group: &Group, items: &[(u8, &Item)], notes: &mut Notes) -> Plan {
     if let ([(0, item)], false) = (items, group.object_code().is_some_and(ObjectCode::has_subs)) {
         let (ty, bits) = types.reference(item.type_on(BUS), notes, Subject::item(item));
@@ -126,10 +127,10 @@ pub(super) fn plan(types: &mut Types<'_>, group: &Group, items: &[(u8, &Item)], 
     new_record(types, &usual, items, notes)
 }
 
-/// Returns the record at `at` if the facts of its fields fit these items.
+/// Returns a plan with the declared record type at `at` if the properties of its fields fit these items.
 fn existing(types: &mut Types<'_>, at: u32, group: &Group, items: &[(u8, &Item)]) -> Option<Plan> {
     let entries = types.entries(at);
-    // An array has a type with an array field.
+    // The type of an ARRAY object must contain an array field.
     let is_array = match entries.split_first() {
         Some((first, rest)) => {
             first.sub_index == 0 && !rest.is_empty() && rest.iter().all(|rest| rest.element.is_some())
@@ -161,7 +162,7 @@ fn existing(types: &mut Types<'_>, at: u32, group: &Group, items: &[(u8, &Item)]
     Some(Plan { ty: types.name_of(at), bits, names: Some(names) })
 }
 
-/// Returns unique names of the fields of a record, as the schema requires.
+/// Returns the field names of a record, made unique as the schema requires.
 pub(super) fn field_names(types: &Types<'_>, at: u32) -> Vec<CompactString> {
     let Some(lexibus_codegen::ir::Shape::Record(fields)) = types.defs.get(at as usize).map(|def| &def.shape) else {
         return Vec::new();
@@ -174,7 +175,7 @@ fn unique_names<'n>(names: impl Iterator<Item = &'n str>) -> Vec<CompactString> 
     names.map(|name| unique(&mut seen, name)).collect()
 }
 
-/// Returns the name of an entry that has none in the object.
+/// Returns the name of an entry that has no name in the object.
 fn name_of(entry: &Entry, fields: &[CompactString]) -> CompactString {
     let name = fields.get(entry.field).cloned().unwrap_or_default();
     match entry.element {
@@ -183,8 +184,8 @@ fn name_of(entry: &Entry, fields: &[CompactString]) -> CompactString {
     }
 }
 
-/// Returns whether a reader finds every item in its entry. Readers look for the name of a sub-item, then use its
-/// position.
+/// Returns whether readers assign each item to the correct entry. Readers search for the name of a sub-item, then use
+/// its position.
 fn matches_by_name_or_position(entries: &[Entry], fields: &[CompactString], items: &[(u8, &Item)]) -> bool {
     let named = |entry: &Entry| fields.get(entry.field).map_or("", CompactString::as_str);
     items.iter().enumerate().all(|(position_of_item, (_, item))| {
@@ -195,7 +196,7 @@ fn matches_by_name_or_position(entries: &[Entry], fields: &[CompactString], item
     })
 }
 
-/// Returns whether the items are sub-index 0 and equal elements from 1 on.
+/// Returns whether the items are sub-index 0 and equal elements starting at sub-index 1.
 fn is_array(types: &Types<'_>, items: &[(u8, &Item)]) -> bool {
     let [(0, _), (_, first), ..] = items else { return false };
     let facts = FieldFacts::of(first);
@@ -206,7 +207,7 @@ fn is_array(types: &Types<'_>, items: &[(u8, &Item)]) -> bool {
     items.iter().enumerate().all(is_like) && types.elements(first.type_on(BUS)).is_none()
 }
 
-/// Bit offset of sub-index 1. The space after sub-index 0 is unused (ETG.2000, DataType).
+/// Bit offset of sub-index 1. The bits between sub-index 0 and sub-index 1 are unused (ETG.2000, DataType).
 const FIRST_OFFSET: u32 = 16;
 
 fn new_array(types: &mut Types<'_>, usual: &str, items: &[(u8, &Item)], notes: &mut Notes) -> Plan {
@@ -258,7 +259,7 @@ fn finish(types: &mut Types<'_>, usual: &str, fields: Vec<AddedField>, names: Ve
     Plan { ty, bits, names: Some(names) }
 }
 
-/// Returns the states of a field's facts in the notation of the schema. Adds a note if the schema does not allow them.
+/// Converts state names to the notation of the schema. Adds a note if the schema does not allow them.
 pub(super) fn check_states(states: &[CompactString], notes: &mut Notes, subject: Subject<'_>) -> Option<String> {
     const KNOWN: [&str; 7] = ["PreOp", "PreOP", "PreOP_SafeOP", "PreOP_OP", "SafeOP", "SafeOP_OP", "OP"];
     let joined = states.join("_");

@@ -1,4 +1,4 @@
-//! Slots of a modular device.
+//! Writes the slots of a modular device.
 
 use super::text::{hex, names};
 use super::Context;
@@ -6,7 +6,7 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Device, EtherCatSettings, Fit, Slot, SlotRules};
 
-/// Writes Slots.
+/// Writes the Slots element.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {
     let Some(rules) = settings.slots.as_deref() else {
         return context.notes.add_many(NoteKind::Slot, device.slots.len(), Subject::Named(&device.name));
@@ -86,7 +86,7 @@ fn slot(xml: &mut Xml, notes: &mut Notes, slot: &Slot, rules: &SlotRules) {
     xml.close();
 }
 
-/// Writes the modules that fit a slot by their idents, or by their classes if there are no idents.
+/// Writes references to the modules that fit a slot: by ident, or by class if there are no idents.
 fn fits(xml: &mut Xml, notes: &mut Notes, slot: &Slot) {
     let by_ident = slot.fits.iter().any(|fit| matches!(fit, Fit::Ident(_)));
     for fit in &slot.fits {

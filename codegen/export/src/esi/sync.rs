@@ -1,4 +1,4 @@
-//! FMMUs, sync managers and sync units.
+//! Writes FMMUs, sync managers and sync units.
 
 use super::options::Area;
 use super::text::hex;
@@ -7,8 +7,8 @@ use crate::xml::Xml;
 use lexibus_codegen::ir::{CompactString, Device, EtherCatSettings, Fmmu, SyncManager, SyncManagerPurpose};
 use lexibus_codegen::source::Origin;
 
-/// Writes FMMUs, sync managers and sync units. FMMUs and sync managers that the source does not have follow from the
-/// areas that the caller gives.
+/// Writes FMMUs, sync managers and sync units. If the source has no FMMUs or sync managers, they are derived from the
+/// memory areas in the options.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {
     let declared = &device.process_data.sync_managers;
     let given = if declared.is_empty() { given(context) } else { Vec::new() };
@@ -53,10 +53,11 @@ fn sync_manager(xml: &mut Xml, manager: &SyncManager) {
     xml.close();
 }
 
-/// Returns the sync managers of the areas that the caller gives, by number.
+/// Returns the sync managers for the memory areas in the options, with their numbers.
 fn given(context: &Context<'_>) -> Vec<SyncManager> {
     let options = context.options;
-    // Control bytes (ETG.1000.4, 6.7.2): mailbox or three buffers, direction, and an interrupt of the host.
+    // The control byte (ETG.1000.4, 6.7.2) selects mailbox or three buffers, the direction, and an interrupt for the
+    // host.
     let areas = [
         (SyncManagerPurpose::MailboxOut, 0x26, options.mailbox_out()),
         (SyncManagerPurpose::MailboxIn, 0x22, options.mailbox_in()),
@@ -80,7 +81,7 @@ fn given(context: &Context<'_>) -> Vec<SyncManager> {
     (0..).zip(given).map(manager).collect()
 }
 
-/// Returns the FMMU of a sync manager for process data.
+/// Returns the FMMU for a process data sync manager.
 fn mapped(manager: &SyncManager) -> Option<Fmmu> {
     let is_mapped = matches!(manager.purpose, SyncManagerPurpose::Outputs | SyncManagerPurpose::Inputs);
     is_mapped.then(|| Fmmu { purpose: manager.label.clone(), ..Fmmu::default() })

@@ -1,4 +1,4 @@
-//! Numbers, and texts in several languages.
+//! Formats numbers and writes texts in several languages.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use crate::xml::Xml;
 use lexibus_codegen::etg::language;
 use lexibus_codegen::ir::{Documentation, LocalText, Texts};
 
-/// Formats a bit pattern as ETG.2000 does, with at least `digits` digits.
+/// Formats a bit pattern in the notation of ETG.2000, with at least `digits` digits.
 pub(super) fn hex(value: impl Into<u32>, digits: usize) -> impl fmt::Display {
     format!("#x{:0digits$X}", value.into())
 }
@@ -21,7 +21,7 @@ pub(super) fn names(
     notes: &mut Notes,
     subject: Subject<'_>,
 ) {
-    // A name without a language number would be replaced by another English name.
+    // Without a language number, a reader would replace this name with another English name.
     let is_english = |local: &LocalText| language::lcid(&local.language) == Some(language::ENGLISH);
     xml.open(element);
     xml.optional("LcId", others.iter().any(is_english).then_some(language::ENGLISH));
@@ -43,7 +43,7 @@ pub(super) fn name(xml: &mut Xml, element: &'static str, local: &LocalText, note
     xml.close();
 }
 
-/// Writes a description, if any.
+/// Writes a description unless it is empty.
 pub(super) fn documentation(
     xml: &mut Xml,
     element: &'static str,

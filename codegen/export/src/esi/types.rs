@@ -1,7 +1,8 @@
-//! Data types: those of the device under their names, and further types that its objects need.
+//! Data types: the device's types with their names, and additional types for its objects.
 //!
-//! The file must define every type that it names, including basic types (the keys of the schema of ETG.2000). The data
-//! type of an object with sub-indices has a sub-item for each of them. The sub-items contain the access rights.
+//! The file must define all types that it uses, including basic types, because they are keys in the schema of ETG.2000.
+//! The data type of an object with sub-indices has a sub-item for each sub-index. The sub-items contain the access
+//! rights.
 
 use std::collections::HashMap;
 
@@ -13,25 +14,25 @@ use lexibus_codegen::etg::type_name::{self, Basic, Spelling};
 use lexibus_codegen::ir::{Shape, Type, TypeDef, TypeId};
 use lexibus_codegen::unique::Unique;
 
-/// The data types of a dictionary that is being written.
+/// The data types of a dictionary during its export.
 pub(super) struct Types<'a> {
     pub(super) defs: &'a [TypeDef],
-    /// Names of these types. Each is unique.
+    /// Unique names of the declared types.
     names: Vec<CompactString>,
     used_names: Unique,
     /// Names of basic types.
     basic: HashMap<Type, CompactString>,
-    /// Further types, which follow those of the device.
+    /// Additional types, written after those of the device.
     pub(super) added: Vec<AddedType>,
-    /// Facts of the fields of each record of the device that is the type of an object.
+    /// For each declared record that is the type of an object: the properties of its fields.
     pub(super) uses: HashMap<u32, Vec<FieldFacts>>,
-    /// Records of the device, by the sub-indices and types of their entries.
+    /// Declared records, keyed by the sub-indices and types of their entries.
     pub(super) records: HashMap<Vec<(u8, Type)>, Vec<u32>>,
-    /// Whether the source is an ESI, whose facts are kept.
+    /// Whether the source is an ESI. If so, its facts are kept.
     pub(super) is_esi: bool,
 }
 
-/// Returns a unique name: `name`, with a number if it is already used.
+/// Returns `name`, with a number appended if it is already used.
 pub(super) fn unique(names: &mut Unique, name: &str) -> CompactString {
     names.unique(name, |number| format_compact!("{name} ({number})"))
 }
@@ -92,7 +93,7 @@ impl<'a> Types<'a> {
         unique(&mut self.used_names, if name.is_empty() { "Type" } else { name })
     }
 
-    /// Returns the name of a type of the device.
+    /// Returns the name of the declared type at position `at`.
     pub(super) fn name_of(&self, at: u32) -> CompactString {
         self.names.get(at as usize).cloned().unwrap_or_default()
     }
@@ -102,7 +103,7 @@ impl<'a> Types<'a> {
         self.defs.get(at as usize)
     }
 
-    /// Returns the entries of an object whose type is the record at `at`.
+    /// Returns the entries of an object whose type is the declared record at position `at`.
     pub(super) fn entries(&self, at: u32) -> Vec<Entry> {
         match self.defs.get(at as usize).map(|def| &def.shape) {
             Some(Shape::Record(fields)) => record::expansion(self, fields),
@@ -110,8 +111,8 @@ impl<'a> Types<'a> {
         }
     }
 
-    /// Returns the name of a type for references, and its length in bits. Adds the definition of a basic type if it is
-    /// missing.
+    /// Returns the name under which other elements refer to a type, and its length in bits. Adds the definition of a
+    /// basic type if it is missing.
     pub(super) fn reference(&mut self, ty: Type, notes: &mut Notes, subject: Subject<'_>) -> (CompactString, u32) {
         let bits = self.bits(ty);
         if bits.is_none() && !matches!(ty, Type::Opaque(_) | Type::Domain) {
@@ -143,7 +144,7 @@ impl<'a> Types<'a> {
         (name, bits)
     }
 
-    /// Returns the length in bits if it is known.
+    /// Returns the length of a type in bits if it is known.
     pub(super) fn bits(&self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(_) => {
@@ -162,7 +163,7 @@ impl<'a> Types<'a> {
         }
     }
 
-    /// Returns the basic type of the values.
+    /// Returns the basic type of a type's values.
     pub(super) fn underlying(&self, ty: Type) -> Type {
         match self.def(ty).map(|def| &def.shape) {
             Some(
@@ -187,7 +188,7 @@ impl<'a> Types<'a> {
     }
 }
 
-/// Returns whether an alias needs no base type because its name already means this type.
+/// Returns whether an alias needs no base type because its name is the name of the aliased type.
 pub(super) fn is_self_named(def: &TypeDef, name: &str) -> bool {
     let Shape::Alias(ty) = def.shape else { return false };
     if let Type::Opaque(_) = ty {
@@ -199,7 +200,7 @@ pub(super) fn is_self_named(def: &TypeDef, name: &str) -> bool {
     }
 }
 
-/// Returns a basic type with the size of its data type.
+/// Replaces a basic type with one that has the declared size.
 fn sized(ty: Type, bits: Option<u32>) -> Type {
     let Some(bits) = bits.filter(|&bits| bits > 0) else { return ty };
     let bytes = Some(bits / 8).filter(|_| bits % 8 == 0);
@@ -213,7 +214,7 @@ fn sized(ty: Type, bits: Option<u32>) -> Type {
     }
 }
 
-/// Returns the name of a basic type in ETG.1000.6, or a name that readers understand as this type.
+/// Returns the ETG.1000.6 name of a basic type, or a name that readers interpret as this type.
 pub(super) fn basic_name(ty: Type) -> CompactString {
     match ty {
         Type::Boolean => "BOOL".into(),

@@ -1,15 +1,15 @@
-//! Defaults and limits as numbers, texts or bytes in little-endian order. All those of one value have the same form
-//! (ETG.2000, ObjectInfoType).
+//! Writes default values and limits as numbers, texts or little-endian bytes. The default and limits of an item use the
+//! same form (ETG.2000, ObjectInfoType).
 
 use std::fmt::Write as _;
 
 use crate::note::NoteKind;
 use lexibus_codegen::ir::{Item, Type, Value};
 
-/// Elements of an Info, and notes on values that it cannot hold.
+/// Child elements of an Info element, and notes on values that it cannot contain.
 pub(super) type Written = (Vec<(&'static str, String)>, Vec<NoteKind>);
 
-/// Returns the elements of the Info of an item: limits and default. `ty` is the basic type of the item.
+/// Returns the Info child elements of an item: limits and default value. `ty` is the basic type of the item.
 pub(super) fn elements(item: &Item, ty: Type) -> Written {
     let (mut low, mut high) = (item.limits.low.as_ref(), item.limits.high.as_ref());
     let mut notes = Vec::new();
@@ -36,7 +36,8 @@ pub(super) fn elements(item: &Item, ty: Type) -> Written {
     (elements, notes)
 }
 
-/// Returns whether a text can be DefaultString. Readers remove outer spaces, and an empty element means no default.
+/// Returns whether a text can be written as DefaultString. Readers remove leading and trailing spaces and interpret an
+/// empty element as no default value.
 fn is_plain(value: Option<&Value>) -> bool {
     matches!(value, Some(Value::Text(text))
         if !text.is_empty() && text.trim() == text.as_str() && !text.contains(char::is_control))
@@ -46,7 +47,7 @@ fn number(value: &Value) -> Option<String> {
     value.as_int().map(|value| value.to_string())
 }
 
-/// Returns the value as bytes in little-endian order.
+/// Returns the value as little-endian bytes.
 fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
     Some(match (value, ty) {
         (Value::Bytes(bytes), _) => bytes.clone(),
@@ -62,7 +63,7 @@ fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
             "" => vec![0, 0],
             text => text.encode_utf16().flat_map(u16::to_le_bytes).collect(),
         },
-        // An element without a digit means no value.
+        // Readers interpret an element without digits as no value.
         (Value::Text(text), _) if text.is_empty() => vec![0],
         (Value::Text(text), _) => text.as_bytes().to_vec(),
         (Value::Time { milliseconds, days }, _) => {

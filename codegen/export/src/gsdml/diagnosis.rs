@@ -1,4 +1,4 @@
-//! Channel diagnosis, process alarms, diagnosis of user structures and the log book.
+//! Writes channel diagnosis, process alarms, user-defined diagnosis structures and the log book.
 
 use std::collections::HashMap;
 
@@ -8,12 +8,12 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Catalog, CodeRow, UnitDiagnosis, UnitDiagnosisField, Value};
 
-/// The names of the elements and attributes of a list of codes.
+/// Names of the elements and attributes of a diagnosis list.
 struct List {
     table: &'static str,
     extended: &'static str,
     list: &'static str,
-    /// Name of the items, without the prefix `SystemDefined` or `Profile`.
+    /// Name of the list items, without the prefix `SystemDefined` or `Profile`.
     item: &'static str,
     extended_list: &'static str,
     extended_item: &'static str,
@@ -46,16 +46,16 @@ static PROCESS_ALARMS: List = List {
     has_state: false,
 };
 
-/// First code of the range for profiles.
+/// First code of the range that profiles use.
 const FIRST_OF_PROFILE: i128 = 0x9000;
 
-/// Returns whether a code table of the catalog is one of the lists of a GSDML.
+/// Returns whether a code table of the catalog is a diagnosis list of GSDML.
 pub(super) fn is_list(name: &str) -> bool {
     let lists = [&CHANNEL_DIAGNOSIS, &PROCESS_ALARMS];
     name == "log_book" || lists.iter().any(|list| name == list.table || name == list.extended)
 }
 
-/// Writes all lists.
+/// Writes all diagnosis lists.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog) {
     code_list(xml, context, catalog, &CHANNEL_DIAGNOSIS);
     code_list(xml, context, catalog, &PROCESS_ALARMS);
@@ -123,7 +123,7 @@ fn head(xml: &mut Xml, list: &'static List, row: &CodeRow, state: Option<&Value>
     }
 }
 
-/// Writes the name and the help text.
+/// Writes the name and the help text of a code.
 fn texts(xml: &mut Xml, context: &mut Context<'_>, row: &CodeRow) {
     context.texts.text(xml, "Name", &row.name, &row.names);
     if let Some(documentation) = &row.documentation {
@@ -131,7 +131,7 @@ fn texts(xml: &mut Xml, context: &mut Context<'_>, row: &CodeRow) {
     }
 }
 
-/// Writes the additional values of a code. The IR stores them as `1 Unsigned16, 2 Float32`.
+/// Writes the additional values of a code. The IR stores their types as `1 Unsigned16, 2 Float32`.
 fn add_values(xml: &mut Xml, list: &'static List, cell: Option<&Value>) {
     let Some(Value::Text(text)) = cell else { return };
     let items = text.split(", ").filter_map(|item| item.split_once(' '));
@@ -173,7 +173,7 @@ fn field(xml: &mut Xml, context: &mut Context<'_>, field: &UnitDiagnosisField) {
     xml.close();
 }
 
-/// Writes the log book. The code of a row is the whole status; ErrorCode2 is its last byte.
+/// Writes the log book. The code of a row is the complete status, whose last byte is ErrorCode2.
 fn log_book(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog) {
     let rows = rows(catalog, "log_book");
     if rows.is_empty() {

@@ -1,9 +1,9 @@
-//! Elements whose attributes the IR stores as they are written: a list of `Element@Attribute` and value.
+//! Elements whose attributes the IR stores unchanged, as a list of `Element@Attribute` and value.
 
 use crate::xml::Xml;
 use lexibus_codegen::ir::CompactString;
 
-/// An element and its possible children.
+/// An element and its allowed child elements.
 pub(super) struct Element {
     pub(super) name: &'static str,
     children: &'static [Element],
@@ -38,13 +38,13 @@ pub(super) static RELATIONS: Element = element("ApplicationRelations", &TIMING);
 pub(super) static MAU_TYPES: Element = element("MAUTypeList", &MAU_TYPE);
 pub(super) static FAMILY: Element = leaf("Family");
 
-/// The element of an interface before its records, and those after them.
+/// The child element of an interface before its records. The static items below list the elements after the records.
 pub(super) static GENERAL: Element = element("General", &SIGNAL);
 pub(super) static OF_INTERFACE: [Element; 4] =
     [leaf("RT_Class3Properties"), leaf("SynchronisationMode"), leaf("TimeSynchronisation"), leaf("ReportingSystem")];
 pub(super) static MEDIA_REDUNDANCY: Element = element("MediaRedundancy", &INTERCONNECTION);
 
-/// The elements of an ordinary submodule after its pictures.
+/// The child elements of an ordinary submodule after its pictures.
 pub(super) static OF_SUBMODULE: [Element; 4] = [
     leaf("IsochroneMode"),
     leaf("SlotCluster"),
@@ -59,7 +59,7 @@ impl Element {
         self.name == name || self.children.iter().any(|child| child.has(name))
     }
 
-    /// Returns the names from this element down to `name`.
+    /// Returns the element names on the path from this element to the descendant `name`.
     fn path(&self, name: &str) -> Option<Vec<&'static str>> {
         if self.name == name {
             return Some(vec![self.name]);
@@ -68,7 +68,7 @@ impl Element {
         Some(std::iter::once(self.name).chain(below).collect())
     }
 
-    /// Writes the element as often as it occurs in `attributes`.
+    /// Writes the element once for each of its occurrences in `attributes`.
     pub(super) fn write<'e>(
         &self,
         xml: &mut Xml,
@@ -107,7 +107,7 @@ impl Element {
     }
 }
 
-/// Writes the attributes of `element` that the IR stores as they are written.
+/// Writes the attributes of `element` that the IR stores unchanged.
 pub(super) fn attributes_of(xml: &mut Xml, element: &str, attributes: &Attributes) {
     for (key, value) in attributes {
         if let Some((_, name)) = key.split_once('@').filter(|(name, _)| *name == element) {
@@ -116,22 +116,22 @@ pub(super) fn attributes_of(xml: &mut Xml, element: &str, attributes: &Attribute
     }
 }
 
-/// Writes the attributes that the IR stores as they are written and that belong to no child element.
+/// Writes the attributes that the IR stores unchanged and that belong to no child element.
 pub(super) fn kept(xml: &mut Xml, attributes: &Attributes) {
     for (key, value) in attributes.iter().filter(|(key, _)| !is_of_element(key) && !is_of_info(key)) {
         xml.attribute(key, value);
     }
 }
 
-/// An element that is not closed yet.
+/// An open element.
 struct Opened<'e> {
     name: &'static str,
     seen: Vec<&'e str>,
-    /// Whether the element has children. Then it can't have more attributes.
+    /// Whether the element already has children. If so, no attributes can follow.
     is_full: bool,
 }
 
-/// Returns whether an attribute belongs to one of these elements, or its key names another element.
+/// Returns whether `key` contains an element name: as `Element@Attribute`, as a path, or as the name of a known element.
 pub(super) fn is_of_element(key: &str) -> bool {
     let roots = [&CERTIFICATION, &ASSETS, &REDUNDANCY, &SLOT_GROUPS, &FIELDBUS_SLOTS, &RELATIONS, &MAU_TYPES, &FAMILY];
     let all = roots.into_iter().chain([&GENERAL, &MEDIA_REDUNDANCY]).chain(&OF_INTERFACE).chain(&OF_SUBMODULE);

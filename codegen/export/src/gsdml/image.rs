@@ -1,5 +1,5 @@
-//! A device access point for a device of another format that has fixed process images. The images are the data of one
-//! submodule.
+//! Describes a device of another format as a device access point if it has fixed process images. The data of one
+//! submodule contain the images.
 
 use compact_str::{format_compact, CompactString};
 use smallvec::smallvec;
@@ -14,12 +14,13 @@ use lexibus_codegen::ir::{
     TypeDef,
 };
 
-/// Subslots of the first interface and of the first port.
+/// Subslots of the first interface and its first port.
 const INTERFACE: u16 = 0x8000;
 const PORT: u16 = 0x8001;
 const MAX_PORTS: u16 = 0x0FFF;
 
-/// Returns the catalog of the devices of `source` that have fixed process images, or `None` if no device has any.
+/// Returns a GSDML catalog with the devices of `source` that have fixed process images. Returns `None` if no device has
+/// any.
 pub(super) fn catalog(
     source: &Catalog,
     options: &TrackedOptions<'_>,
@@ -42,7 +43,7 @@ struct Maker<'m> {
     missing: &'m mut MissingFacts,
     notes: &'m mut Notes,
     target: &'m mut Catalog,
-    /// Number of devices before this one.
+    /// Number of devices before this one in the file.
     position: usize,
 }
 
@@ -121,7 +122,7 @@ impl Maker<'_> {
         settings
     }
 
-    /// Returns the attributes of the device access point for which the IR has no fields.
+    /// Returns attributes of the device access point for which the IR has no field.
     fn attributes(&mut self) -> Vec<(CompactString, CompactString)> {
         let options = self.options;
         let required = [
@@ -139,7 +140,7 @@ impl Maker<'_> {
         all.map(|(key, value)| (CompactString::const_new(key), value.into())).collect()
     }
 
-    /// Returns CertificationInfo, or nothing without a conformance class.
+    /// Returns the attributes of CertificationInfo. The list is empty if the options have no conformance class.
     fn certificate(&mut self) -> Vec<(&'static str, String)> {
         let options = self.options;
         let Some(conformance) = options.conformance_class() else { return Vec::new() };
@@ -151,7 +152,7 @@ impl Maker<'_> {
         classes.into_iter().chain(netload).collect()
     }
 
-    /// Returns the submodule with the process data.
+    /// Returns the submodule that contains the process data.
     fn submodule(&mut self, source: &Device) -> Submodule {
         let mut submodule = Submodule {
             id: self.id("IO"),
@@ -182,7 +183,7 @@ impl Maker<'_> {
         submodule
     }
 
-    /// Adds the interface and its ports if the caller gives the ident number of the interface.
+    /// Adds the interface and its ports if the options contain the interface's ident number.
     fn interface(&mut self, device: &mut Device) {
         let options = self.options;
         let Some(ident) = options.interface_ident() else {
@@ -226,13 +227,13 @@ impl Maker<'_> {
     }
 }
 
-/// Splits a list at `;`.
+/// Splits a text at each `;`.
 fn list(text: &str) -> Vec<CompactString> {
     text.split(';').map(str::trim).filter(|word| !word.is_empty()).map(Into::into).collect()
 }
 
-/// Converts an image to data items of whole bytes. Fields that share bytes become one data item, in which fields of one
-/// bit keep their names.
+/// Converts an image to data items of whole bytes. Fields that share a byte become one data item; its one-bit fields
+/// keep their names.
 fn io_data(image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> IoData {
     let mut fields: Vec<PdoEntry> = Vec::new();
     let mut items = Vec::new();
@@ -242,7 +243,7 @@ fn io_data(image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> IoData
     while let Some(first) = sorted.get(next) {
         let start = first.bit_offset / 8 * 8;
         filler(&mut fields, at, start);
-        // Extend the item up to a field that begins at a byte boundary.
+        // Extend the data item to the next field that begins at a byte boundary.
         let mut end = first.bit_offset.saturating_add(first.bits);
         let mut last = next + 1;
         while let Some(field) = sorted.get(last).filter(|field| field.bit_offset / 8 < end.div_ceil(8)) {
@@ -264,7 +265,7 @@ fn io_data(image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> IoData
     IoData { image, consistent: false, items, channels: Vec::new() }
 }
 
-/// Adds an item for bytes without a field.
+/// Adds a data item for bytes that belong to no field.
 fn filler(fields: &mut Vec<PdoEntry>, from: u32, to: u32) {
     if from < to {
         let octets = Type::OctetString(Some((to - from) / 8));
@@ -274,7 +275,7 @@ fn filler(fields: &mut Vec<PdoEntry>, from: u32, to: u32) {
     }
 }
 
-/// Returns a data item for a field of whole bytes.
+/// Returns the data item of a field that occupies whole bytes.
 fn whole(field: &PdoEntry, image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> PdoEntry {
     let subject = Subject::Named(&field.name);
     let octets = |kind| (Type::OctetString(Some(field.bits / 8)), Some(kind));
@@ -298,7 +299,7 @@ fn whole(field: &PdoEntry, image: &ProcessImage, types: &[TypeDef], notes: &mut 
     PdoEntry { ty, ..field.clone() }
 }
 
-/// Returns the basic type of a defined type. Cyclic data cannot have names for bits and values.
+/// Returns the basic type of a defined type. Cyclic data cannot contain names of bits or values.
 fn underlying(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     let mut note = None;
     for _ in 0..8 {
@@ -316,7 +317,7 @@ fn underlying(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     (ty, note)
 }
 
-/// Adds one data item of bits for fields that share bytes.
+/// Adds one data item for fields that share bytes. The item consists of bits.
 fn bits(
     fields: &mut Vec<PdoEntry>,
     items: &mut Vec<IoItem>,
@@ -361,7 +362,7 @@ fn bits(
     });
 }
 
-/// Adds notes for the facts of the device that are not in its process images.
+/// Adds notes for facts of the device that its process images do not contain.
 fn losses(device: &Device, notes: &mut Notes) {
     let subject = Subject::Named(&device.name);
     let others = [device.canopen.is_some(), device.ethercat.is_some()].iter().filter(|is_there| **is_there).count();
@@ -390,7 +391,7 @@ fn losses(device: &Device, notes: &mut Notes) {
                     notes.add_many(NoteKind::Documentation, item.documentation.is_some(), subject);
                     notes.add_many(NoteKind::Doubt, item.doubts.len(), subject);
                 }
-                // A record needs start-up values for every byte, which registers do not have.
+                // A record requires start-up values for all its bytes. Registers do not have them.
                 (false, true) => notes.add(NoteKind::Binding, subject),
                 (false, false) => notes.add(NoteKind::NotInData, subject),
             }

@@ -1,4 +1,4 @@
-//! Cyclic data of a submodule.
+//! Writes the cyclic data of a submodule.
 
 use super::types::{self, Name};
 use super::{elements, Context};
@@ -6,7 +6,7 @@ use crate::note::Subject;
 use crate::xml::Xml;
 use lexibus_codegen::ir::{IoChannel, IoData, IoItem, PdoEntry, PdoEntryKind, Submodule, Type};
 
-/// Writes IOData.
+/// Writes the IOData element.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule) {
     xml.open("IOData");
     let (provider, consumer) = submodule.status_lengths;
@@ -55,7 +55,7 @@ fn simple(xml: &mut Xml, context: &mut Context<'_>, fields: &[PdoEntry]) {
     }
 }
 
-/// Writes a data item that consists of bits or of two values, or has no fields.
+/// Writes a data item that consists of bits or of two values, or that has no fields.
 fn composed(xml: &mut Xml, context: &mut Context<'_>, item: &IoItem, fields: &[PdoEntry]) {
     let is_bit = |field: &PdoEntry| field.kind == PdoEntryKind::Padding || field.bits == 1 && field.ty == Type::Boolean;
     let is_bits = !fields.is_empty() && fields.iter().all(is_bit);
@@ -70,7 +70,7 @@ fn composed(xml: &mut Xml, context: &mut Context<'_>, item: &IoItem, fields: &[P
     xml.flag("Subordinate", item.subordinate, "true");
     xml.attribute("TextId", context.texts.id(&item.name, &item.names));
     if is_bits {
-        // Numbers are big-endian, and GSDML counts their bits from the last byte.
+        // Numbers are big-endian. GSDML numbers their bits from the last byte.
         let is_number = item.data_type.starts_with("Unsigned")
             || item.data_type.starts_with("Integer")
             || matches!(item.data_type.as_str(), "V2" | "L2");

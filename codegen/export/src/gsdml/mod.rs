@@ -1,16 +1,16 @@
-//! PROFINET device descriptions (GSDML): all device access points of a catalog, or one for a device of another format
-//! with fixed process images.
+//! Exports PROFINET device descriptions (GSDML): all device access points of a catalog, or a new one for a device of
+//! another format that has fixed process images.
 //!
-//! The export of a GSDML has its facts in the order that the schema requires. Attributes of later versions of the
-//! schema are kept. For another format, the file has a device access point with one submodule, whose data are the
-//! process images. [`Export::notes`] lists the other facts. The [`Options`] supply facts that the schema requires and
-//! the source does not have.
+//! If the source is a GSDML, the export has all its facts in the order that the schema requires. It keeps attributes of
+//! later schema versions. If the source has another format, the file has a device access point with one submodule,
+//! whose data are the process images. [`Export::notes`] lists the facts that were left out. The [`Options`] supply
+//! facts that the schema requires and the source does not have.
 //!
 //! | file | subject |
 //! |---|---|
-//! | `options` | facts that the caller gives |
+//! | `options` | facts from the caller |
 //! | `texts` | the text list |
-//! | `elements` | elements whose attributes the IR stores as they are written |
+//! | `elements` | elements whose attributes the IR stores unchanged |
 //! | `device`, `module`, `submodule` | device access points, modules, submodules |
 //! | `image` | a device access point for fixed process images |
 //! | `io_data`, `types` | cyclic data and its types |
@@ -43,13 +43,14 @@ use super::xml::Xml;
 use lexibus_codegen::ir::{Catalog, Documentation, Extension, Format, LocalText, TypeDef};
 use texts::TextList;
 
-/// Version of the schema if the source does not declare one.
+/// Schema version of the file if the source does not declare one.
 const VERSION: &str = "2.35";
 
-/// Exports all device access points of `catalog`, in UTF-8. The file must have the name that [`file_name`] returns.
+/// Exports all device access points of `catalog`. The encoding is UTF-8. Save the file under the name that
+/// [`file_name`] returns.
 pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     let options = &TrackedOptions::new(options);
-    // The file name contains the date.
+    // Mark the option `date` as used. The content may not contain the date, but the file name does.
     options.date();
     let (mut notes, mut missing) = (Notes::default(), MissingFacts::default());
     let from_images = match is_gsdml(catalog) {
@@ -80,8 +81,8 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     missing.finish(xml.finish(), notes.finish())
 }
 
-/// Returns the required name of the file, without extension: version of the schema, vendor, family and date. Returns
-/// `None` without a date.
+/// Returns the required file name without extension: schema version, vendor, family and date. Returns `None` if there
+/// is no date.
 pub fn file_name(catalog: &Catalog, options: &Options) -> Option<String> {
     let source = catalog.files.first().filter(|_| is_gsdml(catalog));
     let stem = source.and_then(|file| {
@@ -96,7 +97,7 @@ pub fn file_name(catalog: &Catalog, options: &Options) -> Option<String> {
     let vendor =
         options.vendor_name.as_deref().or_else(|| device.map(|device| device.identity.vendor_name.as_str()))?;
     let family = options.product_family.as_deref().or_else(|| device.map(|device| device.name.as_str()))?;
-    // A dash separates the parts of the name.
+    // The parts of the name are separated by a hyphen.
     let part = |text: &str| -> String {
         let is_safe = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '_' | '.' | '+');
         text.trim().chars().map(|letter| if is_safe(letter) { letter } else { '_' }).collect()
@@ -113,7 +114,7 @@ fn version(catalog: &Catalog) -> &str {
     version.filter(|version| is_gsdml(catalog) && !version.is_empty()).unwrap_or(VERSION)
 }
 
-/// The data that every part of the file is written from.
+/// Data for the writers of all parts of the file.
 struct Context<'a> {
     catalog: &'a Catalog,
     options: &'a TrackedOptions<'a>,
@@ -121,14 +122,15 @@ struct Context<'a> {
     notes: Notes,
     missing: MissingFacts,
     texts: TextList,
-    /// Positions of the pluggable ports.
+    /// Positions of the pluggable ports among the submodules.
     pluggable_ports: HashSet<u32>,
-    /// Whether the source is a GSDML. Then facts that it leaves out stay out.
+    /// Whether the source is a GSDML. If so, missing facts stay missing.
     is_gsdml: bool,
 }
 
 impl Context<'_> {
-    /// Returns the fact of the caller, otherwise that of the source. Records a missing fact if neither has it.
+    /// Returns the caller's value (`given`), or the source's value (`found`) if the caller gives none. Records `key` as
+    /// missing if there is neither.
     fn required<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
         self.missing.require(given.or(found), key, Options::KEYS)
     }
@@ -151,7 +153,7 @@ fn root(xml: &mut Xml, context: &mut Context<'_>) {
     lost(context);
 }
 
-/// The header of ISO 15745-1, which is the same in every GSDML.
+/// The header of ISO 15745-1. All GSDML files have the same header.
 const HEADER: [(&str, &str); 5] = [
     ("ProfileIdentification", "PROFINET Device Profile"),
     ("ProfileRevision", "1.00"),
@@ -184,7 +186,7 @@ fn profile_header(xml: &mut Xml, extensions: &[Extension]) {
     xml.close();
 }
 
-/// Writes DeviceIdentity and DeviceFunction.
+/// Writes the DeviceIdentity and DeviceFunction elements.
 fn identity(xml: &mut Xml, context: &mut Context<'_>) {
     let (catalog, options) = (context.catalog, context.options);
     let none = Default::default();
@@ -252,7 +254,7 @@ fn category(xml: &mut Xml, context: &mut Context<'_>, family: &lexibus_codegen::
     xml.close();
 }
 
-/// Adds a note for the extensions of the catalog that were not written.
+/// Adds a note for the extensions of the catalog that the file does not contain.
 fn lost(context: &mut Context<'_>) {
     let catalog = context.catalog;
     let is_written = |extension: &&Extension| {

@@ -1,4 +1,4 @@
-//! Modules, and parts that modules, submodules and device access points have in common.
+//! Writes modules, and the parts that modules, submodules and device access points have in common.
 
 use super::elements::{self, Attributes};
 use super::values::ranges;
@@ -7,7 +7,7 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{CompactString, Documentation, Extension, Module, SlotNumbers, SubslotName, Texts};
 
-/// The facts of ModuleInfo.
+/// The content of a ModuleInfo element.
 pub(super) struct Info<'i> {
     pub(super) name: &'i str,
     pub(super) names: &'i Texts,
@@ -16,17 +16,17 @@ pub(super) struct Info<'i> {
     pub(super) order: &'i str,
     pub(super) hardware: &'i str,
     pub(super) software: &'i str,
-    /// Contains category and family.
+    /// Attributes, which include the category and family.
     pub(super) attributes: &'i Attributes,
 }
 
-/// Returns the value of an attribute that the IR stores as it is written, or an empty text.
+/// Returns the value of an attribute that the IR stores unchanged. Returns an empty text if the attribute is missing.
 pub(super) fn find<'a>(attributes: &'a Attributes, key: &str) -> &'a str {
     attributes.iter().find(|(name, _)| name == key).map_or("", |(_, value)| value)
 }
 
 impl Info<'_> {
-    /// Writes ModuleInfo.
+    /// Writes the ModuleInfo element.
     pub(super) fn write(&self, xml: &mut Xml, context: &mut Context<'_>) {
         xml.open("ModuleInfo");
         for key in elements::OF_INFO {
@@ -36,7 +36,7 @@ impl Info<'_> {
         match self.documentation {
             Some(documentation) => context.texts.documentation(xml, "InfoText", documentation),
             None if context.is_gsdml => {}
-            // The schema requires a text.
+            // The schema requires this text.
             None => {
                 context.texts.text(xml, "InfoText", self.name, self.names);
                 context.notes.add(NoteKind::MissingText, Subject::Named(self.name));
@@ -64,7 +64,7 @@ pub(super) fn slot_lists(xml: &mut Xml, slots: &SlotNumbers, what: &str) {
     }
 }
 
-/// Writes SubslotList.
+/// Writes the SubslotList element.
 pub(super) fn subslots(xml: &mut Xml, context: &mut Context<'_>, names: &[SubslotName]) {
     xml.list("SubslotList", names, |xml, subslot| {
         xml.open("SubslotItem");
@@ -74,13 +74,13 @@ pub(super) fn subslots(xml: &mut Xml, context: &mut Context<'_>, names: &[Subslo
     });
 }
 
-/// Writes Graphics from references that the IR stores as `GraphicItemRef@Type`.
+/// Writes a Graphics element. The IR stores its references as `GraphicItemRef@Type`.
 pub(super) fn graphics(xml: &mut Xml, attributes: &Attributes) {
     let references = attributes.iter().filter_map(|(key, target)| Some((key.strip_prefix("GraphicItemRef@")?, target)));
     graphics_of(xml, references);
 }
 
-/// Writes Graphics.
+/// Writes a Graphics element with the given references.
 pub(super) fn graphics_of<'g>(xml: &mut Xml, list: impl Iterator<Item = (&'g str, &'g CompactString)>) {
     xml.list("Graphics", list, |xml, (kind, target)| {
         xml.open("GraphicItemRef");

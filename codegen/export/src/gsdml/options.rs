@@ -1,4 +1,4 @@
-//! Facts that a GSDML requires and a source may not have.
+//! Options for facts that a GSDML requires and a source may not have.
 
 use crate::options::{options, OptionValue};
 use lexibus_codegen::ir::Numbers;

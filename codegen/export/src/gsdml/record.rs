@@ -1,4 +1,4 @@
-//! Parameter records: constants, parameters and menus.
+//! Writes parameter records: constants, parameters and menus.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::fmt::Write as _;
@@ -12,7 +12,7 @@ use lexibus_codegen::ir::{
     Submodule, Value,
 };
 
-/// Writes RecordDataList unless it would be empty.
+/// Writes the RecordDataList element unless it is empty.
 pub(super) fn list(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule) {
     if submodule.records.is_empty() && submodule.f_parameters.is_none() {
         return;
@@ -37,11 +37,11 @@ pub(super) fn list(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodu
     xml.close();
 }
 
-/// The menus of a submodule. Each one belongs to the first record that uses it.
+/// The menus of a submodule. Each menu is written with the first record that uses it.
 struct Menus<'m> {
-    /// Menus that no record uses so far.
+    /// Menus that no record has used so far.
     left: Vec<Option<&'m Menu>>,
-    /// Positions of menus by their names and by the names that they show.
+    /// Positions of menus, keyed by their own names and by the parameters and menus that they show.
     by_name: HashMap<&'m str, Vec<usize>>,
 }
 
@@ -56,13 +56,13 @@ impl<'m> Menus<'m> {
         Menus { left: menus.iter().map(Some).collect(), by_name }
     }
 
-    /// Removes and returns the menus that show parameters of a record, and the menus connected with them, in their
-    /// order.
+    /// Removes and returns the menus that show parameters of a record and the menus connected with them. The order is
+    /// that of the source.
     fn take(&mut self, group: &'m Group) -> Vec<&'m Menu> {
         let mut menus = BTreeMap::new();
         let mut names: Vec<&str> = group.items.iter().filter_map(id).map(CompactString::as_str).collect();
         while let Some(name) = names.pop() {
-            // Each name needs to be followed once.
+            // Following each name once is sufficient.
             for at in self.by_name.remove(name).into_iter().flatten() {
                 if let Some(menu) = self.left.get_mut(at).and_then(Option::take) {
                     names.extend(menu.targets.iter().chain([&menu.id]).map(CompactString::as_str));
@@ -83,7 +83,7 @@ fn id(item: &Item) -> Option<&CompactString> {
     kept(item, "ID")
 }
 
-/// Writes constants, parameters and menus.
+/// Writes the constants, parameters and menus of a record.
 pub(super) fn body(xml: &mut Xml, context: &mut Context<'_>, record: &Record, group: &Group, menus: &[&Menu]) {
     for (offset, data) in &record.constants {
         xml.open("Const");
@@ -147,7 +147,7 @@ fn value(value: &Value) -> Option<String> {
     Some(match value {
         Value::Bool(value) => u8::from(*value).to_string(),
         Value::Int(value) => value.to_string(),
-        // The notation of Rust has a decimal point or an exponent, with digits on both sides.
+        // Rust's debug notation has a decimal point or an exponent, with digits on both sides of the point.
         Value::Real(value) => format!("{value:?}"),
         Value::Text(text) | Value::Raw(text) => text.to_string(),
         Value::Bytes(bytes) => octets(bytes),
@@ -155,7 +155,7 @@ fn value(value: &Value) -> Option<String> {
     })
 }
 
-/// Returns the allowed values as ranges. A text that the IR stores as it is written takes precedence.
+/// Returns the allowed values as ranges. If the IR stores the original text, returns this text.
 fn allowed(item: &Item) -> Option<String> {
     if let Some(kept) = kept(item, "AllowedValues") {
         return Some(kept.to_string());

@@ -1,4 +1,4 @@
-//! Submodules of all kinds: virtual and pluggable ones, interfaces and ports.
+//! Writes all kinds of submodules: virtual and pluggable submodules, interfaces and ports.
 
 use std::collections::HashSet;
 
@@ -15,7 +15,7 @@ use lexibus_codegen::ir::{
 /// Subslot of the first interface.
 const INTERFACE: u16 = 0x8000;
 
-/// Returns whether a submodule is part of a device access point or module, which then contains its description.
+/// Returns whether a device access point or module contains the description of the submodule.
 fn is_built_in(context: &Context<'_>, at: u32) -> bool {
     let Some(submodule) = context.catalog.submodules.get(at as usize) else { return false };
     match submodule.kind {
@@ -25,8 +25,8 @@ fn is_built_in(context: &Context<'_>, at: u32) -> bool {
     }
 }
 
-/// Returns the ports of the submodule list: those that several elements use, that can be in several subslots, or that
-/// no element uses.
+/// Returns the ports for the submodule list: ports that several elements use, that fit several subslots, or that no
+/// element uses.
 pub(super) fn pluggable_ports(catalog: &Catalog) -> HashSet<u32> {
     let uses = |list: &[SubmoduleUse]| -> Vec<(u32, bool)> {
         let is_anywhere = |submodule_use: &SubmoduleUse| {
@@ -38,7 +38,7 @@ pub(super) fn pluggable_ports(catalog: &Catalog) -> HashSet<u32> {
     let of_modules = catalog.modules.iter().flat_map(|module| uses(&module.submodules));
     let (mut pluggable, mut used) = (HashSet::new(), HashSet::new());
     for (at, is_anywhere) in of_devices.chain(of_modules) {
-        // A port that two elements use is a part of neither.
+        // A port that two elements use cannot be built into either.
         if !used.insert(at) || is_anywhere {
             pluggable.insert(at);
         }
@@ -74,7 +74,7 @@ pub(super) fn built_in(
             SubmoduleKind::Interface => "InterfaceSubmoduleItem",
             _ => "PortSubmoduleItem",
         };
-        // The first interface has the settings of the device as a whole.
+        // The first interface contains the settings of the whole device.
         let settings = settings.take_if(|_| submodule.kind == SubmoduleKind::Interface);
         write(xml, context, submodule, (element, Some(&submodule_use.places.fixed)), settings);
     });
@@ -94,7 +94,7 @@ pub(super) fn useable(xml: &mut Xml, context: &mut Context<'_>, uses: &[Submodul
     });
 }
 
-/// Writes SubmoduleList.
+/// Writes the SubmoduleList element.
 pub(super) fn pluggable(xml: &mut Xml, context: &mut Context<'_>) {
     let catalog = context.catalog;
     let is_listed = |(at, submodule): &(u32, &Submodule)| match submodule.kind {
@@ -188,14 +188,14 @@ fn info(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule) {
     info.write(xml, context);
 }
 
-/// Writes the elements of an interface after its records.
+/// Writes the child elements of an interface that come after its records.
 fn interface(xml: &mut Xml, attributes: &Attributes, settings: Option<&ProfinetSettings>) {
     elements::OF_INTERFACE.iter().for_each(|element| element.write(xml, attributes));
     elements::RELATIONS.write(xml, &relations(attributes, settings, true));
     elements::MEDIA_REDUNDANCY.write(xml, attributes);
 }
 
-/// Returns the attributes of ApplicationRelations, including those from fields of the IR.
+/// Returns the attributes of ApplicationRelations, including those that the IR stores in fields.
 pub(super) fn relations(
     attributes: &Attributes,
     settings: Option<&ProfinetSettings>,

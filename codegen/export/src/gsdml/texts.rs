@@ -1,4 +1,4 @@
-//! The text list, which contains every text once, in all languages.
+//! The text list. It contains each text once, in all languages.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,21 +8,22 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Documentation, Extension, LocalText, Texts};
 
-/// A language, and its texts by identifier.
+/// A language code and the texts in this language, with their identifiers.
 type Language<'t> = (&'t CompactString, Vec<(&'t CompactString, &'t CompactString)>);
 
 /// The texts that the file refers to.
 #[derive(Default)]
 pub(super) struct TextList {
     texts: Vec<(CompactString, CompactString, Texts)>,
-    /// Identifiers of texts, by text and translations.
+    /// Identifiers of texts, keyed by text and translations.
     known: HashMap<(CompactString, Vec<(CompactString, CompactString)>), CompactString>,
     used_ids: HashSet<CompactString>,
     next: usize,
 }
 
 impl TextList {
-    /// Creates a list that begins with texts of the source that only uninterpreted attributes refer to.
+    /// Creates a text list. It starts with the source texts that are referenced only by attributes which the IR stores
+    /// unchanged.
     pub(super) fn new(extensions: &[Extension]) -> Self {
         let mut list = TextList::default();
         let mut positions: HashMap<CompactString, usize> = HashMap::new();
@@ -53,7 +54,7 @@ impl TextList {
         list
     }
 
-    /// Returns the identifier of a text.
+    /// Returns the identifier of a text. Adds the text if the list does not contain it.
     pub(super) fn id(&mut self, text: &str, names: &Texts) -> CompactString {
         let others = names.iter().map(|local| (local.language.clone(), local.text.clone())).collect();
         let key = (CompactString::from(text), others);
@@ -65,7 +66,7 @@ impl TextList {
         id
     }
 
-    /// Returns the identifier of a text that no other element refers to.
+    /// Adds a text with a new identifier and returns the identifier. No other element refers to this text.
     pub(super) fn add(&mut self, text: &str, names: &Texts) -> CompactString {
         let id = loop {
             self.next += 1;
@@ -88,7 +89,7 @@ impl TextList {
         self.text(xml, element, &documentation.text, &documentation.translations);
     }
 
-    /// Returns the languages in the order in which they occur, each with its texts.
+    /// Returns the languages in the order of first occurrence, each with its texts.
     fn translations(&self) -> Vec<Language<'_>> {
         let mut positions: HashMap<&str, usize> = HashMap::new();
         let mut languages: Vec<Language<'_>> = Vec::new();
@@ -109,7 +110,7 @@ impl TextList {
         languages
     }
 
-    /// Writes ExternalTextList.
+    /// Writes the ExternalTextList element.
     pub(super) fn write(self, xml: &mut Xml, notes: &mut Notes) {
         xml.open("ExternalTextList");
         xml.open("PrimaryLanguage");
@@ -138,7 +139,7 @@ fn text(xml: &mut Xml, id: &str, value: &str) {
     xml.close();
 }
 
-/// Returns language and identifier of a text that nothing refers to, such as `Text/de/T7`.
+/// Returns the language and identifier from the key of an unreferenced text, such as `Text/de/T7`.
 pub(super) fn kept(key: &str) -> Option<(&str, &str)> {
     key.strip_prefix("Text/")?.split_once('/')
 }

@@ -1,4 +1,4 @@
-//! Names of data types.
+//! Names of GSDML data types.
 
 use super::Context;
 use crate::note::{NoteKind, Subject};
@@ -19,7 +19,7 @@ fn plain(name: &str) -> Name<'_> {
     Name { name, needs_length: false, note: None }
 }
 
-/// Returns the name of a type with a length in bits.
+/// Returns the GSDML name of a type with the given length in bits.
 pub(super) fn name(ty: Type, bits: u32, types: &[TypeDef]) -> Name<'_> {
     let octets = |note| Name { name: "OctetString", needs_length: true, note };
     let (ty, note) = match defined_name(ty, types) {
@@ -49,7 +49,7 @@ pub(super) fn name(ty: Type, bits: u32, types: &[TypeDef]) -> Name<'_> {
     found
 }
 
-/// Writes the type and the position of a value in a record.
+/// Writes the type and offset of a value in a record.
 pub(super) fn position(xml: &mut Xml, context: &mut Context<'_>, ty: Type, offset: u32, bits: u32, subject: &str) {
     let is_byte = offset.is_multiple_of(8);
     let is_bits = match ty {
@@ -78,7 +78,8 @@ pub(super) fn position(xml: &mut Xml, context: &mut Context<'_>, ty: Type, offse
     }
 }
 
-/// Returns the name of a type that GSDML defines, otherwise the basic type of a defined type.
+/// Returns the name of the first type in a chain of definitions that GSDML defines. Otherwise returns the basic type as
+/// an error.
 fn defined_name(mut ty: Type, types: &[TypeDef]) -> Result<Name<'_>, (Type, Option<NoteKind>)> {
     let mut note = None;
     for _ in 0..MAX_DEPTH {
@@ -107,7 +108,7 @@ fn defined_name(mut ty: Type, types: &[TypeDef]) -> Result<Name<'_>, (Type, Opti
     Err((ty, note))
 }
 
-/// Returns the definition and the integer of an enumeration.
+/// Returns the definition of an enumeration and its integer type.
 pub(super) fn enumeration(ty: Type, types: &[TypeDef]) -> Option<(&TypeDef, Type)> {
     let Type::Named(id) = ty else { return None };
     let def = types.get(id.0 as usize)?;
@@ -121,7 +122,7 @@ fn is_string(name: &str) -> bool {
     matches!(name, "UnicodeString8" | "61131_STRING" | "61131_WSTRING")
 }
 
-/// Returns whether a name is a type of PROFIdrive or process control, or a pair of a value and its status.
+/// Returns whether `name` is a PROFIdrive or process control type, or a type that pairs a value with its status.
 fn is_number(name: &str) -> bool {
     const NAMES: [&str; 18] = [
         "N2",

@@ -1,4 +1,4 @@
-//! Lists of named values, and ranges of numbers.
+//! Writes lists of named values, and ranges of numbers.
 
 use std::collections::HashSet;
 use std::fmt::Display;
@@ -8,7 +8,7 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{EnumValue, Numbers, Shape, TypeDef};
 
-/// Writes ValueList, with one list for each name, even if several types have its values.
+/// Writes the ValueList element. It contains one list per name, even if several types use the same values.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>) {
     let types = context.types;
     let enumeration = |def: &'_ TypeDef| matches!(def.shape, Shape::Enumeration { .. });
@@ -35,7 +35,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>) {
     xml.close();
 }
 
-/// Writes the values of a list. Each value refers to a different text.
+/// Writes the values of a list. Each value gets its own text.
 fn assignments(xml: &mut Xml, context: &mut Context<'_>, values: &[EnumValue]) {
     let mut used = HashSet::new();
     xml.open("Assignments");

@@ -23,7 +23,7 @@ pub struct Info {
     pub encoding: &'static str,
     /// The devices that the file describes; for GSDML, the device access points.
     pub devices: Vec<DeviceInfo>,
-    /// A dictionary that several devices share (EtherCATDict), if the file describes one.
+    /// The dictionary that several devices share (EtherCATDict), if the file describes one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dictionary: Option<DictionaryInfo>,
     /// The device access points, for GSDML.
@@ -94,7 +94,7 @@ pub struct ModuleInfo {
     pub id: String,
     /// Module ident number.
     pub ident: u32,
-    /// The facts that depend on the bus.
+    /// The bus-specific facts of the module.
     #[serde(flatten)]
     pub content: ModuleContent,
 }
@@ -207,13 +207,13 @@ pub fn info(compilation: &Compilation) -> Info {
     info
 }
 
-/// Returns whether an element is in the main file, not in a file that it refers to.
+/// Returns whether an element is in the main file, as opposed to a file that the main file refers to.
 fn is_in_main_file(origin: Origin) -> bool {
     origin.span.file == FileId(0)
 }
 
-/// Returns the objects that the file and the dictionary files of its devices declare, without those of overlays and
-/// profiles.
+/// Returns the objects that the file and the dictionary files of its devices declare. Objects from overlays and
+/// profiles are excluded.
 fn declared<'g>(groups: &'g [Group], catalog: &'g Catalog) -> impl Iterator<Item = &'g Group> {
     let format = |origin: Origin| catalog.files.get(origin.span.file.0 as usize).map(|file| file.format);
     let is_declared = move |group: &&Group| {

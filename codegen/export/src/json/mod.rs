@@ -1,4 +1,4 @@
-//! JSON: the whole IR, and the summary that `lexibus info` prints.
+//! JSON output: the complete IR, and the summary that `lexibus info` prints.
 
 mod info;
 
@@ -8,7 +8,7 @@ pub use info::{
 
 use lexibus_codegen::ir::Catalog;
 
-/// The IR of `catalog` as indented JSON.
+/// Returns the IR of `catalog` as indented JSON.
 pub fn dump(catalog: &Catalog) -> String {
     serde_json::to_string_pretty(catalog).unwrap_or_else(|error| format!("\"{error}\""))
 }

@@ -1,7 +1,7 @@
-//! Exported files in an independent library: `canopen` for Python.
+//! Tests exported files with an independent library: `canopen` for Python.
 //!
-//! If the library loads a file, it also loads the exported file, with the same entries. The tests are skipped, with a
-//! message, if there is no Python with this library.
+//! If the library can load a file, it must also load the export of the file with the same entries. If Python does not
+//! have the library, the tests print a message and pass.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -15,17 +15,17 @@ use lexibus_codegen::source::{Source, Span};
 use lexibus_export::eds::{export, Flavour};
 use serde_json::Value;
 
-/// Files that the library does not load after export either, with the reason.
+/// Files whose exports the library cannot load either, with the reason.
 const NOT_LOADABLE: [(&str, &str); 3] = [
     ("KITmedical__kacanopen__301__87d58e93.eds", "0x1023 has no DataType"),
     ("bggardner__canopen-rpi__node__root.eds", "0x1018 has no DataType"),
     ("starnus-software__ros2_canopen__master.dcf.em", "a template with loops that look like repeated keys"),
 ];
 
-/// The result of loading a file: its entries, or the error.
+/// The result of loading a file: its entries or an error.
 type Loaded = Result<BTreeMap<(u16, u8), Entry>, String>;
 
-/// Data type, access and default.
+/// An entry: its data type, access type and default value.
 #[derive(Clone, Debug, PartialEq)]
 struct Entry {
     data_type: u64,
@@ -33,7 +33,7 @@ struct Entry {
     default: Option<String>,
 }
 
-/// Creates an empty folder for temporary files.
+/// Creates an empty temporary folder.
 fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&path);
@@ -67,7 +67,7 @@ fn loaded(line: &str) -> Loaded {
     Ok(line["entries"].as_array().expect("entries").iter().map(entry).collect())
 }
 
-/// An original, its export, and the compilation of the original.
+/// An original file, its export, and the compilation of the original.
 struct Pair {
     name: String,
     compilation: Compilation,
@@ -96,18 +96,19 @@ impl Pair {
         self.device().entry(at.0, at.1)
     }
 
-    /// Returns whether a diagnostic repairs the text at `span`.
+    /// Returns whether a diagnostic of the original repairs the text at `span`.
     fn is_repaired(&self, span: Span) -> bool {
         let is_within = |found: &Diagnostic| span.start <= found.span.start && found.span.end <= span.end;
         !span.is_empty() && self.compilation.diagnostics.list().iter().any(is_within)
     }
 }
 
-/// Returns the reason why an entry may change with the export, or `None` if it must not change.
+/// Returns the reason why an export may change an entry. Returns `None` if the entry must not change.
 fn reason(pair: &Pair, at: (u16, u8), before: Option<&Entry>, after: Option<&Entry>) -> Option<&'static str> {
     let item = pair.item(at)?;
     let Some((before, after)) = before.zip(after) else {
-        // The library supports CompactSubObj of an ARRAY only, and of its elements only the first and those with names.
+        // The library supports CompactSubObj only for ARRAY objects. It creates only the first element and those with
+        // names.
         let follows = pair.device().object(at.0).is_some_and(|object| object.origin == item.origin);
         return (before.is_none() && follows).then_some("follows from CompactSubObj");
     };
@@ -172,7 +173,7 @@ fn compare(
     wrong
 }
 
-/// The library loads the exports of other formats, with all entries.
+/// The library loads the exports of files in other formats, with all their entries.
 #[test]
 fn devices_of_other_formats_load() {
     let Some(python) = python::with(&["canopen"]) else { return };
@@ -240,7 +241,7 @@ fn dictionaries_load() {
     }
 }
 
-/// Returns the entries that the library loads. It does not load objects that define types.
+/// Returns the addresses of the entries that the library loads. The library skips objects that define types.
 fn addresses(device: &Device) -> Vec<(u16, u8)> {
     let objects = device.groups.iter().filter(|group| group.index().is_some_and(|index| index >= 0x1000));
     let typed = objects.flat_map(|group| &group.items).filter(|item| item.ty != Type::Opaque(None));

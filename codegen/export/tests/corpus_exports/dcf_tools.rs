@@ -1,7 +1,7 @@
-//! Exported files in a second independent reader: `dcfchk` of lely's `dcf-tools`.
+//! Tests exported files with another independent reader: `dcfchk` from lely's `dcf-tools`.
 //!
-//! If it accepts a file, it also accepts the file after `export --real hex`. The test is skipped, with a message, if
-//! there is no Python with this package.
+//! If `dcfchk` accepts a file, it must also accept the output of `export --real hex`. If Python does not have the
+//! package, the test prints a message and passes.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -12,13 +12,13 @@ use lexibus_codegen::source::Source;
 use lexibus_export::eds::{self, export, Flavour, Reals};
 use serde::Deserialize;
 
-/// Files that it accepts only before export, with the reason.
+/// Files whose exports `dcfchk` rejects, with the reason.
 const NOT_ACCEPTED: [(&str, &str); 1] = [(
     "christiansandberg__canopen__sample",
     "the object lists omit the PDO mapping, which maps the missing object 0x6040; the export lists all objects",
 )];
 
-/// The verdicts of `dcfchk -n 5`: with and without its list of known keys.
+/// The results of `dcfchk -n 5`: with and without its list of known keys.
 #[derive(Debug, Deserialize)]
 struct Verdict {
     strict: bool,

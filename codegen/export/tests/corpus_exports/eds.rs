@@ -1,7 +1,7 @@
-//! Reading, exporting and reading again gives the same IR for every EDS of the corpus.
+//! Exports all EDS files of the corpus and reads the exports. The IR must not change.
 //!
-//! The comparison ignores positions in the file and facts about the file (name, digest). The exported file has no new
-//! diagnostics.
+//! The comparison ignores positions in the file and facts about the file (name, digest). The exported file must have no
+//! new diagnostics.
 
 use std::collections::BTreeMap;
 
@@ -14,10 +14,10 @@ use lexibus_codegen::source::Source;
 use lexibus_export::eds::{export, Export, Flavour};
 use serde_json::Value;
 
-/// Codes that an export may have although its original does not, with the reason.
+/// Diagnostic codes that an export may have and its original does not, with the reason.
 const MAY_APPEAR: [(&str, &str); 0] = [];
 
-/// Removes the facts that only a DCF has.
+/// Removes facts that only a DCF can contain.
 fn without_configuration(value: &mut Value) {
     match value {
         Value::Object(fields) => {
@@ -42,7 +42,7 @@ fn exported(compilation: &Compilation, flavour: Flavour) -> Export {
     export(catalog, &catalog.devices[0], flavour).expect("a CANopen device has an EDS")
 }
 
-/// Checks one file in one flavour. Returns the errors.
+/// Compares the export of one file in one flavour with its original. Returns the differences.
 fn check(file: &File, original: &Compilation, flavour: Flavour) -> Vec<String> {
     let options = options();
     let Export { text, .. } = exported(original, flavour);
@@ -94,12 +94,12 @@ fn without_swapped_limits(catalog: &Catalog) -> Catalog {
     catalog
 }
 
-/// Checks that the compiler passes give the same IR and diagnostics for an export.
+/// Checks that the compiler passes produce the same IR and diagnostics for a file and its export.
 fn check_passes(file: &File, text: &str) -> Vec<String> {
     let options = options();
     let (first, second) = (compile(source(file), &options), compile(Source::new("export.dcf", text.into()), &options));
     let findings = |compilation: &Compilation| -> Vec<String> {
-        // The notation of a number is not in the IR.
+        // The passes cannot find these diagnostics, because the IR does not store the notation of numbers.
         let is_of_the_text = |id: &str| id.starts_with("EDS") || id == "TAB012";
         let findings = compilation.diagnostics.list().iter().filter(|found| !is_of_the_text(found.code.id));
         let mut findings: Vec<String> = findings.map(|found| format!("{} {}", found.code.id, found.message)).collect();
@@ -136,7 +136,7 @@ fn eds_to_ir_to_eds_to_ir_is_the_identity() {
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// Compares the entries of a device of any format with those of its EDS, as far as an EDS can express them.
+/// Compares the entries of any device with the entries of its EDS, except for facts that an EDS cannot express.
 fn compare_items(device: &Device, again: &Device, wrong: &mut Vec<String>) {
     for item in device.groups.iter().flat_map(|group| &group.items) {
         let Some((index, sub)) = item.object() else { continue };
@@ -168,7 +168,7 @@ fn devices_of_other_formats_have_the_same_entries() {
     for file in xml {
         let compilation = compile(source(&file), &options());
         let Some(catalog) = &compilation.catalog else { continue };
-        // Files with hundreds of devices repeat the same objects.
+        // Files with hundreds of devices repeat the same objects, so a few devices are sufficient.
         for device in catalog.devices.iter().filter(|device| !device.groups.is_empty()).take(3) {
             let Some(exported) = export(catalog, device, Flavour::Dcf) else { continue };
             devices += 1;

@@ -1,5 +1,5 @@
-//! Reading, exporting and reading again gives the same IR for every ESI of the corpus, with the exceptions in this
-//! file. Every exported file is valid by ETG's schema, even if its original is not.
+//! Exports all ESI files of the corpus and reads the exports. The IR must not change, with the exceptions in this file.
+//! All exports must be valid against ETG's schema, even if the original is not.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -14,19 +14,19 @@ use lexibus_export::esi::{export, NoteKind, Options, Refusal};
 use lexibus_export::Export;
 use serde_json::Value;
 
-/// Removes facts that the comparison ignores, with the reasons.
+/// Removes facts that the comparison ignores. The comments give the reasons.
 fn comparable(before: &mut Value, after: &mut Value) {
     for value in [&mut *before, &mut *after] {
         each_object(value, &mut |fields| {
-            // Part of a description can be at the object or at its data type.
+            // A description can be part of the object or of its data type.
             fields.remove("described");
-            // A REAL has 32 bits in the file; its text can have more digits.
+            // The file stores a REAL with 32 bits, although its text can have more digits.
             if let Some(real) = fields.get_mut("real").filter(|real| real.is_f64()) {
                 *real = Value::from(real.as_f64().unwrap_or_default() as f32);
             }
         });
     }
-    // The schema requires definitions of all types, and record types for objects. An export can add types.
+    // The schema requires definitions of all types and record types for objects, so an export can add types.
     for list in ["devices", "modules"] {
         let (Some(before), Some(after)) = (before[list].as_array_mut(), after[list].as_array_mut()) else { continue };
         for (one, other) in before.iter_mut().zip(after) {
@@ -42,8 +42,8 @@ fn noted(exported: &Export, kind: NoteKind) -> usize {
     exported.notes.iter().filter(|note| note.kind == kind).map(|note| note.count).sum()
 }
 
-/// Removes units without a number, which an export leaves out, and numbers in names of types and sub-items, which make
-/// names unique. Returns how many there are of each.
+/// Removes differences that the notes count: units without a number, and the numbers that make names of types and
+/// sub-items unique. Returns how many units and names were changed.
 fn take_noted(before: &mut Value, after: &mut Value) -> (usize, usize) {
     let add = |sum: (usize, usize), more: (usize, usize)| (sum.0 + more.0, sum.1 + more.1);
     match (before, after) {
@@ -69,7 +69,7 @@ fn take_noted(before: &mut Value, after: &mut Value) -> (usize, usize) {
     }
 }
 
-/// Removes the devices of other vendors, which an export leaves out. A file has one vendor.
+/// Removes devices of other vendors. An export leaves them out because a file can have only one vendor.
 fn take_other_vendors(before: &mut Value) -> usize {
     let Some(devices) = before["devices"].as_array_mut() else { return 0 };
     let vendor = devices.first().map_or(Value::Null, |device| device["identity"]["vendor_id"].clone());
@@ -78,7 +78,7 @@ fn take_other_vendors(before: &mut Value) -> usize {
     count - devices.len()
 }
 
-/// Returns the difference between `catalog` and its export.
+/// Returns the difference between `catalog` and its reread export.
 fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     let again = read(Source::new("export.xml", exported.text.clone().into()), &options());
     let Some(found) = &again.catalog else { return Some("the export isn't read".into()) };
@@ -90,13 +90,13 @@ fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     let counts = [NoteKind::Quantity, NoteKind::Renamed, NoteKind::OtherVendor].map(|kind| noted(exported, kind));
     if units != counts[0] || names > counts[1] || vendors != counts[2] {
         return Some(format!(
-            "{units} units, {names} names and {vendors} devices are lost, and the notes count {counts:?}"
+            "{units} units, {names} names and {vendors} devices are lost, but the notes count {counts:?}"
         ));
     }
     if let Some(difference) = difference(&before, &after, "") {
         return Some(difference);
     }
-    // Extension attributes are either exported or counted in a note.
+    // The file contains each extension attribute, or a note counts it.
     let missing: usize = original_keys
         .iter()
         .map(|(key, count)| count.saturating_sub(exported_keys.get(key).copied().unwrap_or(0)))
@@ -115,7 +115,7 @@ fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     }
 }
 
-/// Returns all files that can be exported, with their exports.
+/// Returns all files that Lexibus can export, with their exports.
 fn exports() -> Option<&'static Vec<(String, Catalog, Export)>> {
     static EXPORTS: OnceLock<Option<Vec<(String, Catalog, Export)>>> = OnceLock::new();
     EXPORTS.get_or_init(make_exports).as_ref()
@@ -153,7 +153,7 @@ fn esi_to_ir_to_esi_to_ir_is_the_identity() {
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// Returns the facts of a slave that a CANopen device does not have.
+/// Returns facts that an EtherCAT slave requires and a CANopen device does not have.
 fn of_a_slave() -> Options {
     let mut options = Options::default();
     let facts = [
@@ -174,7 +174,7 @@ fn of_a_slave() -> Options {
     options
 }
 
-/// Returns the entries of a CANopen device that its ESI lacks or changes.
+/// Returns the entries of a CANopen device that its ESI omits or changes.
 fn lost_entries(before: &Device, after: &Device, kinds: &[NoteKind]) -> Vec<String> {
     let mut lost = Vec::new();
     for item in before.groups.iter().flat_map(|group| &group.items) {
@@ -186,7 +186,7 @@ fn lost_entries(before: &Device, after: &Device, kinds: &[NoteKind]) -> Vec<Stri
             continue;
         };
         let access = |item: &Item| (item.access.readable(), item.access.writable(), item.mappable);
-        // An entry without a name gets that of its type.
+        // An entry without a name gets the name from its type.
         let is_same = (item.name.is_empty() || found.name == item.name) && access(found) == access(item);
         let is_whole = matches!(item.default, Some(lexibus_codegen::ir::Value::Int(_))) && found.ty == item.ty;
         if !is_same || is_whole && found.default != item.default {

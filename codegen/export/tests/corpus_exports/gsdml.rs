@@ -1,5 +1,5 @@
-//! Reading, exporting and reading again gives the same IR for every GSDML of the corpus, with the exceptions in this
-//! file. An export of a valid file is valid by PI's schema.
+//! Exports all GSDML files of the corpus and reads the exports. The IR must not change, with the exceptions in this
+//! file. The export of a valid file must be valid against PI's schema.
 
 use std::collections::BTreeMap;
 
@@ -13,18 +13,18 @@ use lexibus_export::gsdml::{export, file_name, NoteKind, Options};
 use lexibus_export::Export;
 use serde_json::Value;
 
-/// Removes facts that the comparison ignores, with the reasons.
+/// Removes facts that the comparison ignores. The comments give the reasons.
 fn comparable(value: &mut Value) {
-    // The export writes the lists of diagnosis in the order of the schema.
+    // The export writes the diagnosis lists in the order of the schema.
     if let Some(tables) = value["code_tables"].as_array_mut() {
         tables.sort_by_key(|table| table["name"].to_string());
     }
     each_object(value, &mut |fields| {
-        // Attributes and their elements have no order.
+        // The order of attributes, and of the elements that contain them, has no meaning.
         if let Some(Value::Array(list)) = fields.get_mut("attributes") {
             list.sort_by_key(ToString::to_string);
         }
-        // The export declares a version of the schema even if the source does not.
+        // The export declares a schema version even if the source does not.
         if let Some(version) = fields.get_mut("format_version").filter(|version| version.as_str() == Some("")) {
             *version = "2.35".into();
         }
@@ -35,7 +35,7 @@ fn noted(exported: &Export, kind: NoteKind) -> usize {
     exported.notes.iter().filter(|note| note.kind == kind).map(|note| note.count).sum()
 }
 
-/// Returns the difference between `catalog` and its export.
+/// Returns the difference between `catalog` and its reread export.
 fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     let name = file_name(catalog, &Options::default()).unwrap_or_else(|| "export".into()) + ".xml";
     let again = read(Source::new(name.as_str(), exported.text.clone().into()), &options());
@@ -51,7 +51,7 @@ fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
         .iter()
         .map(|(key, count)| count.saturating_sub(exported_keys.get(key).copied().unwrap_or(0)))
         .sum();
-    // The schema requires the header, which is the same in every file.
+    // The schema requires the header, which is equal in all files.
     let is_header = |key: &str| key.starts_with("ProfileHeader/") || key.starts_with("ISO15745Reference/");
     let new = exported_keys.iter().filter(|(key, _)| !is_header(&key.0));
     let new = new.into_iter().find(|(key, count)| original_keys.get(key).is_none_or(|before| before < count));
@@ -68,7 +68,7 @@ fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     }
 }
 
-/// Returns all files that can be exported, with their exports.
+/// Returns all files that Lexibus can export, with their exports.
 fn exports() -> Option<Vec<(File, Catalog, Export)>> {
     let mut exports = Vec::new();
     for file in files_of("gsdml")? {
@@ -117,7 +117,8 @@ fn exports_of_valid_files_are_valid() {
     assert!(violations.is_empty(), "{} violations:\n{}", violations.len(), violations.join("\n"));
 }
 
-/// Returns the text without its XML declaration. A decoded text is UTF-8, whatever its declaration says.
+/// Returns the text without its XML declaration. A decoded text is UTF-8, even if its declaration names another
+/// encoding.
 fn without_declaration(text: &str) -> String {
     let text = text.trim_start();
     match text.strip_prefix("<?xml").and_then(|rest| rest.split_once("?>")) {

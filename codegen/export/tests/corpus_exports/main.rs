@@ -1,4 +1,4 @@
-//! Exports of every file of the corpus.
+//! Tests of exports with all files of the corpus.
 
 #[path = "../../../tests/corpus_support/mod.rs"]
 mod corpus_support;

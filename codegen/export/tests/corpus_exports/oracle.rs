@@ -1,4 +1,4 @@
-//! Compares the compiler with the lists of the corpus: the counts of a simple script (`oracle.json`) and the class of
+//! Compares the compiler's results with lists of the corpus: the counts of a simple script (`oracle.json`) and the class of
 //! each file (`MANIFEST.tsv`).
 
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use lexibus_codegen::source::{FileId, Source};
 use lexibus_export::json;
 use serde_json::Value;
 
-/// A file, its entries in the lists, and its compilation.
+/// A corpus file, its entries in both lists, and its compilation.
 struct Case {
     file: File,
     class: String,
@@ -55,7 +55,7 @@ fn case(file: File, oracle: &Value) -> Case {
     Case { file, class, format, objects, subs, compilation }
 }
 
-/// Returns the number of items with a separate section or element.
+/// Returns the number of items with their own section or element.
 fn declared_subs(case: &Case) -> usize {
     let groups = case.compilation.catalog.iter().flat_map(|catalog| &catalog.devices).flat_map(|device| &device.groups);
     let origins = groups.flat_map(|group| &group.items).map(|item| item.origin.span);
@@ -66,9 +66,9 @@ fn is_sub(declaration: &str) -> bool {
     declaration.to_ascii_lowercase().contains("sub")
 }
 
-/// All counts agree. The oracle and the compiler count these cases alike: E24 (any case of `sub`), E27 (repeated
-/// sections), E33 (sub-indices without an object), E41 (leading zeros), E43 (CompactSubObj implies entries without
-/// sections) and E70 (so does CompactPDO).
+/// Compares all counts with the oracle. The oracle and the compiler count these special cases in the same way: E24 (`sub`
+/// in upper or lower case), E27 (repeated sections), E33 (sub-indices without an object), E41 (leading zeros), E43 (entries
+/// that CompactSubObj implies without sections) and E70 (entries that CompactPDO implies without sections).
 #[test]
 fn objects_and_sub_indices_are_as_many_as_the_oracle_counts() {
     let Some(cases) = cases() else { return };
@@ -95,15 +95,15 @@ fn objects_and_sub_indices_are_as_many_as_the_oracle_counts() {
     );
 }
 
-/// Returns whether the text has the section of a commissioned device (E68). The script takes such a file for a DCF, and any
-/// other file for an EDS.
+/// Returns whether the text has the section of a commissioned device (E68). The script treats such a file as a DCF and
+/// other files as EDS.
 fn e68_commissioned(text: &str) -> bool {
     let names = lines(text).into_iter().filter_map(|(_, line)| Some(header(line)?.0.to_ascii_lowercase()));
     names.into_iter().any(|name| ["devicecomissioning", "devicecommissioning"].contains(&name.as_str()))
 }
 
-/// The compiler prefers the extension `.eds` or `.dcf` of the file name. It may differ from the script only if the
-/// extension and the content differ.
+/// Compares the formats that the compiler and the script recognize. The compiler prefers the extension `.eds` or `.dcf` of
+/// the file name. The results may differ only if the extension and the content differ.
 #[test]
 fn formats_follow_from_extension_or_content() {
     let Some(cases) = cases() else { return };
@@ -118,8 +118,13 @@ fn formats_follow_from_extension_or_content() {
         if format != expected {
             let by_content = if e68_commissioned(&case.file.text()) { "dcf" } else { "eds" };
             let ending = case.name().rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
-            assert_eq!(ending.as_deref(), Some(format), "{}: not the extension of its name", case.name());
-            assert_eq!(by_content, expected, "{}: not what it contains", case.name());
+            assert_eq!(
+                ending.as_deref(),
+                Some(format),
+                "{}: the format does not match the file extension",
+                case.name()
+            );
+            assert_eq!(by_content, expected, "{}: the format does not match the content", case.name());
             by_name += 1;
         }
     }
@@ -155,7 +160,7 @@ fn no_canopen_file_is_rejected() {
     assert!(real >= lane::at_least(170), "only {real} files of real devices");
 }
 
-/// Returns code and message of the only error of a file that is no CANopen description.
+/// Returns the code and message of the only error in a file that is not a CANopen device description.
 fn rejection(case: &Case) -> (&'static str, &'static str) {
     match case.class.as_str() {
         "negative (EtherNet/IP EDS)" => ("EDS001", "this is an EtherNet/IP EDS"),
@@ -188,7 +193,8 @@ fn other_files_are_rejected_with_one_error_that_names_their_format() {
     assert!(rejected.keys().eq(expected.keys()), "the sample has a file for each code: {rejected:?}");
 }
 
-/// Most lines of a text template look like an EDS. The others must be reported.
+/// Checks the diagnostics about a text template. Most of its lines look like an EDS; each other line must have a
+/// diagnostic.
 #[test]
 fn lines_of_a_template_are_reported_one_by_one() {
     let Some(cases) = cases() else { return };

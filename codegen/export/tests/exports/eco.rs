@@ -1,4 +1,4 @@
-//! The EDS of a drive whose manual is transcribed to a register table.
+//! The EDS export of a register table that is transcribed from a drive's manual.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use lexibus_export::eds::{export, Flavour, NoteKind};
 
 use crate::eco_support::{base, device, items, object, table};
 
-/// The EDS of the table has no diagnostics, and it has the objects of CANopen.
+/// The exported EDS causes no diagnostics and has all CANopen objects of the table.
 #[test]
 fn its_eds_has_the_objects_of_canopen() {
     let compilation = table();

@@ -5,7 +5,7 @@ use lexibus_codegen::ir::{Catalog, Device};
 use lexibus_codegen::source::Source;
 use lexibus_export::eds::{export, Export, Flavour, NoteKind};
 
-/// Most features of real files, and many mistakes.
+/// An EDS with most features and many typical mistakes of real files.
 const QUIRKY: &str = "\
 ; made by hand
 [DeviceInfo]
@@ -76,7 +76,7 @@ NodeID=5
 Baudrate=250
 ";
 
-/// Options that read a file without completing it from profiles.
+/// Returns options for reading a file without completing it from profiles.
 fn options() -> Options {
     Options { no_profiles: true, ..Options::default() }
 }
@@ -107,7 +107,7 @@ fn an_eds_has_no_configuration() {
     for absent in ["[DeviceComissioning]", "ParameterValue", "NodeID="] {
         assert!(!exported.text.contains(absent), "{absent}");
     }
-    // The commissioning of the node, and the value of 0x2000.
+    // The two facts are the commissioning of the node and the configured value of 0x2000.
     assert_eq!(notes(&exported)[0], (NoteKind::Configuration, 2, "the device"));
 }
 

@@ -1,4 +1,4 @@
-//! Exported ESI files, their validity, and the notes and refusals of exports.
+//! Tests exported ESI files: their content, validity, notes and refusals.
 
 use crate::corpus_support::root::root;
 use crate::corpus_support::round_trip::options;
@@ -8,10 +8,10 @@ use lexibus_codegen::ir::{Catalog, Device, Documentation, Value};
 use lexibus_codegen::source::Source;
 use lexibus_export::esi::{export, Area, Export, NoteKind, Options, Refusal};
 
-/// A slave with most features of ETG.2000.
+/// An EtherCAT slave that uses most features of ETG.2000.
 const SLAVE: &str = include_str!("slave.xml");
 
-/// A CANopen device.
+/// The EDS of a CANopen device.
 const EDS: &str = "\
 [DeviceInfo]
 VendorName=Example
@@ -92,7 +92,7 @@ fn note_lines(export: &Export) -> String {
     export.notes.iter().map(|note| format!("{note}\n")).collect()
 }
 
-/// Validates a file if there is a validator, and reads it again without diagnostics.
+/// Validates an exported file if a validator is installed. Then reads the file and requires no diagnostics.
 fn valid(what: &str, text: &str) -> Catalog {
     if let Some(schema) = Schema::new("esi/EtherCATInfo.xsd") {
         assert_eq!(schema.violations(what, [("export.xml", text.as_bytes())]), Vec::<String>::new());
@@ -121,7 +121,7 @@ fn the_description_of_a_pdo_is_left_out() {
     let pdo = &mut catalog.devices[0].process_data.pdos[0];
     pdo.documentation = Some(Box::new(Documentation { text: "Velocity.".to_owned(), ..Documentation::default() }));
     let more = notes(&catalog);
-    assert_ne!(before, more, "a note counts it");
+    assert_ne!(before, more, "a note counts the fact");
     let count = |list: &[(NoteKind, usize)]| -> usize {
         list.iter().filter(|(kind, _)| *kind == NoteKind::Documentation).map(|(_, count)| count).sum()
     };
@@ -153,13 +153,13 @@ fn unused_options_are_noted() {
     }
     let exported = export(&catalog("slave.xml", SLAVE), &options).expect("an ESI");
     let note = exported.notes.iter().find(|note| note.kind == NoteKind::GivenFact).expect("a note");
-    assert_eq!((note.count, note.first.as_str()), (2, "mailbox-out"), "it has a mailbox and sync managers");
+    assert_eq!((note.count, note.first.as_str()), (2, "mailbox-out"), "the device has a mailbox and sync managers");
 }
 
 #[test]
 fn missing_facts_are_listed() {
     let eds = catalog("pump.eds", EDS);
-    let Err(Refusal::Missing(facts)) = export(&eds, &Options::default()) else { panic!("it has no physics") };
+    let Err(Refusal::Missing(facts)) = export(&eds, &Options::default()) else { panic!("the options have no physics") };
     assert_eq!(facts.iter().map(|fact| fact.key).collect::<Vec<_>>(), ["physics", "group"]);
     let text = Refusal::Missing(facts).to_string();
     assert!(text.contains("`physics` (Kind of each port") && text.contains("`group` (Key of the group"), "{text}");
@@ -171,7 +171,7 @@ fn missing_facts_are_listed() {
     assert!(options.set("colour", "red").is_err_and(|text| text.contains("unknown option `colour`")));
 }
 
-/// Returns the facts of a slave that an EDS does not have.
+/// Returns facts that an EtherCAT slave requires and an EDS does not have.
 fn of_a_slave() -> Options {
     let mut options = Options::default();
     let facts = [
@@ -232,7 +232,7 @@ fn esi_of_a_register_table() {
     assert!(kinds.contains(&NoteKind::BitField), "{kinds:?}");
 }
 
-/// Every table of the project that has objects gives a valid ESI.
+/// Exports all tables of the project that have objects. Each ESI must be valid.
 #[test]
 fn every_table_with_objects_has_an_esi() {
     let folder = root().join("dictionaries");

@@ -1,4 +1,4 @@
-//! Exported GSDML files, their validity, and the notes and refusals of exports.
+//! Tests exported GSDML files: their content, validity, notes and refusals.
 
 use crate::corpus_support::root::root;
 use crate::corpus_support::round_trip::options as reading;
@@ -8,7 +8,7 @@ use lexibus_codegen::ir::{Catalog, Type};
 use lexibus_codegen::source::Source;
 use lexibus_export::gsdml::{export, file_name, Export, NoteKind, Options, Refusal};
 
-/// A drive with two process images, some of whose fields share bytes.
+/// The register table of a drive with two process images. Some of their fields share bytes.
 const TABLE: &str = r#"
 lexibus = 1
 [device]
@@ -48,7 +48,7 @@ ready = { at = 0, bit = 1, type = "bool" }
 position = { at = 1, type = "i32" }
 "#;
 
-/// Facts that a register table does not have.
+/// Facts that a GSDML requires and a register table does not have.
 const FACTS: [(&str, &str); 27] = [
     ("vendor-id", "0x0123"),
     ("device-id", "0x0001"),
@@ -109,7 +109,7 @@ fn gsdml_of_process_images() {
     let reports: Vec<String> = again.diagnostics.list().iter().map(|found| again.one_line(found)).collect();
     assert_eq!(reports, Vec::<String>::new());
     let catalog = again.catalog.expect("a catalog");
-    // Options of a device access point are used only if the export creates one.
+    // Options of a device access point have an effect only if the export creates one.
     let of_itself = export(&catalog, &given()).expect("a GSDML");
     let unused = of_itself.notes.iter().find(|note| note.kind == NoteKind::GivenFact).expect("a note");
     assert_eq!((unused.count, unused.first.as_str()), (FACTS.len() - 5, "dns-name"));
@@ -128,7 +128,9 @@ fn gsdml_of_process_images() {
 
 #[test]
 fn missing_facts_are_listed() {
-    let Err(Refusal::Missing(facts)) = export(&table(), &Options::default()) else { panic!("much is missing") };
+    let Err(Refusal::Missing(facts)) = export(&table(), &Options::default()) else {
+        panic!("many required facts are missing")
+    };
     let keys: Vec<&str> = facts.iter().map(|fact| fact.key).collect();
     for key in ["vendor-id", "device-id", "dns-name", "module-ident", "min-device-interval", "date"] {
         assert!(keys.contains(&key), "{key} of {keys:?}");
@@ -140,7 +142,7 @@ fn missing_facts_are_listed() {
     assert!(options.set("device-access", "perhaps").is_err_and(|text| text.contains("`true` or `false`")));
 }
 
-/// Every table of the project that has process images gives a valid GSDML.
+/// Exports all tables of the project that have process images. Each GSDML must be valid.
 #[test]
 fn every_table_with_images_has_a_gsdml() {
     let folder = root().join("dictionaries");

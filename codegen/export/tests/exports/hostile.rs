@@ -1,4 +1,5 @@
-//! Names that contain markup of the exported format. Reading an exported file gives the structure of the original.
+//! Tests names that contain markup of the exported format. Reading an exported file must give the structure of the
+//! original.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::{Catalog, Documentation, Group, Pdo};
@@ -8,7 +9,7 @@ use lexibus_export::{eds, esi, gsdml};
 use crate::corpus_support::lane;
 use crate::corpus_support::root::root;
 
-/// Line ends, sections, keys, comments, elements, attributes and entities.
+/// Names with line ends, sections, keys, comments, elements, attributes and entities.
 const HOSTILE: [&str; 12] = [
     "a\nAccessType=wo",
     "b\r\n[6FFF]\r\nParameterName=x",
@@ -30,7 +31,7 @@ fn catalog(path: &str) -> Catalog {
     compilation.catalog.expect("a catalog")
 }
 
-/// Gives every element of a catalog a different name, which depends on its number.
+/// Renames all elements of a catalog. `name` returns a name for each number.
 fn rename(catalog: &mut Catalog, name: impl Fn(usize) -> String) {
     let mut number = 0;
     let mut next = || {
@@ -73,7 +74,7 @@ fn rename(catalog: &mut Catalog, name: impl Fn(usize) -> String) {
     }
 }
 
-/// Returns the facts of a catalog without its texts.
+/// Returns facts of a catalog that do not depend on its texts.
 fn structure(catalog: &Catalog) -> Vec<String> {
     fn groups(groups: &[Group], lines: &mut Vec<String>) {
         for group in groups {
@@ -112,7 +113,7 @@ fn structure(catalog: &Catalog) -> Vec<String> {
     lines
 }
 
-/// Returns the structure of the exported and reread catalog.
+/// Returns the structure of a catalog after it was renamed, exported and read again.
 fn again(path: &str, name: &str, write: &dyn Fn(&Catalog) -> String, names: impl Fn(usize) -> String) -> Vec<String> {
     let mut renamed = catalog(path);
     rename(&mut renamed, names);

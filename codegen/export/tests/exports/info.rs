@@ -1,4 +1,4 @@
-//! Counts of `lexibus info`.
+//! Tests the counts that `lexibus info` prints.
 
 #[path = "../../../tests/table_support/mod.rs"]
 mod table_support;
@@ -12,7 +12,7 @@ fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", text.into()), &Options::default())
 }
 
-/// The first example in the documentation of register tables, which is a whole device.
+/// Compiles the first example in the documentation of register tables, which is a complete device.
 #[test]
 fn info_of_the_worked_example() {
     let (_, block) = examples().swap_remove(0);

@@ -1,4 +1,4 @@
-//! Exports: their text, their validity, and the facts that they report as left out or missing.
+//! Tests exports: their content, validity, and notes about facts that are left out or missing.
 
 #[path = "../../../tests/corpus_support/mod.rs"]
 mod corpus_support;

@@ -1,4 +1,4 @@
-//! The addresses of an item on every bus.
+//! Compares the addresses of an item on all buses.
 
 use std::mem::discriminant;
 
@@ -10,7 +10,7 @@ use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::words::bus_name;
 use lexibus_codegen::ir::{Binding, CompactString, ImageBinding, IndirectBinding, RegisterBinding, WindowSide};
 
-/// Compares the addresses. Those of one kind are compared in their order.
+/// Compares addresses. Addresses of the same kind are compared in their order.
 pub(super) fn compare(old: &[Binding], new: &[Binding], comparison: &mut Comparison<'_>) {
     buses(old, new, comparison);
     let mut left: Vec<&Binding> = new.iter().collect();
@@ -28,13 +28,14 @@ pub(super) fn compare(old: &[Binding], new: &[Binding], comparison: &mut Compari
     }
 }
 
-/// Returns whether the other addresses have the buses of this one. Then the comparison of buses does not report it.
+/// Returns whether the other addresses cover the buses of this address. If so, the comparison of buses does not report
+/// it.
 fn is_reached(binding: &Binding, others: &[Binding]) -> bool {
     let names = names_of(others);
     buses_of(binding).iter().all(|bus| names.contains(bus))
 }
 
-/// Compares the buses of the item. Access over a bus that the item does not have is a compile error in Rust.
+/// Compares the buses on which the item is accessible. Using any other bus for the item is a compile error in Rust.
 fn buses(old: &[Binding], new: &[Binding], comparison: &mut Comparison<'_>) {
     let (old, new) = (names_of(old), names_of(new));
     let is_lost = old.iter().any(|bus| !new.contains(bus));
@@ -68,16 +69,16 @@ fn binding(old: &Binding, new: &Binding, comparison: &mut Comparison<'_>) {
             fact("length in bytes", Judgement::WIRE)(old, new, comparison);
         }
         (Binding::Indirect(old), Binding::Indirect(new)) => window(old, new, comparison),
-        // These have no fields except the address, and the buses were compared.
+        // These bindings have no other fields than the address. Their buses have already been compared.
         _ => {}
     }
 }
 
 fn register(old: &RegisterBinding, new: &RegisterBinding, comparison: &mut Comparison<'_>) {
-    // Word order has no effect on a single register.
+    // Word order only matters for items with several registers.
     let word_order = if old.count.max(new.count) > 1 { Judgement::WIRE } else { Judgement::NONE };
     compare_fields!(RegisterBinding, old, new, comparison, {
-        // The printed number changes with the address and the length.
+        // The printed address changes with the wire address and the length, so its changes are not reported separately.
         printed: |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
             if (old.address, old.count) == (new.address, new.count) {
                 text("printed address")(one, other, comparison);

@@ -1,4 +1,4 @@
-//! Catalogs: devices, modules and submodules, and data that they share.
+//! Compares catalogs: devices, modules, submodules and their shared data.
 
 use super::change::{Change, Judgement};
 use super::comparison::{compare_fields, fact_as, list, part, text, Comparison, Elements, COMPARED, KEY, POSITION};
@@ -9,10 +9,10 @@ use super::{codes, devices, modules, profinet, types};
 use lexibus_codegen::facts::device::title;
 use lexibus_codegen::ir::{Catalog, Device, Family, Graphic, LocalText, Module, Submodule};
 
-/// Compares two versions of a description.
+/// Compares two versions of a device description.
 ///
-/// Changes that break Rust code or the communication come first, then those that break the behavior, then the others.
-/// Each group has the order of the old description.
+/// The result begins with changes that break Rust code or the communication. Changes that break the behavior follow,
+/// then all others. Each of these groups has the order of the old description.
 pub fn compare(old: &Catalog, new: &Catalog) -> Vec<Change> {
     let mut comparison = Comparison::new(old, new);
     compare_devices(&old.devices, &new.devices, &mut comparison);
@@ -25,7 +25,7 @@ pub fn compare(old: &Catalog, new: &Catalog) -> Vec<Change> {
     changes
 }
 
-/// Compares the data that devices, modules and submodules share.
+/// Compares data that devices, modules and submodules share.
 fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
     compare_fields!(Catalog, old, new, comparison, {
         code_tables: codes::tables(),
@@ -39,8 +39,8 @@ fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
     }, "the files that are compared" => [files], COMPARED => [devices, modules, submodules, types]);
 }
 
-/// Compares devices. If each description has only one, these are compared. Otherwise devices are paired by product
-/// code, name and identifier.
+/// Compares the devices. If both descriptions have exactly one device, these two are compared. Otherwise devices are
+/// paired by product code, name and identifier.
 fn compare_devices<'a>(old: &'a [Device], new: &'a [Device], comparison: &mut Comparison<'a>) {
     let is_one = old.len() == 1 && new.len() == 1;
     let key = |device: &Device| format!("{:?} {} {}", device.identity.product_code, title(device), device.id);
@@ -70,7 +70,7 @@ fn compare_submodules<'a>(old: &'a [Submodule], new: &'a [Submodule], comparison
     }
 }
 
-/// Compares two owners of elements. Reports contain the name of the owner.
+/// Compares two lists of devices, modules or submodules. Each change contains the name of the compared element.
 fn owned<'a, T>(
     owner: String,
     kind: &str,

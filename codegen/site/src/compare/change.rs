@@ -9,28 +9,29 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Effect {
-    /// The change does not concern this aspect.
+    /// The change does not affect this aspect.
     #[default]
     Unaffected,
-    /// Everything that was valid for the old description is valid for the new one and means the same.
+    /// Programs and data that were valid for the old description are also valid for the new one and have the same
+    /// meaning.
     Compatible,
-    /// Something that was valid for the old description is invalid for the new one or has another meaning.
+    /// A program or value that was valid for the old description is invalid for the new one or has a different meaning.
     Breaking,
 }
 
-/// The effects of a change on the three aspects of a description.
+/// The effects of a change on the three aspects: Rust code, communication and behavior.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
 pub struct Judgement {
-    /// Rust code for the old version: whether it compiles and means the same.
+    /// Rust code written for the old version: whether it still compiles and has the same meaning.
     pub api: Effect,
     /// The bytes on the bus: addresses, layouts, encodings and frames.
     pub wire: Effect,
-    /// The behavior of the device: range, default, storage, conditions, effects and availability.
+    /// The behavior of the device: range, default value, storage, conditions, effects and availability.
     pub behavior: Effect,
 }
 
 impl Judgement {
-    /// No effect, as for texts and facts about the file.
+    /// No effect. Used for texts and facts about the file.
     pub const NONE: Judgement = Judgement::new(Effect::Unaffected, Effect::Unaffected, Effect::Unaffected);
     /// Breaks Rust code only.
     pub const API: Judgement = Judgement::new(Effect::Breaking, Effect::Unaffected, Effect::Unaffected);
@@ -38,31 +39,31 @@ impl Judgement {
     pub const WIRE: Judgement = Judgement::new(Effect::Unaffected, Effect::Breaking, Effect::Unaffected);
     /// Breaks the behavior only.
     pub const BEHAVIOR: Judgement = Judgement::new(Effect::Unaffected, Effect::Unaffected, Effect::Breaking);
-    /// Breaks Rust code and the communication.
+    /// Breaks Rust code and the communication, but not the behavior.
     pub const API_AND_WIRE: Judgement = Judgement::new(Effect::Breaking, Effect::Breaking, Effect::Unaffected);
-    /// Breaks Rust code and the behavior.
+    /// Breaks Rust code and the behavior, but not the communication.
     pub const API_AND_BEHAVIOR: Judgement = Judgement::new(Effect::Breaking, Effect::Unaffected, Effect::Breaking);
-    /// Adds something to the Rust code.
+    /// Adds an element to the Rust code.
     pub const API_COMPATIBLE: Judgement = Judgement::new(Effect::Compatible, Effect::Unaffected, Effect::Unaffected);
-    /// Adds something to the Rust code and to the bus.
+    /// Adds an element to the Rust code and to the communication.
     pub const ADDITION: Judgement = Judgement::new(Effect::Compatible, Effect::Compatible, Effect::Unaffected);
-    /// Adds something to the bus.
+    /// Adds an element to the communication.
     pub const WIRE_COMPATIBLE: Judgement = Judgement::new(Effect::Unaffected, Effect::Compatible, Effect::Unaffected);
-    /// Changes the behavior, but everything remains possible.
+    /// Changes the behavior without making any previous use invalid.
     pub const BEHAVIOR_COMPATIBLE: Judgement =
         Judgement::new(Effect::Unaffected, Effect::Unaffected, Effect::Compatible);
 
-    /// Combines the effects on the three aspects.
+    /// Creates a judgement from the effects on the three aspects.
     pub const fn new(api: Effect, wire: Effect, behavior: Effect) -> Self {
         Judgement { api, wire, behavior }
     }
 
-    /// Returns whether Rust code or the communication breaks.
+    /// Returns whether the change breaks Rust code or the communication.
     pub fn is_breaking(self) -> bool {
         self.api == Effect::Breaking || self.wire == Effect::Breaking
     }
 
-    /// Returns the class of the change, which depends on its worst effect.
+    /// Returns the class of the change. Its worst effect determines the class.
     pub fn class(self) -> Class {
         match [self.api, self.wire, self.behavior].into_iter().max() {
             _ if self.is_breaking() => Class::Breaking,
@@ -72,7 +73,7 @@ impl Judgement {
         }
     }
 
-    /// Returns the aspects with this effect, as reports name them.
+    /// Returns the names of the aspects that have this effect, for reports.
     fn aspects(self, effect: Effect) -> String {
         let all = [("api", self.api), ("wire", self.wire), ("behavior", self.behavior)];
         all.into_iter().filter(|(_, other)| *other == effect).map(|(name, _)| name).collect::<Vec<_>>().join(", ")
@@ -90,28 +91,28 @@ impl fmt::Display for Judgement {
     }
 }
 
-/// Classes of changes by their worst effect, in the order of reports.
+/// The class of a change, determined by its worst effect. The variants have the order of reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Class {
-    /// Rust code or the communication breaks.
+    /// The change breaks Rust code or the communication.
     Breaking,
-    /// Only the behavior breaks.
+    /// The change breaks only the behavior.
     Behavior,
-    /// Nothing breaks.
+    /// The change is compatible.
     Compatible,
-    /// Nothing is affected.
+    /// The change has no effect.
     None,
 }
 
 /// A difference between two descriptions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Change {
-    /// Name of the device or module if there are several.
+    /// Name of the changed device or module. Empty if there is only one.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub owner: String,
-    /// Element that changed: address and name.
+    /// Address and name of the changed element.
     pub element: String,
-    /// Fact that changed, such as `access`, `type`, `range`, `layout`, `added` or `removed`.
+    /// Name of the changed fact, such as `access`, `type`, `range` or `layout`; or `added` or `removed`.
     pub fact: &'static str,
     /// Old value; empty if there is none.
     pub old: String,
@@ -126,7 +127,7 @@ impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Change { owner, element, fact, old, new, judgement } = self;
         let (old, new) = excerpts(old, new);
-        // The texts come from descriptions and can contain control characters for the terminal.
+        // Make control characters printable, because the texts come from descriptions and may be shown in a terminal.
         let [owner, element, old, new] = [owner, element, &old, &new].map(|text| printable(text));
         let of = if owner.is_empty() { String::new() } else { format!("{owner}: ") };
         write!(f, "{judgement}: {of}{element}")?;
@@ -139,9 +140,9 @@ impl fmt::Display for Change {
     }
 }
 
-/// Shortens long texts. The result begins at the first word that differs.
+/// Shortens two long texts. Each result begins at the first word that differs.
 fn excerpts(old: &str, new: &str) -> (String, String) {
-    /// Maximum length of a text that is not shortened.
+    /// Maximum length of texts that are not shortened.
     const LONG: usize = 240;
     /// Maximum length of a shortened text.
     const SHOWN: usize = 80;
@@ -161,25 +162,25 @@ fn excerpts(old: &str, new: &str) -> (String, String) {
     (excerpt(old), excerpt(new))
 }
 
-/// The number of changes of each class.
+/// Number of changes of each class.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
-    /// All changes.
+    /// Number of all changes.
     pub changes: usize,
-    /// Changes that break Rust code.
+    /// Number of changes that break Rust code.
     pub api: usize,
-    /// Changes that break the communication.
+    /// Number of changes that break the communication.
     pub wire: usize,
-    /// Changes that break the behavior.
+    /// Number of changes that break the behavior.
     pub behavior: usize,
-    /// Changes that break nothing.
+    /// Number of changes that are compatible.
     pub compatible: usize,
-    /// Changes without an effect.
+    /// Number of changes without an effect.
     pub none: usize,
 }
 
 impl Summary {
-    /// Counts changes.
+    /// Counts the changes of each class.
     pub fn of(changes: &[Change]) -> Self {
         let count =
             |condition: &dyn Fn(Judgement) -> bool| changes.iter().filter(|change| condition(change.judgement)).count();

@@ -1,4 +1,4 @@
-//! Code tables, which are enumerations in Rust.
+//! Compares code tables, which become enumerations in Rust.
 
 use super::change::Judgement;
 use super::comparison::{compare_fields, fact, list, text, Comparison, Elements, COMPARED, POSITION};
@@ -24,7 +24,7 @@ fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
     }, POSITION => [origin]);
 }
 
-/// Compares the rows of a code table. Rust code can match all codes.
+/// Compares the rows of a code table. Added rows are breaking because Rust code can match all codes.
 fn rows() -> Elements<CodeRow> {
     Elements {
         title: |row| format!("code {} {}", code::text(row), row.name),
@@ -40,7 +40,7 @@ fn row(old: &CodeRow, new: &CodeRow, comparison: &mut Comparison<'_>) {
         Some(last) => format!("{} to {last}", row.code),
         None => row.code.to_string(),
     };
-    // Another notation of the same code has no effect on the bus.
+    // Writing the same code in another notation does not affect the communication.
     let judgement = if old.code == new.code { Judgement::API } else { Judgement::WIRE };
     comparison.texts("code", number(old), number(new), judgement);
     compare_fields!(CodeRow, old, new, comparison, {

@@ -1,4 +1,4 @@
-//! The state of a comparison, and the rules for fields.
+//! The state of a comparison and the functions that compare fields.
 
 use std::borrow::Borrow;
 use std::collections::HashSet;
@@ -10,17 +10,17 @@ use super::pairing;
 use super::show::Show;
 use lexibus_codegen::ir::{Catalog, Type, TypeDef};
 
-/// The changes that were found so far, and the current element.
+/// The state of a comparison: the changes found so far and the current element.
 pub(super) struct Comparison<'a> {
     /// The old and the new catalog.
     pub catalogs: (&'a Catalog, &'a Catalog),
-    /// The old and the new types of the current device, module or submodules.
+    /// The old and new types of the current device, module or submodules.
     pub types: (&'a [TypeDef], &'a [TypeDef]),
-    /// Pairs of compared types, with their owner.
+    /// Pairs of types that have been compared. Each pair includes its owner.
     compared_types: HashSet<(usize, Type, Type)>,
-    /// Owner of the current types; 0 is the catalog.
+    /// Owner of the current types. 0 means the catalog.
     types_owner: usize,
-    /// Number of owners of types.
+    /// Number of owners of types so far.
     types_owners: usize,
     pub owner: String,
     pub changes: Vec<Change>,
@@ -41,7 +41,7 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// Compares an owner of types.
+    /// Compares a device, module or submodule that owns types.
     pub fn in_types(&mut self, old: &'a [TypeDef], new: &'a [TypeDef], compare: impl FnOnce(&mut Self)) {
         let outer = (self.types, self.types_owner);
         (self.types, self.types_owner) = ((old, new), self.types_owners);
@@ -50,7 +50,7 @@ impl<'a> Comparison<'a> {
         (self.types, self.types_owner) = outer;
     }
 
-    /// Compares elements that refer to types of the catalog.
+    /// Compares elements whose types belong to the catalog.
     pub fn in_types_of_catalog(&mut self, compare: impl FnOnce(&mut Self)) {
         let outer = (self.types, self.types_owner);
         let (old, new) = self.catalogs;
@@ -59,12 +59,12 @@ impl<'a> Comparison<'a> {
         (self.types, self.types_owner) = outer;
     }
 
-    /// Returns whether a pair of types has not been compared before. Records the pair.
+    /// Returns whether this pair of types has not been compared before, and records the pair.
     pub fn is_first_comparison(&mut self, old: Type, new: Type) -> bool {
         self.compared_types.insert((self.types_owner, old, new))
     }
 
-    /// Returns the compared types of the current owner: the old and the new ones.
+    /// Returns the old and the new types of the current owner that have been compared.
     pub fn compared_types(&self) -> (HashSet<Type>, HashSet<Type>) {
         let of_owner = self.compared_types.iter().filter(|(owner, ..)| *owner == self.types_owner);
         of_owner.map(|(_, old, new)| (*old, *new)).unzip()
@@ -87,7 +87,7 @@ impl<'a> Comparison<'a> {
         self.changes.push(Change { owner, element, fact, old, new, judgement });
     }
 
-    /// Reports a fact if its values differ.
+    /// Reports a fact of the current element if its old and new values differ.
     pub fn values<T: PartialEq + Debug>(
         &mut self,
         fact: &'static str,
@@ -95,13 +95,13 @@ impl<'a> Comparison<'a> {
         [old_text, new_text]: [String; 2],
         judgement: Judgement,
     ) {
-        // NaN differs from itself, which is no change.
+        // Compare the texts too: two NaN values are unequal, but equal texts mean no change.
         if old != new && format!("{old:?}") != format!("{new:?}") {
             self.push(fact, old_text, new_text, judgement);
         }
     }
 
-    /// Reports a fact if its texts differ.
+    /// Reports a fact of the current element if its old and new texts differ.
     pub fn texts(&mut self, fact: &'static str, old: String, new: String, judgement: Judgement) {
         if old != new {
             self.push(fact, old, new, judgement);
@@ -119,9 +119,9 @@ impl<'a> Comparison<'a> {
     }
 }
 
-/// Compares all fields of a type, with a rule for each. A field without a rule is a compile error. Common fields have
-/// the rule that `rule` gives them. Ignored fields follow the rules, with the reason: they are no facts of the device,
-/// or are compared elsewhere.
+/// Compares all fields of a type. The caller gives a rule for each field; a field without a rule is a compile error.
+/// The macro `rule` contains the rules of common fields. The list of ignored fields comes last and gives a reason for
+/// each: the field is not a fact of the device, or is compared elsewhere.
 macro_rules! compare_fields {
     ($type:ident, $old:expr, $new:expr, $comparison:expr, { $($field:ident $(: $rule:expr)?),* $(,)? }
         $(, $reason:expr => [$($ignored:ident),+])* $(,)?) => {{
@@ -133,7 +133,7 @@ macro_rules! compare_fields {
 }
 pub(super) use compare_fields;
 
-/// Selects the rule of a field: the given one, or that of all fields with this name.
+/// Selects the rule of a field: the rule from the caller, or the rule of all fields with this name.
 macro_rules! rule {
     (name) => {
         $crate::compare::comparison::judged("name", $crate::compare::texts::renamed)
@@ -159,16 +159,16 @@ macro_rules! rule {
 }
 pub(super) use rule;
 
-/// A position in the source file.
+/// Reason to ignore a field: it is a position in the source file.
 pub(super) const POSITION: &str = "a position in the source file";
-/// A page, line or clause of a manual.
+/// Reason to ignore a field: it is a page, line or clause of a manual.
 pub(super) const CITATION: &str = "a position in the manual";
-/// The elements are paired by this field.
+/// Reason to ignore a field: elements are paired by this field.
 pub(super) const KEY: &str = "a key; a change is reported as a removal and an addition";
-/// The field is compared together with another field.
+/// Reason to ignore a field: it is compared together with another field.
 pub(super) const COMPARED: &str = "compared together with another field";
 
-/// Compares a fact whose changes always affect the same aspects.
+/// Compares a fact. Any change of it has the same effects.
 pub(super) fn fact<T: PartialEq + Debug + Show>(
     name: &'static str,
     judgement: Judgement,
@@ -176,7 +176,7 @@ pub(super) fn fact<T: PartialEq + Debug + Show>(
     fact_as(name, judgement, T::show)
 }
 
-/// Compares a fact whose text `show` returns.
+/// Compares a fact. Any change of it has the same effects. `show` returns the text for reports.
 pub(super) fn fact_as<T: PartialEq + Debug>(
     name: &'static str,
     judgement: Judgement,
@@ -189,12 +189,12 @@ pub(super) fn fact_as<T: PartialEq + Debug>(
     }
 }
 
-/// Compares a text. A change has no effect.
+/// Compares a text whose changes have no effect.
 pub(super) fn text<T: PartialEq + Debug + Show>(name: &'static str) -> impl Fn(&T, &T, &mut Comparison<'_>) {
     fact(name, Judgement::NONE)
 }
 
-/// Compares a value that contains positions in the source, by its text.
+/// Compares the texts of a value whose other parts contain positions in the source.
 pub(super) fn positioned<T: PartialEq>(
     name: &'static str,
     judgement: Judgement,
@@ -207,7 +207,7 @@ pub(super) fn positioned<T: PartialEq>(
     }
 }
 
-/// Compares a fact whose effects depend on the values.
+/// Compares a fact. The effects of a change depend on its values.
 pub(super) fn judged<T: PartialEq + Debug + Show>(
     name: &'static str,
     judge: impl Fn(&T, &T) -> Judgement,
@@ -219,7 +219,7 @@ pub(super) fn judged<T: PartialEq + Debug + Show>(
     }
 }
 
-/// Compares a part with a name.
+/// Compares a part of the current element. Reports contain the name of the part.
 pub(super) fn part<T>(
     name: &'static str,
     compare: impl Fn(&T, &T, &mut Comparison<'_>),
@@ -227,7 +227,7 @@ pub(super) fn part<T>(
     move |old, new, comparison| comparison.within(name, |comparison| compare(old, new, comparison))
 }
 
-/// Compares an optional part, with the effects of its addition and of its removal.
+/// Compares an optional part. Adding or removing the part has the given effects.
 pub(super) fn optional<T, B: Borrow<T>>(
     name: &'static str,
     added: Judgement,
@@ -244,7 +244,7 @@ pub(super) fn optional<T, B: Borrow<T>>(
     }
 }
 
-/// Compares an optional part whose absence means its default.
+/// Compares an optional part. A missing part is equal to its default.
 pub(super) fn or_default<T: Default, B: Borrow<T>>(
     compare: impl Fn(&T, &T, &mut Comparison<'_>),
 ) -> impl Fn(&Option<B>, &Option<B>, &mut Comparison<'_>) {
@@ -257,27 +257,27 @@ pub(super) fn or_default<T: Default, B: Borrow<T>>(
     }
 }
 
-/// Compares a list as a slice.
+/// Compares a list with a function that compares slices.
 pub(super) fn slice<T, L: Deref<Target = [T]>>(
     compare: impl Fn(&[T], &[T], &mut Comparison<'_>),
 ) -> impl Fn(&L, &L, &mut Comparison<'_>) {
     move |old, new, comparison| compare(old, new, comparison)
 }
 
-/// The names and positions of the elements of a list, and the effects of additions and removals.
+/// Rules for the elements of a list: their titles, the keys that pair them, and the effects of additions and removals.
 pub(super) struct Elements<T> {
-    /// Name of an element in reports.
+    /// Returns the name of an element in reports.
     pub title: fn(&T) -> String,
-    /// The first key that pairs elements, unless it is empty.
+    /// Returns the first key that pairs elements. An empty key pairs nothing.
     pub name: fn(&T) -> String,
-    /// The key that pairs elements without a common name.
+    /// Returns the second key. It pairs elements that have no common first key.
     pub position: fn(&T) -> String,
     pub added: fn(&T) -> Judgement,
     pub removed: fn(&T) -> Judgement,
 }
 
 impl<T> Elements<T> {
-    /// Creates elements that are paired by their title.
+    /// Creates rules for elements that are paired by their title.
     pub fn titled(title: fn(&T) -> String) -> Self {
         Elements {
             title,
@@ -288,18 +288,18 @@ impl<T> Elements<T> {
         }
     }
 
-    /// Pairs elements by this text.
+    /// Changes the first key that pairs elements.
     pub fn paired_by(self, name: fn(&T) -> String) -> Self {
         Elements { name, ..self }
     }
 
-    /// Sets the effects of every addition and of every removal.
+    /// Sets the effects of all additions and of all removals.
     pub fn judged(self, added: fn(&T) -> Judgement, removed: fn(&T) -> Judgement) -> Self {
         Elements { added, removed, ..self }
     }
 }
 
-/// Compares a list of elements.
+/// Compares two lists of elements with the rules `elements`.
 pub(super) fn list<T, L: Deref<Target = [T]>>(
     elements: Elements<T>,
     compare: impl Fn(&T, &T, &mut Comparison<'_>),
@@ -307,7 +307,7 @@ pub(super) fn list<T, L: Deref<Target = [T]>>(
     move |old, new, comparison| slices(old, new, &elements, &compare, comparison)
 }
 
-/// Compares two lists.
+/// Compares two slices of elements.
 pub(super) fn slices<T>(
     old: &[T],
     new: &[T],

@@ -1,4 +1,4 @@
-//! Restrictions of an element: conditions, models, firmware versions, options and buses.
+//! Compares the restrictions of an element: conditions, models, firmware versions, options and buses.
 
 use std::fmt::Debug;
 
@@ -7,7 +7,7 @@ use super::comparison::{compare_fields, fact, judged, or_default, text, Comparis
 use super::show::Show;
 use lexibus_codegen::ir::{Availability, Bus, Buses, Condition};
 
-/// Compares a list that restricts an element. An empty list means no restriction.
+/// Compares a list of values to which an element is restricted. An empty list means no restriction.
 pub(super) fn restricted<T: PartialEq + Debug + Show>(
     name: &'static str,
 ) -> impl Fn(&Vec<T>, &Vec<T>, &mut Comparison<'_>) {
@@ -21,7 +21,7 @@ pub(super) fn restricted<T: PartialEq + Debug + Show>(
     })
 }
 
-/// Compares conditions, all of which must hold.
+/// Compares lists of conditions. All conditions of a list must be true.
 pub(super) fn conditions(name: &'static str) -> impl Fn(&Vec<Condition>, &Vec<Condition>, &mut Comparison<'_>) {
     move |old, new, comparison| {
         let text = |list: &[Condition]| list.iter().map(Condition::show).collect::<Vec<_>>().join(" and ");

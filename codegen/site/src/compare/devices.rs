@@ -1,4 +1,4 @@
-//! Devices: identity, file header, settings of CANopen and Modbus, models and axes.
+//! Compares devices: identity, file header, CANopen and Modbus settings, models and axes.
 
 use super::change::{Effect, Judgement};
 use super::comparison::{
@@ -65,7 +65,7 @@ pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_
     types::compare_unused(comparison);
 }
 
-/// Compares the facts of the device as a whole.
+/// Compares the facts that concern the whole device.
 fn facts_of_device(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {
     let titles = [old, new].map(|device| facts::device::title(device).to_owned());
     judged("name", renamed)(&titles[0], &titles[1], comparison);
@@ -141,7 +141,7 @@ fn dynamic_channel(channel: &DynamicChannel) -> String {
     format!("type {data_type:#X} {direction} {range} at {offset} {further}").trim_end().to_owned()
 }
 
-/// Compares the requests that the Modbus tables accept.
+/// Compares which requests the Modbus tables accept.
 fn modbus_tables(old: &[ModbusTable], new: &[ModbusTable], comparison: &mut Comparison<'_>) {
     let missing = |table: &ModbusTable| ModbusTable {
         space: table.space,
@@ -161,7 +161,8 @@ fn modbus_tables(old: &[ModbusTable], new: &[ModbusTable], comparison: &mut Comp
 
 fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Comparison<'_>) {
     compare_fields!(ModbusTable, old, new, comparison, {
-        // Without a list, all functions are accepted. A driver uses another function if the preferred one was removed.
+        // A missing list means that all functions are accepted. A driver uses another function if the preferred one was
+        // removed.
         functions: judged("function codes", |old: &Vec<u8>, new: &Vec<u8>| {
             let is_lost = !new.is_empty() && (old.is_empty() || old.iter().any(|value| !new.contains(value)));
             if is_lost { Judgement::WIRE } else { Judgement::WIRE_COMPATIBLE }
@@ -174,7 +175,7 @@ fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Compariso
     }, KEY => [space]);
 }
 
-/// Returns the effects of another maximum length of requests.
+/// Returns the effects of a changed maximum request length.
 fn shorter(old: &Option<u16>, new: &Option<u16>) -> Judgement {
     let is_shorter = new.is_some_and(|new| old.is_none_or(|old| new < old));
     let wire = if is_shorter { Effect::Breaking } else { Effect::Compatible };

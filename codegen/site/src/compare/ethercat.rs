@@ -1,4 +1,4 @@
-//! EtherCAT: the settings with which a master configures a slave.
+//! Compares the EtherCAT settings with which a master configures a slave.
 
 use super::change::Judgement;
 use super::comparison::{compare_fields, fact, fact_as, list, optional, text, Comparison, Elements, KEY, POSITION};
@@ -29,7 +29,7 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
     });
 }
 
-/// Joins the texts of a list.
+/// Joins the list elements, formatted with `show`.
 pub(super) fn joined<T>(list: &[T], show: impl Fn(&T) -> String) -> String {
     list.iter().map(show).collect::<Vec<_>>().join("; ")
 }
@@ -95,7 +95,7 @@ fn coe(old: &Coe, new: &Coe, comparison: &mut Comparison<'_>) {
     });
 }
 
-/// Compares the start-up commands of the master, which are paired by their objects.
+/// Compares the start-up commands of the master. The commands are paired by their objects.
 pub(super) fn init_commands() -> impl Fn(&Vec<InitCommand>, &Vec<InitCommand>, &mut Comparison<'_>) {
     let title =
         |command: &InitCommand| format!("start-up write to {}", address::object(command.index, command.sub_index));

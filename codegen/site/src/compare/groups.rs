@@ -1,4 +1,4 @@
-//! Objects, chapters, records and images, and their items.
+//! Compares groups (objects, chapters, records, process images) and their items.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::{bytes, hex16};
 use lexibus_codegen::ir::{CompactString, Group, GroupKind, Item, Record};
 
-/// Compares groups and their items. Items are paired across groups.
+/// Compares groups and their items. An item is also found if it moved to another group.
 pub(super) fn compare(old: &[&Group], new: &[&Group], comparison: &mut Comparison<'_>) {
     let (old, new) = (Side::of(old), Side::of(new));
     let groups = Matching::of(&old.group_keys(), &new.group_keys());
@@ -56,12 +56,12 @@ pub(super) fn compare(old: &[&Group], new: &[&Group], comparison: &mut Compariso
     }
 }
 
-/// The groups of one description, and their items in one list.
+/// The groups of one description, with a list of all their items.
 struct Side<'a> {
     groups: &'a [&'a Group],
     identifiers: Identifiers,
     entries: Vec<Entry<'a>>,
-    /// Ranges of the entries of each group.
+    /// For each group, the range of its entries in the list of all items.
     ranges: Vec<Range<usize>>,
 }
 
@@ -69,7 +69,7 @@ struct Side<'a> {
 struct Entry<'a> {
     group: &'a Group,
     item: &'a Item,
-    /// Rust identifier; empty for the value of an object without entries.
+    /// Rust identifier. Empty for the value of an object without entries.
     identifier: String,
 }
 
@@ -115,14 +115,14 @@ impl Entry<'_> {
         self.item.bindings.first().map(address::number).unwrap_or_default()
     }
 
-    /// Returns the name of an item in reports: address and name.
+    /// Returns the address and name of an item, for reports.
     fn title(&self) -> String {
         let name = if self.item.name.is_empty() { &self.group.name } else { &self.item.name };
         format!("{} {name}", self.position()).trim().to_owned()
     }
 }
 
-/// Returns the position key of a group.
+/// Returns the second key that pairs groups: their address.
 fn position(group: &Group) -> String {
     match &group.kind {
         GroupKind::Object { index, .. } => hex16(*index),
@@ -136,10 +136,10 @@ fn title(group: &Group) -> String {
     format!("{} {}", position(group), group.name).trim().to_owned()
 }
 
-/// Compares two items. Their Rust identifiers depend on the names of others.
+/// Compares two items. Their Rust identifiers can also differ because of other items' names.
 fn pair(old: &Entry<'_>, new: &Entry<'_>, comparison: &mut Comparison<'_>) {
     let name = |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
-        // The only value of an object has the name of the object.
+        // The value of an object without entries has the object's name, which is compared with the object.
         let is_of_group = old.identifier.is_empty() && (one, other) == (&old.group.name, &new.group.name);
         if !is_of_group {
             names([one, other], [&old.identifier, &new.identifier], comparison);
@@ -148,7 +148,7 @@ fn pair(old: &Entry<'_>, new: &Entry<'_>, comparison: &mut Comparison<'_>) {
     comparison.within(&new.title(), |comparison| item::compare_named(old.item, new.item, name, comparison));
 }
 
-/// Compares names, and the identifiers that follow from them.
+/// Compares names and the Rust identifiers that are created from them.
 fn names(names: [&CompactString; 2], identifiers: [&str; 2], comparison: &mut Comparison<'_>) {
     let [old, new] = names.map(CompactString::to_string);
     let [old_identifier, new_identifier] = identifiers.map(str::to_owned);
@@ -160,7 +160,7 @@ fn names(names: [&CompactString; 2], identifiers: [&str; 2], comparison: &mut Co
     }
 }
 
-/// Compares the facts of a group, apart from its items.
+/// Compares the facts of a group. Its items are compared separately.
 fn facts(old: &Group, new: &Group, identifiers: [&str; 2], comparison: &mut Comparison<'_>) {
     compare_fields!(Group, old, new, comparison, {
         name: |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
@@ -185,11 +185,11 @@ fn kind(old: &Group, new: &Group, comparison: &mut Comparison<'_>) {
             GroupKind::Object { index: one, code: old_code, category: old_category },
             GroupKind::Object { index: other, code, category },
         ) => {
-            // Otherwise the addresses of the items contain the index.
+            // Otherwise the addresses of the items contain the index, and their comparison reports it.
             if !(has_index_of_items(old) && has_index_of_items(new)) {
                 fact_as("index", Judgement::WIRE, index)(one, other, comparison);
             }
-            // In Rust, an object with entries is a module, and another one a constant.
+            // In Rust, an object with entries becomes a module, and an object without entries becomes a constant.
             let judgement = if is_module(old) == is_module(new) { Judgement::NONE } else { Judgement::API };
             fact("object code", judgement)(old_code, code, comparison);
             fact("category", Judgement::NONE)(old_category, category, comparison);

@@ -1,4 +1,4 @@
-//! Vendor, product and revision of devices, modules and submodules.
+//! Compares the vendor, product and revision of devices, modules and submodules.
 
 use super::change::Judgement;
 use super::comparison::{compare_fields, fact_as, text, Comparison};
@@ -6,7 +6,7 @@ use super::show::ident;
 use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{CompactString, Identity};
 
-/// Compares identities. A program can check them; no other bytes depend on them.
+/// Compares identities. A program can check the identity, but it does not change any other bytes.
 pub(super) fn identity(old: &Identity, new: &Identity, comparison: &mut Comparison<'_>) {
     compare_fields!(Identity, old, new, comparison, {
         vendor_id: fact_as("vendor-ID", Judgement::BEHAVIOR, ident),

@@ -1,4 +1,4 @@
-//! Items: value, range, access rights and behavior.
+//! Compares items: value, range, access rights and behavior.
 
 use super::bindings;
 use super::change::{Effect, Judgement};
@@ -21,7 +21,7 @@ pub(super) fn compare(old: &Item, new: &Item, comparison: &mut Comparison<'_>) {
     compare_named(old, new, judged("name", renamed), comparison);
 }
 
-/// Compares all facts of an item. `name` compares its name.
+/// Compares all facts of an item. `name` is the function that compares its name.
 pub(super) fn compare_named(
     old: &Item,
     new: &Item,
@@ -60,7 +60,7 @@ pub(super) fn compare_named(
     }, POSITION => [origin, at]);
 }
 
-/// Compares the relations to other items.
+/// Compares the references to related items.
 fn related(old: &RelatedItems, new: &RelatedItems, comparison: &mut Comparison<'_>) {
     compare_fields!(RelatedItems, old, new, comparison, {
         same_as: fact("same value as", Judgement::NONE),
@@ -70,7 +70,7 @@ fn related(old: &RelatedItems, new: &RelatedItems, comparison: &mut Comparison<'
     });
 }
 
-/// Returns the effects of other access rights.
+/// Returns the effects of changed access rights.
 fn access_effects(old: &Access, new: &Access) -> Judgement {
     let lost = old.readable() && !new.readable() || old.writable() && !new.writable();
     let gained = !old.readable() && new.readable() || !old.writable() && new.writable();
@@ -102,8 +102,7 @@ fn default(old: &Item, new: &Item, comparison: &mut Comparison<'_>) {
     }
 }
 
-/// Returns the effects of another value on the behavior. A value that is stated for the first time contradicts
-/// nothing.
+/// Returns the effects of a changed value on the behavior. A value that the old description lacks breaks nothing.
 fn stated_effects<T>(old: &Option<T>, _: &Option<T>) -> Judgement {
     match old {
         None => Judgement::BEHAVIOR_COMPATIBLE,
@@ -111,7 +110,7 @@ fn stated_effects<T>(old: &Option<T>, _: &Option<T>) -> Judgement {
     }
 }
 
-/// Compares the limits of an item, or of a variant of it.
+/// Compares the limits of an item or of one of its variants.
 fn range(items: [&Item; 2], limits: [&Limits; 2], access: Access, comparison: &mut Comparison<'_>) {
     if limits[0] != limits[1] {
         let (old_types, new_types) = comparison.types;
@@ -121,8 +120,8 @@ fn range(items: [&Item; 2], limits: [&Limits; 2], access: Access, comparison: &m
     }
 }
 
-/// Returns the effects of other limits. Writing a value must not become an error, and reading must not return
-/// unexpected values.
+/// Returns the effects of changed limits. A change is breaking if a previously valid value becomes invalid for writing,
+/// or if reading can return values outside the old limits.
 fn range_effects(old: &Limits, new: &Limits, access: Access) -> Judgement {
     let is_broken = if access.writable() { is_narrower(old, new) } else { is_narrower(new, old) };
     if is_broken {
@@ -132,7 +131,7 @@ fn range_effects(old: &Limits, new: &Limits, access: Access) -> Judgement {
     }
 }
 
-/// Returns whether a value was allowed that is not allowed now.
+/// Returns whether the old limits allow a value that the new limits do not allow.
 fn is_narrower(old: &Limits, new: &Limits) -> bool {
     let real = |value: &Option<Value>| value.as_ref().and_then(Value::as_real);
     let is_beyond = |old: Option<f64>, new: Option<f64>, beyond: fn(f64, f64) -> bool| match (old, new) {
@@ -152,7 +151,7 @@ fn is_narrower(old: &Limits, new: &Limits) -> bool {
     below || above || is_unlisted
 }
 
-/// Compares variants, which are paired by their models and buses.
+/// Compares the variants of an item. They are paired by their models and buses.
 fn variants() -> Elements<ItemVariant> {
     Elements::titled(|variant: &ItemVariant| {
         let models = variant.models.iter().map(CompactString::as_str);
@@ -162,7 +161,7 @@ fn variants() -> Elements<ItemVariant> {
     .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR)
 }
 
-/// Compares two versions of a variant of an item, which applies to some models or buses.
+/// Compares a variant of an item in both descriptions. The variant applies to some models or buses.
 fn variant(items: [&Item; 2], old: &ItemVariant, new: &ItemVariant, comparison: &mut Comparison<'_>) {
     let access = new.access.unwrap_or(items[1].access);
     compare_fields!(ItemVariant, old, new, comparison, {
@@ -190,7 +189,7 @@ fn variant(items: [&Item; 2], old: &ItemVariant, new: &ItemVariant, comparison: 
     }, POSITION => [at]);
 }
 
-/// Returns the text of an optional value.
+/// Returns the text of an optional value, for reports.
 fn value(item: &Item, value: &Option<Value>, types: &[TypeDef]) -> String {
     value.as_ref().map(|value| facts::item::value(item, value, types)).unwrap_or_default()
 }
@@ -206,7 +205,7 @@ fn configured(old: &Configured, new: &Configured, comparison: &mut Comparison<'_
 
 fn quantity(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
     compare_fields!(Quantity, old, new, comparison, {
-        // A unit that is stated for the first time contradicts nothing.
+        // A unit that the old description lacks breaks nothing.
         unit: judged("unit", |old: &CompactString, _: &CompactString| match old.is_empty() {
             true => Judgement::API_COMPATIBLE,
             false => Judgement::API_AND_BEHAVIOR,
@@ -222,7 +221,7 @@ fn quantity(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
     });
 }
 
-/// Compares the scale, which determines the type in Rust.
+/// Compares scales. The scale determines the Rust type.
 fn scale(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
     if old.scale != new.scale {
         let text = |quantity: &Quantity| {
@@ -236,7 +235,7 @@ fn scale(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
     }
 }
 
-/// Compares the sentinels: raw values that are not numbers. The type in Rust excludes them.
+/// Compares sentinels: raw values that do not represent a number. The Rust type excludes them.
 fn sentinels(old: &[(Value, CompactString)], new: &[(Value, CompactString)], comparison: &mut Comparison<'_>) {
     let numbers = |list: &[(Value, CompactString)]| list.iter().map(|(raw, _)| raw.clone()).collect::<Vec<_>>();
     fact("special value", Judgement::API_AND_BEHAVIOR)(&numbers(old), &numbers(new), comparison);
@@ -253,7 +252,7 @@ fn machine_unit(old: &MachineUnit, new: &MachineUnit, comparison: &mut Compariso
     });
 }
 
-/// Formats a conversion as `250 = 25 °C`, without its position.
+/// Formats a conversion without its source position, such as `250 = 25 °C`.
 fn conversion(conversion: &Conversion) -> String {
     let Conversion { raw, value, unit, given, model, by, documentation, at: _ } = conversion;
     let given: Vec<String> = given.iter().map(|(name, number)| format!(", {name} {number}")).collect();

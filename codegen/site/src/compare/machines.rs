@@ -1,4 +1,4 @@
-//! State machines and procedures.
+//! Compares state machines and procedures.
 
 use super::change::Judgement;
 use super::comparison::{compare_fields, fact, fact_as, list, text, Comparison, Elements, COMPARED, KEY, POSITION};
@@ -11,7 +11,7 @@ pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut C
         status_item: fact("status", Judgement::API_AND_WIRE),
         control_item: fact("control", Judgement::API_AND_WIRE),
         state_type: fact("enumeration of the states", Judgement::API),
-        // Rust code can match all variants of an enumeration.
+        // An added state breaks Rust code that matches all variants of the enumeration.
         states: list(patterns(|state| format!("state {}", state.name)), pattern),
         initial: fact("state after power-on", Judgement::BEHAVIOR),
         commands: list(patterns(|command| format!("command {}", command.name)), pattern),
@@ -25,7 +25,7 @@ pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut C
     });
 }
 
-/// Compares states or commands. They are variants of enumerations, and Rust code can match all of them.
+/// Compares states or commands. They become variants of an enumeration, and Rust code can match all of them.
 fn patterns(title: fn(&Pattern) -> String) -> Elements<Pattern> {
     Elements {
         name: |pattern| pattern.name.to_string(),
@@ -91,7 +91,7 @@ fn state_outcome(old: &StateOutcome, new: &StateOutcome, comparison: &mut Compar
     }, KEY => [state]);
 }
 
-/// Compares the steps of a procedure, which is a constant in Rust.
+/// Compares the steps of a procedure. The procedure becomes a constant in Rust.
 pub(super) fn procedure(old: &Procedure, new: &Procedure, comparison: &mut Comparison<'_>) {
     compare_fields!(Procedure, old, new, comparison, {
         name, names,
@@ -103,7 +103,7 @@ pub(super) fn procedure(old: &Procedure, new: &Procedure, comparison: &mut Compa
     }, POSITION => [step_spans, origin]);
 }
 
-/// Formats a step. Arguments and values have different texts.
+/// Formats a step for reports. The text distinguishes an argument from a constant value.
 fn step(step: &Step) -> String {
     match step {
         Step::WriteArgument(item, argument) => format!("Write the argument {argument} to {item}."),

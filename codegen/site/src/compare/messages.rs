@@ -1,4 +1,4 @@
-//! The command protocol: messages, parameter spaces, framing.
+//! Compares command protocols: messages, parameter spaces and framing.
 
 use super::change::{Effect, Judgement};
 use super::comparison::{compare_fields, fact, fact_as, list, positioned, Comparison, Elements, KEY, POSITION};
@@ -41,7 +41,7 @@ fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
     }, POSITION => [origin]);
 }
 
-/// Formats the example frames of a message, without their positions.
+/// Formats the example frames of a message without their source positions.
 pub(super) fn examples(examples: &[MessageExample]) -> String {
     let example = |example: &MessageExample| {
         let text = described(example.documentation.as_deref());
@@ -64,12 +64,12 @@ fn completion(completion: &Completion) -> String {
     }
 }
 
-/// Compares the layout of a frame and the values in it.
+/// Compares the layout of a frame and its values.
 fn frame(name: &'static str, old: &[MessageField], new: &[MessageField], comparison: &mut Comparison<'_>) {
     comparison.texts(name, layout(old, true), layout(new, true), frame_effects(old, new));
     let title = |value: &&MessageValue| value.item.name.to_string();
     for (old, new) in super::pairing::pairs(&values(old), &values(new), title, |_| String::new()) {
-        // The layout reports added and removed values.
+        // Added and removed values are part of the layout, which was compared above.
         if let (Some(old), Some(new)) = (old, new) {
             comparison.within(&format!("{name} {}", new.item.name), |comparison| value(old, new, comparison));
         }
@@ -96,8 +96,8 @@ fn value(old: &MessageValue, new: &MessageValue, comparison: &mut Comparison<'_>
     });
 }
 
-/// Returns the effects of another layout. Names of fields are those of a struct in Rust. Types are compared with the
-/// values.
+/// Returns the effects of a changed layout. The fields become fields of a Rust struct with the same names. Types are
+/// compared with the values.
 fn frame_effects(old: &[MessageField], new: &[MessageField]) -> Judgement {
     let names = |fields| values(fields).iter().map(|value| identifier(&value.item.name)).collect::<Vec<_>>();
     let effect = |breaks: bool| if breaks { Effect::Breaking } else { Effect::Unaffected };
@@ -133,7 +133,7 @@ fn field(field: &MessageField, with_names: bool) -> String {
     }
 }
 
-/// Compares the numbers by which the protocol addresses items.
+/// Compares the number ranges in which the protocol addresses items.
 pub(super) fn space(old: &ParameterSpace, new: &ParameterSpace, comparison: &mut Comparison<'_>) {
     compare_fields!(ParameterSpace, old, new, comparison, {
         read: fact("read by", Judgement::WIRE),
@@ -144,12 +144,12 @@ pub(super) fn space(old: &ParameterSpace, new: &ParameterSpace, comparison: &mut
     }, KEY => [name], POSITION => [origin]);
 }
 
-/// Compares parameter spaces, which are paired by name.
+/// Compares parameter spaces. They are paired by name.
 pub(super) fn spaces() -> impl Fn(&Vec<ParameterSpace>, &Vec<ParameterSpace>, &mut Comparison<'_>) {
     list(Elements::titled(|space: &ParameterSpace| format!("parameter space {}", space.name)), space)
 }
 
-/// Compares how frames are delimited and checked.
+/// Compares how the protocol delimits and checks frames.
 pub(super) fn framing(old: &Framing, new: &Framing, comparison: &mut Comparison<'_>) {
     let byte = |value: &Option<u8>| value.map(hex8).unwrap_or_default();
     compare_fields!(Framing, old, new, comparison, {

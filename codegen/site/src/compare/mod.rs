@@ -16,7 +16,8 @@
 //! assert_eq!(changes[0].to_string(), "breaks api: 0x2000:00 Gain: access rw, now ro");
 //! ```
 //!
-//! Every field of the intermediate representation is compared, or has a reason why it is not (`comparison.rs`).
+//! The comparison covers all fields of the intermediate representation. `comparison.rs` lists a reason for each ignored
+//! field.
 
 mod bindings;
 mod catalog;

@@ -1,4 +1,4 @@
-//! Modular devices: slots and pluggable modules.
+//! Compares modular devices: slots and pluggable modules.
 
 use super::change::Judgement;
 use super::comparison::{
@@ -15,7 +15,7 @@ use lexibus_codegen::ir::{
     Catalog, Group, Module, ModuleUse, ObjectBuses, ProcessData, Slot, SubExtension, SubslotName,
 };
 
-/// Compares slots, which are paired by number.
+/// Compares slots. They are paired by number.
 pub(super) fn slots() -> Elements<Slot> {
     Elements::titled(|slot: &Slot| format!("slot {}", slot.number))
 }
@@ -35,12 +35,12 @@ pub(super) fn slot(old: &Slot, new: &Slot, comparison: &mut Comparison<'_>) {
     }, KEY => [number]);
 }
 
-/// Returns the key that pairs modules: number or ident number, and identifier.
+/// Returns the key that pairs modules: their number or ident number, and their identifier.
 pub(super) fn key(module: &Module) -> String {
     format!("{:08X} {}", module.number, module.id)
 }
 
-/// Compares the modules of a device, and their slots.
+/// Compares the modules that fit a device and the slots they fit into.
 pub(super) fn compare_uses(old: &[ModuleUse], new: &[ModuleUse], comparison: &mut Comparison<'_>) {
     let uses = |catalog: &Catalog, uses: &[ModuleUse]| -> Vec<Use> {
         let used = |one: &ModuleUse| {

@@ -1,26 +1,25 @@
-//! The Rust identifiers of elements.
+//! Determines the Rust identifiers of elements.
 
 use lexibus_codegen::facts::address;
 use lexibus_codegen::ir::{Group, GroupKind, Item, ObjectCode};
 use lexibus_codegen::names::{self, unique, Case, NameRequest};
 
-/// Returns the identifier of a unique name.
+/// Returns the Rust identifier for a unique name.
 pub(super) fn identifier(name: &str) -> String {
     names::identifier(&NameRequest::new(name, "item", ""), Case::Snake)
 }
 
-/// The identifiers of the groups and items of a device or module.
+/// The Rust identifiers of the groups and items of a device or module.
 pub(super) struct Identifiers {
-    /// Identifiers of objects; empty for other groups.
+    /// Identifier of each group if it is an object; otherwise empty.
     pub groups: Vec<String>,
-    /// Identifiers of registers and of the entries of objects, by group; empty for the value of an object without
-    /// entries.
+    /// Identifiers of registers and object entries, by group. Empty for the value of an object without entries.
     pub items: Vec<Vec<String>>,
 }
 
 impl Identifiers {
-    /// Returns the identifiers in these groups. They follow from names; names that several elements share get an
-    /// address.
+    /// Returns the identifiers for these groups. An identifier is created from the name; if several elements have the
+    /// same name, also from the address.
     pub fn of(groups: &[&Group]) -> Self {
         let name_requests: Vec<NameRequest<'_>> = groups.iter().flat_map(|group| name_requests(group)).collect();
         let mut names = unique(&name_requests, &[], Case::Snake).into_iter();
@@ -37,7 +36,8 @@ impl Identifiers {
     }
 }
 
-/// Returns the requested identifiers of a group: one for an object, and one for each register of a chapter or image.
+/// Returns the names for which a group needs identifiers: one for an object, and one for each register of a chapter or
+/// process image.
 fn name_requests(group: &Group) -> Vec<NameRequest<'_>> {
     match group.kind {
         GroupKind::Object { index, .. } => vec![NameRequest::new(&group.name, "object", format!("{index:04X}"))],
@@ -55,7 +55,7 @@ fn entries(group: &Group) -> Vec<String> {
     unique(&name_requests, &[], Case::Snake)
 }
 
-/// Returns whether an object is a module of several values in Rust.
+/// Returns whether an object becomes a Rust module with several values.
 pub(super) fn is_module(group: &Group) -> bool {
     group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
 }

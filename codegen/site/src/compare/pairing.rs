@@ -3,13 +3,13 @@
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// An element of the old description and the same element of the new description.
+/// An element of the old description with its counterpart in the new description. One of them can be missing.
 pub(super) type Pair<'a, T> = (Option<&'a T>, Option<&'a T>);
 
-/// Pairs elements in the order of the old list. Added elements follow.
+/// Pairs elements in the order of the old list. Added elements follow at the end.
 ///
-/// Elements are paired if they have the same name and position. If there are none, they are paired by a unique name,
-/// then by position. An empty name or position pairs nothing.
+/// First, elements with the same name and position are paired. The remaining elements are paired by unique name, then
+/// by position. Empty names and positions pair nothing.
 pub(super) fn pairs<'a, T>(
     old: &'a [T],
     new: &'a [T],
@@ -25,18 +25,18 @@ pub(super) fn pairs<'a, T>(
     paired.chain(added.map(|(one, _)| (None, Some(one)))).collect()
 }
 
-/// The texts by which an element is paired.
+/// The texts that pair an element: its name and position.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Key {
     pub name: String,
     pub position: String,
 }
 
-/// The pairs of elements of two lists.
+/// The paired elements of two lists.
 pub(super) struct Matching {
     /// Position in the new list for each element of the old list.
     pub new_of_old: Vec<Option<usize>>,
-    /// For each element of the new list, whether it is in the old list.
+    /// For each element of the new list, whether it is paired with an element of the old list.
     pub is_new_paired: Vec<bool>,
 }
 
@@ -49,7 +49,8 @@ impl Matching {
         matching.stage(old, new, |key| Some(&key.position).filter(|position| !position.is_empty()), true);
         matching
     }
-    /// Pairs elements with equal keys in their order. Keys that several elements share only count if `is_repeatable`.
+    /// Pairs elements with equal keys in list order. Keys that occur several times are ignored unless `is_repeatable`
+    /// is set.
     fn stage<'k, Q: Hash + Eq + 'k>(
         &mut self,
         old: &'k [Key],
@@ -83,7 +84,7 @@ impl Matching {
 mod tests {
     use super::*;
 
-    /// Names are letters, positions are digits.
+    /// In these keys, a letter is a name and a digit is a position.
     fn paired(old: &[&str], new: &[&str]) -> Vec<(String, String)> {
         let part =
             |text: &&str, condition: fn(char) -> bool| text.chars().filter(|letter| condition(*letter)).collect();

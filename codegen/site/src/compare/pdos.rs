@@ -1,4 +1,4 @@
-//! Cyclic data: PDOs, sync managers and process images.
+//! Compares cyclic data: PDOs, sync managers and process images.
 
 use super::change::{Effect, Judgement};
 use super::comparison::{
@@ -28,7 +28,7 @@ pub(super) fn compare(old: &ProcessData, new: &ProcessData, buses: ObjectBuses, 
     });
 }
 
-/// Compares PDOs, which are paired by mapping object and buses.
+/// Compares PDOs. They are paired by mapping object and buses.
 fn pdos(old: &[Pdo], new: &[Pdo], buses: ObjectBuses, comparison: &mut Comparison<'_>) {
     let key = |pdo: &Pdo| format!("{:?} {} {:?}", pdo.direction, pdo.mapping_index, pdo.buses);
     for (old, new) in super::pairing::pairs(old, new, key, |_| String::new()) {
@@ -99,7 +99,7 @@ fn communication(
     });
 }
 
-/// Compares whole layouts, because an inserted entry moves all that follow.
+/// Compares whole layouts, because an inserted entry changes the positions of all later entries.
 fn entries(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
     let (old_types, new_types) = comparison.types;
     let layouts = [Layout { entries: old, types: old_types }, Layout { entries: new, types: new_types }];
@@ -111,7 +111,7 @@ fn entries(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
         lengths(old, new, comparison);
     }
     objects(old, new, comparison);
-    // The facts of entries at the same position are compared, and those of paddings in their order.
+    // Compare the other facts of entries that are paired by name or order.
     let matching = Matching::of(&entry_keys(old), &entry_keys(new));
     for (old, other) in old.iter().zip(matching.new_of_old) {
         if let Some(new) = other.map(|at| &new[at]) {
@@ -120,7 +120,7 @@ fn entries(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
     }
 }
 
-/// Entries and the types that they refer to.
+/// PDO entries with the types that they refer to.
 struct Layout<'a> {
     entries: &'a [PdoEntry],
     types: &'a [TypeDef],
@@ -131,14 +131,15 @@ impl Layout<'_> {
         self.entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding)
     }
 
-    /// Returns texts such as `0: UNSIGNED16 Controlword` and `16: INTEGER32 Target position`.
+    /// Returns a text for each entry, such as `0: UNSIGNED16 Controlword` and `16: INTEGER32 Target position`.
     fn texts(&self) -> Vec<String> {
         let text =
             |entry: &PdoEntry| format!("{}: {} {}", entry.bit_offset, types::name(self.types, entry.ty), entry.name);
         self.fields().map(text).collect()
     }
 
-    /// Returns the effects of another layout. Names and types of fields are those of a struct in Rust.
+    /// Returns the effects of a changed layout. The entries become fields of a Rust struct, with the same names and
+    /// types.
     fn effects_of(&self, new: &Layout<'_>) -> Judgement {
         let fields = |layout: &Layout<'_>| -> Vec<(String, String)> {
             layout.fields().map(|entry| (identifier(&entry.name), types::name(layout.types, entry.ty))).collect()
@@ -147,8 +148,8 @@ impl Layout<'_> {
         Judgement { api, wire: self.wire_effect_of(new), ..Judgement::NONE }
     }
 
-    /// Returns the effect on the bus. Other positions of entries, and other types at the same positions, break the
-    /// communication.
+    /// Returns the effect on the communication. It breaks if an entry has another position, or if the type at a
+    /// position changes.
     fn wire_effect_of(&self, new: &Layout<'_>) -> Effect {
         let positions =
             |layout: &Layout<'_>| layout.entries.iter().map(|entry| (entry.bit_offset, entry.bits)).collect::<Vec<_>>();
@@ -161,7 +162,7 @@ impl Layout<'_> {
     }
 }
 
-/// Returns the keys of entries: names, and the order of paddings.
+/// Returns the keys that pair entries: names, and for paddings their order.
 fn entry_keys(entries: &[PdoEntry]) -> Vec<Key> {
     let mut paddings = 0_u32..;
     let name = |entry: &PdoEntry| match entry.kind {
@@ -171,7 +172,7 @@ fn entry_keys(entries: &[PdoEntry]) -> Vec<Key> {
     entries.iter().map(name).map(|name| Key { name, position: String::new() }).collect()
 }
 
-/// Compares the lengths of entries, because the layout does not contain paddings.
+/// Compares the lengths of entries. This is necessary because the layout texts do not contain paddings.
 fn lengths(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
     let length = |entries: &[PdoEntry]| entries.iter().fold(0_u32, |bits, entry| bits.saturating_add(entry.bits));
     let of_all = |entries: &[PdoEntry]| format!("{} bits", length(entries));
@@ -184,14 +185,14 @@ fn lengths(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
     }
 }
 
-/// Returns a title such as `Status at bit 16`.
+/// Returns a title for reports, such as `Status at bit 16`.
 fn entry_title(entry: &PdoEntry) -> String {
     format!("{} at bit {}", entry.name, entry.bit_offset).trim_start().to_owned()
 }
 
 fn entry(old: &PdoEntry, new: &PdoEntry, comparison: &mut Comparison<'_>) {
     compare_fields!(PdoEntry, old, new, comparison, {
-        // Only the positions of paddings differ here.
+        // All differences of positions except those of paddings are reported with the layout.
         bit_offset: fact("first bit", Judgement::NONE),
         kind: fact_as("kind", Judgement::API, |kind| kind_name(*kind).to_owned()),
         name: text("name"),
@@ -201,7 +202,7 @@ fn entry(old: &PdoEntry, new: &PdoEntry, comparison: &mut Comparison<'_>) {
                 let (old, new) = (types::name(old_types, *one), types::name(new_types, *other));
                 comparison.texts("type", old, new, Judgement::NONE);
             }
-            // The layout contains the types.
+            // The layout texts contain the types, so only the definitions of named types are compared.
             _ => types::compare_definitions(*one, *other, comparison),
         },
         fixed: fact("part of every mapping", Judgement::BEHAVIOR),
@@ -220,7 +221,7 @@ fn kind_name(kind: PdoEntryKind) -> &'static str {
     }
 }
 
-/// Compares the mapped objects if the positions are the same.
+/// Compares the lists of mapped objects.
 fn objects(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
     let objects = |entries: &[PdoEntry]| -> Vec<String> {
         entries.iter().map(|entry| address::object(entry.index, entry.sub_index)).collect()
@@ -232,7 +233,7 @@ fn objects(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
     }
 }
 
-/// Replaces the common beginning and end of both lists.
+/// Replaces the common beginning and the common end of both lists with `…`.
 fn shorten(old: &mut Vec<String>, new: &mut Vec<String>) {
     let first = old.iter().zip(&*new).take_while(|(one, other)| one == other).count();
     let rest = (old.len() - first).min(new.len() - first);
@@ -261,7 +262,7 @@ fn sync_manager(old: &SyncManager, new: &SyncManager, comparison: &mut Compariso
     }, KEY => [number], POSITION => [origin]);
 }
 
-/// Compares images, which are paired by direction and name.
+/// Compares process images. They are paired by direction and name.
 fn images() -> Elements<ProcessImage> {
     Elements { name: |image| format!("{:?} {}", image.direction, image.name), ..Elements::titled(image_title) }
 }

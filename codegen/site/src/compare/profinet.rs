@@ -1,4 +1,4 @@
-//! PROFINET: device access points, submodules, records and diagnosis.
+//! Compares PROFINET descriptions: device access points, submodules, records and diagnosis.
 
 use super::change::Judgement;
 use super::comparison::{
@@ -49,7 +49,7 @@ fn lengths(lengths: &IoLengths) -> String {
     format!("input {}, output {}, both {}", input.show(), output.show(), data.show())
 }
 
-/// Formats the names of subslots with their numbers.
+/// Formats subslot numbers with their names.
 pub(super) fn subslot_names(subslots: &[SubslotName]) -> String {
     joined(subslots, |subslot| {
         let SubslotName { number, name, names } = subslot;
@@ -73,7 +73,7 @@ fn menus(menus: &[Menu]) -> String {
     })
 }
 
-/// Returns the key that pairs submodules: ident number and identifier.
+/// Returns the key that pairs submodules: their ident number and identifier.
 pub(super) fn submodule_key(submodule: &Submodule) -> String {
     format!("{:08X} {}", submodule.ident, submodule.id)
 }
@@ -159,7 +159,7 @@ fn f_parameter(old: &FParameter, new: &FParameter, comparison: &mut Comparison<'
     }, KEY => [name]);
 }
 
-/// Compares the submodules of a device or module, and their subslots.
+/// Compares the submodules that fit a device or module and their subslots.
 pub(super) fn compare_uses(old: &[SubmoduleUse], new: &[SubmoduleUse], comparison: &mut Comparison<'_>) {
     let uses = |catalog: &Catalog, uses: &[SubmoduleUse]| -> Vec<Use> {
         let used = |one: &SubmoduleUse| {
@@ -177,7 +177,7 @@ pub(super) fn compare_uses(old: &[SubmoduleUse], new: &[SubmoduleUse], compariso
     compare_slots(&uses(old_catalog, old), &uses(new_catalog, new), comparison);
 }
 
-/// Compares user structures of diagnosis, which are paired by API and identifier.
+/// Compares user-defined diagnosis structures. They are paired by API and identifier.
 pub(super) fn unit_diagnoses() -> impl Fn(&Vec<UnitDiagnosis>, &Vec<UnitDiagnosis>, &mut Comparison<'_>) {
     list(
         Elements::titled(|diagnosis: &UnitDiagnosis| {

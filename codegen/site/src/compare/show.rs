@@ -1,4 +1,4 @@
-//! The texts of values in reports.
+//! Formats values for reports.
 
 use lexibus_codegen::facts;
 use lexibus_codegen::facts::number::{hex16, hex32};
@@ -8,12 +8,12 @@ use lexibus_codegen::ir::{
     ObjectCode, Oversampling, Reference, SharedList, SlotNumbers, Trigger, Value, Zone,
 };
 
-/// A text for reports. Different values have different texts.
+/// Formats a value for reports. Different values must have different texts.
 pub(super) trait Show {
     fn show(&self) -> String;
 }
 
-/// Implements `Show` for values with a `Display` text.
+/// Implements `Show` for types that implement `Display`.
 macro_rules! show_as_text {
     ($($type:ty),*) => {
         $(impl Show for $type {
@@ -32,7 +32,7 @@ impl<Id> Show for Reference<Id> {
     }
 }
 
-/// Implements `Show` for alternatives, with their names.
+/// Implements `Show` for enumerations. The text is the name of the variant.
 macro_rules! show_as_name {
     ($($type:ident { $($pattern:pat => $name:expr),* $(,)? })*) => {
         $(impl Show for $type {
@@ -125,7 +125,7 @@ pub(super) fn index(number: &u16) -> String {
     hex16(*number)
 }
 
-/// Formats an identity number in hexadecimal notation; empty if there is none.
+/// Formats an identity number in hexadecimal notation. The text is empty if there is no number.
 pub(super) fn ident(number: &Option<u32>) -> String {
     number.map(hex32).unwrap_or_default()
 }

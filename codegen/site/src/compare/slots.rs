@@ -1,18 +1,18 @@
-//! Slots and subslots with their modules and submodules.
+//! Compares slots and subslots and the modules and submodules that fit into them.
 
 use super::change::Judgement;
 use super::comparison::{fact, slices, Comparison, Elements};
 use lexibus_codegen::ir::SlotNumbers;
 
-/// A module or submodule that fits into a device or module.
+/// A module or submodule that fits a slot or subslot.
 pub(super) struct Use {
     pub title: String,
-    /// Key that pairs uses.
+    /// Key that pairs old and new modules or submodules.
     pub key: String,
     pub slots: SlotNumbers,
 }
 
-/// Compares the pluggable modules or submodules and their slots or subslots.
+/// Compares which modules or submodules fit, and into which slots or subslots.
 pub(super) fn compare_slots(old: &[Use], new: &[Use], comparison: &mut Comparison<'_>) {
     let elements = Elements {
         name: |plugged: &Use| plugged.key.clone(),

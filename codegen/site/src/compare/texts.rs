@@ -1,4 +1,4 @@
-//! Texts of the source about an element. Changes have no effect.
+//! Compares texts of the source about an element. Their changes have no effect.
 
 use super::change::Judgement;
 use super::comparison::{compare_fields, or_default, positioned, text, Comparison, CITATION};
@@ -22,7 +22,7 @@ pub(super) fn documentation(
     })(old, new, comparison);
 }
 
-/// Formats the origin of a fact, without its position in a file.
+/// Formats the origin of a fact without its file position.
 pub(super) fn origin(origin: &FactOrigin) -> String {
     match origin {
         FactOrigin::Overlay { file, replaces: false, .. } => format!("overlay {file}"),
@@ -35,14 +35,14 @@ fn text_from(from: &Option<Box<FactOrigin>>) -> String {
     from.as_deref().map(origin).unwrap_or_default()
 }
 
-/// Joins the texts of a description.
+/// Joins all texts of a description.
 pub(super) fn described(documentation: Option<&Documentation>) -> String {
     let Some(Documentation { text, translations, text_from, cite: _ }) = documentation else { return String::new() };
     let parts = [text.clone(), translations.show(), self::text_from(text_from)];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
-/// Compares the ambiguities in the source and the assumptions.
+/// Compares ambiguities in the source and the related assumptions.
 pub(super) fn doubts(old: &Doubts, new: &Doubts, comparison: &mut Comparison<'_>) {
     positioned("assumptions", Judgement::NONE, |doubts: &Doubts| {
         doubts.iter().map(doubt).collect::<Vec<_>>().join(" ")
@@ -59,7 +59,7 @@ fn doubt(doubt: &Doubt) -> String {
     format!("({}{}) {text}", doubt.severity.name(), subject.unwrap_or_default())
 }
 
-/// Compares the facts of the source for which the intermediate representation has no field.
+/// Compares extensions: facts of the source for which the intermediate representation has no field.
 pub(super) fn extensions(old: &Extensions, new: &Extensions, comparison: &mut Comparison<'_>) {
     positioned("further keys", Judgement::NONE, |extensions: &Extensions| {
         extensions
@@ -70,7 +70,7 @@ pub(super) fn extensions(old: &Extensions, new: &Extensions, comparison: &mut Co
     })(old, new, comparison);
 }
 
-/// Compares the manuals of two descriptions.
+/// Compares the manuals on which the descriptions are based.
 pub(super) fn manual(old: &Option<Box<Manual>>, new: &Option<Box<Manual>>, comparison: &mut Comparison<'_>) {
     or_default(|old, new, comparison: &mut Comparison<'_>| {
         compare_fields!(Manual, old, new, comparison, {
@@ -85,7 +85,7 @@ pub(super) fn manual(old: &Option<Box<Manual>>, new: &Option<Box<Manual>>, compa
     })(old, new, comparison);
 }
 
-/// Returns the effects of another name of an element. Its method, field or constant has this name in `snake_case`.
+/// Returns the effects of renaming an element. Its Rust method, field or constant has the name in `snake_case`.
 pub(super) fn renamed<T: AsRef<str>>(old: &T, new: &T) -> Judgement {
     match identifier(old.as_ref()) == identifier(new.as_ref()) {
         true => Judgement::NONE,

@@ -1,4 +1,4 @@
-//! Types of values, including their names for bits and values.
+//! Compares the types of values, including names of bits and values.
 
 use std::collections::HashSet;
 
@@ -12,7 +12,7 @@ use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{BitFieldEntry, BitMeaning, EnumValue, Field, Shape, Type, TypeDef, TypeId};
 
-/// Compares the types of the current element. Each pair of definitions is compared once.
+/// Compares the type of the current element. Each pair of definitions is compared only once.
 pub(super) fn compare(old: &Type, new: &Type, comparison: &mut Comparison<'_>) {
     let (old_types, new_types) = comparison.types;
     let (old_text, new_text) = (name(old_types, *old), name(new_types, *new));
@@ -21,7 +21,7 @@ pub(super) fn compare(old: &Type, new: &Type, comparison: &mut Comparison<'_>) {
     compare_definitions(*old, *new, comparison);
 }
 
-/// Compares the definitions of named types. Each pair is compared once.
+/// Compares the definitions of named types. Each pair is compared only once.
 pub(super) fn compare_definitions(old: Type, new: Type, comparison: &mut Comparison<'_>) {
     let (old_types, new_types) = comparison.types;
     match (definition(old_types, old), definition(new_types, new)) {
@@ -30,7 +30,7 @@ pub(super) fn compare_definitions(old: Type, new: Type, comparison: &mut Compari
             definitions(one, other, is_same_type, comparison);
         }
         (Some(_), Some(_)) | (None, None) => {}
-        // These are names of a basic type. A definition would have another text.
+        // Both are names of the same basic type. If one had a definition, its text would differ.
         (one, other) if name(old_types, old) == name(new_types, new) => {
             let text = |value: Option<&TypeDef>| value.map(|value| value.name.to_string()).unwrap_or_default();
             comparison.push("name of the type", text(one), text(other), Judgement::NONE);
@@ -54,7 +54,7 @@ pub(super) fn compare_optional(
     }
 }
 
-/// Compares the types that no compared element uses, by their names.
+/// Compares the types that no compared element uses. They are paired by name.
 pub(super) fn compare_unused(comparison: &mut Comparison<'_>) {
     let (old_types, new_types) = comparison.types;
     let unused = |types: &[TypeDef], compared: HashSet<Type>| -> Vec<(TypeId, String)> {
@@ -77,7 +77,7 @@ pub(super) fn compare_unused(comparison: &mut Comparison<'_>) {
     );
 }
 
-/// Returns `UNSIGNED16`, `values of UNSIGNED16` or `array of 4 × INTEGER16`, for example.
+/// Returns the text of a type, such as `UNSIGNED16`, `values of UNSIGNED16` or `array of 4 × INTEGER16`.
 pub(super) fn name(types: &[TypeDef], ty: Type) -> String {
     let shape = Owner::of_types(types).definition(ty).map(|definition| &definition.shape);
     match shape {
@@ -93,22 +93,22 @@ pub(super) fn name(types: &[TypeDef], ty: Type) -> String {
     }
 }
 
-/// Returns the basic type below a definition; `None` for arrays and records.
+/// Returns the basic type of a definition. Returns `None` for arrays and records.
 fn basic_of(types: &[TypeDef], ty: Type) -> Option<Type> {
     Some(types::basic(types, ty)).filter(|basic| *basic != Type::Opaque(None))
 }
 
-/// Returns the effects of another type.
+/// Returns the effects of a changed type.
 fn effects(old: Option<Type>, new: Option<Type>) -> Judgement {
     let (Some(old), Some(new)) = (old, new) else { return Judgement::API_AND_WIRE };
     match (old, new) {
-        // In Rust, names for bits and values make another type.
+        // The basic types are equal, but a type with names of bits or values is a different Rust type.
         (old, new) if old == new => Judgement::API,
-        // The type in Rust is independent of the length.
+        // The Rust type does not depend on the length.
         (Type::VisibleString(_), Type::VisibleString(_))
         | (Type::OctetString(_), Type::OctetString(_))
         | (Type::UnicodeString(_), Type::UnicodeString(_)) => Judgement::BEHAVIOR,
-        // Only the meaning of the highest bit differs.
+        // Signed and unsigned types differ only in the meaning of the highest bit.
         (Type::Integer(old), Type::Unsigned(new)) | (Type::Unsigned(old), Type::Integer(new)) if old == new => {
             Judgement { wire: Effect::Compatible, ..Judgement::API }
         }
@@ -116,7 +116,7 @@ fn effects(old: Option<Type>, new: Option<Type>) -> Judgement {
     }
 }
 
-/// Returns the effect of another type on the bytes.
+/// Returns the effect of a changed type on the encoded bytes.
 pub(super) fn wire_effect(old_types: &[TypeDef], old: Type, new_types: &[TypeDef], new: Type) -> Effect {
     match (basic_of(old_types, old), basic_of(new_types, new)) {
         (old, new) if old == new => Effect::Unaffected,
@@ -124,7 +124,7 @@ pub(super) fn wire_effect(old_types: &[TypeDef], old: Type, new_types: &[TypeDef
     }
 }
 
-/// Compares two definitions. `is_same_type` says that no other type was reported.
+/// Compares two definitions. `is_same_type` means that no difference between the types was reported.
 fn definitions(old: &TypeDef, new: &TypeDef, is_same_type: bool, comparison: &mut Comparison<'_>) {
     compare_fields!(TypeDef, old, new, comparison, {
         name: judged("name of the type", renamed),
@@ -162,12 +162,13 @@ fn shapes(old: &Shape, new: &Shape, comparison: &mut Comparison<'_>) {
             base(old_base, new_base, comparison);
             fact_as("scale", Judgement::API_AND_BEHAVIOR, |scale| PLAIN.scale(scale, ""))(old, new, comparison);
         }
-        // The name of the type shows the difference, unless both are names of it.
+        // The text of the type shows the difference unless both definitions are names of a basic type.
         _ => comparison.push("kind of the type", kind(old).to_owned(), kind(new).to_owned(), Judgement::API),
     }
 }
 
-/// Compares the basic types below two definitions. The text of a type contains its basic type.
+/// Compares the base types of two definitions if both are named types. The texts of other types already contain the
+/// base type.
 fn base(old: &Type, new: &Type, comparison: &mut Comparison<'_>) {
     if matches!((old, new), (Type::Named(_), Type::Named(_))) {
         comparison.within("base", |comparison| compare(old, new, comparison));
@@ -240,7 +241,7 @@ fn bit_field(old: &BitFieldEntry, new: &BitFieldEntry, comparison: &mut Comparis
     }, COMPARED => [offset, bits], POSITION => [at]);
 }
 
-/// Returns `bit 4` or `bits 7 to 4`, for example.
+/// Returns the position of a bit field, such as `bit 4` or `bits 7 to 4`.
 fn position(field: &BitFieldEntry) -> String {
     let last = u32::from(field.offset) + u32::from(field.bits).max(1) - 1;
     match field.bits {
@@ -250,17 +251,18 @@ fn position(field: &BitFieldEntry) -> String {
     }
 }
 
-/// Returns the bits with the condition of their meaning: `bits 7 to 4 while Mode is 1`.
+/// Returns the position of a bit field and the condition under which it has its meaning, such as `bits 7 to 4 while
+/// Mode is 1`.
 fn bits(field: &BitFieldEntry) -> String {
     let when = field.when.as_ref().map(|condition| format!(" while {}", condition.show()));
     position(field) + &when.unwrap_or_default()
 }
 
-/// Compares the meanings of bits, which determine what the getter returns.
+/// Compares the meanings of bits. The meaning determines what the getter returns.
 fn meanings(old: &BitMeaning, new: &BitMeaning, comparison: &mut Comparison<'_>) {
     let judgement = match (old, new) {
         (BitMeaning::Reserved { .. }, BitMeaning::Reserved { .. }) => Judgement::BEHAVIOR,
-        // The methods are the same, but the bit is inverted.
+        // The methods stay the same, but the bit is inverted.
         (BitMeaning::Flag { .. }, BitMeaning::Flag { .. }) => Judgement::WIRE,
         (BitMeaning::Reserved { .. }, _) => Judgement::API_COMPATIBLE,
         _ => Judgement::API,
@@ -284,7 +286,7 @@ fn meaning(bit_meaning: &BitMeaning) -> &'static str {
 }
 
 fn values(old: &[EnumValue], new: &[EnumValue], comparison: &mut Comparison<'_>) {
-    // A generated enumeration has a variant for each value, and code may match all of them.
+    // A generated enumeration has a variant for each value, and Rust code may match all variants.
     let is_variant = |value: &EnumValue| value.last.is_none();
     let judge = move |value: &EnumValue| if is_variant(value) { Judgement::API } else { Judgement::NONE };
     let key = |value: &EnumValue| match value.when.as_ref() {

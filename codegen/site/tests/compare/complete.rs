@@ -1,8 +1,8 @@
-//! The comparison of versions reports a change of any leaf of the intermediate representation, except for the leaves on
-//! a list with reasons.
+//! Checks that a comparison reports changes of all facts in the intermediate representation. A list contains the
+//! exceptions with reasons.
 //!
-//! The test changes every leaf of the serialized representation: numbers, texts, truth values, alternatives, list
-//! elements and optional parts. Of the leaves with the same path, it changes a few, in the smallest descriptions.
+//! The test changes the leaves of the serialized representation: numbers, texts, truth values, alternatives, list
+//! elements and optional parts. It changes only some of the leaves with the same path, in the smallest descriptions.
 
 #[allow(dead_code)]
 #[path = "../../../../tests/support/arbitrary_ir/mod.rs"]
@@ -26,7 +26,8 @@ use serde_json::Value;
 
 use crate::root::root;
 
-/// Facts that are not reported, with the reason. The key is the end of a path; `*` is any position in a list.
+/// Facts whose changes are not reported, with the reason. The key is the end of a path, in which `*` is any list
+/// position.
 const UNREPORTED: [(&str, &str); 12] = [
     ("/files", "the files that are compared"),
     ("/origin", "a position in the file"),
@@ -42,13 +43,13 @@ const UNREPORTED: [(&str, &str); 12] = [
     ("/manual/sections/*/start", "a position in the manual"),
 ];
 
-/// Returns the reason why a leaf is not reported, if it or a part of it is on the list.
+/// Returns the reason why changes of a leaf are not reported. The list can contain the leaf or an element around it.
 fn unreported(pattern: &str) -> Option<&'static str> {
     let is_part = |end: &str| format!("{pattern}/").contains(&format!("{end}/"));
     UNREPORTED.iter().map(|(end, _)| *end).find(|end| is_part(end))
 }
 
-/// Returns whether nothing in a value is reported: each part is on the list or has its default.
+/// Returns whether no part of a value is reported. Each part is on the list or equal to its default.
 fn is_unreported(value: &Value, pattern: &str) -> bool {
     let is_part_unreported = |part: &Value, pattern: &str| is_default(part) || is_unreported(part, pattern);
     match value {
@@ -62,7 +63,7 @@ fn is_unreported(value: &Value, pattern: &str) -> bool {
     }
 }
 
-/// Returns whether a value is the default of its type.
+/// Returns whether a value equals the default of its type.
 fn is_default(value: &Value) -> bool {
     match value {
         Value::Null | Value::Bool(false) => true,
@@ -72,12 +73,12 @@ fn is_default(value: &Value) -> bool {
     }
 }
 
-/// Names of alternatives without content in types whose other alternatives need one. The test can only change the
-/// others to these.
+/// Names of enumeration variants without content, in types whose other variants have content. The test can only change
+/// other variants to these.
 const ALONE: [&str; 5] =
     ["/axes/rules/*/step", "/groups/*/kind", "/shape/bit_field/fields/*/meaning", "/request/*", "/reply/*"];
 
-/// A description and its JSON representation.
+/// A device description and its JSON representation.
 struct Description {
     name: String,
     length: usize,
@@ -86,7 +87,8 @@ struct Description {
 }
 
 impl Description {
-    /// Creates a description that is read from its JSON. Returns `None` if JSON cannot express one of its numbers.
+    /// Creates a description from a catalog that was converted to JSON and back. Returns `None` if JSON cannot express
+    /// one of its numbers.
     fn of(name: String, length: usize, catalog: &Catalog) -> Option<Self> {
         let json = serde_json::to_value(catalog).ok()?;
         let catalog = Catalog::deserialize(&json).ok()?;
@@ -100,8 +102,8 @@ impl Description {
     }
 }
 
-/// Returns the inputs of the UI cases, the dictionaries, catalogs from random bytes and, in the full lane, a part of
-/// the corpus, sorted by size.
+/// Returns descriptions sorted by size: inputs of the UI cases, dictionaries, and catalogs from random bytes. The full
+/// lane adds a part of the corpus.
 fn descriptions() -> Vec<Description> {
     let root = root();
     let mut paths = Vec::new();
@@ -135,26 +137,26 @@ fn find(folder: &Path, paths: &mut Vec<PathBuf>) {
     }
 }
 
-/// Number of random bytes of a catalog.
+/// Number of random bytes from which a catalog is created.
 const BYTES: usize = 1500;
 
 /// The results of changed leaves.
 #[derive(Default)]
 struct Tally {
-    /// Number of changed leaves of each path.
+    /// Number of changed leaves for each path.
     paths: BTreeMap<String, usize>,
     changes: usize,
     reported: usize,
-    /// Entries of the list that apply to a leaf.
+    /// List entries that apply to a changed leaf.
     listed: BTreeSet<&'static str>,
-    /// An example of each path without a report.
+    /// For each path without a report, an example of a change.
     missed: BTreeMap<String, String>,
-    /// An example of each path whose changes are all invalid. Removing a required part does not count.
+    /// For each path whose changes are all invalid, an example. Removals of required parts are not included.
     invalid: BTreeMap<String, String>,
 }
 
 impl Tally {
-    /// Changes the leaves of a description, at most `most` leaves of each path in total.
+    /// Changes the leaves of a description until each path has at most `most` changed leaves in all descriptions.
     fn add(&mut self, description: &Description, most: usize, mutator: &mut Mutator) {
         assert_eq!(compare(&description.catalog, &description.catalog), [], "{} differs from itself", description.name);
         let mut json = description.json.clone();
@@ -176,7 +178,7 @@ impl Tally {
             leaf.replace(json, before);
             if let Ok(changed) = changed {
                 is_changed = true;
-                // A value is equal if the representation leaves it out.
+                // A changed value can give an equal catalog if the representation omits the value.
                 if changed != description.catalog {
                     self.compare(description, &changed, leaf, example);
                 }
@@ -221,5 +223,5 @@ fn a_change_of_every_leaf_is_reported() {
     let invalid: Vec<_> = invalid.iter().filter(|(path, _)| !ALONE.iter().any(|end| path.ends_with(end))).collect();
     assert!(invalid.is_empty(), "no valid change of: {invalid:#?}");
     assert!(missed.is_empty(), "{} paths have no report", missed.len());
-    assert_eq!(listed, UNREPORTED.iter().map(|(end, _)| *end).collect(), "the list has no unused entries");
+    assert_eq!(listed, UNREPORTED.iter().map(|(end, _)| *end).collect(), "the list has unused entries");
 }

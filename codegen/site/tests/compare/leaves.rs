@@ -1,4 +1,4 @@
-//! Leaves of a JSON value, and changes of them.
+//! Finds and changes the leaves of a JSON value.
 
 use std::collections::HashMap;
 
@@ -6,7 +6,7 @@ use lexibus_codegen::ir::Catalog;
 use serde::Deserialize;
 use serde_json::Value;
 
-/// A value within a larger value.
+/// A value that is part of a larger JSON value.
 pub struct Leaf {
     path: Vec<Key>,
 }
@@ -18,15 +18,15 @@ enum Key {
 }
 
 impl Leaf {
-    /// Returns every value within `root`: numbers, texts and truth values, and also lists and objects, because they can
-    /// be missing.
+    /// Returns all values within `root`: numbers, texts and truth values. The result includes lists and objects because
+    /// these can be missing.
     pub fn all(root: &Value) -> Vec<Leaf> {
         let mut leaves = Vec::new();
         collect(root, &mut Vec::new(), &mut leaves);
         leaves
     }
 
-    /// Returns the JSON pointer.
+    /// Returns the JSON pointer of the leaf.
     pub fn pointer(&self) -> String {
         let escaped = |key: &Key| match key {
             Key::Field(name) => format!("/{}", name.replace('~', "~0").replace('/', "~1")),
@@ -35,7 +35,7 @@ impl Leaf {
         self.path.iter().map(escaped).collect()
     }
 
-    /// Returns the pointer without positions.
+    /// Returns the JSON pointer with `*` for list positions.
     pub fn pattern(&self) -> String {
         let name = |key: &Key| match key {
             Key::Field(name) => format!("/{name}"),
@@ -44,7 +44,7 @@ impl Leaf {
         self.path.iter().map(name).collect()
     }
 
-    /// Returns the value.
+    /// Returns the value of the leaf within `root`.
     pub fn value<'r>(&self, root: &'r Value) -> &'r Value {
         root.pointer(&self.pointer()).expect("a leaf")
     }
@@ -54,7 +54,7 @@ impl Leaf {
         !matches!(self.value(root), Value::Object(_) | Value::Array(_))
     }
 
-    /// Replaces the value. Returns the old value.
+    /// Replaces the value of the leaf in `root` and returns the old value.
     pub fn replace(&self, root: &mut Value, value: Value) -> Value {
         std::mem::replace(root.pointer_mut(&self.pointer()).expect("a leaf"), value)
     }
@@ -62,7 +62,7 @@ impl Leaf {
 
 fn collect(value: &Value, path: &mut Vec<Key>, leaves: &mut Vec<Leaf>) {
     match value {
-        // A missing value has nothing to change. Its addition is the reverse of a removal.
+        // A missing value cannot be changed. Removing the value tests the reverse of adding it.
         Value::Null => return,
         Value::Array(list) => {
             for (position, part) in list.iter().enumerate() {
@@ -83,15 +83,15 @@ fn collect(value: &Value, path: &mut Vec<Key>, leaves: &mut Vec<Leaf>) {
     leaves.push(Leaf { path: path.clone() });
 }
 
-/// Creates other values of leaves.
+/// Creates changed values for leaves.
 #[derive(Default)]
 pub struct Mutator {
-    /// Names of the alternatives at each path.
+    /// Names of the enumeration variants at each path.
     variants: HashMap<String, Vec<String>>,
 }
 
 impl Mutator {
-    /// Returns other values of a leaf. Some of them can be invalid.
+    /// Returns changed values for a leaf. Some of them can be invalid.
     pub fn mutations(&mut self, leaf: &Leaf, root: &mut Value) -> Vec<Value> {
         let value = leaf.value(root).clone();
         let mut others = self.candidates(&value, leaf, root);
@@ -116,7 +116,7 @@ impl Mutator {
         }
     }
 
-    /// Returns the names of the alternatives at a leaf; an empty list if it is no alternative.
+    /// Returns the variant names of the enumeration at a leaf. Returns an empty list if the leaf is not an enumeration.
     fn variants(&mut self, leaf: &Leaf, root: &mut Value) -> &[String] {
         self.variants.entry(leaf.pattern()).or_insert_with(|| variants(&leaf.pointer(), root))
     }
@@ -130,16 +130,16 @@ fn numbers(number: &serde_json::Number) -> Vec<Value> {
     }
 }
 
-/// Returns another text, or the other names of an alternative.
+/// Returns a changed text, or the other variant names if the text is a variant name.
 fn texts(text: &str, variants: &[String]) -> Vec<Value> {
     match variants.is_empty() {
-        // JSON has no NaN or infinity, so these are texts.
+        // JSON has no NaN or infinity, so the representation stores them as texts.
         true => vec![Value::from(format!("{text}x")), Value::from(2.5)],
         false => variants.iter().map(|other| Value::from(other.as_str())).collect(),
     }
 }
 
-/// Returns the names that the deserializer expects instead of an unknown one.
+/// Returns the variant names that the deserializer lists in its error message about an unknown name.
 fn variants(pointer: &str, root: &mut Value) -> Vec<String> {
     let target = root.pointer_mut(pointer).expect("a leaf");
     let before = std::mem::replace(target, Value::from("no alternative"));
@@ -151,7 +151,7 @@ fn variants(pointer: &str, root: &mut Value) -> Vec<String> {
     }
 }
 
-/// Returns the list without its first element, and without its last one.
+/// Returns the list without its first element, and the list without its last element.
 fn shorter(list: &[Value]) -> Vec<Value> {
     match list {
         [] => Vec::new(),
@@ -160,7 +160,7 @@ fn shorter(list: &[Value]) -> Vec<Value> {
     }
 }
 
-/// Returns the other alternatives: those without content, and those with the same content.
+/// Returns the other variants: variants without content, and variants with the same content.
 fn alternatives(content: &Value, variants: &[String]) -> Vec<Value> {
     let with_content = variants.iter().map(|name| Value::from_iter([(name.clone(), content.clone())]));
     with_content.chain(variants.iter().map(|name| Value::from(name.as_str()))).collect()

@@ -1,4 +1,5 @@
-//! Documentation of every file of the corpus, in both formats: all links are valid, and texts add no markup.
+//! Checks the documentation of all corpus files in both formats: all links must be valid, and texts must not add
+//! markup.
 
 use crate::corpus_support::{all_files, lane, File};
 use crate::docs_support::{html_links, markdown_links, values};
@@ -6,10 +7,10 @@ use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_site::{Format, Site};
 
-/// Number of threads that share the work.
+/// Number of threads that process files.
 const THREADS: usize = 2;
 
-/// Returns the number of links in the pages of a file, in both formats; `None` if the file has errors.
+/// Returns the number of links in both formats of a file's documentation. Returns `None` if the file has errors.
 fn links(file: &File) -> Option<(usize, usize)> {
     let compilation = check(Source::new(&*file.name, file.bytes.clone()), &Options::default());
     let pages = |format| {
@@ -41,7 +42,7 @@ fn every_file_has_pages() {
     let (html, markdown) =
         counts.iter().flatten().fold((0, 0), |(html, markdown), count| (html + count.0, markdown + count.1));
     println!("{} files, {html} links in HTML, {markdown} in Markdown", counts.iter().flatten().count());
-    // The compiler rejects the other files, which other tests check.
+    // The compiler rejects the remaining files. Other tests cover them.
     let percent = if lane::is_full() { 95 } else { 75 };
     assert!(counts.iter().flatten().count() * 100 > files.len() * percent);
 }

@@ -1,4 +1,4 @@
-//! Pages of the four drives whose manuals are transcribed.
+//! Tests the pages of the four drives whose manuals are transcribed as dictionaries.
 
 use std::collections::HashSet;
 
@@ -16,7 +16,7 @@ fn every_doubt_is_on_the_page_of_assumptions() {
         let catalog = doubts::catalog(file);
         let pages = Site::default().add("drive", &catalog);
         let page = pages.iter().find(|page| page.path.ends_with("assumptions.html")).expect("the page");
-        // The page lists the ambiguity of a repeated row once, with a link to each item.
+        // The page lists the ambiguity of a repeated row once and links to each of its items.
         let all = doubts::doubts(&catalog);
         let fact = |doubt: &Doubt| {
             (doubt.says.clone(), doubt.chosen.clone(), doubt.cite.clone(), format!("{:?}", doubt.subject))

@@ -1,4 +1,4 @@
-//! The site of `lexibus docs`: all links are valid, texts add no markup, and its size is limited.
+//! Tests the HTML output of `lexibus docs`: valid links, escaped texts and limited size.
 
 use crate::docs_support::{files, hostile, html_links, html_markup, site, values, ALL};
 use lexibus_codegen::source::Source;
@@ -14,7 +14,7 @@ fn all_links_are_valid() {
 fn the_search_finds_the_entries_of_pages() {
     let pages = files(Format::Html, &["dictionaries/hsd-sm137-sm140.toml"]);
     let index = &pages.iter().find(|page| page.path == "hsd-sm137-sm140/search.js").expect("an index").text;
-    // A parameter, the Italian name of a message, and a code.
+    // Search for a parameter, the Italian name of a message, and a code.
     for text in ["KP_VEL\\t", "\\nCmdTraj\\tPosizionamento", "\\noverheated\\tALOVERHEATED\\t"] {
         assert!(index.contains(text), "{text}");
     }
@@ -98,9 +98,9 @@ fn repairs_stand_where_they_matter() {
         assert!(!level.contains("Repaired"), "{level}");
         assert!(text(all).contains("EDS020"), "{}", text(all));
         let first = pages.iter().find(|page| page.path.starts_with("pump/index") || page.path == "pump/index.md");
-        assert!(first.expect("a first page").text.contains(all.trim_start_matches("pump/")));
+        assert!(first.expect("a page with the name of the first page").text.contains(all.trim_start_matches("pump/")));
     }
-    // A file without diagnostics has no page of them.
+    // If a file has no diagnostics, its documentation has no page of diagnostics.
     let pages = files(Format::Html, &["dictionaries/demo-drive.eds"]);
     assert!(pages.iter().all(|page| !page.path.ends_with("findings.html")));
 }
@@ -130,7 +130,7 @@ fn each_transition_of_cia_402_has_an_arrow() {
     let page = pages.iter().find(|page| page.path.ends_with("states-and-procedures.html")).expect("the state machine");
     let start = page.text.find("<svg class=\"states\"").expect("the diagram");
     let diagram = &page.text[start..start + page.text[start..].find("</svg>").expect("its end")];
-    // Transition 13 starts in any state.
+    // Transition 13 has any state as its source.
     assert!(diagram.contains(">any state<"), "{diagram}");
     assert_eq!(diagram.matches("marker-end").count(), 16);
     for number in 1..=16 {

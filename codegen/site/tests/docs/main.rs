@@ -1,4 +1,4 @@
-//! Documentation in both formats.
+//! Tests the documentation in both formats.
 
 #[path = "../../../tests/corpus_support/mod.rs"]
 mod corpus_support;

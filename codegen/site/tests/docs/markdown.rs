@@ -1,4 +1,4 @@
-//! Markdown pages: all links are valid, texts add no markup, and the summary lists every page.
+//! Tests the Markdown output: valid links, escaped texts and a summary of all pages.
 
 use std::collections::BTreeSet;
 
@@ -29,7 +29,7 @@ fn nothing_of_a_description_is_markup() {
     markdown_markup(&all);
     let shown: usize = pages(&all).map(|(_, seen)| seen.text.matches("alert(1)").count()).sum();
     assert!(shown > 60, "only {shown} texts are shown");
-    // Mermaid diagrams give these characters a meaning.
+    // These characters have a meaning in Mermaid diagrams.
     let machines = all.iter().find(|page| page.path == "table/states-and-procedures.md").expect("machines");
     let (_, rest) = machines.text.split_once("```mermaid\n").expect("a diagram");
     let (diagram, _) = rest.split_once("```").expect("its end");
@@ -41,7 +41,7 @@ fn rows_of_tables_have_one_cell_a_column() {
     for page in files(Format::Markdown, &ALL) {
         let mut columns = None;
         for (number, line) in page.text.lines().enumerate() {
-            // An escaped character does not end a cell.
+            // An escaped `|` does not end a table cell.
             let cells = line.starts_with('|').then(|| line.replace("\\\\", "").replace("\\|", "").matches('|').count());
             if let Some((expected, cells)) = columns.zip(cells) {
                 assert_eq!(expected, cells, "{}:{}: {line}", page.path, number + 1);

@@ -1,4 +1,4 @@
-//! Descriptions whose texts contain markup.
+//! Device descriptions whose texts contain markup.
 
 #[allow(clippy::duplicate_mod, reason = "a program may load several modules that look for the repository")]
 #[path = "../../../../tests/support/root.rs"]
@@ -6,11 +6,11 @@ mod root;
 
 use lexibus_codegen::source::Source;
 
-/// Markup, quotes and URLs, for a TOML string.
+/// A TOML string with markup, quotes and URLs.
 const HOSTILE: &str =
     "<script>alert(1)</script><img src=x onerror=alert(2)>\\\" ' onload=alert(3) </title></table>&lt; http://x";
 
-/// Returns descriptions with this text everywhere, with their names.
+/// Returns names and sources of descriptions in which all texts contain the markup.
 pub fn descriptions() -> Vec<(String, Source)> {
     let hostile = HOSTILE.replace("\\\"", "");
     let eds = format!(
@@ -36,7 +36,7 @@ fn data(name: &str) -> String {
     std::fs::read_to_string(path).expect("a description")
 }
 
-/// Returns a register table with this text.
+/// Returns a register table in which all texts contain the markup.
 pub fn table() -> String {
     format!(
         "lexibus = 1\n[device]\nname = \"{HOSTILE}\"\nvendor = \"{HOSTILE}\"\ndoc = \"{HOSTILE}\"\nbuses = [\"modbus\", \"serial\"]\n\

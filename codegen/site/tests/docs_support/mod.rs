@@ -15,7 +15,7 @@ use lexibus_site::{Format, Page, Site};
 use pulldown_cmark::{Event, Parser, Tag};
 use root::root;
 
-/// Returns the pages of these sources.
+/// Returns the pages of a site with these sources.
 pub fn site(format: Format, sources: Vec<(String, Source)>) -> Vec<Page> {
     let (mut site, mut pages) = (Site::new(format), Vec::new());
     for (name, source) in sources {
@@ -27,7 +27,7 @@ pub fn site(format: Format, sources: Vec<(String, Source)>) -> Vec<Page> {
     pages
 }
 
-/// Returns the pages of these files of the repository.
+/// Returns the pages of a site with these files of the repository.
 pub fn files(format: Format, paths: &[&str]) -> Vec<Page> {
     let read = |path: &&str| {
         let name = path.rsplit('/').next().unwrap_or(path).split('.').next().unwrap_or_default().to_owned();
@@ -36,7 +36,7 @@ pub fn files(format: Format, paths: &[&str]) -> Vec<Page> {
     site(format, paths.iter().map(read).collect())
 }
 
-/// Descriptions in every format.
+/// Paths of descriptions, at least one in each format.
 pub const ALL: [&str; 10] = [
     "dictionaries/aec-vector-step.toml",
     "dictionaries/demo-drive.eds",
@@ -50,23 +50,23 @@ pub const ALL: [&str; 10] = [
     "tests/data/safe.gsdml.xml",
 ];
 
-/// Returns the values of an attribute in double quotes.
+/// Returns all values of an attribute that are in double quotes.
 pub fn values<'p>(text: &'p str, attribute: &str) -> Vec<&'p str> {
     let start = format!(" {attribute}=\"");
     text.split(&start).skip(1).filter_map(|rest| rest.split('"').next()).collect()
 }
 
-/// Follows every link of a site. Returns the number of links.
+/// Checks all links of a site. Returns the number of links.
 ///
 /// # Panics
 ///
-/// If a link is invalid, or an id occurs twice.
+/// If a link is invalid or an id occurs twice.
 pub fn html_links(pages: &[Page]) -> usize {
     let mut ids: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for page in pages {
         let all = values(&page.text, "id");
         let ids_of_page: BTreeSet<&str> = all.iter().copied().collect();
-        assert_eq!(ids_of_page.len(), all.len(), "{}: an id is given twice", page.path);
+        assert_eq!(ids_of_page.len(), all.len(), "{}: an id occurs twice", page.path);
         ids.insert(&page.path, ids_of_page);
     }
     let mut count = 0;
@@ -77,18 +77,18 @@ pub fn html_links(pages: &[Page]) -> usize {
     count
 }
 
-/// Follows every link of Markdown pages. Returns the number of links.
+/// Checks all links of Markdown pages. Returns the number of links.
 ///
 /// # Panics
 ///
-/// If a link is invalid, or an id occurs twice.
+/// If a link is invalid or an id occurs twice.
 pub fn markdown_links(all: &[Page]) -> usize {
     let mut ids: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
     let mut links = Vec::new();
     for (page, seen) in pages(all) {
         let ids_of_page: Vec<&str> = seen.html.iter().filter_map(|html| id(html)).collect();
         let once: BTreeSet<String> = ids_of_page.iter().map(|id| (*id).to_owned()).collect();
-        assert_eq!(once.len(), ids_of_page.len(), "{}: an id is given twice", page.path);
+        assert_eq!(once.len(), ids_of_page.len(), "{}: an id occurs twice", page.path);
         ids.insert(&page.path, once);
         links.extend(seen.links.into_iter().map(|link| (page, link)));
     }
@@ -98,7 +98,7 @@ pub fn markdown_links(all: &[Page]) -> usize {
     links.len()
 }
 
-/// Checks a link. `has` returns whether a page has an id, or `None` if the page does not exist.
+/// Checks a link. `has` returns whether a page has an id. It returns `None` if the page does not exist.
 fn follow(page: &Page, link: &str, has: impl Fn(&str, &str) -> Option<bool>) {
     let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
     let folder = page.path.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
@@ -111,7 +111,7 @@ fn follow(page: &Page, link: &str, has: impl Fn(&str, &str) -> Option<bool>) {
     assert!(anchor.is_empty() || is_there, "{}: {path} has no {anchor}", page.path);
 }
 
-/// The parts of a Markdown page that a reader sees, parsed as GitHub and `mdBook` do.
+/// The visible parts of a Markdown page, parsed like GitHub and `mdBook` do.
 #[derive(Default)]
 pub struct Seen {
     pub links: Vec<String>,
@@ -134,35 +134,35 @@ pub fn seen(page: &Page) -> Seen {
     seen
 }
 
-/// Returns the id in `<a id="…">`.
+/// Returns the id of an `<a id="…">` element.
 pub fn id(html: &str) -> Option<&str> {
     html.strip_prefix("<a id=\"")?.strip_suffix("\">")
 }
 
-/// Returns each page with its visible parts.
+/// Returns each page together with its visible parts.
 pub fn pages(all: &[Page]) -> impl Iterator<Item = (&Page, Seen)> {
     all.iter().map(|page| (page, seen(page)))
 }
 
-/// Checks that each path is within the folder, whatever the names of devices are.
+/// Checks that no path leaves the folder, regardless of the device names.
 fn placed(pages: &[Page]) {
     for Page { path, .. } in pages {
         assert!(!path.contains("..") && !path.starts_with('/') && !path.contains(['<', '\\', ':']), "{path}");
     }
 }
 
-/// Checks that descriptions add no element to the pages of a site.
+/// Checks that descriptions do not add HTML elements to the pages of a site.
 ///
 /// # Panics
 ///
-/// If a description adds an element.
+/// If a description adds an HTML element.
 pub fn html_markup(all: &[Page]) {
     placed(all);
     for page in all.iter().filter(|page| page.path.ends_with(".html")) {
         assert_eq!(page.text.matches("<script").count(), 1, "{}", page.path);
         assert_eq!(page.text.matches("</title>").count(), 1, "{}", page.path);
         assert!(!page.text.contains("<img"), "{}", page.path);
-        // A quote would end an attribute and begin another one.
+        // A quotation mark in a value would end the attribute, and another attribute could follow.
         for tag in page.text.split('<').skip(1).filter_map(|rest| rest.split('>').next()) {
             let names = tag.split('"').step_by(2).collect::<String>();
             assert!(!names.contains("onerror") && !names.contains("onload"), "{}: <{tag}>", page.path);
@@ -170,7 +170,7 @@ pub fn html_markup(all: &[Page]) {
     }
 }
 
-/// Checks that descriptions add no markup to Markdown pages, parsed as GitHub and `mdBook` do.
+/// Checks that descriptions do not add markup to Markdown pages. The pages are parsed like GitHub and `mdBook` do.
 ///
 /// # Panics
 ///

@@ -1,14 +1,14 @@
-//! Multiple axes: the constant `AXES`, from which the runtime computes addresses.
+//! Devices with several axes: the constant `AXES`, from which the runtime calculates addresses.
 
 use super::code::{Data, Doc};
 use super::docs;
 use crate::ir::{AxisRange, AxisRule, AxisStep, Device};
 
-/// Axes, ready to be printed.
+/// The axes of a device, ready to be printed.
 pub(super) struct AxesModel {
-    /// Models that have the axes, as a part of a sentence; empty if all models have them.
+    /// Models that have the axes, as part of a sentence. Empty if all models have them.
     pub models: String,
-    /// Value of `AXES`.
+    /// Value of the constant `AXES`.
     pub constant: Doc,
 }
 

@@ -21,17 +21,17 @@ pub(super) struct BitFieldModel {
     pub name: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
-    /// `Debug` implementation, if it is requested.
+    /// The `Debug` implementation, if the options request it.
     pub debug: Option<DebugModel>,
     /// Path of the base type in the runtime.
     pub base: &'static str,
     /// Primitive integer that holds the raw value.
     pub native: &'static str,
-    /// Initial value: the reserved bits that must be 1.
+    /// Initial value. It contains the reserved bits that must be 1.
     pub initial: String,
-    /// Expression that removes bits of `raw` that are beyond the width of the bit field.
+    /// Expression that clears the bits of `raw` beyond the width of the bit field.
     pub cut: String,
-    /// Expression of the value to write; `None` if no reserved bit must be 0 or 1.
+    /// Expression of the value to write. `None` if there are no reserved bits that must be 0 or 1.
     pub written: Option<String>,
     pub allow: Option<String>,
     pub fields: Vec<FieldModel>,
@@ -52,52 +52,53 @@ impl BitFieldModel {
 
 /// The `Debug` implementation of a bit field.
 pub(super) struct DebugModel {
-    /// Attribute that makes the implementation conditional.
+    /// The `cfg` attribute of the implementation if it is conditional.
     pub gate: Option<String>,
     pub raw: String,
-    /// Name of the type, and names and masks of its fields, in the format of the runtime's `debug_bits`.
+    /// Names and masks of the fields, in the format that the runtime's `debug_bits` requires. The name of the type
+    /// comes first.
     pub layout: String,
-    /// Values of the fields that are printed by their type.
+    /// Values of fields that print like their type.
     pub values: Vec<Doc>,
 }
 
-/// A flag, or a field of several bits.
+/// A flag or a field of several bits.
 pub(super) struct FieldModel {
     pub docs: String,
     pub getter: String,
-    /// Link to the getter.
+    /// Link to the getter, for the table.
     pub title: String,
     pub setter: String,
     pub ty: String,
     /// Expression that reads the field from `self.0`.
     pub get: Doc,
-    /// Expression of the bit field with `value` in the field.
+    /// Expression of the bit field after `value` is stored in the field.
     pub set: Doc,
-    /// Name and mask of the field in the layout for `Debug`.
+    /// Name and mask of the field for the `Debug` layout.
     debug: String,
     /// Whether `Debug` prints the value that the getter returns.
     prints_value: bool,
-    /// Row of the field in the table of the bit field.
+    /// Row of the field in the documentation table of the bit field.
     row: Row,
 }
 
-/// First bit of a field, and the cells of its row: bits, name and meaning.
+/// The first bit of a field, and the cells of its table row: bits, name and meaning.
 type Row = (u8, [String; 3]);
 
-/// A view: the bits that apply under one condition.
+/// A view of a bit field. It contains the bits that apply under one condition.
 pub(super) struct ViewModel {
     pub name: String,
     pub title: String,
-    /// Method of the bit field that returns the view.
+    /// Name of the bit field method that returns the view.
     pub method: String,
-    /// Method of the view that returns the bit field.
+    /// Name of the view method that returns the bit field.
     pub back: String,
     pub fields: Vec<FieldModel>,
     pub allow: Option<String>,
 }
 
-/// Names that getters must not have: other methods of a bit field, methods that clippy expects to belong to a trait,
-/// and methods that every type has and that would be called instead.
+/// Names that getters must not have. These are other methods of bit fields, methods that clippy expects in trait
+/// implementations only, and methods of all types, which would be called instead of the getter.
 const RESERVED: [&str; 16] = [
     "self",
     "super",
@@ -117,12 +118,12 @@ const RESERVED: [&str; 16] = [
     "not",
 ];
 
-/// Returns a mask of this many bits.
+/// Returns a mask with the lowest `bits` bits set.
 fn mask(bits: u32) -> u64 {
     u64::MAX.checked_shr(64 - bits.min(64)).unwrap_or(0)
 }
 
-/// Returns the condition of a view as words.
+/// Returns the condition of a view in words.
 fn title(context: &Context<'_>, condition: &Condition) -> String {
     let Some(names) = value_names(context, condition) else {
         return format!("while {}", docs::holds(condition, context, DocModule::TYPES));
@@ -205,7 +206,7 @@ fn view_methods(views: &[View], reserved: &[&str]) -> Vec<String> {
     names::unique(&name_requests, reserved, Case::Snake)
 }
 
-/// Returns the lines of the table of all bits.
+/// Returns the lines of the table with all bits.
 fn table<'f>(entries: &[&BitFieldEntry], fields: impl Iterator<Item = &'f FieldModel>) -> Vec<String> {
     let reserved = |entry: &&BitFieldEntry| {
         let BitMeaning::Reserved { write } = entry.meaning else { return None };
@@ -221,7 +222,7 @@ fn table<'f>(entries: &[&BitFieldEntry], fields: impl Iterator<Item = &'f FieldM
     doc_table::table(["Bits", "Name", "Meaning"], &rows)
 }
 
-/// Returns the bits of a field as words: `3`, `4–6`.
+/// Returns the bit numbers of a field: `3` or `4–6`.
 fn span(entry: &BitFieldEntry) -> String {
     match entry.bits {
         1 => entry.offset.to_string(),
@@ -229,7 +230,7 @@ fn span(entry: &BitFieldEntry) -> String {
     }
 }
 
-/// Returns sentences about the edge on which a field acts, and about inverted flags.
+/// Returns sentences about inverted flags and about the edge that triggers a field's action.
 fn marks(entry: &BitFieldEntry) -> impl Iterator<Item = String> {
     let is_inverted = matches!(entry.meaning, BitMeaning::Flag { inverted: true });
     let trigger = entry.trigger.map(|trigger| match trigger {
@@ -241,7 +242,7 @@ fn marks(entry: &BitFieldEntry) -> impl Iterator<Item = String> {
     is_inverted.then_some("Active low: the flag is true if the bit is 0.").into_iter().chain(trigger).map(str::to_owned)
 }
 
-/// Returns the name of a type as the name of a method.
+/// Converts the name of a type to the name of a method.
 fn snake(name: &str) -> String {
     let name_request = NameRequest { name, fallback: "bits".to_owned(), suffix: "bits".to_owned() };
     names::unique(&[name_request], &RESERVED, Case::Snake).remove(0)
@@ -298,7 +299,7 @@ fn debug(name: &str, native: &str, fields: &[FieldModel], options: &RustOptions)
     })
 }
 
-/// Generates the code of fields.
+/// Creates the models of a bit field's fields.
 struct Fields<'c, 's> {
     context: &'c Context<'s>,
     native: &'static str,
@@ -310,7 +311,8 @@ impl Fields<'_, '_> {
         native_bits(self.native)
     }
 
-    /// Returns the fields that apply under `condition`. The table shows the link that `link` returns for a name.
+    /// Returns the models of the fields that apply under `condition`. `link` returns the link that the table shows for
+    /// a name.
     fn fields(
         &self,
         all: &[&BitFieldEntry],
@@ -322,7 +324,8 @@ impl Fields<'_, '_> {
             !matches!(entry.meaning, BitMeaning::Reserved { .. }) && entry.when.as_ref() == condition
         };
         let entries: Vec<&BitFieldEntry> = all.iter().filter(is_field).copied().collect();
-        // Two versions of the firmware may give a bit of the same name different meanings.
+        // A bit can have the same name but different meanings in two firmware versions. A suffix makes the names of its
+        // fields unique.
         let mut seen = HashSet::new();
         let name_requests: Vec<NameRequest<'_>> = entries
             .iter()
@@ -405,7 +408,7 @@ impl Fields<'_, '_> {
         }
     }
 
-    /// Returns a call of a function of the runtime for integers of this type.
+    /// Returns a call of the runtime function for integers of this type.
     fn call(&self, function: &str, mask: &str, value: Option<&str>) -> Doc {
         let path = seq!["rt::bits", self.native_bits(), "::", function];
         match value {
@@ -436,7 +439,7 @@ impl Fields<'_, '_> {
     }
 }
 
-/// The code of a field.
+/// The code of a field: its type and expressions.
 struct Code {
     ty: String,
     /// Whether the type is an enumeration.

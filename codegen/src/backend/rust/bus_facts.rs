@@ -1,17 +1,17 @@
-//! Constants with properties of a device on its buses: Modbus limits and the node-ID range.
+//! Constants for properties of the buses: Modbus limits and the node-ID range.
 
 use std::collections::BTreeMap;
 
 use super::code::{seq, Data, Doc};
 use crate::ir::{Availability, Binding, Device, Item, ModbusTable, RegisterBinding, RegisterSpace};
 
-/// A constant, ready to be printed.
+/// A constant for bus properties, ready to be printed.
 pub(super) struct FactModel {
     pub docs: String,
     pub code: Doc,
 }
 
-/// Names of these constants in lower case.
+/// Names of the bus constants in lowercase.
 pub(super) const RESERVED: [&str; 2] = ["node_ids", "modbus"];
 
 pub(super) fn models(device: &Device) -> Vec<FactModel> {
@@ -26,8 +26,8 @@ pub(super) fn models(device: &Device) -> Vec<FactModel> {
     facts
 }
 
-/// Modbus tables: the field and the constant in the runtime, and the maximum numbers of values that Modbus reads and
-/// writes at once.
+/// For each Modbus table: the field and the constant in the runtime, and the maximum number of values per Modbus read
+/// and write.
 const TABLES: [(RegisterSpace, &str, &str, u16, u16); 4] = [
     (RegisterSpace::Holding, "holding", "rt::modbus::TableLimits::HOLDING", 125, 123),
     (RegisterSpace::Input, "input", "rt::modbus::TableLimits::INPUT", 125, 0),
@@ -35,7 +35,7 @@ const TABLES: [(RegisterSpace, &str, &str, u16, u16); 4] = [
     (RegisterSpace::DiscreteInput, "discrete", "rt::modbus::TableLimits::DISCRETE", 2000, 0),
 ];
 
-/// Returns the constant `MODBUS` of a device with registers.
+/// Returns the constant `MODBUS`. The device must have registers.
 fn modbus(device: &Device) -> Option<FactModel> {
     let has_registers = items(device).any(|item| registers(item).next().is_some());
     if !has_registers && device.modbus.is_empty() {
@@ -81,7 +81,7 @@ fn spans(device: &Device, space: RegisterSpace, longest: u16) -> Vec<Doc> {
     for (item, register) in all.filter(|(_, register)| register.space == space && register.count <= longest) {
         let word_count = is_read_along(item).then_some(register.words_per_address);
         for address in register.address..=register.last() {
-            // An address can be read only if all items at the address allow it.
+            // An address can be read together with others only if all items at the address allow it.
             let known = addresses.entry(address).or_insert(word_count);
             *known = known.filter(|_| *known == word_count);
         }
@@ -107,10 +107,10 @@ fn span(span: (u16, u16, u8)) -> Doc {
     }
 }
 
-/// Returns whether reading the item without a request by the program is harmless: every model has it in all states, and
-/// reading has no side effect.
+/// Returns whether an item can be read without an explicit request by the program. All models must have the item in all
+/// states, and reading must have no side effect.
 fn is_read_along(item: &Item) -> bool {
-    /// ObjFlags of CiA 306: the object must not be read during a scan.
+    /// Flag in ObjFlags (CiA 306): do not read the object during a scan.
     const REFUSES_SCAN: u32 = 2;
     let is_everywhere = |availability: &Availability| {
         availability.models.is_empty()

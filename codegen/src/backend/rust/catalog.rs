@@ -1,4 +1,4 @@
-//! All devices and modules of a file as one Rust module.
+//! Generates one Rust module with all devices and modules of a file.
 
 use std::collections::{HashMap, HashSet};
 
@@ -12,7 +12,7 @@ use super::{docs, header, print};
 use crate::ir::{Catalog, Device, FileInfo, Module, ModuleId};
 use crate::names::{self, Case, NameRequest};
 
-/// Names that the module of a device must not have, because modules inside of it use them.
+/// Names that a device's module must not have, because its content uses them.
 const RESERVED: [&str; 18] = [
     "self",
     "super",
@@ -100,8 +100,8 @@ fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
     escaped(names::unique(&name_requests, &RESERVED, Case::Snake))
 }
 
-/// Returns the names of the devices: their order codes, which are shorter than their names. The revision number is the
-/// suffix of ambiguous names.
+/// Returns the names of the devices. Order codes are preferred because they are shorter than names. The revision number
+/// is appended to ambiguous names.
 fn device_names(devices: &[Device], file: &FileInfo) -> Vec<String> {
     let names: Vec<String> = devices.iter().map(|device| module_name(device, file)).collect();
     let mut seen = HashSet::new();
@@ -135,7 +135,7 @@ fn paths(modules: &[(ModuleId, &Module)], names: &[String], outer: &str) -> Modu
     modules.iter().zip(names).map(|((id, _), name)| (*id, format!("{outer}::{name}::MODULE"))).collect()
 }
 
-/// Returns the name of a device or module in the description, or its Rust name if it has none.
+/// Returns the name of a device or module in the description. If it has none, returns its Rust name.
 fn title(original: &str, name: &str) -> String {
     let title = docs::escape(original);
     docs::sentence(if title.is_empty() { name } else { &title })

@@ -1,5 +1,5 @@
-//! Rust code as a document: text with the positions at which lines may be broken, and the writer that breaks lines as
-//! `prettyplease` does.
+//! Rust code as documents, which are texts with marked positions for line breaks. The writer breaks lines like
+//! `prettyplease`.
 
 mod doc;
 mod layout;

@@ -1,4 +1,4 @@
-//! Code tables: alarms, emergency codes, abort codes.
+//! Code tables: alarms, emergency codes and abort codes.
 
 use super::bus_facts;
 use super::code::{call, slice, Doc};
@@ -16,13 +16,13 @@ use crate::names::{self, Case};
 /// A code table, ready to be printed.
 pub(super) struct CodeTableModel {
     pub name: String,
-    /// Link to the table from its module.
+    /// Link to the table, relative to its module.
     pub link: String,
     pub docs: Vec<String>,
     pub rows: Vec<Doc>,
-    /// Whether a cell may resemble a mathematical constant, which clippy reports.
+    /// Whether a cell may be close to a mathematical constant. Clippy reports such literals.
     pub has_real: bool,
-    /// Type of the codes.
+    /// Enumeration of the codes.
     pub ty: Option<CodeTypeModel>,
 }
 
@@ -64,7 +64,7 @@ fn model(
     }
     let rows = table.rows.iter().filter_map(|code_row| row(code_row, table.columns.len())).collect();
     let ty = code_type::model(table, manual, options).map(|model| CodeTypeModel { name: type_name, ..model });
-    // The table and its type have the same name if that is one letter.
+    // A one-letter table and its type have the same name, so the link must state the kind.
     let link = |name: &str, kind: &str, other: &str| match name == other || is_derive(name) {
         true => format!("[`{name}`]({kind}@{name})"),
         false => format!("[`{name}`]"),
@@ -77,7 +77,7 @@ fn model(
     CodeTableModel { name, link: static_link, docs, rows, has_real, ty }
 }
 
-/// Returns the expression of a row; `None` for a code that does not fit in 64 bits.
+/// Returns the expression of a row. Returns `None` if the code does not fit in 64 bits.
 fn row(row: &CodeRow, columns: usize) -> Option<Doc> {
     let (first, last) = (i64::try_from(row.code).ok()?, i64::try_from(row.last.unwrap_or(row.code)).ok()?);
     let mut text = row.documentation.as_ref().map_or_else(String::new, |documentation| documentation.text.clone());

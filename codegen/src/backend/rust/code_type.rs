@@ -1,4 +1,4 @@
-//! The type of a table's codes: an enumeration, so that a program can match alarms by name.
+//! Enumerations for the codes of code tables. Programs use them to match alarms by name.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -10,33 +10,33 @@ use crate::facts::code;
 use crate::ir::{CodeRow, CodeTable, Manual};
 use crate::names::{self, Case, NameRequest};
 
-/// A code type, ready to be printed.
+/// An enumeration of codes, ready to be printed.
 pub(super) struct CodeTypeModel {
     pub name: String,
-    /// Lines of the table of all codes.
+    /// Lines of the documentation table with all codes.
     pub table: Vec<String>,
     pub derives: Vec<String>,
-    /// Primitive integer of a code.
+    /// Primitive integer that holds a code.
     pub native: &'static str,
     pub variants: Vec<CodeVariant>,
-    /// Arms of the match from a code to its variant: pattern and variant.
+    /// Arms of the match that converts a code to its variant: pattern and variant.
     pub arms: Vec<(String, String)>,
-    /// Whether every number of the integer is in a row.
+    /// Whether the rows cover all numbers of the integer.
     pub complete: bool,
 }
 
-/// A variant: a code, or a range of codes.
+/// A variant of the enumeration. It represents a code or a range of codes.
 pub(super) struct CodeVariant {
     pub name: String,
     pub docs: String,
-    /// The code; `None` for a range of codes.
+    /// The code. `None` if the variant represents a range.
     pub code: Option<String>,
 }
 
 /// Names that variants must not have, because the generated code uses them.
 const RESERVED: [&str; 2] = ["Self", "Unknown"];
 
-/// Integers of codes. The smallest has 16 bits, as the emergency error codes of CANopen do (CiA 301 7.2.7).
+/// Integer types of codes. The smallest type has 16 bits, like the emergency error codes of CANopen (CiA 301 7.2.7).
 const NATIVES: [(&str, i64, i64); 4] = [
     ("u16", 0, u16::MAX as i64),
     ("u32", 0, u32::MAX as i64),
@@ -46,10 +46,10 @@ const NATIVES: [(&str, i64, i64); 4] = [
 
 type Span = (i64, i64);
 
-/// Returns the type of `table`, without a name; `None` if no row has a code that fits in 64 bits.
+/// Returns the enumeration for `table`, without its name. Returns `None` if no row has a code that fits in 64 bits.
 pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOptions) -> Option<CodeTypeModel> {
     let mut seen = HashSet::new();
-    // If several rows describe a code, for several models of a device, the first one names it.
+    // If several rows describe the same code for different models, the first row determines its name.
     let first_of_its_span = |row: &'a CodeRow| Some((span(row).filter(|row_span| seen.insert(*row_span))?, row));
     let rows: Vec<(Span, &CodeRow)> = table.rows.iter().filter_map(first_of_its_span).collect();
     let low = rows.iter().map(|(span, _)| span.0).min()?;
@@ -85,18 +85,18 @@ fn span(row: &CodeRow) -> Option<Span> {
     (first <= last).then_some((first, last))
 }
 
-/// Returns the part of each span that no narrower span covers, in ascending order. If spans of equal length overlap,
-/// the first one covers the overlap.
+/// Returns for each span the part that no narrower span covers, in ascending order. If overlapping spans have the same
+/// length, the first one gets the overlap.
 fn disjoint(spans: &[Span]) -> Vec<(usize, Span)> {
     let mut order: Vec<usize> = (0..spans.len()).collect();
     order.sort_by_key(|at| spans[*at].0.abs_diff(spans[*at].1));
-    // The codes that the spans so far cover: the first code of each covered span, with the last one. A new span absorbs
-    // the spans that it meets, so that each is visited once.
+    // The codes covered so far, as a map from the first to the last code of each covered span. A new span absorbs the
+    // spans that it meets, so each span is visited once.
     let mut covered: BTreeMap<i64, i64> = BTreeMap::new();
     let mut pieces = Vec::new();
     for at in order {
         let (mut first, mut last) = spans[at];
-        // End of the part that is left. Nothing is left below `first`.
+        // The last code of the remaining part. Nothing remains if it is below `first`.
         let mut end = Some(last);
         while let Some((low, high)) = last_meeting(&covered, spans[at]) {
             covered.remove(&low);
@@ -111,7 +111,7 @@ fn disjoint(spans: &[Span]) -> Vec<(usize, Span)> {
     pieces
 }
 
-/// Returns the last of the disjoint spans that shares a code with `span`.
+/// Returns the last of the disjoint spans that has a code in common with `span`.
 fn last_meeting(spans: &BTreeMap<i64, i64>, span: Span) -> Option<Span> {
     let (first, last) = spans.range(..=span.1).next_back()?;
     (*last >= span.0).then_some((*first, *last))
@@ -126,7 +126,7 @@ fn pattern(span: Span) -> String {
     }
 }
 
-/// Returns a code as a literal: in hexadecimal from 10 on.
+/// Returns a code as a literal. Codes from 10 are hexadecimal.
 pub(super) fn number(code: i64) -> String {
     if code > 9 {
         format!("{code:#X}").replacen("0X", "0x", 1)
@@ -166,7 +166,7 @@ mod tests {
         assert_eq!(disjoint(&[(0, 1), (0, 0), (1, 1)]), [(1, (0, 0)), (2, (1, 1))]);
     }
 
-    /// Returns the same result as `disjoint`, computed code by code.
+    /// Calculates the result of `disjoint` in a simpler way, code by code.
     fn disjoint_by_code(spans: &[Span]) -> Vec<(usize, Span)> {
         let mut pieces: Vec<(usize, Span)> = Vec::new();
         let codes = spans.iter().map(|span| span.0).min().unwrap()..=spans.iter().map(|span| span.1).max().unwrap();
@@ -197,7 +197,7 @@ mod tests {
         }
     }
 
-    /// Returns `count` codes with a gap after each, and a span that covers all of them.
+    /// Returns `count` single codes with gaps between them, and a span that covers all of them.
     fn holes(count: i64) -> Vec<Span> {
         (0..count).map(|at| (2 * at + 1, 2 * at + 1)).chain([(0, 2 * count)]).collect()
     }

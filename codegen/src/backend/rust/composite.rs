@@ -1,4 +1,5 @@
-//! Composite numbers, which are split over several items: a constant that joins and splits each of them.
+//! Generates a constant for each composite number. The constant joins the digits in several items, and splits a number
+//! into them.
 
 use super::bus_facts::FactModel;
 use super::code::{seq, Data, Doc};

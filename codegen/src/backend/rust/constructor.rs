@@ -1,4 +1,4 @@
-//! The call that creates a handle.
+//! Generates the constructor call of a handle.
 
 use super::code::{call, list, seq, Doc};
 use super::item_addresses::ItemAddresses;
@@ -8,33 +8,34 @@ use super::value_type::ValueType;
 use super::variant;
 use crate::ir::{Item, Value};
 
-/// Default arguments, which short constructors omit.
+/// Default arguments. Short constructors omit them.
 const FULL: &str = "rt::Range::Full";
 const UNKNOWN: &str = "rt::Initial::Unknown";
 const NO_FLAGS: &str = "rt::Flags::NONE";
 
-/// Arguments of a handle's constructor, except its address.
+/// Arguments of a handle's constructor, without the address.
 pub(super) struct Arguments<'i> {
     name: String,
     range: Doc,
     initial: Doc,
-    /// Default value, if it can be written as a literal.
+    /// Default value, if a literal can express it.
     default: Option<Doc>,
     unit: &'i str,
     flags: &'static str,
 }
 
 impl<'i> Arguments<'i> {
-    /// Returns the arguments of an item. `outer` is the path from the handle to the device's module.
+    /// Returns the constructor arguments of an item. `outer` is the path from the handle's module to the device's
+    /// module.
     pub fn of(item: &'i Item, name: &str, ty: &ItemType<'_>, outer: &str) -> Self {
         let wrap = |literal: String| match ty.named {
             Some(_) => call!(seq![ty.path(outer), "::from_raw"], literal),
             None => Doc::from(literal),
         };
-        // The Boolean default of an enumeration is converted to a number.
+        // Convert the Boolean default of an enumeration to a number.
         let number = item.default.as_ref().filter(|_| ty.named.is_some()).and_then(Value::as_int).map(Value::Int);
         let default = number.as_ref().or(item.default.as_ref());
-        // Byte strings have an array type, which needs a conversion to a slice.
+        // A byte string literal has an array type and would need a conversion to a slice.
         let literal = default.filter(|_| !matches!(ty.basic, ValueType::Bytes(_)));
         Arguments {
             name: literal::string(name),
@@ -46,8 +47,8 @@ impl<'i> Arguments<'i> {
         }
     }
 
-    /// Returns the shortest complete call, and whether it names the runtime. Each argument adds a tenth to the time in
-    /// which `rustc` compiles a handle.
+    /// Returns the shortest constructor call, and whether it names the runtime. Each additional argument increases the
+    /// time that `rustc` needs for a handle by a tenth.
     pub fn constructor(&self, addresses: &ItemAddresses<'_>, location: impl FnOnce() -> Doc) -> (Doc, bool) {
         if let Some(call) = self.of_object(addresses) {
             return (call, self.flags != NO_FLAGS);
@@ -59,17 +60,17 @@ impl<'i> Arguments<'i> {
         (call, true)
     }
 
-    /// Returns the arguments that may differ between models of a device: range and initial value.
+    /// Returns the arguments that may differ between the models of a device: range and initial value.
     pub fn of_model(&self) -> [&Doc; 2] {
         [&self.range, &self.initial]
     }
 
-    /// Returns whether all values of the type are allowed, and the item has no unit.
+    /// Returns whether the item has no unit and all values of its type are allowed.
     fn is_plain(&self) -> bool {
         self.range.text() == FULL && self.unit.is_empty()
     }
 
-    /// Returns the call for an item that is an object and has no other address.
+    /// Returns the constructor call of an item whose only address is an object.
     fn of_object(&self, addresses: &ItemAddresses<'_>) -> Option<Doc> {
         let (object, index, sub) = addresses.only_object().filter(|_| self.is_plain())?;
         let (name, flags) = (&self.name, self.flags);
@@ -85,7 +86,7 @@ impl<'i> Arguments<'i> {
         }
     }
 
-    /// Returns the call for a register, which may also be an object.
+    /// Returns the constructor call of a register. The register may also be an object.
     fn of_register(&self, addresses: &ItemAddresses<'_>) -> Option<Doc> {
         let address = addresses.with_register().filter(|_| self.initial.text() == UNKNOWN)?;
         let Arguments { name, range, flags, .. } = self;
@@ -101,7 +102,7 @@ impl<'i> Arguments<'i> {
     }
 }
 
-/// Returns the flags for the PDOs into which an item can be mapped.
+/// Returns the PDO flags of an item: the PDOs into which it can be mapped.
 pub(super) fn flags(item: &Item) -> &'static str {
     match (item.mappable.rpdo, item.mappable.tpdo) {
         (true, true) => "rt::Flags::PDO",

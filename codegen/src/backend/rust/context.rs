@@ -1,4 +1,4 @@
-//! Input of the lowering: the elements of a device or module, their addresses, their names and their links.
+//! Input of the lowering: the elements of a device or module with their addresses, names and links.
 
 use std::ops::Deref;
 
@@ -9,7 +9,7 @@ use super::naming::Names;
 use super::words;
 use crate::ir::{ElementId, Reference, Type};
 
-/// A device or module with the results of all stages before lowering.
+/// A device or module with the results of all previous stages.
 pub(super) struct Context<'a> {
     pub located: Located<'a>,
     pub names: Names<'a>,
@@ -25,13 +25,13 @@ impl<'a> Deref for Context<'a> {
 }
 
 impl Context<'_> {
-    /// Returns the enumeration or bit field of a type; `None` for other types.
+    /// Returns the enumeration or bit field of a type. Returns `None` for other types.
     pub fn enumeration(&self, ty: Type) -> Option<&NamedType> {
         let (position, _) = self.resolve(ty).1?;
         self.names.types.get(position)
     }
 
-    /// Returns a link from `doc_module` to the referenced element if it has a path.
+    /// Returns a link from `doc_module` to the referenced element, if this element has a path.
     pub fn link<Id: Copy + Into<ElementId>>(
         &self,
         reference: &Reference<Id>,
@@ -40,7 +40,7 @@ impl Context<'_> {
         self.link_to(reference.id?.into(), &reference.name, doc_module)
     }
 
-    /// Returns a link from `doc_module` to an element, with `name` as its text, if the element has a path.
+    /// Returns a link from `doc_module` to an element, if the element has a path. `name` is the text of the link.
     pub fn link_to(&self, id: ElementId, name: &str, doc_module: DocModule<'_>) -> Option<String> {
         Some(doc_module.text(&words::escape(name), self.links.path(id)?))
     }

@@ -1,4 +1,5 @@
-//! Definitions that several devices or modules of a file share. The first one contains them, the others re-export them.
+//! Shares definitions between the devices and modules of a file. The first device or module contains a definition, and
+//! the others re-export it.
 
 use std::collections::HashMap;
 
@@ -12,24 +13,24 @@ use super::objects::ObjectModel;
 use super::print;
 use super::reexport::{Reexport, Section};
 
-/// Definitions of all devices so far.
+/// The definitions of all devices so far.
 pub(super) struct Definitions {
     runtime: String,
-    /// Numbers of definitions, by their code and by the numbers of the definitions that the code names. Equal code may
-    /// name different types.
+    /// Numbers of definitions, by their code and the numbers of the definitions that the code refers to. Equal code can
+    /// refer to different types.
     numbers: HashMap<(String, Vec<usize>), usize>,
-    /// Module of the device that contains each definition, by the definition's number.
+    /// For each definition number, the module of the device that contains the definition.
     homes: Vec<String>,
 }
 
 impl Definitions {
-    /// Creates an empty set of definitions. `runtime` is the path of the runtime in their code.
+    /// Creates an empty set. `runtime` is the path of the runtime in the definitions' code.
     pub fn new(runtime: &str) -> Self {
         Definitions { runtime: runtime.to_owned(), numbers: HashMap::new(), homes: Vec::new() }
     }
 
-    /// Replaces definitions of `model` that an earlier device contains with re-exports. `module` is the module of
-    /// `model`.
+    /// Replaces definitions of `model` with re-exports if an earlier device contains the same definition. `module` is
+    /// the module name of `model`.
     pub fn share(&mut self, model: &mut Model, module: &str) {
         model.is_one_of_several = true;
         let mut device = Device { all: self, module, numbers: HashMap::new(), reexports: Vec::new() };
@@ -41,17 +42,17 @@ impl Definitions {
     }
 }
 
-/// Definitions of one device.
+/// The definitions of one device.
 struct Device<'d> {
     all: &'d mut Definitions,
     module: &'d str,
-    /// Numbers of the definitions so far, by section and name.
+    /// Numbers of the device's definitions so far, by section and name.
     numbers: HashMap<(Section, String), usize>,
     reexports: Vec<Reexport>,
 }
 
 impl Device<'_> {
-    /// Adds a definition with these names. `used` are the names in its code that may refer to other definitions.
+    /// Adds a definition with these names. `used` contains names in its code that may refer to other definitions.
     /// Returns whether no earlier device contains the definition.
     fn is_new<'n>(
         &mut self,
@@ -93,7 +94,7 @@ impl Device<'_> {
             let write = |code: &mut Code| print::types::enumeration(code, enumeration);
             self.is_new(&[Section::Types], &[&enumeration.name], std::iter::empty(), &write)
         });
-        // A state machine adds methods to its bit fields, so both are shared together.
+        // A state machine adds methods to its bit fields. Both must therefore be shared together.
         let machines = std::mem::take(&mut types.machines);
         let has_methods =
             |bits: &BitFieldModel| machines.iter().flat_map(MachineModel::bit_fields).any(|name| name == bits.name);
@@ -142,7 +143,7 @@ impl Device<'_> {
                 print::objects::object(code, model, object);
             };
             let used = in_types(object.items.iter().filter_map(|item| item.type_name.as_deref()));
-            // A name without letters may denote a constant and a module. A re-export would include both.
+            // A name without letters can be both a constant and a module. A re-export would include both.
             is_cased(&object.name) && !self.is_new(&[Section::Objects], &[name], used, &write)
         };
         let reexported: Vec<bool> = model.objects.iter().map(is_reexported).collect();

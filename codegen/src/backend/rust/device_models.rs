@@ -1,4 +1,4 @@
-//! Models of a device: their constants, and the items whose range or initial value differs between models.
+//! Models of a device: their constants, and items with a different range or initial value.
 
 use super::code::{list, Doc};
 use super::constructor::Arguments;
@@ -16,31 +16,31 @@ use crate::names::{self, Case, NameRequest};
 pub(super) struct DeviceModel {
     pub name: String,
     pub docs: Vec<String>,
-    /// Constants: name, documentation and value.
+    /// Name, documentation and value of each constant.
     pub constants: Vec<(String, String, String)>,
     pub items: Vec<ModelItem>,
 }
 
 impl DeviceModel {
-    /// Returns whether the handles name types of the device.
+    /// Returns whether the handles refer to types of the device.
     pub(super) fn names_types(&self) -> bool {
         self.items.iter().any(|item| item.is_named)
     }
 }
 
-/// A handle for one model, ready to be printed.
+/// A handle for one model of the device, ready to be printed.
 pub(super) struct ModelItem {
     pub name: String,
     pub docs: String,
-    /// Type of the handle, as the device's module names it.
+    /// Type of the handle, as written in the device's module.
     pub ty: Doc,
-    /// Whether the value is an enumeration or bit field of the device.
+    /// Whether the value has the type of an enumeration or bit field of the device.
     pub is_named: bool,
     pub range: Doc,
     pub initial: Doc,
 }
 
-/// Returns the models that have constants, or items that differ. `objects` are the handles for all models.
+/// Returns the models that have constants or different items. `objects` contains the handles for all models.
 pub(super) fn models(context: &Context<'_>, device: &Device, objects: &[ObjectModel]) -> Vec<DeviceModel> {
     let all = device.variants.iter().map(|variant| {
         let single_values = objects.iter().filter(|object| !object.is_module);

@@ -1,17 +1,17 @@
-//! Names of a device: its title, and the names of its type, its module and its file.
+//! Names of a device: its title and the names of its type, module and file.
 
 use super::literal;
 use crate::ir::{Device, FileInfo};
 use crate::names::{self, Case, NameRequest};
 
-/// Names that the type must not have: the generated module uses them, or has a function that clippy would report as a
-/// constructor.
+/// Names that the type must not have. The generated module uses them, or has a function of this name that clippy would
+/// mistake for a constructor.
 const RESERVED: [&str; 8] = ["Self", "C", "S", "X", "Option", "Result", "New", "On"];
 
 /// Names that the module of a file must not have.
 const RESERVED_FOR_FILE: [&str; 4] = ["self", "super", "crate", "rt"];
 
-/// Returns the name of the file, without its folders.
+/// Returns the file name without folders.
 pub(super) fn file_name(file: &FileInfo) -> String {
     let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
     name.chars().map(|letter| if literal::is_harmless(letter) { letter } else { ' ' }).collect()
@@ -28,7 +28,7 @@ pub(super) fn title(device: &Device) -> String {
     }
 }
 
-/// Returns the name of the device's type: the chosen name, otherwise the product's or the file's name.
+/// Returns the name of the device's type. It is the chosen name, or is derived from the name of the product or file.
 pub(super) fn device_name(device: &Device, file: &FileInfo, chosen: Option<&str>) -> String {
     name_of(device, file, chosen, Case::Pascal)
 }
@@ -41,7 +41,7 @@ pub(super) fn module_name(device: &Device, file: &FileInfo) -> String {
 fn name_of(device: &Device, file: &FileInfo, chosen: Option<&str>, case: Case) -> String {
     let stem = file_name(file);
     let stem = stem.rsplit_once('.').map_or(stem.as_str(), |(stem, _)| stem);
-    // EtherCAT devices are known by their order code. Their name is a description.
+    // EtherCAT devices are usually known by their order code. Their name is a description.
     let short = if device.ethercat.is_some() { device.identity.order_code.as_str() } else { "" };
     let names = [chosen.unwrap_or(""), short, &device.name, stem, "device"];
     let name_request = |name| NameRequest { name, fallback: String::new(), suffix: "Device".into() };
@@ -50,7 +50,7 @@ fn name_of(device: &Device, file: &FileInfo, chosen: Option<&str>, case: Case) -
     names::escaped(&name)
 }
 
-/// Returns the name of the module for a file with this stem.
+/// Returns the module name for a file with this stem.
 pub(super) fn stem_name(stem: &str) -> Option<String> {
     let name_request = NameRequest { name: stem, fallback: String::new(), suffix: "device".into() };
     let name = names::unique(&[name_request], &RESERVED_FOR_FILE, Case::Snake).remove(0);

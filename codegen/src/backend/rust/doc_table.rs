@@ -3,14 +3,15 @@
 use super::docs;
 use crate::ir::Documentation;
 
-/// Maximum number of rows of a table. A longer table would hide the content below it. Rustdoc lists all fields and
-/// variants with their documentation in any case.
+/// Maximum number of rows in a table. A longer table would hide the content below it. Rustdoc also lists all fields and
+/// variants with their documentation.
 pub(super) const MAX_ROWS: usize = 64;
 
-/// Maximum number of characters of a description in a cell. The element's documentation contains all of it.
+/// Maximum number of characters of a description in a cell. The documentation of the element contains the full
+/// description.
 const MAX_LETTERS: usize = 100;
 
-/// Returns the lines of a table, after an empty line. Returns no lines for a table without rows or with more than
+/// Returns the lines of a table, preceded by an empty line. Returns no lines if the table has no rows or more than
 /// [`MAX_ROWS`].
 pub(super) fn table<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Vec<String> {
     if rows.len() > MAX_ROWS {
@@ -20,8 +21,8 @@ pub(super) fn table<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Ve
     }
 }
 
-/// Returns the lines of a table of any length, for content that is documented nowhere else. Columns without text are
-/// omitted.
+/// Returns the lines of a table of any length. Used for content that is not documented elsewhere. Columns without text
+/// are omitted.
 pub(super) fn whole<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Vec<String> {
     if rows.is_empty() {
         return Vec::new();
@@ -40,8 +41,8 @@ pub(super) fn whole<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Ve
     lines
 }
 
-/// Returns a link from a struct to its field. If a method has the same name, there is no link, because it would lead to
-/// the method.
+/// Returns a link from a struct to its field. If a method has the same name, returns only the name, because the link
+/// would lead to the method.
 pub(super) fn field_link(name: &str, methods: &[&str]) -> String {
     match methods.contains(&name) {
         true => format!("`{name}`"),
@@ -49,8 +50,8 @@ pub(super) fn field_link(name: &str, methods: &[&str]) -> String {
     }
 }
 
-/// Returns the meaning of an element for a cell: its name unless `rust` has the same words, and the start of its
-/// documentation.
+/// Returns the text of an element for a table cell: its name unless `rust` consists of the same words, followed by the
+/// start of its documentation.
 pub(super) fn meaning(name: &str, rust: &str, documentation: Option<&Documentation>) -> String {
     let mut parts = Vec::new();
     if !is_same(name, rust) {
@@ -62,7 +63,7 @@ pub(super) fn meaning(name: &str, rust: &str, documentation: Option<&Documentati
     parts.join(" ")
 }
 
-/// Returns whether a name in Rust has the same words as the original name.
+/// Returns whether a Rust name consists of the same words as the original name.
 fn is_same(name: &str, rust: &str) -> bool {
     let letters = |text: &str| {
         let characters = text.chars().filter(|letter| letter.is_alphanumeric());
@@ -72,7 +73,7 @@ fn is_same(name: &str, rust: &str) -> bool {
     name.chars().all(is_plain) && letters(name) == letters(rust)
 }
 
-/// Returns the start of a text, on one line.
+/// Returns the start of a text on one line.
 fn start(text: &str) -> String {
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     match text.char_indices().nth(MAX_LETTERS) {

@@ -1,4 +1,4 @@
-//! Doc comments: texts of the description, escaped so that Markdown shows them literally.
+//! Doc comments with texts of the description. The texts are escaped so that Markdown shows them literally.
 
 use super::context::Context;
 use super::item_addresses::ItemAddresses;
@@ -13,12 +13,13 @@ use crate::facts::words::{capital, row_of};
 use crate::facts::{self};
 use crate::ir::{Binding, Condition, Documentation, Doubt, ElementId, Item, Manual, SubjectKind, Type, TypeId, Value};
 
-/// Returns a sentence builder for doc comments that link to the elements which they mention.
+/// Returns a builder of sentences for doc comments. The sentences link to the elements that they mention.
 pub(super) fn linked(link: &dyn Fn(ElementId, &str) -> Option<String>) -> Words<'_> {
     Words { escape, link }
 }
 
-/// Returns links from the documentation of an item to other elements. The replacement of an item may have the same name.
+/// Returns a function that links to other elements from the documentation of an item. The item's replacement may have
+/// the same name as the item.
 fn links_from<'c>(
     entry: &'c NamedItem<'_>,
     context: &'c Context<'_>,
@@ -27,8 +28,8 @@ fn links_from<'c>(
     move |id, name| (id != entry.id.into()).then(|| context.link_to(id, name, doc_module))?
 }
 
-/// Returns the documentation of an item, for its constant. The name is followed by the address, the type, the access
-/// rights and the values. Related elements and further facts follow. Links start at `doc_module`.
+/// Returns the documentation of an item's constant. The name is followed by the address, the type, the access rights and
+/// the values. Related elements and other facts follow. Links are relative to `doc_module`.
 pub(super) fn item(
     entry: &NamedItem<'_>,
     name: &str,
@@ -84,8 +85,8 @@ pub(super) fn item(
     lines
 }
 
-/// Returns the documentation of an item, for its accessor: the description's text or `name`, facts, storage, ambiguities
-/// and related elements. Links start at `doc_module`.
+/// Returns the documentation of an item's accessor: the description's text or `name`, facts, storage, ambiguities and
+/// related elements. Links are relative to `doc_module`.
 pub(super) fn method(
     entry: &NamedItem<'_>,
     name: &str,
@@ -118,7 +119,7 @@ pub(super) fn method(
     lines
 }
 
-/// Returns the name of the enumeration or bit field of an item; `None` for other types.
+/// Returns the name of an item's enumeration or bit field. Returns `None` for other types.
 fn type_name<'c>(context: &'c Context<'_>, item: &Item) -> Option<&'c str> {
     context.enumeration(item.ty).map(|named| named.name.as_str())
 }
@@ -134,18 +135,18 @@ fn elsewhere(binding: &Binding) -> Option<String> {
     }
 }
 
-/// Returns a condition as words, such as `Mode is 1 or 2` or `Status & 0x4 is 0`. The link to the item starts at
+/// Returns a condition in words, such as `Mode is 1 or 2` or `Status & 0x4 is 0`. The link to the item is relative to
 /// `doc_module`.
 pub(super) fn holds(condition: &Condition, context: &Context<'_>, doc_module: DocModule<'_>) -> String {
     linked(&|id, name| context.link_to(id, name, doc_module)).holds(condition)
 }
 
-/// Adds the sentences of a description.
+/// Adds the sentences of a description to the list.
 pub(super) fn words(documentation: Option<&Documentation>, sentences: &mut Vec<String>) {
     sentences.extend(WORDS.description(documentation));
 }
 
-/// Adds the documentation of an element and its citation, each as a separate paragraph.
+/// Adds the documentation of an element and its citation as separate paragraphs.
 pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual, lines: &mut Vec<String>) {
     let mut sentences = Vec::new();
     words(documentation, &mut sentences);
@@ -155,14 +156,14 @@ pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual, 
     }
 }
 
-/// Returns the sentences about ambiguities, the most severe first.
+/// Returns sentences about ambiguities. The most severe ambiguity comes first.
 fn doubts<'d>(list: impl Iterator<Item = &'d Doubt>, manual: &Manual) -> Vec<String> {
     let mut list: Vec<&Doubt> = list.collect();
     list.sort_by_key(|doubt| doubt.severity);
     list.into_iter().map(|doubt| WORDS.doubt(manual, doubt)).collect()
 }
 
-/// Adds the ambiguities of a device that concern an element, as paragraphs.
+/// Adds a device's ambiguities about one element as paragraphs.
 pub(super) fn doubts_about(context: &Context<'_>, kind: SubjectKind, name: &str, lines: &mut Vec<String>) {
     let all = context.device.into_iter().flat_map(|device| &device.doubts);
     for doubt in doubts(all.filter(|doubt| doubt.is_about(kind, name)), &context.manual) {
@@ -170,7 +171,7 @@ pub(super) fn doubts_about(context: &Context<'_>, kind: SubjectKind, name: &str,
     }
 }
 
-/// Returns the first lines about the type at this position: its name, its documentation, and the items that have it.
+/// Returns the first lines about the type at this position: its name, its documentation, and the items that use it.
 pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
     let Some(definition) = context.types.get(position as usize) else { return Vec::new() };
     let mut lines = vec![sentence(&escape(&definition.name))];

@@ -18,23 +18,23 @@ pub(super) struct EnumerationModel {
     pub name: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
-    /// Path of the base type in the runtime: `u8`, `rt::Uint<3>`.
+    /// Path of the base type in the runtime, such as `u8` or `rt::Uint<3>`.
     pub base: &'static str,
-    /// Primitive integer that holds the raw value: `u8`.
+    /// Primitive integer that holds the raw value, such as `u8`.
     pub native: &'static str,
-    /// Mask of the bits of the value, if every number of this many bits has a name.
+    /// Mask of the value's bits if all numbers with this many bits have a name. `None` otherwise.
     pub complete: Option<String>,
     pub variants: Vec<VariantModel>,
 }
 
-/// A value of an enumeration.
+/// A named value of an enumeration.
 pub(super) struct VariantModel {
     pub name: String,
     pub docs: String,
     pub value: String,
 }
 
-/// Maximum number of bits of an enumeration that names every number.
+/// Maximum number of bits of an enumeration whose names can cover all numbers.
 const COMPLETE: u32 = 6;
 
 /// Names that variants must not have, because the generated code uses them.
@@ -42,7 +42,7 @@ const RESERVED: [&str; 2] = ["Self", "Unknown"];
 
 /// Returns the model of the enumeration at this position.
 ///
-/// An enumeration of a bit field has no variant for other numbers if it names every number of the field.
+/// If an enumeration in a bit field names all numbers of the field, it has no variant for other numbers.
 pub(super) fn model(
     context: &Context<'_>,
     position: u32,
@@ -75,8 +75,8 @@ pub(super) fn model(
     }
 }
 
-/// Returns the table of all values. It contains the variants, unless there are too many, and the ranges, whose values
-/// are `Unknown`.
+/// Returns the table of all values. It contains the variants, unless there are too many, and ranges. The values of
+/// ranges are `Unknown`.
 fn table(all: &[EnumValue], values: &[&EnumValue], variants: &[VariantModel]) -> Vec<String> {
     let mut rows: Vec<(i128, [String; 3])> = Vec::new();
     if variants.len() <= doc_table::MAX_ROWS {
@@ -119,7 +119,7 @@ fn variants(values: &[&EnumValue], context: &Context<'_>) -> Vec<VariantModel> {
     values.iter().zip(names).map(variant).collect()
 }
 
-/// Returns further sentences about a value.
+/// Returns additional sentences about a value.
 fn further_facts(value: &EnumValue, context: &Context<'_>) -> Vec<String> {
     let mut sentences = Vec::new();
     sentences.extend(zone(value).map(str::to_owned));

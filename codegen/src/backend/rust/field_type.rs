@@ -1,4 +1,4 @@
-//! Rust types of the bits of a value, and the conversion between these types and integers.
+//! Rust types of bits in a value, and conversions between these types and integers.
 
 use super::code::{call, seq, Break, Doc};
 use super::context::Context;
@@ -8,22 +8,22 @@ use crate::ir::Type;
 /// Number of bits in a word.
 const WORD: u32 = 64;
 
-/// The Rust type of bits.
+/// The Rust type for a number of bits.
 pub(super) enum FieldType {
     Bool,
     /// A primitive integer.
     Native(&'static str),
-    /// An integer of another width: whether it is signed, and its number of bits.
+    /// An integer with another width: whether it is signed, and the number of bits.
     Odd(bool, u32),
     Real(u32),
     Time(&'static str),
     Bytes(u32),
-    /// An enumeration: its name, and the primitive integer of its raw value.
+    /// An enumeration: its name, and the primitive integer that holds its raw value.
     Named(String, &'static str),
 }
 
 impl FieldType {
-    /// Returns the Rust type. `outer` is the path to the device's module.
+    /// Returns the path of the Rust type. `outer` is the path to the device's module.
     pub fn path(&self, outer: &str) -> String {
         match self {
             FieldType::Bool => "bool".to_owned(),
@@ -37,7 +37,8 @@ impl FieldType {
         }
     }
 
-    /// Returns the expression of the bits of `value` as a `u64`. For an enumeration, bits beyond its width may be set.
+    /// Returns an expression that converts `value` to bits in a `u64`. For an enumeration, bits beyond its width may be
+    /// set.
     pub fn encode(&self, value: &str, bits: u32) -> String {
         match self {
             FieldType::Named(_, native) => match native.strip_prefix('i') {
@@ -47,7 +48,7 @@ impl FieldType {
                 None => format!("{value}.raw() as u64"),
             },
             FieldType::Native("u64") => value.to_owned(),
-            // A signed number is cut to its width first. Otherwise its sign would extend over the whole word.
+            // First reduce a signed number to its width. Otherwise, its sign would extend over the whole word.
             FieldType::Native(signed) if signed.starts_with('i') && bits < WORD => {
                 format!("{value} as u{bits} as u64")
             }
@@ -59,7 +60,8 @@ impl FieldType {
         }
     }
 
-    /// Returns the expression of the value from its bits. A Boolean is the lowest bit. `path` is the path of the type.
+    /// Returns an expression that converts bits to a value. For a Boolean, only the lowest bit matters. `path` is the
+    /// path of the type.
     pub fn decode(&self, path: &str, bits: &Doc) -> Doc {
         match self {
             FieldType::Named(_, "u64") | FieldType::Time(_) => call!(seq![path, "::from_raw"], bits),
@@ -75,7 +77,8 @@ impl FieldType {
         }
     }
 
-    /// Returns whether the decoded bits are part of a larger expression. Operators in the bits then need parentheses.
+    /// Returns whether decoding embeds the bits in a larger expression. If so, operators in the expression of the bits
+    /// need parentheses.
     pub fn is_cast(&self) -> bool {
         match self {
             FieldType::Native(native) | FieldType::Named(_, native) => *native != "u64",
@@ -84,7 +87,8 @@ impl FieldType {
         }
     }
 
-    /// Returns the mask of the field's bits, if its Rust type has more bits and its conversions don't remove them.
+    /// Returns a mask of the field's bits. Returns `None` if no mask is necessary: the Rust type has no more bits, or
+    /// its conversions remove them.
     pub fn cut(&self, bits: u32) -> Option<String> {
         match self {
             FieldType::Named(_, native) if native_bits(native) > bits => {
@@ -95,14 +99,14 @@ impl FieldType {
     }
 }
 
-/// Returns `value as ty`, which breaks before `as`.
+/// Returns `value as ty`. A line break is possible before `as`.
 fn cast(value: &Doc, ty: &str) -> Doc {
     seq![value, Break, " as ", ty]
 }
 
-/// Returns the Rust type of `bits` bits of a type.
+/// Returns the Rust type for `bits` bits with the IR type `ty`.
 pub(super) fn field_type(context: &Context<'_>, ty: Type, bits: u32) -> FieldType {
-    // The sign bit of a number must be the most significant bit of a primitive integer.
+    // The sign bit must be the most significant bit of a primitive integer.
     let is_whole = |named: &NamedType| !named.is_signed() || native_bits(named.native) == bits;
     if let Some(named) = context.enumeration(ty).filter(|named| named.bits == bits && is_whole(named)) {
         return FieldType::Named(named.name.clone(), named.native);

@@ -7,7 +7,7 @@ use super::options::RustOptions;
 use crate::ir::{Device, Item, MachineUnit};
 use crate::names::{self, Case, NameRequest};
 
-/// A type with the properties of the machine, and the conversions of units that depend on them.
+/// A struct with the properties of the machine, and unit conversions that depend on them.
 pub(super) struct GivenModel {
     pub derives: Vec<String>,
     pub numbers: Vec<NumberModel>,
@@ -20,7 +20,7 @@ pub(super) struct NumberModel {
     pub docs: Vec<String>,
 }
 
-/// Conversions between a unit and a unit of the machine: names of the functions, their expressions, and the symbols of
+/// Conversions between a unit of the device and a unit of the machine: function names, expressions, and the symbols of
 /// both units.
 pub(super) struct UnitModel {
     pub to: [String; 2],
@@ -32,7 +32,7 @@ pub(super) fn name_request(name: &str) -> NameRequest<'_> {
     NameRequest { name, fallback: "number".to_owned(), suffix: "other".to_owned() }
 }
 
-/// Returns the model; `None` if the device declares no properties of the machine.
+/// Returns the model. Returns `None` if the device declares no properties of the machine.
 pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOptions) -> Option<GivenModel> {
     let name_requests: Vec<NameRequest<'_>> = device.given.iter().map(|number| name_request(&number.name)).collect();
     let names = names::unique(&name_requests, &["self", "super", "crate"], Case::Snake);
@@ -54,7 +54,7 @@ pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOption
     (!numbers.is_empty()).then(|| GivenModel { derives: options.derives(true), numbers, units })
 }
 
-/// Returns the units of the machine, each once, in the order of the items that use them.
+/// Returns the machine's units without repetitions, in the order of the items that use them.
 fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitModel> {
     let mut found: Vec<(&str, &MachineUnit)> = Vec::new();
     let items = device.groups.iter().flat_map(|group| &group.items);
@@ -92,7 +92,7 @@ fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitMod
     found.iter().zip(names.chunks(2)).filter_map(unit).collect()
 }
 
-/// Returns the unit as words that follow a name.
+/// Returns the unit as words to append to a name.
 pub(super) fn in_unit(unit: &str) -> String {
     if unit.is_empty() {
         return String::new();
@@ -100,7 +100,7 @@ pub(super) fn in_unit(unit: &str) -> String {
     format!(", in {}", docs::escape(unit))
 }
 
-/// Returns a symbol as words: `mm/s²` is `mm per s2`.
+/// Converts a unit symbol to words: `mm/s²` becomes `mm per s2`.
 fn words(symbol: &str) -> String {
     symbol.replace('/', " per ").replace('²', "2").replace('%', "percent").replace('°', "deg")
 }

@@ -1,4 +1,4 @@
-//! Types of handles: public short names for each access, and private aliases of the types that are used.
+//! Types of handles: a public short name for each kind of access, and private aliases of all types in use.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use super::code::Doc;
 use super::item::ItemModel;
 use super::objects::ObjectModel;
 
-/// Short name of the handles with one access.
+/// The short name of handles with the same access rights.
 #[derive(Clone, Copy)]
 pub(super) struct Alias {
     pub name: &'static str,
@@ -21,13 +21,13 @@ const ALIASES: [Alias; 4] = [
     Alias { name: "Constant", marker: "rt::Const", text: "constant" },
 ];
 
-/// Returns the short names that some handle uses.
+/// Returns the short names that at least one handle uses.
 pub(super) fn aliases(objects: &[ObjectModel]) -> Vec<Alias> {
     let items = || objects.iter().flat_map(|object| &object.items);
     ALIASES.into_iter().filter(|alias| items().any(|item| item.access == alias.name)).collect()
 }
 
-/// Returns the handle types, each once, sorted by name.
+/// Returns the types of all handles without repetitions, sorted by name.
 pub(super) fn types<'o>(objects: impl IntoIterator<Item = &'o ObjectModel>) -> Vec<(String, &'static str, Vec<Doc>)> {
     let all = objects.into_iter().flat_map(|object| &object.items);
     let names: BTreeMap<&str, &ItemModel> = all.map(|item| (item.alias.as_str(), item)).collect();

@@ -1,9 +1,9 @@
-//! Identity of a device, ready to be printed.
+//! The identity of a device.
 
 use super::literal;
 use crate::ir::Device;
 
-/// Numbers and names of the identity, as literals.
+/// Numbers and names of a device's identity as literals, ready to be printed.
 pub(super) struct IdentityModel {
     pub vendor_id: String,
     pub product_code: String,

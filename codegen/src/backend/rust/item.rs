@@ -22,32 +22,32 @@ pub(super) struct ItemModel {
     pub method_docs: Vec<String>,
     pub heading: String,
     pub access: &'static str,
-    /// Arguments of the handle's type, as the handle's module names them: the type of the value and, if there are
-    /// several locations, the type of the location.
+    /// Type arguments of the handle, as written in its own module: the type of the value and, if there are several
+    /// locations, the type of the location.
     pub arguments: Vec<Doc>,
-    /// Arguments of the handle's type, as the device's module names them.
+    /// Type arguments of the handle, as written in the device's module.
     pub arguments_at_top: Vec<Doc>,
-    /// Arguments of the handle's type, as the module of the handles names them.
+    /// Type arguments of the handle, as written in the module of all handles.
     pub arguments_in_objects: Vec<Doc>,
     /// Enumeration or bit field of the value.
     pub type_name: Option<String>,
-    /// Private alias of the handle's type. It has no parameters, so that `rustc` has nothing to infer.
+    /// Private alias of the handle's type. The alias has no type parameters, so `rustc` has nothing to infer.
     pub alias: String,
-    /// Call that creates the handle, without its type.
+    /// Constructor call of the handle, without the type.
     pub constructor: Doc,
     /// Whether the handle names the runtime.
     pub names_runtime: bool,
-    /// Whether a literal may resemble a mathematical constant, which clippy reports.
+    /// Whether a literal may be close to a mathematical constant. Clippy reports such literals.
     pub real: bool,
-    /// Object on the bus of the PDOs.
+    /// Object address on the bus of the PDOs.
     pub object: Option<(u16, u8)>,
-    /// Arguments of the type that describes how the item is mapped into PDOs.
+    /// Arguments of the type that describes the item's mapping into PDOs.
     pub mappable: Option<[String; 3]>,
 }
 
 impl ItemModel {
-    /// Returns the name under which `lexibus::pdo!` finds the item: the name of the accessor, with a suffix if it would
-    /// hide a primitive type.
+    /// Returns the name with which `lexibus::pdo!` refers to the item. It is the name of the accessor, with a suffix if
+    /// it would hide a primitive type.
     pub(super) fn mappable_name(&self) -> String {
         const PRIMITIVES: [&str; 15] = [
             "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "f32", "f64",
@@ -56,8 +56,8 @@ impl ItemModel {
         format!("{}{}", self.method, if hides { "_" } else { "" })
     }
 
-    /// Returns the expression that joins the handle with the device's client. With a long name, it is a function call,
-    /// because a method chain would be broken over lines.
+    /// Returns the expression that combines the handle with the device's client. It uses a function call for long
+    /// names, because the lines of a method chain would be broken.
     pub(super) fn at_client(&self) -> Doc {
         const LONG: usize = 48;
         match self.constant.len() > LONG {
@@ -67,7 +67,7 @@ impl ItemModel {
     }
 }
 
-/// Name of an item in the description, and the title of its chapter.
+/// The name of an item in the description, and the title of its chapter.
 #[derive(Clone, Copy)]
 pub(super) struct Title<'n> {
     pub original: &'n str,
@@ -77,7 +77,7 @@ pub(super) struct Title<'n> {
 /// The module that contains the handle of an item.
 #[derive(Clone, Copy)]
 pub(super) struct ItemModule<'n> {
-    /// Name of the object whose module it is; `None` for the module of all handles.
+    /// Name of the object to which the module belongs. `None` for the module of all handles.
     pub name: Option<&'n str>,
     /// Path to the device's module.
     pub outer: &'n str,
@@ -132,7 +132,7 @@ pub(super) fn model(
     }
 }
 
-/// Returns the heading of an entry: its name and its address.
+/// Returns the heading of an item: its name and its address.
 pub(super) fn heading(name: &str, address: &str) -> String {
     match name.trim() {
         "" => format!("{address}."),
@@ -140,7 +140,7 @@ pub(super) fn heading(name: &str, address: &str) -> String {
     }
 }
 
-/// Returns the short name of the handles with this access.
+/// Returns the short name of handles with these access rights.
 fn alias(access: Access) -> &'static str {
     match access {
         Access::ReadOnly => "ReadOnly",

@@ -1,4 +1,4 @@
-//! Addresses of an item, and the routes to it.
+//! The addresses of an item, and the routes through which it is accessed.
 
 mod buses;
 mod field;
@@ -17,7 +17,7 @@ use field::Field;
 /// Index and sub-index of an object.
 pub(super) type ObjectAddress = (u16, u8);
 
-/// The addresses of an item on each bus that generated code supports, and the routes to it.
+/// The addresses of an item on all buses that generated code supports, and the routes to the item.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ItemAddresses<'i> {
     canopen: Option<(u16, u8)>,
@@ -27,18 +27,18 @@ pub(super) struct ItemAddresses<'i> {
     image: Option<Field<'i>>,
     esc: Option<(u16, u16)>,
     routes: [Route<'i>; 6],
-    /// Number of bits of the value, for a value that is a part of a register.
+    /// Number of bits of the value if it is a part of a register.
     bits: u32,
     /// Whether the value is a sequence of bytes.
     is_bytes: bool,
-    /// Whether the value is a text with 16-bit characters: each register holds one character as a number.
+    /// Whether the value is a text with 16-bit characters. Each register contains the number of one character.
     is_wide: bool,
     /// Whether the value is a signed number.
     is_signed: bool,
 }
 
-/// Returns the code that creates the address of an item on a bus; `None` if the bus does not give this access to the
-/// item.
+/// Returns the code that creates an item's address on a bus. Returns `None` if the bus does not allow reading, or
+/// writing if `writes` is set.
 pub(super) fn address(scope: &Scope<'_>, item: &Item, bus: RouteBus, writes: bool) -> Option<String> {
     let addresses = ItemAddresses::without_routes(scope, item);
     addresses.is_possible(item, bus, writes).then(|| addresses.address(bus))?
@@ -55,7 +55,7 @@ impl<'i> ItemAddresses<'i> {
         addresses
     }
 
-    /// Creates an empty set of addresses for a value of this type.
+    /// Creates an empty set of addresses for a value with this type.
     fn of_value(base: Type) -> Self {
         ItemAddresses {
             bits: base.bits().unwrap_or(0),
@@ -66,7 +66,7 @@ impl<'i> ItemAddresses<'i> {
         }
     }
 
-    /// Adds an address. If a bus has several addresses, the first one is used.
+    /// Adds an address. If there are several addresses on a bus, the first one is used.
     fn add(&mut self, scope: &Scope<'_>, base: Type, binding: &'i Binding) {
         match binding {
             Binding::Object { buses, index, sub_index } => {
@@ -98,7 +98,7 @@ impl<'i> ItemAddresses<'i> {
         Buses::of(&self.routes)
     }
 
-    /// Returns the object of the item on this bus, otherwise on the other bus with objects.
+    /// Returns the item's object on this bus. If there is none, returns its object on the other bus that has objects.
     pub fn object_on(&self, bus: ObjectBus) -> Option<(u16, u8)> {
         match bus {
             ObjectBus::CanOpen => self.canopen.or(self.coe),
@@ -106,7 +106,7 @@ impl<'i> ItemAddresses<'i> {
         }
     }
 
-    /// Returns the object of the dictionary, and the object on EtherCAT if it differs.
+    /// Returns the object in the dictionary. If the object on EtherCAT differs, also returns that one.
     pub fn objects(&self) -> [Option<(u16, u8)>; 2] {
         [self.canopen.or(self.coe), self.coe.filter(|coe| self.canopen.is_some_and(|canopen| canopen != *coe))]
     }

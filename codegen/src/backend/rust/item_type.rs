@@ -7,7 +7,7 @@ use super::value_type::ValueType;
 use crate::ir::Item;
 use crate::names;
 
-/// The type of an item's value: an enumeration or bit field, a quantity, or the basic type.
+/// The type of an item's value: an enumeration or bit field, a quantity, or a basic type.
 pub(super) struct ItemType<'s> {
     pub basic: ValueType,
     /// Name of the enumeration or bit field.
@@ -19,7 +19,7 @@ impl<'s> ItemType<'s> {
     pub fn of(context: &'s Context<'_>, item: &Item) -> Self {
         let named = context.enumeration(item.ty);
         ItemType {
-            // The raw value of an enumeration may be a Boolean, which its code represents as one bit.
+            // The raw value of an enumeration may be a Boolean. Its code represents the Boolean as one bit.
             basic: named.map_or_else(|| context.value_type(item.ty), |named| ValueType::of(named.ty)),
             named: named.map(|named| named.name.as_str()),
             quantity: if named.is_none() { quantity::of(context, item) } else { None },
@@ -40,10 +40,11 @@ impl<'s> ItemType<'s> {
         self.named.is_none() && (self.quantity.is_some() || !matches!(self.basic, ValueType::Native { .. }))
     }
 
-    /// Returns the name of the type as a part of other names.
+    /// Returns the name of the type for use in other names.
     pub fn word(&self) -> String {
         match (self.named, &self.quantity) {
-            // A name that begins with a digit has a leading `_`, which no name in camel case has inside.
+            // A camel-case name has no underscore inside. A name that starts with a digit has a leading `_`, which must
+            // be removed.
             (Some(name), _) => names::prefixed("Named", name),
             (None, Some(quantity)) => quantity.word.clone(),
             (None, None) => self.basic.word(),

@@ -1,7 +1,6 @@
-//! Links of documentation: the paths of generated elements, by the elements of the description from which they are
-//! generated.
+//! Links in documentation. They map elements of the description to the paths of the generated Rust elements.
 //!
-//! Paths are relative, so that they are valid wherever the generated module is.
+//! Paths are relative, so they stay valid if the generated module is moved.
 
 use std::collections::HashMap;
 
@@ -14,12 +13,12 @@ use super::options::RustOptions;
 use super::scope::Scope;
 use crate::ir::{Device, ElementId, ItemId, MessageId, PdoEntryKind, Type};
 
-/// The module in which a doc comment is. Links start there.
+/// The module that contains a doc comment. Links in the comment are relative to it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DocModule<'h> {
-    /// Path from the module to the device's module: `super::`.
+    /// Path from this module to the device's module: `super::`.
     outer: &'h str,
-    /// Path from the device's module to the module: `objects::`.
+    /// Path from the device's module to this module: `objects::`.
     module: &'h str,
 }
 
@@ -28,11 +27,11 @@ impl<'h> DocModule<'h> {
     pub const TOP: DocModule<'static> = DocModule::new("", "");
     pub const OBJECTS: DocModule<'static> = DocModule::new("super::", "objects::");
     pub const TYPES: DocModule<'static> = DocModule::new("super::", "types::");
-    /// The module of PDO structs. The views of PDOs are in another module with the same path to the device's module.
+    /// The module of PDO structs. The module of PDO views has the same path to the device's module.
     pub const PDO: DocModule<'static> = DocModule::new("super::", "pdo::");
     #[cfg(feature = "messages")]
     pub const MESSAGES: DocModule<'static> = DocModule::new("super::", "messages::");
-    /// Any other module in the device's module that no link leads to.
+    /// Any other module in the device's module. No link leads to this module.
     pub const OTHER: DocModule<'static> = DocModule::new("super::", "::");
 
     pub const fn new(outer: &'h str, module: &'h str) -> Self {
@@ -44,12 +43,12 @@ impl<'h> DocModule<'h> {
         self.outer.is_empty()
     }
 
-    /// Returns whether a path leads to an element of this module.
+    /// Returns whether a path leads to an element in this module.
     fn is_of(self, path: &str) -> bool {
         !self.is_top() && path.starts_with(self.module)
     }
 
-    /// Returns the path relative to this module, for a path relative to the device's module. A prefix before `@`
+    /// Converts a path relative to the device's module to a path relative to this module. A prefix before `@`
     /// distinguishes elements with the same name.
     fn path(self, path: &str) -> String {
         let (kind, path) = path.split_once('@').map_or(("", path), |(kind, path)| (kind, path));
@@ -61,12 +60,12 @@ impl<'h> DocModule<'h> {
         }
     }
 
-    /// Returns a link whose text is the last name of the path, as code.
+    /// Returns a link whose text is the last name of the path, formatted as code.
     pub fn code(self, path: &str) -> String {
         self.code_as(last(path), path)
     }
 
-    /// Returns a link whose text is `name`, as code.
+    /// Returns a link whose text is `name`, formatted as code.
     pub fn code_as(self, name: &str, path: &str) -> String {
         let path = self.path(path);
         if path == name {
@@ -88,7 +87,7 @@ impl<'h> DocModule<'h> {
     /// Returns a link whose text is `text`. Markup in `text` must be escaped.
     pub fn text(self, text: &str, path: &str) -> String {
         let relative = self.path(path);
-        // Rustdoc warns about an explicit path that equals the text of the link.
+        // Rustdoc warns about an explicit path that is equal to the text of the link.
         if text.is_empty() || relative == text.replace('\\', "") {
             return self.code(path);
         }
@@ -104,7 +103,7 @@ pub(super) fn sibling(name: &str) -> String {
     }
 }
 
-/// Returns whether a type has the name of a derive macro of the prelude. Links must then name its kind.
+/// Returns whether a type has the name of a derive macro in the prelude. If so, links must state that it is a type.
 pub(super) fn is_derive(name: &str) -> bool {
     const DERIVES: [&str; 9] = ["Clone", "Copy", "Debug", "Default", "Eq", "Hash", "Ord", "PartialEq", "PartialOrd"];
     DERIVES.contains(&name)
@@ -115,35 +114,36 @@ fn last(path: &str) -> &str {
     path.rsplit(['@', ':']).next().unwrap_or(path)
 }
 
-/// The paths of an item's handle, relative to the device's module.
+/// Paths of an item's handle, relative to the device's module.
 #[derive(Clone, Debug)]
 struct Handle {
     constant: String,
-    /// The accessor of the item.
+    /// Path of the item's accessor.
     method: Option<String>,
 }
 
 /// Maximum number of elements that a sentence lists.
 const LISTED: usize = 8;
 
-/// The paths of the elements that are generated for a device or module, relative to the device's module.
+/// The paths of all elements that are generated for a device or module. They are relative to the device's module.
 #[derive(Debug, Default)]
 pub(super) struct Links {
     handles: HashMap<ItemId, Handle>,
-    /// Names of the structs of the PDOs that map an object by default.
+    /// For each object, the names of the PDO structs that contain it by default.
     carriers: HashMap<(u16, u8), Vec<String>>,
-    /// Items of each type, by the type's position.
+    /// For each type position, the items with this type.
     users: HashMap<u32, Vec<ItemId>>,
-    /// Paths of messages: of the request, or of the reply of a message that only the device sends.
+    /// Paths of message types. The path is that of the request; if only the device sends the message, it is that of the
+    /// reply.
     messages: HashMap<MessageId, String>,
-    /// Names of the constants of composite numbers that contain an item.
+    /// For each item, the names of the constants of composite numbers that contain it.
     wholes: HashMap<ItemId, Vec<String>>,
-    /// Whether the device has a type with methods.
+    /// Whether the device's type has methods.
     pub has_methods: bool,
 }
 
 impl Links {
-    /// Collects the paths. `device_name` is the name of the device's type.
+    /// Collects the paths of all generated elements. `device_name` is the name of the device's type.
     pub fn of(scope: &Located<'_>, names: &Names<'_>, options: &RustOptions, device_name: &str) -> Self {
         let mut links = Links::default();
         let has_objects = !names.handles.is_empty() && scope.device.is_some_and(has_object_access);
@@ -166,7 +166,7 @@ impl Links {
         links
     }
 
-    /// Adds the messages. Returns whether there are requests.
+    /// Adds the paths of messages. Returns whether there are requests.
     #[cfg(feature = "messages")]
     fn add_messages(&mut self, names: &Names<'_>) -> bool {
         self.messages = names.messages.paths().map(|message| (message.id, message.path)).collect();
@@ -192,7 +192,7 @@ impl Links {
 
     fn add_handle(&mut self, scope: &Scope<'_>, entry: &NamedItem<'_>, device: Option<&str>) {
         let name = &entry.name;
-        // A module may have the same name.
+        // The link must state the kind because a module may have the same name.
         let kind = if is_cased(name) { "" } else { "const@" };
         let constant = format!("{kind}objects::{}", name.to_ascii_uppercase());
         self.add(scope, entry, Handle { constant, method: device.map(|device| format!("{device}::{name}")) });
@@ -215,7 +215,7 @@ impl Links {
         }
     }
 
-    /// Returns the path of an item's constant or of a message's type.
+    /// Returns the path of an item's constant or a message's type.
     pub fn path(&self, id: ElementId) -> Option<&str> {
         match id {
             ElementId::Item(id) => Some(&self.handles.get(&id)?.constant),
@@ -223,22 +223,23 @@ impl Links {
         }
     }
 
-    /// Returns a sentence about the items whose values have the type at this position; empty if none has a handle.
+    /// Returns a sentence about the items that use the type at this position. The sentence is empty if none of them has
+    /// a handle.
     pub fn users(&self, position: u32, doc_module: DocModule<'_>) -> String {
         let users = self.users.get(&position).map_or(&[][..], Vec::as_slice);
         let paths = users.iter().filter_map(|id| Some(self.handles.get(id)?.constant.as_str()));
         sentence("Type of the values of", &paths.collect::<Vec<_>>(), doc_module)
     }
 
-    /// Returns the elements that are related to an item, for its accessor: its constant, its type, and the PDOs that
-    /// map it.
+    /// Returns the elements that the documentation of an item's accessor links to: its constant, its type, and the PDOs
+    /// that map it.
     pub fn related_to_method(&self, entry: &NamedItem<'_>, ty: Option<&str>, doc_module: DocModule<'_>) -> String {
         let constant = self.path(entry.id.into()).map(|path| format!("Constant: {}.", doc_module.whole(path)));
         self.related(entry, [constant, values(ty, doc_module)], doc_module)
     }
 
-    /// Returns the elements that are related to an item, for its constant: its accessor, its type, and the PDOs that
-    /// map it.
+    /// Returns the elements that the documentation of an item's constant links to: its accessor, its type, and the PDOs
+    /// that map it.
     pub fn related_to_constant(&self, entry: &NamedItem<'_>, ty: Option<&str>, doc_module: DocModule<'_>) -> String {
         let method = self.handles.get(&entry.id).and_then(|handle| handle.method.as_ref());
         let link = |path: &String| if doc_module.is_of(path) { doc_module.whole(path) } else { doc_module.code(path) };
@@ -262,20 +263,20 @@ fn values(ty: Option<&str>, doc_module: DocModule<'_>) -> Option<String> {
     Some(format!("Type of the value: {}.", doc_module.code(&format!("types::{}", ty?))))
 }
 
-/// Returns whether a client can access the objects. Objects of a slave without CoE that are derived from its PDOs are
-/// only in the PDOs.
+/// Returns whether a client can access the objects. If a slave has no CoE, its objects are derived from PDOs and
+/// accessible only through them.
 fn has_object_access(device: &Device) -> bool {
     let Some(ethercat) = &device.ethercat else { return true };
     let coe = ethercat.mailbox.as_ref().is_some_and(|mailbox| mailbox.coe.is_some());
     coe || device.groups.iter().any(|group| group.origin.line > 0)
 }
 
-/// Returns a sentence such as `Mapped in …, … and 3 more.`; empty if there is nothing to list.
+/// Returns a sentence such as `Mapped in …, … and 3 more.`. The sentence is empty if there is nothing to list.
 fn sentence(start: &str, paths: &[&str], doc_module: DocModule<'_>) -> String {
     if paths.is_empty() {
         return String::new();
     }
-    // Constants of objects may share their names. The names of top-level modules are omitted.
+    // Keep the path of objects' constants because they may share names. Omit the names of top-level modules.
     let name = |path: &str| {
         let path = path.split_once('@').map_or(path, |(_, path)| path);
         path.split_once("::").map_or(path, |(_, name)| name).to_owned()

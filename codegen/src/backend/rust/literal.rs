@@ -1,8 +1,8 @@
-//! Literals. Text of a description cannot end a literal.
+//! Rust literals. They are escaped so that a text of the description cannot end its literal.
 
 use std::fmt::Write;
 
-/// Returns a string literal. Characters that could mislead a reader or control a terminal are escaped.
+/// Returns a string literal. Escapes characters that could mislead a reader or control a terminal.
 pub(super) fn string(text: &str) -> String {
     let mut literal = String::with_capacity(text.len() + 2);
     literal.push('"');
@@ -35,16 +35,15 @@ pub(super) fn bytes(bytes: &[u8]) -> String {
     literal
 }
 
-/// Characters of units, arithmetic and punctuation, which carry meaning. None of them changes how other characters are
-/// shown.
+/// Meaningful characters of units, arithmetic and punctuation. None of them changes how other characters are displayed.
 const SIGNS: &str = "°µ±·€−×÷≤≥≠≈√∞Σ→←↑↓↔–—…‘’“”„‰•";
 
-/// Returns whether a character is a letter or digit of any script, printable ASCII, or one of [`SIGNS`].
+/// Returns whether a character is a letter or digit of any script, a printable ASCII character, or one of [`SIGNS`].
 pub(super) fn is_harmless(letter: char) -> bool {
     letter.is_ascii_graphic() || letter == ' ' || letter.is_alphanumeric() || SIGNS.contains(letter)
 }
 
-/// Returns a REAL32 or REAL64 literal; `None` if the type cannot represent the number.
+/// Returns a REAL32 or REAL64 literal. Returns `None` if the type cannot represent the number.
 pub(super) fn real(value: f64, bits: u32) -> Option<String> {
     if bits == 32 {
         let value = value as f32;

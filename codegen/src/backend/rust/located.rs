@@ -1,4 +1,4 @@
-//! Windows and registers of a device or module that a client can access.
+//! The windows and registers of a device or module that clients can access.
 
 use std::ops::Deref;
 
@@ -11,7 +11,7 @@ use crate::ir::{Group, GroupKind, Item, ItemId};
 /// A device or module, with the addresses of its items.
 pub(super) struct Located<'a> {
     scope: Scope<'a>,
-    /// Windows through which items are accessed.
+    /// Windows through which some items are accessed.
     pub windows: Vec<Window>,
     /// Items of chapters and images that a client can access.
     pub registers: Vec<Register<'a>>,
@@ -33,7 +33,7 @@ impl<'a> Located<'a> {
         located
     }
 
-    /// Returns the nouns for the items with handles: one to follow "every", and one with an article.
+    /// Returns two noun phrases for items with handles: one to follow "every", and one with an article.
     pub fn handles(&self) -> [&'static str; 2] {
         let has_objects = addressable(self).next().is_some();
         match (self.registers.is_empty(), has_objects) {
@@ -55,7 +55,7 @@ impl<'a> Deref for Located<'a> {
 /// Returns the items of chapters and images that a client can access.
 fn registers<'a>(located: &Located<'a>) -> Vec<Register<'a>> {
     let registers = |(position, group): (u32, &'a Group)| {
-        // For images, the addresses of the fields name the image.
+        // Images need no title, because the addresses of their fields contain the image's name.
         let chapter = if group.kind == GroupKind::Chapter { group.name.as_str() } else { "" };
         group.items_at(position).map(move |(id, item)| Register { chapter, id, item })
     };

@@ -1,4 +1,4 @@
-//! Locations of handles: their types, and the functions that create locations shared by several items.
+//! Locations of handles: their types, and the functions that create them for several items.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,27 +7,27 @@ use super::context::Context;
 use super::item_addresses::{Buses, ItemAddresses};
 use super::reachable::addressable;
 
-/// Path from the handles to the windows.
+/// Path from the module of the handles to the windows.
 const WINDOWS: &str = "super::windows::";
 
-/// Returns the name of the function that creates a location.
+/// Returns the name of the function that creates locations. `at` is its position.
 fn maker(at: usize) -> String {
     format!("location_{}", at + 1)
 }
 
-/// The locations of the handles of a device or module.
+/// The locations of a device's or module's handles.
 pub(super) struct Locations {
-    /// The default location type. Handles with this type do not name it.
+    /// The default location type. Handles with this type do not state it.
     pub usual: Buses,
-    /// Whether some items have another location.
+    /// Whether some items have another location type.
     pub several: bool,
-    /// Location types of all items, each once.
+    /// All location types of items, without repetitions.
     each: BTreeSet<Buses>,
-    /// Functions that create locations shared by several items.
+    /// Functions that create the locations of several items.
     shared: Vec<Shared>,
 }
 
-/// A function that creates locations of several items.
+/// A function that creates the locations of several items.
 struct Shared {
     body: Doc,
     parameters: Vec<String>,
@@ -60,7 +60,7 @@ impl Locations {
         self.shared.iter().enumerate().map(model).collect()
     }
 
-    /// Returns the code of an item's location. `outer` is the path from the handle to the device's module.
+    /// Returns the code of an item's location. `outer` is the path from the handle's module to the device's module.
     pub fn code(&self, context: &Context<'_>, addresses: &ItemAddresses<'_>, outer: &str) -> Doc {
         let found = addresses.maker(context, WINDOWS).and_then(|maker_call| {
             let is_same =
@@ -72,7 +72,7 @@ impl Locations {
         found.unwrap_or_else(|| addresses.code(context, &path, &format!("{outer}windows::")))
     }
 
-    /// Returns the name of a location's type. `outer` is the path to the module of the handles.
+    /// Returns the name of a location type. `outer` is the path to the module of the handles.
     pub fn name(&self, buses: Buses, outer: &str) -> String {
         match buses.path() {
             Some(path) => path.to_owned(),
@@ -80,14 +80,14 @@ impl Locations {
         }
     }
 
-    /// Returns the location types that the runtime does not define: name, documentation and fields.
+    /// Returns the location types that are not part of the runtime: name, documentation and fields.
     pub fn generated_types(&self) -> Vec<(String, String, Vec<Doc>)> {
         let unnamed = self.each.iter().filter(|buses| buses.path().is_none());
         let docs = |buses: &Buses| format!("Location of an item on {}.", buses.titles());
         unnamed.map(|buses| (buses.word(), docs(buses), buses.fields())).collect()
     }
 
-    /// Returns the type argument for the location, if it is not the default.
+    /// Returns the type argument for the location. Returns `None` if it is the default.
     pub fn argument(&self, buses: Buses, outer: &str) -> Option<String> {
         if buses == self.usual {
             return None;
@@ -102,8 +102,8 @@ fn path_to_handles(outer: &str) -> &str {
     outer.strip_prefix("super::").unwrap_or(outer)
 }
 
-/// Returns the default location. It is the union of all locations if all are direct and some item has it; otherwise it
-/// is the most frequent one.
+/// Returns the default location type. It is the union of all location types if all of them are direct and some item has
+/// this union. Otherwise, it is the most frequent location type.
 fn usual(each: &BTreeMap<Buses, usize>) -> Buses {
     match each.keys().all(|buses| buses.is_direct()) {
         true => each.keys().fold(Buses::default(), |all, buses| all.union(*buses)),
@@ -111,7 +111,7 @@ fn usual(each: &BTreeMap<Buses, usize>) -> Buses {
     }
 }
 
-/// Returns the functions that create the locations of more than one item.
+/// Returns the functions that create the locations of at least two items.
 fn shared(context: &Context<'_>, items_addresses: &[ItemAddresses<'_>]) -> Vec<Shared> {
     let mut makers: BTreeMap<(Doc, Vec<String>), (usize, Buses)> = BTreeMap::new();
     for addresses in items_addresses {

@@ -1,4 +1,4 @@
-//! State machines: the states that a status word encodes, and the commands that a controlword contains.
+//! State machines: states that a status word encodes, and commands that a controlword encodes.
 
 use std::collections::HashMap;
 
@@ -20,7 +20,7 @@ use crate::names::{self, Case};
 pub(super) struct MachineModel {
     pub states: Option<PatternsModel>,
     pub commands: Option<PatternsModel>,
-    /// Transitions between states by commands; `None` if there are none.
+    /// Transitions that commands cause. `None` if there are none.
     pub transitions: Option<Doc>,
 }
 
@@ -50,27 +50,27 @@ pub(super) struct PatternsModel {
     pub name: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
-    /// Primitive integer that contains the bits.
+    /// Primitive integer that holds the bits.
     pub native: &'static str,
     pub patterns: Vec<PatternModel>,
-    /// The bit field that contains the bits, and the name of its method.
+    /// Name of the bit field that contains the bits, and name of the bit field's method.
     pub bits: Option<(String, String)>,
 }
 
 impl PatternsModel {
-    /// Returns the variants by their names in the description.
+    /// Returns the variants, keyed by their names in the description.
     pub(super) fn by_name(&self) -> HashMap<String, String> {
         self.patterns.iter().map(|pattern| (pattern.original.clone(), pattern.name.clone())).collect()
     }
 }
 
-/// A state or command.
+/// A state or command. It is a bit pattern.
 pub(super) struct PatternModel {
     pub name: String,
     /// Name in the description.
     original: String,
     pub docs: String,
-    /// Meaning, for a cell of a table.
+    /// Meaning of the state or command, for a table cell.
     meaning: String,
     /// Bit pattern, such as `xxxx xxxx x1xx 0000`.
     pub bits: String,
@@ -89,7 +89,7 @@ pub(super) fn models(
     let model = |named: &NamedMachine<'_>| {
         let machine = named.machine;
         let patterns = |name, list, item, method| patterns(context, name, list, item, method, bit_fields, options);
-        // States that are values of an enumeration already have a type.
+        // States that are values of an enumeration already have a Rust type.
         let own_states = if machine.state_type.is_some() { &[] } else { &*machine.states };
         let mut states = patterns(&named.states, own_states, &machine.status_item, &named.getter);
         let mut commands = patterns(&named.commands, &machine.commands, &machine.control_item, &named.command_setter);
@@ -117,7 +117,7 @@ pub(super) fn models(
     context.names.types.machines.iter().map(model).collect()
 }
 
-/// Returns the documentation of states or commands, with their table.
+/// Returns the documentation of states or commands, including a table of them.
 fn documentation(
     context: &Context<'_>,
     machine: &StateMachine,
@@ -144,10 +144,10 @@ fn documentation(
     lines
 }
 
-/// The name of a type, and its variants by their names in the description.
+/// The name of a type, and its variants keyed by their names in the description.
 pub(super) type Variants = (String, HashMap<String, String>);
 
-/// Returns the type of a machine's states: a generated type, or an enumeration.
+/// Returns the type of a machine's states: a generated type or an enumeration.
 pub(super) fn states_of(
     context: &Context<'_>,
     machine: &StateMachine,
@@ -169,7 +169,7 @@ pub(super) fn states_of(
     Some((enumeration.name.clone(), named.collect()))
 }
 
-/// The states and commands that transitions refer to.
+/// The types of the states and commands that transitions refer to.
 struct Named<'n, 's> {
     context: &'n Context<'s>,
     states: Option<Variants>,
@@ -177,7 +177,7 @@ struct Named<'n, 's> {
 }
 
 impl Named<'_, '_> {
-    /// Returns a link to a variant in the module of types; `None` if there is no such variant.
+    /// Returns a link to a variant in the module of types. Returns `None` if there is no such variant.
     fn variant(variants: Option<&Variants>, name: &str) -> Option<String> {
         let (ty, variants) = variants?;
         let variant = variants.get(name)?;
@@ -188,7 +188,7 @@ impl Named<'_, '_> {
         Named::variant(self.states.as_ref(), name).unwrap_or_else(|| docs::escape(name))
     }
 
-    /// Returns the link to a command, or to the message that is the command.
+    /// Returns the link to a command or, if a message is the command, to the message.
     fn command(&self, name: &MessageRef) -> String {
         let message = || self.context.link(name, DocModule::TYPES);
         Named::variant(self.commands.as_ref(), name).or_else(message).unwrap_or_else(|| docs::escape(name))
@@ -215,8 +215,8 @@ impl Named<'_, '_> {
     }
 }
 
-/// Returns the transitions that a program can trigger or wait for. Automatic transitions from any state are errors and
-/// are left out.
+/// Returns the transitions that a program can trigger or wait for. Automatic transitions from any state are left out
+/// because they are errors.
 fn steps(transitions: &[Transition], states: &PatternsModel, commands: &PatternsModel) -> Option<Doc> {
     let named = |list: &PatternsModel, name: &str| {
         list.patterns.iter().find(|pattern| pattern.original == name).map(|pattern| pattern.name.clone())
@@ -227,7 +227,7 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
         let command = match command {
             None => Doc::from("None"),
             Some(Some(name)) => Data::call("Some", vec![Doc::from(format!("{}::{name}", commands.name))]),
-            // The command is a message, or has no bits.
+            // The command is a message or has no bit pattern.
             Some(None) => continue,
         };
         let from = match (&transition.from, &transition.command) {

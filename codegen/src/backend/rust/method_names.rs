@@ -1,7 +1,7 @@
-//! Reserved names of methods and modules of objects, and prefixes for which clippy expects certain signatures.
+//! Reserved names of methods and of objects' modules, and method prefixes for which clippy expects a certain signature.
 
-/// Names that modules and methods of objects must not have: methods of the device, methods that every type has by
-/// value, and names that would hide a primitive type or the runtime.
+/// Names that objects' modules and methods must not have. These are methods of the device, methods that all types have
+/// by value, and names that would hide a primitive type or the runtime.
 pub(super) const RESERVED: [&str; 31] = [
     "types",
     "new",
@@ -36,10 +36,11 @@ pub(super) const RESERVED: [&str; 31] = [
     "crate",
 ];
 
-/// Further names that the generated code of a device with messages uses.
+/// Additional reserved names if the device has messages.
 pub(super) const RESERVED_WITH_MESSAGES: [&str; 3] = ["messages", "on", "after_power_on"];
 
-/// Returns the attribute that methods with these names need. Clippy expects certain signatures for some prefixes.
+/// Returns the attribute for methods with these names. It suppresses a clippy lint about prefixes that imply a certain
+/// signature.
 pub(super) fn method_allow<'n>(names: impl Iterator<Item = &'n str>) -> Option<String> {
     const PREFIXES: [&str; 5] = ["from_", "into_", "to_", "is_", "as_"];
     const TRAITS: [&str; 3] = ["next", "deref_mut", "borrow_mut"];
@@ -56,7 +57,7 @@ pub(super) fn method_allow<'n>(names: impl Iterator<Item = &'n str>) -> Option<S
     }
 }
 
-/// Returns an unused name: `name` with as many underscores appended as necessary.
+/// Appends underscores to `name` until it is unused.
 pub(super) fn unused_name(is_used: impl Fn(&String) -> bool, mut name: String) -> String {
     while is_used(&name) {
         name.push('_');

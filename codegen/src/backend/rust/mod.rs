@@ -70,7 +70,7 @@ use ethercat::ModulePaths;
 use model::Model;
 use scope::Scope;
 
-/// Version of the interface between generated code and the runtime: `lexibus::interface::VERSION`.
+/// Version of the interface between generated code and the runtime. It must equal `lexibus::interface::VERSION`.
 pub const INTERFACE_VERSION: u32 = 1;
 
 /// Returns the Rust module for all of `catalog`; `None` if it describes nothing that code can be generated for.
@@ -105,13 +105,13 @@ fn header(file: &FileInfo) -> String {
     )
 }
 
-/// Returns the calls that read and write each item of a device, such as `device.identity().vendor_id().read()?`.
+/// Returns the Rust calls that read and write each item of a device, such as `device.identity().vendor_id().read()?`.
 pub fn calls(device: &Device) -> HashMap<ItemId, Vec<String>> {
     let context = model::context(Scope::of_device(device), &RustOptions::default(), "");
     objects::calls(&context).map(|(entry, path)| (entry.id, calls_of(&context, entry.item, &path))).collect()
 }
 
-/// Returns calls in the item's unit, followed by calls with the raw value.
+/// Returns calls that use the item's unit, followed by calls that use the raw value.
 fn calls_of(context: &Context<'_>, item: &Item, path: &str) -> Vec<String> {
     let (suffix, other) = match item.quantity.as_ref().and_then(|quantity| quantity.scale.as_ref()) {
         Some(Scale::ByItem { .. } | Scale::Fraction { .. } | Scale::Exponent { .. }) => ("_by", "other"),

@@ -35,7 +35,7 @@ use super::table::{self, EntryModel};
 use super::window_model::{self, WindowModel};
 use crate::ir::{Device, FileInfo, Module};
 
-/// Runs the stages before lowering: addresses, names and links.
+/// Runs the stages before the lowering, which determine addresses, names and links.
 pub(super) fn context<'a>(scope: Scope<'a>, options: &RustOptions, device_name: &str) -> Context<'a> {
     let located = Located::of(scope);
     let names = Names::of(&located);
@@ -50,60 +50,60 @@ pub(super) struct Model {
     pub title: String,
     /// Identity of the device; `None` for a module of a modular device.
     pub identity: Option<IdentityModel>,
-    /// Whether the device has a type with accessor methods.
+    /// Whether the device's type has accessor methods.
     pub has_accessors: bool,
-    /// Type of the handles' location. If there are several, the one that covers all buses.
+    /// Location type of the handles. If there are several types, this one covers all buses.
     pub location: String,
     /// Whether the handles have several location types.
     pub has_locations: bool,
-    /// Location types that the runtime does not define: name, documentation and fields.
+    /// Location types that are not part of the runtime: name, documentation and fields.
     pub locations: Vec<(String, String, Vec<Doc>)>,
-    /// Functions that create locations shared by several items: name, parameters, return type and body.
+    /// Functions that create the locations of several items: name, parameters, return type and body.
     pub makers: Vec<(String, Vec<String>, String, Doc)>,
-    /// Windows through which items are accessed.
+    /// Windows through which some items are accessed.
     pub windows: Vec<WindowModel>,
-    /// Nouns for the items with handles: one to follow "every", and one with an article.
+    /// Two noun phrases for items with handles: one to follow "every", and one with an article.
     pub handles: [&'static str; 2],
     pub types: Types,
     pub code_tables: Vec<CodeTableModel>,
-    /// Procedures that consist only of writes to objects.
+    /// Procedures that consist only of object writes.
     pub procedures: Vec<ProcedureModel>,
     pub axes: Option<AxesModel>,
     /// Constants and items that differ between the models of the device.
     pub models: Vec<DeviceModel>,
     /// Properties of the machine that the device does not know.
     pub given: Option<GivenModel>,
-    /// Message protocol: requests and replies.
+    /// Message protocol with requests and replies.
     #[cfg(feature = "messages")]
     pub protocol: Option<ProtocolModel>,
     pub node_id: Option<u8>,
     /// Constants for Modbus and for the node-ID range.
     pub bus_facts: Vec<FactModel>,
     pub accessor_derives: Vec<String>,
-    /// Attribute that suppresses lints for names of the dictionary.
+    /// Attribute that suppresses lints about names from the description.
     pub method_allow: Option<String>,
     pub objects: Vec<ObjectModel>,
     pub aliases: Vec<Alias>,
     /// Private aliases of handle types: name, access and arguments.
     pub handle_types: Vec<(String, &'static str, Vec<Doc>)>,
     pub pdos: Vec<PdoModel>,
-    /// PDOs with a mapping that can be changed.
+    /// PDOs with a changeable mapping.
     pub remappable: Vec<RemappableModel>,
     /// Whether PDOs have views within a process image.
     pub has_views: bool,
     pub ethercat: Option<EtherCatModel>,
-    /// Value of the constant `MODULE`; `None` for a device.
+    /// Value of the constant `MODULE`. `None` for a device.
     pub module: Option<Doc>,
     pub table: Option<Vec<EntryModel>>,
     pub table_feature: Option<String>,
-    /// Whether the file has further devices or modules, which may re-export definitions of this one.
+    /// Whether the file has other devices or modules. They may re-export definitions of this one.
     pub is_one_of_several: bool,
-    /// Definitions that earlier devices or modules of the file contain.
+    /// Definitions that earlier devices or modules of the file already contain.
     pub reexports: Vec<Reexport>,
 }
 
 impl Model {
-    /// Creates the model of a device. `modules` maps modules to the paths of their constants.
+    /// Creates the model of a device. `modules` contains the paths of the modules' constants.
     pub(super) fn new(device: &Device, file: &FileInfo, options: &RustOptions, modules: &ModulePaths) -> Self {
         let device_name = device_names::device_name(device, file, options.device_name.as_deref());
         let context = context(Scope::of_device(device), options, &device_name);
@@ -168,7 +168,7 @@ impl Model {
         }
     }
 
-    /// Creates the message protocol. Its methods are on the same type as the accessors of the objects.
+    /// Creates the message protocol. Its methods and the accessors of the objects belong to the same type.
     #[cfg(feature = "messages")]
     fn protocol_of(&self, context: &Context<'_>, options: &RustOptions) -> Option<ProtocolModel> {
         let objects = self.objects.iter().map(|object| object.name.trim_start_matches("r#"));
@@ -176,7 +176,7 @@ impl Model {
         ProtocolModel::new(context, options, &self.types, &reserved)
     }
 
-    /// Returns whether the type of the device tracks the last selecting request.
+    /// Returns whether the device's type tracks which selecting request was sent last.
     pub(super) fn selects(&self) -> bool {
         #[cfg(feature = "messages")]
         return self.protocol.as_ref().is_some_and(ProtocolModel::selects);

@@ -7,7 +7,7 @@ use super::machine::{self, MachineModel};
 use super::naming::machines::NamedMachine;
 use super::options::RustOptions;
 
-/// The types of a device or module, ready to be printed.
+/// The enumerations, bit fields and state machines of a device or module, ready to be printed.
 #[derive(Default)]
 pub(super) struct Types {
     /// Enumerations with the positions of their definitions.
@@ -15,7 +15,7 @@ pub(super) struct Types {
     /// Bit fields with the positions of their definitions.
     pub bit_fields: Vec<(u32, BitFieldModel)>,
     pub machines: Vec<MachineModel>,
-    /// Whether the device has bit fields, including those that an earlier device defines.
+    /// Whether the device has bit fields. Bit fields that an earlier device defines are included.
     pub has_bit_fields: bool,
 }
 
@@ -40,7 +40,7 @@ impl Types {
         self.enumerations.is_empty() && self.bit_fields.is_empty() && self.machines.is_empty()
     }
 
-    /// Returns whether the code of the types names the runtime. States and commands alone do not.
+    /// Returns whether the code of the types names the runtime. The code of states and commands does not.
     pub(super) fn names_runtime(&self) -> bool {
         let has_values = !self.enumerations.is_empty() || !self.bit_fields.is_empty();
         has_values || self.machines.iter().any(MachineModel::has_transitions)

@@ -1,4 +1,4 @@
-//! The first stage: Rust names of the elements of a description.
+//! The first stage of the back end. It determines the Rust names of a description's elements.
 
 pub(super) mod composites;
 pub(super) mod handles;
@@ -16,12 +16,12 @@ use messages::NamedMessages;
 use pdos::NamedPdo;
 use types::TypeNames;
 
-/// The names of the elements of a device or a module.
+/// The Rust names of the elements of a device or module.
 pub(super) struct Names<'a> {
     pub handles: HandleNames<'a>,
     pub pdos: Vec<NamedPdo<'a>>,
     pub types: TypeNames<'a>,
-    /// Composite numbers, which are split over several items.
+    /// Composite numbers, which consist of several items.
     pub composites: Vec<NamedComposite<'a>>,
     #[cfg(feature = "messages")]
     pub messages: NamedMessages<'a>,

@@ -1,4 +1,5 @@
-//! Objects and registers, ready to be printed: a handle each, or a module of handles.
+//! Objects and registers, ready to be printed. An object becomes a handle or a module of handles; a register becomes a
+//! handle.
 
 use super::context::Context;
 use super::docs;
@@ -10,33 +11,33 @@ use super::naming::handles::{self, HandleNames, NamedItem, NamedObject, NamedReg
 use crate::ir::ObjectCode;
 use crate::names;
 
-/// An object: one value, or a module of several values.
+/// An object, ready to be printed. It has one value, or is a module with several values.
 pub(super) struct ObjectModel {
     pub name: String,
     pub docs: Vec<String>,
     pub heading: String,
-    /// Link to the module of its constants; empty for an object with one value.
+    /// Link to the module of the object's constants. Empty if the object has one value.
     pub constants: String,
     pub items: Vec<ItemModel>,
     pub is_module: bool,
-    /// Whether an earlier device of the file contains the definition.
+    /// Whether the device re-exports the definition from an earlier device of the file.
     pub is_reexported: bool,
     pub method_allow: Option<String>,
 }
 
 impl ObjectModel {
-    /// Returns whether one of the items can be mapped into PDOs.
+    /// Returns whether any of the items can be mapped into PDOs.
     pub(super) fn has_mappable(&self) -> bool {
         self.items.iter().any(|item| item.mappable.is_some())
     }
 
-    /// Returns whether the items name the runtime.
+    /// Returns whether the code of the items names the runtime.
     pub(super) fn names_runtime(&self) -> bool {
         self.items.iter().any(|item| item.names_runtime)
     }
 }
 
-/// Returns the registers of the chapters, followed by the objects.
+/// Returns the registers of all chapters, followed by the objects.
 pub(super) fn models(context: &Context<'_>, locations: &Locations) -> Vec<ObjectModel> {
     let HandleNames { registers, objects } = &context.names.handles;
     let registers = registers.iter().map(|named| register(context, locations, named));
@@ -78,7 +79,7 @@ fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>)
     ObjectModel {
         docs: vec![docs::sentence(&title), String::new(), format!("{code} {address}.")],
         heading: item::heading(&group.name, &address),
-        // A constant may have the same name.
+        // The link must state the kind because a constant may have the same name.
         constants: DocModule::TOP
             .whole(&format!("{}objects::{name}", if handles::is_cased(name) { "" } else { "mod@" })),
         method_allow: method_allow(items.iter().map(|item| item.method.as_str())),
@@ -89,7 +90,7 @@ fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>)
     }
 }
 
-/// Returns the method calls by which a program accesses each item, such as `identity().vendor_id()`.
+/// Returns the method calls with which a program accesses each item, such as `identity().vendor_id()`.
 pub(super) fn calls<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item = (&'c NamedItem<'a>, String)> {
     let call = |name: &str| format!("{}()", names::escaped(name));
     let HandleNames { registers, objects } = &context.names.handles;

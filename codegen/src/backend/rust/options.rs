@@ -56,7 +56,8 @@ impl Default for RustOptions {
 const SERDE_ARRAY: u32 = 32;
 
 impl RustOptions {
-    /// Returns the attribute with which `serde` supports a field of this many bytes; `None` if the field needs none.
+    /// Returns the attribute that makes `serde` support a field with this many bytes. Returns `None` if the field needs
+    /// no attribute.
     pub(in crate::backend::rust) fn octets_attribute(&self, length: u32) -> Option<String> {
         if length <= SERDE_ARRAY {
             return None;

@@ -1,4 +1,5 @@
-//! PDO structs: their fields, packing and unpacking, and the writes that configure the PDO in the device.
+//! PDO structs with their fields, the code that packs and unpacks them, and the writes that configure the PDO in the
+//! device.
 
 use std::collections::{HashMap, HashSet};
 
@@ -20,7 +21,7 @@ use crate::ir::{Group, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKin
 use crate::names;
 use crate::source::Span;
 
-/// Maximum length of a field's name in an expression that packs the field. The line must stay below the margin.
+/// Maximum length of a field's name in an expression that packs the field. It limits the length of the line.
 const MAX_FIELD_NAME: usize = 30;
 
 /// Number of bits in a word.
@@ -34,51 +35,52 @@ pub(super) struct PdoModel {
     pub view_docs: Vec<String>,
     pub derives: Vec<String>,
     pub mapping_index: u16,
-    /// Line of the declaration.
+    /// Line number of the declaration in the source.
     line: u32,
     declared: Span,
     pub bits: u32,
     pub length: usize,
-    /// `const ` if packing and unpacking are `const fn` with the minimum supported Rust version of the runtime;
-    /// otherwise empty.
+    /// `const ` if packing and unpacking can be `const fn` in the minimum supported Rust version of the runtime.
+    /// Otherwise empty.
     pub constant: &'static str,
     pub fields: Vec<FieldModel>,
     pub mapping: Vec<Doc>,
     pub word: bool,
-    /// Mask of all bits that fields cover.
+    /// Mask of all bits that belong to fields.
     pub covered: String,
     pub cob_id: Option<String>,
     pub configuration: Vec<String>,
-    /// Whether the default COB-ID contains an identifier.
+    /// Whether the default COB-ID contains a CAN identifier.
     pub has_identifier: bool,
 }
 
 /// A field of a PDO.
 pub(super) struct FieldModel {
     pub name: String,
-    /// Object of the field, as the table shows it.
+    /// Object of the field, for the documentation table.
     object: String,
-    /// Type of the field, as the table shows it.
+    /// Type of the field, for the documentation table.
     type_link: String,
     /// Name of the view's method that reads the field.
     pub getter: String,
     /// Name of the view's method that writes the field.
     pub setter: String,
     pub docs: Vec<String>,
-    /// Attribute for derived traits.
+    /// Attribute that derived traits require.
     pub attribute: Option<String>,
     pub ty: String,
     kind: FieldType,
-    /// Mask of the field's bits, if its Rust type has more bits and its conversions don't remove them.
+    /// Mask of the field's bits. `None` if no mask is necessary: the Rust type has no more bits, or its conversions
+    /// remove them.
     cut: Option<String>,
     pub offset: u32,
     pub bits: u32,
-    /// Whether the field is longer than a word. Such a field is copied as bytes, and the unused bits of the last byte
-    /// are 0.
+    /// Whether the field is longer than a word. Such a field is copied as bytes. The unused bits of its last byte are
+    /// 0.
     pub long: bool,
 }
 
-/// Returns the models of all PDOs with fields.
+/// Returns the models of all PDOs that have fields.
 pub(super) fn models(context: &Context<'_>, options: &RustOptions) -> Vec<PdoModel> {
     let generated = context.names.pdos.iter().filter(|named| is_generated(named.pdo));
     generated.map(|named| model(context, named, options)).collect()
@@ -129,7 +131,7 @@ fn documentation(context: &Context<'_>, pdo: &Pdo, fields: &[FieldModel]) -> Vec
     lines
 }
 
-/// Returns the COB-ID of a PDO in its usual notation.
+/// Returns the COB-ID of a PDO in the usual notation.
 fn identifier(value: &Value) -> String {
     match value {
         Value::Int(number @ 0..) => format!("0x{number:X}"),
@@ -138,15 +140,15 @@ fn identifier(value: &Value) -> String {
     }
 }
 
-/// Returns the documentation of the view of a PDO.
+/// Returns the documentation of a PDO's view.
 fn view_docs(context: &Context<'_>, pdo: &Pdo, name: &str) -> Vec<String> {
     vec![title(context, pdo), String::new(), format!("The layout is that of [`pdo::{name}`](super::pdo::{name}).")]
 }
 
-/// Methods of a struct whose names a field may have.
+/// Methods of the struct. A field may have the same name as a method.
 const METHODS: [&str; 4] = ["pack", "unpack", "configuration", "configuration_as"];
 
-/// Returns the lines of the table of all entries.
+/// Returns the lines of the table with all entries.
 fn table(pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
     let mut fields = fields.iter();
     let row = |entry: &PdoEntry| {
@@ -162,7 +164,7 @@ fn table(pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
     doc_table::table(["Bytes", "Field", "Object", "Type"], &rows)
 }
 
-/// Returns the bytes of an entry. First and last bit are included if the entry does not fill the bytes.
+/// Returns the byte numbers of an entry. If the entry does not fill its bytes, the first and last bits are included.
 fn span(entry: &PdoEntry) -> String {
     let last = entry.bit_offset.saturating_add(entry.bits) - 1;
     let position = |bit: u32, whole: bool| match whole {
@@ -178,7 +180,7 @@ fn span(entry: &PdoEntry) -> String {
     }
 }
 
-/// Returns the title of the PDO, as a sentence.
+/// Returns a sentence with the title of the PDO.
 pub(super) fn title(context: &Context<'_>, pdo: &Pdo) -> String {
     let buses = match context.bus_of(pdo) {
         ObjectBus::CanOpen => ObjectBuses::CANOPEN,
@@ -189,8 +191,7 @@ pub(super) fn title(context: &Context<'_>, pdo: &Pdo) -> String {
     docs::sentence(&format!("{title}{name}"))
 }
 
-/// Returns the mask of all bits that unpacking and packing preserve. A time has four reserved bits, which are not
-/// preserved.
+/// Returns a mask of the bits that unpacking and packing preserve. The four reserved bits of a time are not preserved.
 fn covered(fields: &[FieldModel]) -> String {
     const TIME: u64 = 0xFFFF_0FFF_FFFF;
     let mut covered: u64 = 0;
@@ -204,11 +205,11 @@ fn covered(fields: &[FieldModel]) -> String {
     format!("{covered:#X}").replace("0X", "0x")
 }
 
-/// Returns the shortest constructor of a mapped entry, and its arguments.
+/// Returns the name and arguments of the shortest constructor for a mapped entry.
 pub(super) fn mapping_entry(entry: &PdoEntry) -> (&'static str, Vec<String>) {
     let mut arguments =
         vec![format!("0x{:04X}", entry.index), format!("0x{:02X}", entry.sub_index), entry.bits.to_string()];
-    // Padding does not depend on the slot.
+    // The mapping of padding does not depend on the slot.
     let is_object = entry.index != 0;
     let path = match (entry.depends_on_slot && is_object, entry.depends_on_slot_group && is_object) {
         (false, false) => "rt::MappedEntry::new",
@@ -227,8 +228,8 @@ pub(super) fn mapping_line(entry: &PdoEntry) -> Doc {
 }
 
 fn fields(context: &Context<'_>, named: &[NamedField<'_>], options: &RustOptions) -> Vec<FieldModel> {
-    // `new` and `at` are constructors of the view. The other names are methods of traits that every type may implement.
-    // A field may also have the name of another field's setter.
+    // `new` and `at` are constructors of the view. The other names belong to methods of traits that any type may
+    // implement. A field's name may also equal the setter name of another field.
     const RESERVED: [&str; 5] = ["new", "at", "clone", "into", "try_into"];
     let names: HashSet<&String> = named.iter().map(|field| &field.name).collect();
     let field = |NamedField { entry, name }: &NamedField<'_>| {
@@ -236,7 +237,7 @@ fn fields(context: &Context<'_>, named: &[NamedField<'_>], options: &RustOptions
         let is_reserved = RESERVED.contains(&name.as_str());
         FieldModel {
             getter: if is_reserved { format!("{name}_") } else { field.name.clone() },
-            // A name that starts with a digit already has a leading underscore.
+            // If the name starts with a digit, it already has a leading underscore.
             setter: unused_name(|name| names.contains(name), names::prefixed("set_", name)),
             ..field
         }
@@ -244,7 +245,7 @@ fn fields(context: &Context<'_>, named: &[NamedField<'_>], options: &RustOptions
     named.iter().map(field).collect()
 }
 
-/// Returns the field of an entry, without its methods.
+/// Returns the field of an entry, without the names of its methods.
 fn field(context: &Context<'_>, entry: &PdoEntry, name: String, options: &RustOptions) -> FieldModel {
     let kind = field_type(context, entry.ty, entry.bits);
     let ty = kind.path("super::");
@@ -286,27 +287,27 @@ fn field(context: &Context<'_>, entry: &PdoEntry, name: String, options: &RustOp
     }
 }
 
-/// Key that identifies a PDO. Several PDOs may share a mapping object, and only one of them is assigned.
+/// Key that identifies a PDO. Several PDOs may have the same mapping object if only one of them is assigned.
 type Declared = (u16, Span, u32);
 
-/// The models of the PDOs of a device or module.
+/// The models of a device's or module's PDOs.
 pub(super) struct PdoModels<'a>(HashMap<Declared, &'a PdoModel>);
 
 impl<'a> PdoModels<'a> {
     pub(super) fn new(models: &'a [PdoModel]) -> Self {
-        // The last of equal keys is kept. The order is reversed to keep the first one.
+        // The map keeps the last of equal keys. Reverse the order so that it keeps the first one.
         let keyed = models.iter().rev().map(|model| ((model.mapping_index, model.declared, model.line), model));
         PdoModels(keyed.collect())
     }
 
-    /// Returns the model of `pdo`; `None` if it has none.
+    /// Returns the model of `pdo`. Returns `None` if it has no struct.
     pub(super) fn of(&self, pdo: &Pdo) -> Option<&'a PdoModel> {
         self.0.get(&(pdo.mapping_index, pdo.origin.span, pdo.origin.line)).copied()
     }
 }
 
 impl PdoModel {
-    /// Returns the enumerations of the fields.
+    /// Returns the names of enumerations that are types of fields.
     pub(super) fn type_names(&self) -> impl Iterator<Item = &str> {
         self.fields.iter().filter_map(|field| match &field.kind {
             FieldType::Named(name, _) => Some(name.as_str()),
@@ -314,13 +315,13 @@ impl PdoModel {
         })
     }
 
-    /// Returns the attribute that suppresses lints for the view's methods.
+    /// Returns the attribute that suppresses lints about names of the view's methods.
     pub(super) fn view_allow(&self) -> Option<String> {
         method_allow(self.fields.iter().map(|field| field.getter.as_str()))
     }
 
-    /// Returns the statements that pack more than a word. If all fields fill whole bytes, they are stored byte by byte,
-    /// which is fastest. Otherwise, words are filled by shifts, and converted to bytes once.
+    /// Returns statements that pack a PDO of more than one word. If all fields fill whole bytes, they are stored byte
+    /// by byte, which is fastest. Otherwise, shifts fill words, which are converted to bytes at the end.
     pub(super) fn pack_long(&self) -> Vec<Doc> {
         let is_stored = |field: &&FieldModel| field.long || self.fields.iter().all(FieldModel::is_whole);
         let (stored, shifted): (Vec<_>, Vec<_>) = self.fields.iter().partition(is_stored);
@@ -343,7 +344,7 @@ impl PdoModel {
         lines
     }
 
-    /// Returns the struct literal that reads the fields from the bytes of the frame.
+    /// Returns a struct literal that reads all fields from the bytes of the frame.
     pub(super) fn unpacked(&self) -> Doc {
         let value = |field: &FieldModel| if self.word { field.unpack_word() } else { field.unpack_data() };
         Data::fields("Self", self.fields.iter().map(|field| (field.name.as_str(), value(field))))
@@ -351,7 +352,7 @@ impl PdoModel {
 }
 
 impl FieldModel {
-    /// Returns the statements that compute `bits` of the field. Bits beyond its width are 0.
+    /// Returns statements that calculate `bits`, the bits of the field. Bits beyond the field's width are 0.
     pub(super) fn packed(&self) -> Vec<String> {
         let field = format!("self.{}", self.name);
         let is_long = self.name.len() > MAX_FIELD_NAME;
@@ -361,7 +362,7 @@ impl FieldModel {
         value.into_iter().chain([format!("let bits = {bits}{cut};")]).collect()
     }
 
-    /// Returns the statements that write `bits` to the words of a PDO of several words.
+    /// Returns statements that write `bits` to the words of a PDO that has several words.
     fn pack_words(&self) -> Vec<String> {
         let (word, shift) = (self.offset / WORD, self.offset % WORD);
         let low = if shift == 0 { "bits".to_owned() } else { format!("bits << {shift}") };
@@ -377,7 +378,7 @@ impl FieldModel {
         self.offset.is_multiple_of(8) && self.bits.is_multiple_of(8)
     }
 
-    /// Returns the expression that reads the field from `word`, which contains all bits of the PDO.
+    /// Returns an expression that reads the field from `word`, which contains the whole PDO.
     fn unpack_word(&self) -> Doc {
         let shifted = match (self.offset, &self.cut) {
             (0, None) => "word".to_owned(),
@@ -385,7 +386,7 @@ impl FieldModel {
             (offset, None) => format!("word >> {offset}"),
             (offset, Some(mask)) => format!("(word >> {offset}) & {mask}"),
         };
-        // Parentheses make the precedence of `&` and `==` clear.
+        // Parentheses clarify the precedence of `&` and `==`.
         let is_plain = match self.kind {
             FieldType::Bool => false,
             _ => shifted == "word" || !self.kind.is_cast(),
@@ -394,7 +395,7 @@ impl FieldModel {
         self.kind.decode(&self.ty, &bits)
     }
 
-    /// Returns the expression that reads the field from `data`, for PDOs of several words.
+    /// Returns an expression that reads the field from `data`. Used for PDOs of several words.
     fn unpack_data(&self) -> Doc {
         if self.long {
             return self.get_bytes("data", &self.offset.to_string());
@@ -402,7 +403,7 @@ impl FieldModel {
         self.decode(&call!("rt::bits::get", "data", self.offset, self.bits))
     }
 
-    /// Returns the expression that decodes bits. Bits beyond the width of the field must be 0.
+    /// Returns an expression that decodes bits. The bits beyond the field's width must be 0.
     fn decode(&self, bits: &Doc) -> Doc {
         match self.kind {
             FieldType::Bool => seq![bits, Break, " != 0"],
@@ -410,7 +411,7 @@ impl FieldModel {
         }
     }
 
-    /// Returns the expression that copies the field from bit `at` of `data`.
+    /// Returns an expression that copies the field's bytes from bit `at` of `data`.
     fn get_bytes(&self, data: &str, at: &str) -> Doc {
         match self.odd_bits() {
             Some(bits) => call!("rt::bits::get_bits", data, at, bits),
@@ -418,12 +419,12 @@ impl FieldModel {
         }
     }
 
-    /// Returns the length of a field that does not end at a byte boundary; `None` for other fields.
+    /// Returns the length in bits of a field that does not end at a byte boundary. Returns `None` for other fields.
     fn odd_bits(&self) -> Option<u32> {
         (!self.bits.is_multiple_of(8)).then_some(self.bits)
     }
 
-    /// Returns the expression of the first bit within a process image.
+    /// Returns an expression for the position of the first bit within a process image.
     fn bit(&self) -> String {
         if self.offset == 0 {
             "self.bit".to_owned()
@@ -432,7 +433,7 @@ impl FieldModel {
         }
     }
 
-    /// Returns the expression that reads the field from a process image.
+    /// Returns an expression that reads the field from a process image.
     pub(super) fn get_in_image(&self) -> Doc {
         let at = self.bit();
         if self.long {
@@ -441,7 +442,7 @@ impl FieldModel {
         self.decode(&call!("rt::bits::get", "self.data.as_ref()", at, self.bits))
     }
 
-    /// Returns the statement that writes `value` to a process image.
+    /// Returns a statement that writes `value` to a process image.
     pub(super) fn set_in_image(&self) -> Doc {
         let at = self.bit();
         let data = "self.data.as_mut()";
@@ -453,7 +454,7 @@ impl FieldModel {
         seq![set, ";"]
     }
 
-    /// Returns the statements that write the field to `data`, for PDOs of several words.
+    /// Returns statements that write the field to `data`. Used for PDOs of several words.
     fn pack_data(&self) -> Vec<Doc> {
         let (offset, bits, field) = (self.offset, self.bits, seq!["&self.", self.name]);
         let put = match self.odd_bits().filter(|_| self.long) {
@@ -476,8 +477,8 @@ pub(super) fn cob_id(pdo: &Pdo) -> Option<String> {
     }
 }
 
-/// Returns the writes that configure the PDO as described: disable, clear, map, count, type, enable (CiA 301 7.5.2.36).
-/// Read-only parameters are left out.
+/// Returns the SDO writes that configure the PDO as described: disable, clear, map, count, type, enable (CiA 301
+/// 7.5.2.36). Read-only parameters are left out.
 fn configuration(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     let Some(communication) = &pdo.communication else { return Vec::new() };
     let cob_id_writable = communication.writable.contains(&1);
@@ -491,7 +492,7 @@ fn configuration(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     writes
 }
 
-/// Returns the writes that set the default timing.
+/// Returns the SDO writes that set the default timing.
 pub(super) fn timing_writes(communication: &PdoCommunication) -> Vec<String> {
     let timing = [
         (2, "u8", communication.transmission_type.map(u16::from)),
@@ -503,7 +504,7 @@ pub(super) fn timing_writes(communication: &PdoCommunication) -> Vec<String> {
     writable.filter_map(|(sub, ty, value)| Some(write(ty, communication.index, sub, &value?.to_string()))).collect()
 }
 
-/// Returns whether the default COB-ID contains an identifier. A PDO that is disabled by default often has none.
+/// Returns whether the default COB-ID contains a CAN identifier. It is often missing if the PDO is disabled by default.
 pub(super) fn has_identifier(pdo: &Pdo) -> bool {
     const IDENTIFIER: i128 = 0x1FFF_FFFF;
     let value = pdo.communication.as_ref().and_then(|communication| communication.cob_id.as_ref());

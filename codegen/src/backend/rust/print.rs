@@ -1,4 +1,4 @@
-//! The last stage: prints the models. The order of the functions is the order of the output.
+//! The last stage of the back end. It prints the models. The functions have the same order as the output.
 
 mod accessors;
 pub(super) mod bit_field;
@@ -22,7 +22,7 @@ pub(super) mod views;
 use super::code::Code;
 use super::model::Model;
 
-/// Prints a device, or a module of a modular device.
+/// Prints a device or a module of a modular device.
 pub(super) fn model(code: &mut Code, model: &Model) {
     code.reserve(model.size_hint());
     device::write(code, model);

@@ -1,4 +1,5 @@
-//! Procedures that consist only of writes to objects, such as a start-up list. A program can send them as constants.
+//! Procedures that consist only of object writes, such as a start-up list. They become constants that a program can
+//! send.
 
 use super::context::Context;
 use super::doc_table;
@@ -13,7 +14,7 @@ use crate::names::{self, Case};
 pub(super) struct ProcedureModel {
     pub name: String,
     pub docs: Vec<String>,
-    /// Calls that create the writes.
+    /// Constructor calls of the writes.
     pub writes: Vec<String>,
 }
 
@@ -47,7 +48,7 @@ fn documentation(context: &Context<'_>, procedure: &Procedure) -> Vec<String> {
     lines.into_iter().skip(1).chain(doc_table::table(["Item", "Value"], &rows)).collect()
 }
 
-/// Returns the item and the value of a write.
+/// Returns the cells of a table row: the item and the value that is written.
 fn row(context: &Context<'_>, step: &Step) -> Option<[String; 2]> {
     let Step::Write(name, value) = step else { return None };
     let item = context.link(name, DocModule::OTHER).unwrap_or_else(|| docs::escape(name));
@@ -55,7 +56,8 @@ fn row(context: &Context<'_>, step: &Step) -> Option<[String; 2]> {
     Some([item, docs::typed(value, ty)])
 }
 
-/// Returns the writes of a procedure; `None` if it has other steps, or values that only the device knows.
+/// Returns the constructor calls of a procedure's writes. Returns `None` if the procedure has other steps, or uses
+/// values that only the device knows.
 fn writes(context: &Context<'_>, procedure: &Procedure) -> Option<Vec<String>> {
     let writes: Option<Vec<String>> = procedure.steps.iter().map(|step| write(context, step)).collect();
     writes.filter(|writes| !writes.is_empty())
@@ -70,7 +72,7 @@ fn write(context: &Context<'_>, step: &Step) -> Option<String> {
     };
     let mask = (1i128 << bits) - 1;
     let number = value & mask;
-    // The compiler reports a number that does not fit in its item. The number is not cut to a different one.
+    // Do not truncate a number that does not fit in its item. The compiler reports such numbers.
     if *value != number && *value != number - mask - 1 {
         return None;
     }

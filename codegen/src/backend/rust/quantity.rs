@@ -1,4 +1,4 @@
-//! Units and scales: types of numbers that represent physical values.
+//! Types of numbers with a unit or a scale, which represent physical values.
 
 use super::code::{generic, list, Doc};
 use super::context::Context;
@@ -8,12 +8,12 @@ use crate::ir::{Item, Quantity, Scale};
 pub(super) struct QuantityType {
     /// Path of the type in the runtime.
     pub path: Doc,
-    /// Name of the type as a part of other names.
+    /// Name of the type for use in other names.
     pub word: String,
 }
 
-/// Returns the type of an item's value; `None` if the value is a plain number, or the scale cannot be expressed by
-/// fractions of integers.
+/// Returns the type of an item's value. Returns `None` if the value is a plain number, or if fractions of integers
+/// cannot express the scale.
 pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
     let quantity = item.quantity.as_ref()?;
     if item.variants.iter().any(|variant| variant.scale.is_some()) {
@@ -34,7 +34,7 @@ pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
         Some(Scale::Fraction { bits, .. }) => {
             QuantityType { path: generic!("rt::Fraction", base, *bits), word: format!("Fraction{bits}Of{word}") }
         }
-        // The factor of another item must be applied by the caller, because no type of the runtime computes it.
+        // The caller must apply a factor from another item, because no type of the runtime does this.
         Some(Scale::TimesItem { .. }) => return None,
         Some(Scale::Exponent { base: 10, fraction: 0, .. }) => {
             QuantityType { path: generic!("rt::Exponential", base), word: format!("Exponential{word}") }
@@ -53,7 +53,7 @@ pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
     Some(quantity_type)
 }
 
-/// Returns the raw values with a special meaning, each once.
+/// Returns the raw values with a special meaning, without repetitions.
 fn sentinels(quantity: &Quantity) -> Vec<(i128, &str)> {
     let mut list: Vec<(i128, &str)> = Vec::new();
     for (value, name) in &quantity.sentinels {
@@ -87,7 +87,7 @@ fn by_fraction(name: &str, base: &str, word: &str, factor: f64) -> Option<Quanti
     })
 }
 
-/// Returns the path of a type with these numbers as parameters.
+/// Returns the path of a type with these numbers as generic arguments.
 fn with_numbers(path: &str, base: &str, numbers: &[i64]) -> Doc {
     let parameters = std::iter::once(base.to_owned()).chain(numbers.iter().map(i64::to_string));
     list(&format!("{path}<"), parameters, ">")
@@ -101,7 +101,8 @@ fn spelled(number: i128) -> String {
     }
 }
 
-/// Returns numerator, denominator, and the numerator of the offset.
+/// Converts `factor` and `offset` to fractions with a common denominator. Returns the numerator of the factor, the
+/// denominator, and the numerator of the offset.
 fn common(factor: f64, offset: f64) -> Option<(i64, i64, i64)> {
     let (num, den) = rational(factor)?;
     if offset == 0.0 {
@@ -121,8 +122,8 @@ fn gcd(a: i64, b: i64) -> i64 {
     }
 }
 
-/// Returns the simplest fraction that equals `real` exactly: 0.01 is 1/100. Returns `None` for 0, for NaN, for
-/// infinity, and for numbers that need more than 64 bits.
+/// Returns the simplest fraction that is exactly equal to `real`: 0.01 gives 1/100. Returns `None` for 0, NaN,
+/// infinity, and numbers that need more than 64 bits.
 fn rational(real: f64) -> Option<(i64, i64)> {
     if !real.is_normal() {
         return None;
@@ -135,7 +136,7 @@ fn rational(real: f64) -> Option<(i64, i64)> {
         -126..=-1 => (mantissa, 1_i128 << -exponent),
         _ => return None,
     };
-    // Continued fractions: each step is the best approximation with a denominator of its size.
+    // Use continued fractions: each step gives the best approximation with a denominator of its size.
     let ((mut num, mut den), mut last) = ((1_i128, 0_i128), (0_i128, 1_i128));
     loop {
         let whole = p / q;

@@ -3,7 +3,7 @@
 use super::scope::Scope;
 use crate::ir::{Group, ObjectCode};
 
-/// Returns the objects with values, with their positions. Type definitions have no values.
+/// Returns the objects that have values, with their positions. Type definitions have no values.
 pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = (u32, &'a Group)> + use<'a> {
     scope.positioned_groups().filter(|(_, group)| {
         let is_type =
@@ -12,7 +12,7 @@ pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = (u32, &
     })
 }
 
-/// Returns whether an object is a module of several values.
+/// Returns whether an object becomes a module with several values.
 pub(super) fn is_module(group: &Group) -> bool {
     group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
 }

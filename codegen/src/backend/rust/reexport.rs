@@ -1,6 +1,6 @@
 //! Definitions that a device re-exports from an earlier device of the same file.
 
-/// A module of a device that contains definitions.
+/// A module of a device for one kind of definitions.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Section {
     Types,
@@ -25,10 +25,10 @@ impl Section {
     }
 }
 
-/// Definitions of a section that an earlier device contains.
+/// Definitions that a device re-exports in one section.
 pub(super) struct Reexport {
     pub section: Section,
-    /// The module of the earlier device.
+    /// Module name of the earlier device that contains the definitions.
     pub home: String,
     pub names: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! Input of `lexibus::pdo!`: PDOs with a changeable mapping, their limits, and the items that can be mapped.
+//! The input of `lexibus::pdo!`: PDOs with a changeable mapping, their limits, and the items that can be mapped.
 
 use std::collections::HashMap;
 
@@ -14,25 +14,24 @@ use super::scope::ObjectBus;
 use crate::facts::pdo::mapped_objects;
 use crate::ir::{Device, Direction, Item, Mappable, Pdo, Type, MAX_PDO_SUBS};
 
-/// Maximum length in bits that the mapping of an entry can state.
+/// Maximum length in bits of a mapped entry. The mapping has 8 bits for the length.
 const MAX_ENTRY: u32 = 0xFF;
 
-/// Maximum number of bytes of a sync manager, whose length has 16 bits (ETG.1000.4 6.7.2).
+/// Maximum length of a sync manager in bytes. The length register has 16 bits (ETG.1000.4 6.7.2).
 const MAX_SYNC_MANAGER: u16 = u16::MAX;
 
-/// A PDO with a mapping that can be changed.
+/// A PDO with a changeable mapping, ready to be printed.
 pub(super) struct RemappableModel {
     pub name: String,
     pub title: String,
     pub direction: &'static str,
     /// Type of the COB-ID.
     pub cob_id: &'static str,
-    /// Constants, each with its type and value.
+    /// Constants of the PDO, each with its type and value.
     pub constants: Vec<Doc>,
 }
 
-/// Returns the PDOs with a mapping that can be changed. If there are any, the mapping of each item is added to
-/// `objects`.
+/// Returns the PDOs with a changeable mapping. If there are any, adds the mapping of each item to `objects`.
 pub(super) fn models(context: &Context<'_>, objects: &mut [ObjectModel]) -> Vec<RemappableModel> {
     let Some(device) = context.device else { return Vec::new() };
     let models = context.names.pdos.iter().filter_map(|named| model(context, device, named.pdo, named.name.clone()));
@@ -84,7 +83,7 @@ fn model(context: &Context<'_>, device: &Device, pdo: &Pdo, name: String) -> Opt
     })
 }
 
-/// Returns the number of entries of the mapping object that can be written; `None` if their count is read-only.
+/// Returns the number of writable entries in the mapping object. Returns `None` if the number of entries is read-only.
 fn writable_entries(context: &Context<'_>, pdo: &Pdo) -> Option<usize> {
     let (_, mapping) = addressable(context).find(|(_, group)| group.index() == Some(pdo.mapping_index))?;
     let writable = |sub: &u8| mapping.sub(*sub).is_some_and(|item| item.access.writable());
@@ -92,7 +91,7 @@ fn writable_entries(context: &Context<'_>, pdo: &Pdo) -> Option<usize> {
     (writable(&0) && entries > 0).then_some(entries)
 }
 
-/// Adds the constants for CANopen. Returns the type of the COB-ID; `None` if the mapping is fixed.
+/// Adds the constants for CANopen. Returns the type of the COB-ID. Returns `None` if the mapping is fixed.
 fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
     let communication = pdo.communication.as_ref()?;
     let settings = device.canopen.as_deref();
@@ -124,7 +123,7 @@ fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'
     }
 }
 
-/// Adds the constants for EtherCAT. Returns the type that replaces the COB-ID.
+/// Adds the constants for EtherCAT. Returns the type that is used instead of a COB-ID.
 fn on_ethercat(context: &Context<'_>, device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
     if context.bus != ObjectBus::CoE || device.dictionary_only {
         return None;
@@ -137,18 +136,18 @@ fn on_ethercat(context: &Context<'_>, device: &Device, pdo: &Pdo, constants: &mu
     Some("rt::pdo::OnEtherCat")
 }
 
-/// Returns whether the description allows writing the mappings.
+/// Returns whether the device allows a master to write mappings.
 fn configures(device: &Device) -> bool {
     let mailbox = device.ethercat.as_ref().and_then(|ethercat| ethercat.mailbox.as_ref());
     mailbox.and_then(|mailbox| mailbox.coe.as_ref()).is_some_and(|coe| coe.pdo_config)
 }
 
-/// Returns the value of an entry of the mapping object.
+/// Returns the value of an entry in the mapping object.
 fn word(index: u16, sub_index: u8, bits: u32) -> String {
     format!("0x{index:04X}_{sub_index:02X}{:02X}", bits & MAX_ENTRY)
 }
 
-/// Adds the mapping of each item that can be mapped. Returns whether there are any.
+/// Adds the mapping to each item that can be mapped. Returns whether there are such items.
 fn set_mappable(context: &Context<'_>, objects: &mut [ObjectModel]) -> bool {
     let items = context.groups.iter().flat_map(|group| &group.items);
     let items: HashMap<(u16, u8), &Item> = items.filter_map(|item| Some((item.object()?, item))).collect();
@@ -172,7 +171,7 @@ fn set_mappable(context: &Context<'_>, objects: &mut [ObjectModel]) -> bool {
     any
 }
 
-/// Returns the arguments of `rt::Mappable`: the type of the field, the direction, and the mapped entry.
+/// Returns the generic arguments of `rt::Mappable`: the type of the field, the direction, and the mapped entry.
 fn arguments(
     context: &Context<'_>,
     item: &Item,
@@ -192,7 +191,7 @@ fn arguments(
     Some([field, direction.to_owned(), word(index, sub_index, bits)])
 }
 
-/// Returns the length in bits, also of texts with a known length.
+/// Returns the length of a type in bits. Texts with a known length are included.
 fn bits(ty: Type) -> Option<u32> {
     match ty {
         Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),

@@ -1,10 +1,10 @@
-//! The route to an item on each bus: its type, and the code that creates it.
+//! The route to an item on each bus: its Rust type, and the code that creates it.
 
 use super::code::{call, generic, seq, slice, Doc};
 use crate::ir::{Bus, Limits, Value};
 
-/// A bus of a location, in the order of the location's fields. PROFINET records are missing because register tables
-/// cannot describe them.
+/// A bus of a location, in the order of the location's fields. PROFINET records are not included because register
+/// tables cannot describe them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum RouteBus {
     CanOpen,
@@ -19,7 +19,7 @@ impl RouteBus {
     pub const ALL: [RouteBus; 6] =
         [RouteBus::CanOpen, RouteBus::CoE, RouteBus::Modbus, RouteBus::Serial, RouteBus::Image, RouteBus::Esc];
 
-    /// Returns the bus to which facts of items refer.
+    /// Returns the bus in the terms of the IR.
     pub fn of_items(self) -> Bus {
         match self {
             RouteBus::CanOpen => Bus::CanOpen,
@@ -30,7 +30,7 @@ impl RouteBus {
         }
     }
 
-    /// Returns the name of the bus as a part of other names.
+    /// Returns the name of the bus for use in other names.
     pub fn word(self) -> &'static str {
         match self {
             RouteBus::CanOpen => "CanOpen",
@@ -42,7 +42,7 @@ impl RouteBus {
         }
     }
 
-    /// Returns the bus type of the runtime.
+    /// Returns the name of the runtime's type for the bus.
     pub fn type_name(self) -> &'static str {
         match self {
             RouteBus::Image => "ProcessImage",
@@ -50,12 +50,12 @@ impl RouteBus {
         }
     }
 
-    /// Returns the field of the bus in a location.
+    /// Returns the name of the location field for the bus.
     pub fn field(self) -> String {
         self.word().to_lowercase()
     }
 
-    /// Returns the name of the bus in a sentence.
+    /// Returns the name of the bus for a sentence.
     pub fn title(self) -> &'static str {
         match self {
             RouteBus::CanOpen => "CANopen",
@@ -67,7 +67,7 @@ impl RouteBus {
         }
     }
 
-    /// Returns the type of addresses on the bus.
+    /// Returns the name of the address type for the bus.
     pub fn address_type(self) -> &'static str {
         match self {
             RouteBus::CanOpen | RouteBus::CoE => "rt::Object",
@@ -79,7 +79,7 @@ impl RouteBus {
     }
 }
 
-/// The conversions between an item and its address.
+/// The kind of an access path. It states how values are converted between the item and its address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum PathKind {
     Direct,
@@ -118,7 +118,7 @@ impl PathKind {
 pub(super) enum RouteKind {
     #[default]
     Absent,
-    /// One path for all access that the item allows.
+    /// The same path for reading and writing, as far as the item allows them.
     One(PathKind),
     Reads(PathKind),
     Writes(PathKind),
@@ -126,7 +126,7 @@ pub(super) enum RouteKind {
 }
 
 impl RouteKind {
-    /// Returns the type of the route; `None` if there is no route.
+    /// Returns the type of the route. Returns `None` if there is no route.
     pub fn ty(self, bus: RouteBus) -> Option<Doc> {
         Some(match self {
             RouteKind::Absent => return None,
@@ -137,7 +137,7 @@ impl RouteKind {
         })
     }
 
-    /// Returns the name of the route as a part of other names.
+    /// Returns the name of the route for use in other names.
     pub fn word(self, bus: RouteBus) -> String {
         let bus = bus.word();
         match self {
@@ -151,16 +151,16 @@ impl RouteKind {
     }
 }
 
-/// The path by which an item is read, or written, on one bus.
+/// The path through which an item is read or written on a bus.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AccessPath<'i> {
-    /// Position of the window and number behind it; `None` if the item has an address.
+    /// Position of the window, and the number that selects the item in it. `None` if the item has its own address.
     pub window: Option<(usize, u32)>,
-    /// Number of bits on the bus, if it differs from the item's.
+    /// Number of bits on the bus if it differs from the number of bits of the item.
     pub resized: Option<u8>,
-    /// Values that are allowed on the bus, and whether the item's values are signed.
+    /// Allowed values on the bus, and whether the item is signed.
     pub limited: Option<(&'i Limits, bool)>,
-    /// Whether the narrower of the item's and the bus's numbers is signed.
+    /// Whether the narrower one of the item's number and the number on the bus is signed.
     pub is_signed: bool,
 }
 
@@ -175,8 +175,8 @@ impl AccessPath<'_> {
         }
     }
 
-    /// Returns the code that creates the path. `at` is the code of the address or window, and `number` replaces the
-    /// number behind the window.
+    /// Returns the code that creates the path. `at` is the code of the address or window. `number` replaces the number
+    /// that selects the item in the window.
     pub fn code(&self, at: &str, number: Option<&str>) -> Doc {
         let sign = if self.is_signed { "signed" } else { "unsigned" };
         if let Some((_, window_number)) = self.window {
@@ -207,12 +207,12 @@ fn ranges(limits: &Limits) -> Vec<String> {
     ranges.map(|(first, last)| format!("({first}, {last})")).collect()
 }
 
-/// The paths by which an item is read and written on one bus.
+/// The paths through which an item is read and written on a bus.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Route<'i> {
     pub read: Option<AccessPath<'i>>,
     pub write: Option<AccessPath<'i>>,
-    /// Whether the item can be read and written. This bus may allow only one of both.
+    /// Whether the item is readable and writable. This bus may allow only one of them.
     pub is_partial: bool,
 }
 
@@ -222,7 +222,7 @@ impl Route<'_> {
             (None, None) => RouteKind::Absent,
             (Some(read), Some(write)) if read == write => RouteKind::One(read.kind()),
             (Some(read), Some(write)) => RouteKind::Both(read.kind(), write.kind()),
-            // The type of a window determines whether it reads or writes.
+            // The type of a window states whether it is for reading or writing.
             (Some(access_path), None) if self.is_partial || access_path.window.is_some() => {
                 RouteKind::Reads(access_path.kind())
             }
@@ -233,13 +233,13 @@ impl Route<'_> {
         }
     }
 
-    /// Returns the paths that exist.
+    /// Returns the paths of the route: for reading, for writing, or both.
     pub fn access_paths(&self) -> impl Iterator<Item = &AccessPath<'_>> {
         self.read.iter().chain(&self.write)
     }
 
-    /// Returns the code that creates the route, if there is one. `address` is the code of the address, `window` returns
-    /// the name of a window, and `number` replaces the number behind it.
+    /// Returns the code that creates the route if there is one. `address` is the code of the address, `window` returns
+    /// the name of a window, and `number` replaces the number that selects the item in the window.
     pub fn code(&self, address: &str, window: impl Fn(usize) -> String, number: Option<&str>) -> Option<Doc> {
         let code_of = |access_path: &AccessPath<'_>| match access_path.window {
             Some((at, _)) => access_path.code(&window(at), number),

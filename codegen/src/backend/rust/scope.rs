@@ -1,4 +1,4 @@
-//! Owners of objects and PDOs: devices, and modules of modular devices.
+//! Devices and modules of modular devices, as owners of objects and PDOs.
 
 use super::value_type::ValueType;
 use crate::facts::words;
@@ -6,22 +6,22 @@ use crate::ir::{
     Device, Group, Item, ItemId, ItemRef, Manual, Module, ObjectBuses, Pdo, ProcessImage, Shape, Type, TypeDef,
 };
 
-/// The bus on which objects are addressed.
+/// The bus on which a device's objects are addressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ObjectBus {
     CanOpen,
     CoE,
 }
 
-/// A device or module, with the types that it defines.
+/// A device or module with the types that it defines.
 pub(super) struct Scope<'a> {
     pub bus: ObjectBus,
     pub groups: &'a [Group],
-    /// Position of the first group, as IDs count groups.
+    /// Position of the first group, as counted in IDs.
     first_group: u32,
     pub types: &'a [TypeDef],
     pub pdos: &'a [Pdo],
-    /// The device; `None` for a module.
+    /// The device. `None` if the scope is a module.
     pub device: Option<&'a Device>,
     /// The manual that the description was transcribed from.
     pub manual: Manual,
@@ -51,7 +51,7 @@ impl<'a> Scope<'a> {
         self.groups.get(position)
     }
 
-    /// Returns the bus of a PDO: the bus of the device, or the only bus of the PDO.
+    /// Returns the bus of a PDO. It is the only bus of the PDO, or the bus of the device.
     pub fn bus_of(&self, pdo: &Pdo) -> ObjectBus {
         match pdo.buses {
             Some(ObjectBuses::COE) => ObjectBus::CoE,
@@ -65,9 +65,10 @@ impl<'a> Scope<'a> {
         self.device?.process_data.images.iter().find(|image| image.name == name)
     }
 
-    /// Resolves aliases of a type. Returns the basic type and, for a type with a shape, its position and definition.
+    /// Resolves aliases of a type. Returns the basic type. If the type has a shape, also returns its position and
+    /// definition.
     pub fn resolve(&self, ty: Type) -> (Type, Option<(u32, &'a TypeDef)>) {
-        /// Longer chains of aliases are treated as cycles.
+        /// Maximum length of a chain of aliases. Longer chains are treated as cycles.
         const DEPTH: usize = 16;
         let mut ty = ty;
         for _ in 0..DEPTH {
@@ -93,12 +94,12 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// Returns the Rust type of values of a type.
+    /// Returns the Rust type for values of a type.
     pub fn value_type(&self, ty: Type) -> ValueType {
         ValueType::of(self.base(ty))
     }
 
-    /// Returns the groups with their positions, as IDs count them.
+    /// Returns the groups with their positions, as counted in IDs.
     pub fn positioned_groups(&self) -> impl Iterator<Item = (u32, &'a Group)> + use<'a> {
         (self.first_group..).zip(self.groups)
     }

@@ -1,9 +1,9 @@
-//! Dependency of indices on the slot, for modular devices.
+//! How indices depend on the slot of a modular device.
 
-/// Dependency of an index that is the same in every slot.
+/// Dependency of an index that is the same in all slots.
 pub(super) const NOTHING: &str = "rt::ethercat::DependsOn::Nothing";
 
-/// Returns the dependency of an index.
+/// Returns the dependency of an index on the slot and on the slot group.
 pub(super) fn depends_on(slot: bool, group: bool) -> &'static str {
     match (slot, group) {
         (false, false) => NOTHING,

@@ -1,4 +1,4 @@
-//! The static table of all items that a client can access.
+//! The static table of all items that clients can access.
 
 use super::code::{call, Doc};
 use super::constructor::flags;
@@ -10,10 +10,10 @@ use super::value_type::ValueType;
 use super::variant;
 use crate::ir::{Access, Bus, Item, Type, Value};
 
-/// A row of the table.
+/// A row of the static table.
 pub(super) struct EntryModel {
     pub object: Option<ObjectAddress>,
-    /// Call that creates the register.
+    /// Constructor call of the register.
     pub register: Option<String>,
     pub name: String,
     pub data_type: String,
@@ -25,8 +25,8 @@ pub(super) struct EntryModel {
     pub unit: String,
 }
 
-/// Returns the rows: registers that are not objects, sorted by address, followed by objects, sorted by index and
-/// sub-index.
+/// Returns the rows of the table. Registers that are not objects come first, sorted by address. Objects follow, sorted
+/// by index and sub-index.
 pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
     let mut rows = Vec::new();
     for (_, group) in addressable(context) {
@@ -42,18 +42,18 @@ pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
     rows.into_iter().map(|(_, row)| row).collect()
 }
 
-/// Sort key of a row, which sorts objects and registers as the runtime does.
+/// Sort key of a row. The runtime sorts objects and registers in the same way.
 type Key = (Option<ObjectAddress>, Option<(u8, u16, Option<u8>)>);
 
-/// Adds the rows of an item. It has two rows if its objects on CANopen and EtherCAT differ, and none if it is only a
-/// parameter of a serial protocol.
+/// Adds the rows of an item. An item has two rows if its objects on CANopen and EtherCAT differ. It has no row if it is
+/// only a parameter of a serial protocol.
 fn entries(context: &Context<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
     let addresses = ItemAddresses::of(context, item);
     let [object, other] = addresses.objects();
     let (mut register, key) = (addresses.register_code(), addresses.register_key());
     let at_object = BusForm::on(item, if addresses.is_on_canopen() { Bus::CanOpen } else { Bus::EtherCat });
     let at_register = BusForm::on(item, Bus::Modbus);
-    // The register may have a different width or access.
+    // The register may have another width or other access rights than the object.
     if object.is_some() && register.is_some() && at_object != at_register {
         rows.push(((None, key), entry(context, item, name, None, register.take(), at_register)));
         rows.push(((object, None), entry(context, item, name, object, None, at_object)));
@@ -65,7 +65,7 @@ fn entries(context: &Context<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, 
     rows.extend(other.map(|other| ((Some(other), None), entry(context, item, name, Some(other), None, form))));
 }
 
-/// Type and access of an item on one bus.
+/// Type and access rights of an item on one bus.
 #[derive(Clone, Copy, PartialEq)]
 struct BusForm {
     ty: Type,

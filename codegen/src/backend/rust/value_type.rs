@@ -1,19 +1,19 @@
-//! Rust types and literals for the types and values of the IR.
+//! Rust types and literals for the IR's types and values.
 
 use super::code::{call, slice, Doc};
 use super::literal;
 use crate::ir::{Limits, Type, Value};
 
-/// The type of an item's value, in the runtime.
+/// The runtime's type for an item's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ValueType {
-    /// A primitive type: `u16`, `i64`, `bool`, `f32`.
+    /// A primitive type, such as `u16`, `i64`, `bool` or `f32`.
     Native { name: &'static str, range: Option<(i128, i128)>, real: u32 },
     /// `Uint<N>` or `Int<N>`.
     Odd { name: &'static str, range: (i128, i128) },
-    /// Text, with a string literal.
+    /// A text type. Its values are string literals.
     Text(&'static str),
-    /// Bytes, with a byte string literal.
+    /// A byte sequence type. Its values are byte string literals.
     Bytes(&'static str),
     /// A time type of the runtime.
     Time(&'static str),
@@ -75,7 +75,8 @@ impl ValueType {
         }
     }
 
-    /// Returns the path of an integer type and the primitive integer of its values; `None` for other types.
+    /// Returns the path of an integer type, and the primitive integer that holds its values. Returns `None` for other
+    /// types.
     pub(super) fn number(self) -> Option<(&'static str, &'static str)> {
         let (low, high) = self.integers()?;
         let width = 128 - if low < 0 { high + 1 } else { high }.leading_zeros();
@@ -83,14 +84,14 @@ impl ValueType {
         Some((self.path(), native))
     }
 
-    /// Returns the name of the type as a part of other names: `U16`, `Int24`, `VisibleString`.
+    /// Returns the name of the type for use in other names: `U16`, `Int24`, `VisibleString`.
     pub(super) fn word(self) -> String {
         let mut letters = self.path().trim_start_matches("rt::").chars().filter(char::is_ascii_alphanumeric);
         let first = letters.next().map(|first| first.to_ascii_uppercase());
         first.into_iter().chain(letters).collect()
     }
 
-    /// Returns whether literals of the type may resemble a mathematical constant, which clippy reports.
+    /// Returns whether literals of the type may be close to a mathematical constant. Clippy reports such literals.
     pub(super) fn is_real(self) -> bool {
         matches!(self, ValueType::Native { real: 32 | 64, .. })
     }
@@ -103,7 +104,7 @@ impl ValueType {
         }
     }
 
-    /// Returns a literal of the type; `None` if the type cannot represent the value.
+    /// Returns a literal of the type. Returns `None` if the type cannot represent the value.
     pub(super) fn literal(self, value: &Value) -> Option<String> {
         match (self, value) {
             (ValueType::Native { name: "bool", .. }, Value::Bool(value)) => Some(value.to_string()),
@@ -121,8 +122,8 @@ impl ValueType {
         }
     }
 
-    /// Returns the offset that a formula adds to the node-ID; `None` for other values, or if the offset does not fit in
-    /// the type.
+    /// Returns the offset that a formula adds to the node-ID. Returns `None` for other values, and for offsets that do
+    /// not fit in the type.
     pub(super) fn formula(self, value: &Value) -> Option<i128> {
         let (low, high) = self.integers()?;
         match value {
@@ -131,10 +132,10 @@ impl ValueType {
         }
     }
 
-    /// Returns an `Initial` of the type. `wrap` converts literals to values.
+    /// Returns the expression of an `Initial`. `wrap` converts literals to values.
     pub(super) fn initial_as(self, value: Option<&Value>, wrap: &dyn Fn(String) -> Doc) -> Doc {
         if let Some(offset) = value.and_then(|value| self.formula(value)) {
-            // A negative number in hexadecimal would be printed as its two's complement.
+            // A negative number would be formatted as its two's complement in hexadecimal.
             let offset = if offset < 0 { offset.to_string() } else { format!("{offset:#x}") };
             return call!("rt::Initial::NodeId", wrap(offset));
         }
@@ -145,7 +146,7 @@ impl ValueType {
         }
     }
 
-    /// Returns a `Range` of the type. Limits beyond the type are clamped, and impossible limits are not checked.
+    /// Returns the expression of a `Range`. Limits beyond the type are clamped; contradictory limits are not checked.
     pub(super) fn range_as(self, limits: &Limits, wrap: &dyn Fn(String) -> Doc) -> Doc {
         const FULL: &str = "rt::Range::Full";
         if let Some(list) = self.only(limits, wrap) {
@@ -173,7 +174,8 @@ impl ValueType {
         }
     }
 
-    /// Returns a `Range` for an integer with fewer bits than its Rust type. Values beyond its width are never allowed.
+    /// Returns the expression of a `Range` for an integer with fewer bits than its Rust type. It excludes values beyond
+    /// the integer's width.
     #[cfg(feature = "messages")]
     pub(super) fn range_within(self, limits: &Limits) -> Option<Doc> {
         if let Some(list) = self.only(limits, &Doc::from) {
@@ -188,8 +190,8 @@ impl ValueType {
         })
     }
 
-    /// Returns a `Range` of single values; `None` if the limits list no values or the type cannot represent one of
-    /// them.
+    /// Returns the expression of a `Range` with single values. Returns `None` if the limits are not a list of values,
+    /// or the type cannot represent one of them.
     fn only(self, limits: &Limits, wrap: &dyn Fn(String) -> Doc) -> Option<Doc> {
         let (low, high) = self.integers().filter(|_| !limits.allowed.is_empty())?;
         let one = |value: &Value| {
@@ -240,7 +242,7 @@ pub(super) fn native(signed: bool, bits: u32) -> &'static str {
     }
 }
 
-/// Returns a number in its usual notation. Large unsigned numbers are hexadecimal, because most of them are bit
+/// Formats a number in its usual notation. Large unsigned numbers are hexadecimal, because most of them are bit
 /// patterns, addresses and signatures.
 pub(super) fn number(value: i128, unsigned: bool) -> String {
     if unsigned && value > 0xFFFF {

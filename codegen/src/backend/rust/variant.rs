@@ -1,11 +1,12 @@
-//! Items that differ between models and buses: the limits that cover all of them, and the item on one model.
+//! Items that differ between models and buses: the limits that cover all variants, and the item of a single model.
 
 use thin_vec::ThinVec;
 
 use crate::ir::{Item, Limits, Value};
 use crate::text::glob;
 
-/// Returns the item on a model; `None` if its values do not differ between models, or the model does not have it.
+/// Returns the item with the values of one model. Returns `None` if its values do not differ between models, or if the
+/// model does not have the item.
 pub(super) fn on_model(item: &Item, model: &str) -> Option<Item> {
     let differs = |variant: &&crate::ir::ItemVariant| {
         !variant.models.is_empty()
@@ -35,7 +36,7 @@ pub(super) fn on_model(item: &Item, model: &str) -> Option<Item> {
     Some(adapted)
 }
 
-/// Returns the limits for writes: the widest range over all models and buses.
+/// Returns the limits for writing: the widest range of all models and buses.
 pub(super) fn widest(item: &Item) -> Limits {
     let mut limits = item.limits.clone();
     let writable = item.behaviour.iter().flat_map(|behaviour| &behaviour.writable_values);

@@ -1,4 +1,4 @@
-//! Windows: pairs of an item that selects a value by its number and an item that holds the value.
+//! Windows. A window is a pair of items: the first selects a value by number, and the second contains the value.
 
 use super::item_addresses;
 use super::route::RouteBus;
@@ -6,7 +6,7 @@ use super::scope::Scope;
 use crate::ir::{Binding, Device, IndirectBinding, Item, ItemId, ItemRef, Procedure, Step, WindowSide};
 use crate::names::{self, Case, NameRequest};
 
-/// Maximum number of polls of a number that the device clears, if no timeout in milliseconds is stated.
+/// Maximum number of polls until the device clears the number, if the description states no timeout in milliseconds.
 const POLLS: u32 = 100;
 
 /// A window for reading or writing on one bus.
@@ -16,7 +16,7 @@ pub(super) struct Window {
     pub side: WindowSide,
     /// Number of bits of the item that selects the value.
     pub number_bits: u32,
-    /// Number of bits of the value, and whether it is signed.
+    /// Number of bits of the item that contains the value, and whether this item is signed.
     pub value: (u32, bool),
     /// Code that creates the addresses of the number and of the value.
     pub addresses: [String; 2],
@@ -25,7 +25,7 @@ pub(super) struct Window {
     pub name: String,
 }
 
-/// Returns all windows through which items of the device are accessed, each once.
+/// Returns all windows through which items of the device are accessed, without repetitions.
 pub(super) fn windows(scope: &Scope<'_>, device: &Device) -> Vec<Window> {
     let mut found: Vec<Window> = Vec::new();
     for item in scope.groups.iter().flat_map(|group| &group.items) {
@@ -85,7 +85,7 @@ fn title(window: &Window) -> String {
     format!("{space} {} {}", if *is_write { "write" } else { "read" }, bus.word().to_lowercase())
 }
 
-/// Returns the window; `None` if the bus does not provide both items.
+/// Returns the window. Returns `None` if the bus does not provide both items.
 fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u8, RouteBus, bool)) -> Option<Window> {
     let (_, _, bus, is_write) = key;
     let (number, value) = (scope.referred(&side.number)?, scope.referred(&side.value)?);
@@ -108,7 +108,7 @@ fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u
         number_bits: bits(number_type)?,
         value: (bits(value_type)?, value_type.is_signed()),
         addresses,
-        // The number that the device clears starts the transfer, so it is written last.
+        // If the device clears the number, writing it starts the transfer. The number is therefore written last.
         number_first: side.number_first.or(implied.number_first).unwrap_or(!clears),
         handshake,
         side: side.clone(),
@@ -148,7 +148,7 @@ impl ImpliedHandshake {
     }
 }
 
-/// Returns whether a window can transfer values of an item: integers, and real numbers of the same width.
+/// Returns whether a window can transfer values of an item. These are integers, and real numbers with the same width.
 pub(super) fn carries(scope: &Scope<'_>, item: &Item, window: &Window) -> bool {
     use crate::ir::Type;
     match scope.base(item.ty) {

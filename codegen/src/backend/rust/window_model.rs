@@ -1,4 +1,4 @@
-//! Models of windows, ready to be printed.
+//! Windows, ready to be printed.
 
 use super::code::{generic, Doc};
 use super::context::Context;

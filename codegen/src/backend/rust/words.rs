@@ -1,13 +1,13 @@
-//! Escaping of texts in doc comments.
+//! Escapes texts for doc comments.
 
 use super::literal;
 use crate::facts::markdown;
 use crate::facts::words::{Words, NO_LINK};
 
-/// Sentences for doc comments, without links.
+/// Builder of sentences for doc comments. The sentences have no links.
 pub(super) const WORDS: Words<'static> = Words { escape, link: NO_LINK };
 
-/// Returns text as one line of Markdown without markup.
+/// Converts a text to one line of Markdown without markup.
 pub(super) fn escape(text: &str) -> String {
     markdown::escape(text, literal::is_harmless)
 }

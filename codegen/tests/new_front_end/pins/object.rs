@@ -1,4 +1,4 @@
-//! Reads the object of a line: index, name, type, access rights.
+//! Reads the object that a line describes: index, name, type and access rights.
 
 use crate::ir::{Access, Binding, Group, Item, ObjectBuses, ObjectCode, Type};
 use crate::source::Origin;

@@ -1,4 +1,4 @@
-//! Reads the lines of a file.
+//! Reads the lines of a PINS file.
 
 use super::object::object;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};

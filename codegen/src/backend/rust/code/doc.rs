@@ -1,44 +1,45 @@
-//! Documents: code of one construct, and the positions at which it may be broken.
+//! Documents: the code of a construct with marked positions for line breaks.
 
 use compact_str::CompactString;
 
-/// Code of one construct: its text on one line, and the positions at which it may be broken.
+/// Code of one construct: its text on one line, with marked positions for line breaks.
 ///
-/// The members of a list are all on one line, or each has a separate line. As in Oppen's algorithm, a list is on one
-/// line only if the text up to the next break position fits as well.
+/// The members of a list are either all on one line or each on a separate line. As in Oppen's algorithm, a list is on
+/// one line only if the text up to the next break position also fits.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Doc {
     text: String,
-    /// Marks with their offsets in the text.
+    /// Marks with their byte offsets in the text.
     marks: Vec<(usize, Mark)>,
 }
 
-/// A position in a document.
+/// The meaning of a position in a document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum Mark {
     /// Begins a list.
     Open,
-    /// Begins the fields of a struct literal. `is_long` means that they are never on one line.
+    /// Begins the fields of a struct literal. `is_long` means that each field has its own line.
     OpenStruct { is_long: bool },
-    /// Begins a list of numbers or names. When the list is broken, each line has as many of them as fit.
+    /// Begins a list of numbers or names. If the list is broken, each line has as many members as fit.
     OpenNumbers,
-    /// Separates members.
+    /// Separates two members.
     Next,
-    /// Ends a list, a struct or numbers.
+    /// Ends a list, struct literal or list of numbers.
     Close,
-    /// A position at which the line could be broken but never is. The look-ahead ends here.
+    /// A break position at which the line is never broken. The look-ahead for the previous list ends here.
     Stop,
-    /// A position at which the line is broken if the rest doesn't fit. A blank at this position is dropped.
+    /// A position where the line is broken if the following text does not fit. A break removes the space at this
+    /// position.
     Soft,
 }
 
-/// A part of a line: text, or a document.
+/// A piece of a line: text or a document.
 pub trait Piece {
     /// Appends the piece to a document.
     fn put(&self, to: &mut Doc);
 }
 
-/// A position at which the line could be broken but never is.
+/// A break position at which the line is never broken.
 #[derive(Clone, Copy)]
 pub struct Stop;
 
@@ -48,7 +49,7 @@ impl Piece for Stop {
     }
 }
 
-/// A position at which the line is broken if the rest doesn't fit.
+/// A position where the line is broken if the following text does not fit.
 #[derive(Clone, Copy)]
 pub struct Break;
 
@@ -123,7 +124,7 @@ impl<T: Into<String>> From<T> for Doc {
 }
 
 impl Doc {
-    /// Creates a document from these pieces in order.
+    /// Creates a document from pieces in their order.
     pub fn of(pieces: &[&dyn Piece]) -> Self {
         let mut doc = Doc::default();
         pieces.iter().for_each(|piece| piece.put(&mut doc));
@@ -139,7 +140,7 @@ impl Doc {
         &self.marks
     }
 
-    /// Clears the document.
+    /// Removes all content.
     pub(super) fn clear(&mut self) {
         self.text.clear();
         self.marks.clear();
@@ -149,7 +150,7 @@ impl Doc {
         self.marks.push((self.text.len(), mark));
     }
 
-    /// Creates a list with these members between `start` and `end`.
+    /// Creates a list of members between `start` and `end`.
     fn list(start: &dyn Piece, members: &mut dyn Iterator<Item = &dyn Piece>, end: &str) -> Self {
         let mut doc = Doc::default();
         start.put(&mut doc);
@@ -170,19 +171,19 @@ impl Doc {
         Doc::list(&Doc::of(start), &mut members.iter().copied(), end)
     }
 
-    /// Adds a separator between two members.
+    /// Adds a separator after a member.
     fn next(&mut self) {
         self.mark(Mark::Next);
         self.text.push_str(", ");
     }
 
-    /// Returns whether the document contains a struct that is never on one line.
+    /// Returns whether the document contains a struct literal whose fields each have their own line.
     pub(super) fn has_long(&self) -> bool {
         self.marks.iter().any(|(_, mark)| matches!(mark, Mark::OpenStruct { is_long: true }))
     }
 }
 
-/// Creates a list between `start` and `end`. The members have one line each if they don't fit on one line.
+/// Creates a list of members between `start` and `end`. Each member has its own line if they do not fit on one line.
 pub fn list<P: Piece>(start: &str, members: impl IntoIterator<Item = P>, end: &str) -> Doc {
     let members: Vec<P> = members.into_iter().collect();
     Doc::list(&start, &mut members.iter().map(|member| member as &dyn Piece), end)
@@ -193,14 +194,14 @@ pub fn slice<P: Piece>(members: impl IntoIterator<Item = P>) -> Doc {
     list("&[", members, "]")
 }
 
-/// Creates a document from the pieces in order.
+/// Creates a document from pieces in their order.
 macro_rules! seq {
     ($($piece:expr),* $(,)?) => {
         $crate::backend::rust::code::Doc::of(&[$(&$piece),*])
     };
 }
 
-/// Creates `path(…)`: a call, or the parameters of a function.
+/// Creates `path(…)`, which is a call or a function's parameter list.
 macro_rules! call {
     ($path:expr $(, $argument:expr)* $(,)?) => {
         $crate::backend::rust::code::Doc::joined(&[&$path, &"("], &[$(&$argument),*], ")")
@@ -216,7 +217,7 @@ macro_rules! generic {
 
 pub(in crate::backend::rust) use {call, generic, seq};
 
-/// Creates literals that consist of numbers, paths, structs, lists and calls.
+/// Creates literals of constants. They consist of numbers, paths, structs, lists and calls.
 pub struct Data;
 
 impl Data {
@@ -233,9 +234,10 @@ impl Data {
         Doc::from(format!("0x{value:04X}"))
     }
 
-    /// Creates `path { name: value, … }`, which is on one line only if it is short. Without fields, it is `path`.
+    /// Creates `path { name: value, … }`. The literal is on one line only if it is short. If there are no fields,
+    /// creates `path`.
     pub fn fields<N: AsRef<str>>(path: &str, fields: impl IntoIterator<Item = (N, Doc)>) -> Doc {
-        /// Maximum length of a literal on one line, up to the blank before its closing brace.
+        /// Maximum length of a struct literal on one line, up to the space before its closing brace.
         const SHORT: usize = 34;
         let mut fields = fields.into_iter().peekable();
         let mut doc = Doc::from(path);
@@ -264,7 +266,7 @@ impl Data {
         doc
     }
 
-    /// Creates `&[…]`. If all members are numbers, each line has as many of them as fit.
+    /// Creates `&[…]`. If all members are numbers, each line contains as many as fit.
     pub fn slice(members: impl IntoIterator<Item = Doc>) -> Doc {
         let members: Vec<Doc> = members.into_iter().collect();
         let is_number =
@@ -276,7 +278,7 @@ impl Data {
         doc
     }
 
-    /// Creates the end of an import: the name, or `{…}` with as many names on each line as fit.
+    /// Creates the last part of an import: a single name, or `{…}` with as many names per line as fit.
     pub fn names(names: &[String]) -> Doc {
         if let [only] = names {
             return Doc::from(only.as_str());
@@ -286,7 +288,7 @@ impl Data {
         doc
     }
 
-    /// Creates `path(…)`. A single struct starts on the line of the call.
+    /// Creates `path(…)`. If the only argument is a struct literal, it starts on the same line.
     pub fn call(path: &str, arguments: impl IntoIterator<Item = Doc>) -> Doc {
         let arguments: Vec<Doc> = arguments.into_iter().collect();
         match arguments.as_slice() {

@@ -1,14 +1,14 @@
-//! Line breaking.
+//! Breaks the lines of documents.
 
 use super::doc::{Doc, Mark};
 
-/// The maximum width of a line, in bytes as `prettyplease` counts.
+/// Maximum width of a line in bytes. `prettyplease` also counts bytes.
 const MARGIN: usize = 89;
 
-/// Number of blanks per indentation level.
+/// Number of spaces per indentation level.
 pub(super) const STEP: usize = 4;
 
-/// Writes a document on a new line with this indentation. `out` must end with the end of the previous line.
+/// Writes a document with the given indentation. `out` must end with a line end.
 pub(super) fn write(doc: &Doc, indent: usize, out: &mut String) {
     newline(out, indent);
     let text = doc.text();
@@ -23,7 +23,7 @@ pub(super) fn write(doc: &Doc, indent: usize, out: &mut String) {
     printer.text_to(text.len());
 }
 
-/// Starts a new line.
+/// Starts a new line with the given indentation.
 pub(super) fn newline(out: &mut String, indent: usize) {
     if !out.is_empty() {
         out.push('\n');
@@ -31,7 +31,7 @@ pub(super) fn newline(out: &mut String, indent: usize) {
     out.extend(std::iter::repeat_n(' ', indent));
 }
 
-/// An open list.
+/// A list whose end has not been written.
 #[derive(Clone, Copy)]
 struct List {
     kind: Mark,
@@ -41,7 +41,7 @@ struct List {
 struct Printer<'d, 'o> {
     doc: &'d Doc,
     out: &'o mut String,
-    /// Offset of the text that is not written yet.
+    /// Offset of the remaining text.
     at: usize,
     column: usize,
     indent: usize,
@@ -84,7 +84,7 @@ impl Printer<'_, '_> {
         }
     }
 
-    /// Writes the separator of two members: a comma, and a blank or a new line.
+    /// Writes the separator after a member: a comma, followed by a space or a new line.
     fn next(&mut self, position: usize) {
         let Some(list) = self.open.last().copied().filter(|list| list.is_broken) else { return };
         self.text_to(self.at + 1);
@@ -95,8 +95,7 @@ impl Printer<'_, '_> {
         self.skip_blank();
     }
 
-    /// Returns the width of the blank before the next number, of the number, and of the comma after it if another
-    /// number follows.
+    /// Returns the width of the next number with the space before it. A comma is included if another number follows.
     fn width_of_next(&self, position: usize) -> usize {
         let next_mark = self.doc.marks().get(position + 1);
         next_mark.map_or(0, |(offset, mark)| offset - self.at + usize::from(*mark == Mark::Next))
@@ -109,7 +108,7 @@ impl Printer<'_, '_> {
         self.at = self.at.max(end);
     }
 
-    /// Skips the blank at a position where the line is broken.
+    /// Skips the space at a position where the line is broken.
     fn skip_blank(&mut self) {
         if self.doc.text()[self.at..].starts_with(' ') {
             self.at += 1;
@@ -121,8 +120,9 @@ impl Printer<'_, '_> {
         self.column = self.indent;
     }
 
-    /// Returns the width on one line of the construct at a mark, and of the text that follows it up to the next break
-    /// position outside of later lists. Returns the maximum if a struct in the construct takes several lines.
+    /// Returns the width that a construct would have on one line. The width includes the following text up to the next
+    /// break position that is not in a later list. Returns the maximum if a struct in the construct needs several
+    /// lines.
     fn width(&self, position: usize) -> usize {
         let (mut depth, mut is_inside) = (0_usize, true);
         let marks = self.doc.marks().get(position..).unwrap_or_default();

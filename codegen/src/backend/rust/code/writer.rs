@@ -1,9 +1,9 @@
-//! Writes a module: lines, blocks and doc comments.
+//! Writes the code of a module: lines, blocks and doc comments.
 
 use super::doc::{Doc, Piece};
 use super::layout::{self, newline, STEP};
 
-/// Rust code that is written line by line.
+/// Writes Rust code line by line.
 pub struct Code {
     out: String,
     indent: usize,
@@ -13,23 +13,23 @@ pub struct Code {
 }
 
 impl Code {
-    /// Creates empty code. `start` is the text before it, and `runtime` is the path of the runtime.
+    /// Creates code that begins with the text `start`. `runtime` is the path of the runtime.
     pub fn new(start: String, runtime: &str) -> Self {
         Code { out: start, indent: 0, line: Doc::default(), runtime: runtime.to_owned() }
     }
 
-    /// Returns the text, with a line break at the end.
+    /// Returns the complete text with a line break at the end.
     pub fn finish(mut self) -> String {
         self.out.push('\n');
         self.out
     }
 
-    /// Reserves memory for this many more bytes.
+    /// Reserves memory for additional bytes.
     pub fn reserve(&mut self, bytes: usize) {
         self.out.reserve(bytes);
     }
 
-    /// Writes a line.
+    /// Writes a line that consists of these pieces.
     pub fn line(&mut self, pieces: &[&dyn Piece]) {
         let mut line = std::mem::take(&mut self.line);
         line.clear();
@@ -38,7 +38,7 @@ impl Code {
         self.line = line;
     }
 
-    /// Writes a line that opens a block. The line includes the brace.
+    /// Writes a line that opens a block. The pieces include the brace.
     pub fn open(&mut self, pieces: &[&dyn Piece]) {
         self.line(pieces);
         self.indent += STEP;
@@ -50,14 +50,14 @@ impl Code {
         self.line(&[&end]);
     }
 
-    /// Writes a line that closes a block and opens the next.
+    /// Writes a line that closes a block and opens the next one.
     #[cfg(feature = "messages")]
     pub fn reopen(&mut self, line: &str) {
         self.close(line);
         self.indent += STEP;
     }
 
-    /// Writes lines.
+    /// Writes several lines.
     pub fn lines<P: Piece>(&mut self, lines: impl IntoIterator<Item = P>) {
         for line in lines {
             self.line(&[&line]);
@@ -77,14 +77,14 @@ impl Code {
         }
     }
 
-    /// Writes the doc comment of a function with one kind of error.
+    /// Writes the doc comment of a function that can return one kind of error.
     pub fn docs_with_error(&mut self, text: &str, error: &str) {
         for line in [text, "", "# Errors", "", error] {
             self.doc(line);
         }
     }
 
-    /// Writes a public field with its doc comment and its attribute.
+    /// Writes a public field with a doc comment and an attribute.
     pub fn field(&mut self, docs: &[String], attribute: Option<&String>, name: &str, ty: &str) {
         self.docs(docs);
         self.lines(attribute);
@@ -99,7 +99,7 @@ impl Code {
         self.close("}");
     }
 
-    /// Writes the import that names the runtime `rt`.
+    /// Writes the import of the runtime as `rt`.
     pub fn use_runtime(&mut self) {
         let runtime = std::mem::take(&mut self.runtime);
         self.line(&[&"use ", &runtime, &" as rt;"]);
@@ -107,14 +107,14 @@ impl Code {
     }
 }
 
-/// Writes a line.
+/// Writes a line that consists of these pieces.
 macro_rules! line {
     ($code:expr, $($piece:expr),* $(,)?) => {
         $code.line(&[$(&$piece),*])
     };
 }
 
-/// Writes a line that opens a block.
+/// Writes a line that opens a block. The pieces include the brace.
 macro_rules! open {
     ($code:expr, $($piece:expr),* $(,)?) => {
         $code.open(&[$(&$piece),*])

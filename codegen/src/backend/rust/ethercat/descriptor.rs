@@ -1,4 +1,4 @@
-//! `DEVICE` and `MODULE`: the description of a slave, in the types of the runtime.
+//! The constants `DEVICE` and `MODULE`. They describe a slave with the types of the runtime.
 
 use super::{Assigned, ModulePaths};
 use crate::backend::rust::code::{Data, Doc};
@@ -49,7 +49,7 @@ pub(super) fn module(module: &Module, pdos: &PdoModels<'_>) -> Doc {
     )
 }
 
-/// Returns ranges of consecutive objects with the same slot dependency.
+/// Returns ranges of consecutive objects whose indices depend on the slot in the same way.
 fn slot_objects(groups: &[Group]) -> Vec<Doc> {
     let known = groups.iter().filter_map(|group| Some((group.index()?, group)));
     let known = known.map(|(index, group)| (index, depends_on(group.depends_on_slot, group.depends_on_slot_group)));
@@ -88,9 +88,9 @@ fn sync_manager(manager: &SyncManager) -> Doc {
     )
 }
 
-/// Returns the PDOs, outputs first, as the runtime expects.
+/// Returns the PDOs. Outputs come first, as the runtime expects.
 fn pdo_list(pdos: &[Pdo], models: &PdoModels<'_>) -> Doc {
-    // PDOs of CANopen may have the same indices.
+    // Exclude CANopen PDOs, because they may have the same indices.
     let is_on_ethercat = |pdo: &&Pdo| !pdo.is_virtual && pdo.buses.is_none_or(|buses| buses.coe);
     let of = |direction| pdos.iter().filter(move |pdo| pdo.direction == direction).filter(is_on_ethercat);
     let all = of(Direction::Receive).chain(of(Direction::Transmit));
@@ -111,7 +111,7 @@ fn pdo_info(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
             ("bits", Doc::from(pdo.bits().to_string())),
             ("sync_manager", Data::option(pdo.sync_manager)),
             ("excluded_sync_managers", numbers(pdo.excluded_sync_managers.iter().map(u8::to_string).collect())),
-            // A mapping with an unknown index cannot be written.
+            // A PDO whose mapping contains an unknown index cannot be remapped.
             ("fixed", Doc::from((pdo.fixed || !pdo.is_mapping_known()).to_string())),
             ("mandatory", Doc::from((pdo.mandatory).to_string())),
             ("depends_on", Doc::from(depends_on(pdo.depends_on_slot, pdo.depends_on_slot_group))),
@@ -121,7 +121,7 @@ fn pdo_info(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
     )
 }
 
-/// Returns the mapping of a PDO. A PDO with a struct refers to the mapping of the struct.
+/// Returns the mapping of a PDO. If the PDO has a struct, refers to the mapping constant of the struct.
 fn mapping(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
     match models.of(pdo) {
         Some(model) => Doc::from(format!("<pdo::{} as rt::Pdo>::MAPPING", model.name)),
@@ -176,7 +176,7 @@ fn init_command(command: &InitCommand) -> Doc {
     )
 }
 
-/// Returns those of `names` that the runtime supports.
+/// Filters `names` to the transitions that the runtime supports.
 fn known_transitions<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'static str> {
     let names: Vec<&str> = names.collect();
     TRANSITIONS.into_iter().filter(|known| names.contains(known)).collect()
@@ -187,8 +187,7 @@ fn transitions(names: Vec<&str>) -> Doc {
     Data::call("rt::ethercat::Transitions::of", vec![Data::slice(list)])
 }
 
-/// Returns the transition at which the list of modules is downloaded: PS if the description names no supported
-/// transition.
+/// Returns the transition at which the master downloads the list of modules. The default is PS.
 fn download(rules: &SlotRules) -> Doc {
     if !rules.download_idents {
         return Doc::from("rt::ethercat::Transitions::NONE");

@@ -1,4 +1,4 @@
-//! The default process image: for each sync manager, the PDOs that are assigned to it, in order.
+//! The default process image. For each sync manager, it contains the PDOs that are assigned by default, in order.
 
 use std::collections::HashSet;
 
@@ -9,7 +9,7 @@ use crate::backend::rust::pdo::{PdoModel, PdoModels};
 use crate::ir::Direction;
 use crate::names::{self, Case, NameRequest};
 
-/// The data of a sync manager.
+/// The process image of a sync manager.
 pub(in super::super) struct ImageModel {
     pub name: String,
     pub title: String,
@@ -20,7 +20,7 @@ pub(in super::super) struct ImageModel {
     pub fields: Vec<ImageField>,
 }
 
-/// A PDO of an image.
+/// A PDO in a process image.
 pub(in super::super) struct ImageField {
     pub name: String,
     /// Name of the method that returns the mutable view.
@@ -38,12 +38,12 @@ impl ImageModel {
         format!("{}View", self.name)
     }
 
-    /// Returns the attribute that suppresses lints for the view's methods.
+    /// Returns the attribute that suppresses lints about names of the view's methods.
     pub(in super::super) fn view_allow(&self) -> Option<String> {
         method_allow(self.fields.iter().map(|field| field.name.as_str()))
     }
 
-    /// Returns the attribute that suppresses lints for the view's mutable methods.
+    /// Returns the attribute that suppresses lints about names of the view's mutable methods.
     pub(in super::super) fn view_mut_allow(&self) -> Option<String> {
         method_allow(self.fields.iter().map(|field| field.name_mut.as_str()))
     }
@@ -95,11 +95,11 @@ fn model(kind: &str, sync_manager: u8, inside: &[&Assigned<'_>], pdos: &PdoModel
     })
 }
 
-/// Names that methods of a view for fields must not have: its other methods, and methods of traits that every type may
-/// implement.
+/// Names that field methods of a view must not have. These are the view's other methods, and methods of traits that any
+/// type may implement.
 const RESERVED: [&str; 7] = ["new", "clone", "into", "try_into", "self", "super", "crate"];
 
-/// Maximum length of a name. The lines that unpack the field must stay below the margin.
+/// Maximum length of a field's name. It limits the length of the lines that unpack the field.
 const MAX_NAME: usize = 30;
 
 fn fields(placed: &[(&PdoModel, u32)]) -> Vec<ImageField> {

@@ -1,4 +1,4 @@
-//! EtherCAT: the description of a slave for a master, and the default process image.
+//! EtherCAT: the description of a slave for the master, and the default process image.
 
 mod descriptor;
 mod image;
@@ -15,21 +15,21 @@ pub(super) use image::{ImageField, ImageModel};
 
 /// The description of a device for an EtherCAT master, ready to be printed.
 pub(super) struct EtherCatModel {
-    /// Value of `DEVICE`.
+    /// Value of the constant `DEVICE`.
     pub device: Doc,
-    /// Value of `FMMUS`.
+    /// Value of the constant `FMMUS`.
     pub fmmus: Option<Doc>,
-    /// Value of `CLOCK_MODES`.
+    /// Value of the constant `CLOCK_MODES`.
     pub clock_modes: Option<Doc>,
-    /// Value of `STARTUP`.
+    /// Value of the constant `STARTUP`.
     pub startup: Option<Doc>,
-    /// Constants of bytes: name, documentation and value.
+    /// Byte constants: name, documentation and value.
     pub bytes: Vec<(&'static str, &'static str, String)>,
     /// Default process images.
     pub images: Vec<ImageModel>,
 }
 
-/// Paths of the constants of modules, by the modules' positions in the catalog.
+/// Paths of the modules' constants, by the module's position in the catalog.
 pub(super) type ModulePaths = HashMap<ModuleId, String>;
 
 impl EtherCatModel {
@@ -51,12 +51,12 @@ impl EtherCatModel {
     }
 }
 
-/// Returns the value of `MODULE`.
+/// Returns the value of the constant `MODULE`.
 pub(super) fn module(module: &Module, pdos: &[PdoModel]) -> Doc {
     descriptor::module(module, &PdoModels::new(pdos))
 }
 
-/// A PDO that is assigned by default, and its sync manager.
+/// A PDO that is assigned by default, and the number of its sync manager.
 pub(super) struct Assigned<'a> {
     pub pdo: &'a Pdo,
     pub sync_manager: u8,

@@ -1,16 +1,16 @@
-//! The writes that configure the default assignment, as a constant. `rt::ethercat::Assignment::by_default` returns the
-//! same writes.
+//! Generates a constant with the SDO writes that configure the default PDO assignment.
+//! `rt::ethercat::Assignment::by_default` returns the same writes.
 
 use super::Assigned;
 use crate::backend::rust::code::Doc;
 use crate::ir::{Device, EtherCatSettings, SyncManager, SyncManagerPurpose, MAX_PDO_SUBS};
 
-/// Index of the assignment object of sync manager 0 (ETG.1000.6 5.6.7.4).
+/// Index of the object that assigns PDOs to sync manager 0 (ETG.1000.6 5.6.7.4).
 const ASSIGN: u16 = 0x1C10;
 
 pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &[Assigned<'_>]) -> Vec<Doc> {
     let Some(coe) = settings.mailbox.as_ref().and_then(|mailbox| mailbox.coe.as_ref()) else { return Vec::new() };
-    // The assignment of modular devices depends on the plan of modules.
+    // The PDO assignment of a modular device depends on the modules in its slots.
     if assigned.is_empty() || settings.slots.is_some() {
         return Vec::new();
     }
@@ -20,7 +20,7 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
             .filter(move |assignment| assignment.sync_manager == number)
             .map(|assignment| assignment.pdo.mapping_index)
     };
-    // An assignment with more PDOs than the object has sub-indices cannot be written.
+    // The object has not enough sub-indices for an assignment with more PDOs.
     if device.process_data.sync_managers.iter().any(|manager| of(manager.number).count() > MAX_PDO_SUBS) {
         return Vec::new();
     }

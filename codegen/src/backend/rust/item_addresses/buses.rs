@@ -1,9 +1,9 @@
-//! The buses of a location. They determine its type.
+//! The buses of a location. They determine the location's Rust type.
 
 use crate::backend::rust::code::{seq, Doc};
 use crate::backend::rust::route::{PathKind, Route, RouteBus, RouteKind};
 
-/// The buses of a location, and the kind of route on each.
+/// The buses of a location, with the kind of route on each bus.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::backend::rust) struct Buses([RouteKind; 6]);
 
@@ -17,17 +17,17 @@ impl Buses {
         self == Buses::default()
     }
 
-    /// Returns whether every route leads directly to an address.
+    /// Returns whether all routes are direct, that is, none leads through a window.
     pub fn is_direct(self) -> bool {
         self.0.iter().all(|kind| matches!(kind, RouteKind::Absent | RouteKind::One(PathKind::Direct)))
     }
 
-    /// Returns the buses of both locations.
+    /// Combines the buses of both locations.
     pub fn union(self, other: Buses) -> Buses {
         Buses(std::array::from_fn(|at| self.0[at].max(other.0[at])))
     }
 
-    /// Returns the location type of the runtime, if there is one.
+    /// Returns the path of the location type if the runtime defines it.
     pub fn path(self) -> Option<&'static str> {
         let [canopen, coe, modbus, serial, image, esc] = self.0.map(|kind| kind != RouteKind::Absent);
         if !self.is_direct() {
@@ -54,13 +54,13 @@ impl Buses {
         fields.map(|(bus, ty)| seq![bus.field(), ": rt::", bus.type_name(), " => ", ty]).collect()
     }
 
-    /// Returns the name of the location type, also as a part of other names.
+    /// Returns the name of the location type. It is also used as a part of other names.
     pub fn word(self) -> String {
         let words: String = RouteBus::ALL.iter().zip(self.0).map(|(bus, kind)| kind.word(*bus)).collect();
         format!("On{}", if words.is_empty() { "NoBus" } else { words.as_str() })
     }
 
-    /// Returns the buses as words, for a sentence.
+    /// Returns the names of the buses for a sentence.
     pub fn titles(self) -> String {
         let present = RouteBus::ALL.iter().zip(self.0).filter(|(_, kind)| *kind != RouteKind::Absent);
         let titles: Vec<&str> = present.map(|(bus, _)| bus.title()).collect();

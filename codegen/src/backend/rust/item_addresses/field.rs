@@ -10,13 +10,13 @@ pub(super) struct Field<'i> {
     pub first: u32,
     pub bits: u32,
     pub ty: Option<Type>,
-    /// Whether the field is an output: the device receives it.
+    /// Whether the field is an output, that is, data that the device receives.
     pub is_output: bool,
     big_endian: bool,
 }
 
 impl<'i> Field<'i> {
-    /// Creates the field of a value of type `base`; `None` if the runtime cannot read such a field.
+    /// Creates the field of a value of type `base`. Returns `None` if the runtime cannot read such a field.
     pub fn of(scope: &Scope<'_>, base: Type, binding: &'i Binding) -> Option<Self> {
         let Binding::Image(binding) = binding else { return None };
         let ImageBinding { image, bit_offset, bits, ty } = &**binding;
@@ -43,7 +43,7 @@ impl<'i> Field<'i> {
     }
 }
 
-/// Returns whether the runtime can read such a value from an image: a number within 8 bytes, or whole bytes.
+/// Returns whether the runtime can read the value from an image. It must be a number within 8 bytes, or whole bytes.
 fn is_field(ty: Type, first: u32, bits: u32) -> bool {
     match ty {
         Type::VisibleString(_) | Type::OctetString(_) | Type::Opaque(_) => {

@@ -1,11 +1,11 @@
-//! The code that creates the location of an item.
+//! Generates the code that creates the location of an item.
 
 use super::ItemAddresses;
 use crate::backend::rust::code::{call, list, seq, Doc};
 use crate::backend::rust::located::Located;
 use crate::backend::rust::route::{Route, RouteBus};
 
-/// A function that creates locations, and its arguments for one item.
+/// A function that creates locations, and the arguments for one item.
 pub(in crate::backend::rust) struct Maker {
     pub parameters: Vec<String>,
     pub arguments: Vec<String>,
@@ -13,7 +13,7 @@ pub(in crate::backend::rust) struct Maker {
 }
 
 impl ItemAddresses<'_> {
-    /// Returns the name of the object constructors, and the object, if the item has no other address.
+    /// Returns the name of the object constructors and the object address, if the item has no other address.
     pub fn only_object(&self) -> Option<(&'static str, u16, u8)> {
         let routed = self.routed();
         if !routed.is_simple() {
@@ -27,7 +27,7 @@ impl ItemAddresses<'_> {
         }
     }
 
-    /// Returns the first arguments of the register constructors, if the item is a register and at most one object.
+    /// Returns the first arguments of the register constructors. The item must be a register and may also be an object.
     pub fn with_register(&self) -> Option<Vec<String>> {
         let routed = self.routed();
         let register = self.register(routed.modbus.filter(|_| routed.serial.is_none() && routed.is_simple())?);
@@ -41,7 +41,7 @@ impl ItemAddresses<'_> {
         }
     }
 
-    /// Returns only the addresses that a route uses. Some buses allow neither reading nor writing.
+    /// Removes addresses that no route uses, because their bus allows neither reading nor writing.
     fn routed(&self) -> Self {
         let is_routed = |bus: RouteBus| self.routes[bus as usize].access_paths().next().is_some();
         ItemAddresses {
@@ -55,12 +55,12 @@ impl ItemAddresses<'_> {
         }
     }
 
-    /// Returns whether every route is direct, and no address is in an image or in a slave controller.
+    /// Returns whether all routes are direct and no address is in an image or slave controller.
     fn is_simple(&self) -> bool {
         self.image.is_none() && self.esc.is_none() && self.buses().is_direct()
     }
 
-    /// Returns the call that creates the location of type `path`. `windows` is the path to the windows of the device.
+    /// Returns the call that creates the location with the type `path`. `windows` is the path to the device's windows.
     pub fn code(&self, located: &Located<'_>, path: &str, windows: &str) -> Doc {
         if self.buses().path().is_none() {
             return self.new_location(located, path, windows);
@@ -87,8 +87,8 @@ impl ItemAddresses<'_> {
                 (None, Some((address, length))) => Doc::from(format!("{path}::memory(0x{address:04X}, {length})")),
                 (None, None) => self.new_location(located, path, windows),
             },
-            // Locations with different addresses on the buses, or with rare combinations of routes, have no short
-            // constructor.
+            // There is no short constructor for different addresses on several buses or for rare combinations of
+            // routes.
             _ => self.new_location(located, path, windows),
         }
     }
@@ -97,8 +97,8 @@ impl ItemAddresses<'_> {
         self.location_of(located, path, windows, |bus| self.address(bus).unwrap_or_default(), None)
     }
 
-    /// Returns the code of a location of type `path`. `address` returns the address on a bus, and `number` is the
-    /// number behind a window.
+    /// Returns the code of a location with the type `path`. `address` returns the address on a bus, and `number`
+    /// selects the item behind a window.
     fn location_of(
         &self,
         located: &Located<'_>,
@@ -113,9 +113,9 @@ impl ItemAddresses<'_> {
         list(&format!("{path}::new("), RouteBus::ALL.into_iter().filter_map(route), ")")
     }
 
-    /// Returns the function that creates the location from the values in which items differ; `None` if the runtime
-    /// defines the location type. `rustc` compiles a call of such a function in a third of the time. `windows` is the
-    /// path to the windows of the device.
+    /// Returns a function that creates the location from the values that differ between items. Calls of this function
+    /// compile in a third of the time. Returns `None` if the runtime defines the location type. `windows` is the path
+    /// to the device's windows.
     pub fn maker(&self, located: &Located<'_>, windows: &str) -> Option<Maker> {
         let buses = self.buses();
         if buses.is_empty() || buses.path().is_some() {

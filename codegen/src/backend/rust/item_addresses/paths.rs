@@ -1,4 +1,4 @@
-//! Paths to an item: directly to its address on a bus, or through a window.
+//! Access paths to an item: directly to its address on a bus, or through a window.
 
 use super::ItemAddresses;
 use crate::backend::rust::located::Located;
@@ -7,7 +7,7 @@ use crate::backend::rust::window;
 use crate::ir::{Binding, Item, Type};
 
 impl<'i> ItemAddresses<'i> {
-    /// Returns the addresses of an item, and the routes to it.
+    /// Returns the addresses of an item and its routes.
     pub fn of(located: &Located<'_>, item: &'i Item) -> Self {
         let mut addresses = ItemAddresses::without_routes(located, item);
         addresses.routes = addresses.routes(located, item);
@@ -22,7 +22,7 @@ impl<'i> ItemAddresses<'i> {
         RouteBus::ALL.map(|bus| if self.has(bus) { plain(item) } else { Route::default() })
     }
 
-    /// Returns whether a bus allows reading, or writing, the item at its address.
+    /// Returns whether a bus allows reading the item at its address, or writing it if `writes` is set.
     pub(super) fn is_possible(&self, item: &Item, bus: RouteBus, writes: bool) -> bool {
         let access = if bus == RouteBus::Esc { item.access } else { item.access_on(bus.of_items()) };
         let allows = if writes { access.writable() } else { access.readable() };
@@ -44,7 +44,8 @@ impl<'i> ItemAddresses<'i> {
         Route { read, write, is_partial }
     }
 
-    /// Returns the path to the item's address; `None` if the type on the bus cannot be converted to the item's type.
+    /// Returns the path to the item's address. Returns `None` if the type on the bus cannot be converted to the item's
+    /// type.
     fn direct_path(&self, located: &Located<'_>, item: &'i Item, bus: RouteBus) -> Option<AccessPath<'i>> {
         let (ty, bus_type) = (located.base(item.ty), located.base(item.type_on(bus.of_items())));
         let bus_type = match (bus, self.image, self.esc) {
@@ -63,7 +64,7 @@ impl<'i> ItemAddresses<'i> {
     }
 }
 
-/// Returns the route to an item that is the same on all buses.
+/// Returns the route to an item whose type and access rights are the same on all buses.
 fn plain<'i>(item: &Item) -> Route<'i> {
     let access_path = Some(AccessPath { window: None, resized: None, limited: None, is_signed: false });
     let (read, write) =
@@ -71,7 +72,7 @@ fn plain<'i>(item: &Item) -> Route<'i> {
     Route { read, write, is_partial: false }
 }
 
-/// Returns the path through a window of the item's parameter space on a bus.
+/// Returns the path through a window. The window belongs to the item's parameter space.
 fn through<'i>(located: &Located<'_>, item: &Item, bus: RouteBus, writes: bool) -> Option<AccessPath<'i>> {
     item.bindings.iter().filter_map(window::indirect).find_map(|binding| {
         let at = window::position(&located.windows, binding, bus, writes)?;
@@ -83,14 +84,14 @@ fn through<'i>(located: &Located<'_>, item: &Item, bus: RouteBus, writes: bool) 
     })
 }
 
-/// Returns whether an item has only plain addresses and does not differ between buses.
+/// Returns whether an item has only simple addresses and is the same on all buses.
 fn is_plain(item: &Item) -> bool {
     let is_address =
         |binding: &Binding| !matches!(binding, Binding::Indirect(_) | Binding::Image(_) | Binding::EscMemory { .. });
     item.variants.is_empty() && item.bindings.iter().all(is_address)
 }
 
-/// Returns the type of a value with this number of bytes in a slave controller.
+/// Returns the type of a value that occupies this number of bytes in a slave controller.
 fn in_memory(ty: Type, length: u16) -> Type {
     match (ty.bits(), u8::try_from(length)) {
         (Some(bits), Ok(length @ 1..=8)) if bits.div_ceil(8) != u32::from(length) => Type::Unsigned(8 * length),

@@ -1,10 +1,10 @@
-//! The code that creates a register, and the sort order of registers.
+//! Generates the code that creates a register, and determines the sort order of registers.
 
 use super::ItemAddresses;
 use crate::ir::{RegisterBinding, RegisterSpace};
 
 impl ItemAddresses<'_> {
-    /// Returns the call that creates the register.
+    /// Returns the constructor call of the register.
     pub fn register_code(&self) -> Option<String> {
         self.modbus.map(|register| self.register(register))
     }

@@ -1,4 +1,4 @@
-//! Addresses of an item as documentation shows them.
+//! Formats the addresses of an item for documentation.
 
 use super::{Field, ItemAddresses};
 use crate::backend::rust::route::{Route, RouteBus};
@@ -8,7 +8,7 @@ use crate::facts::{address, register};
 use crate::ir::{Item, RegisterSpace};
 
 impl ItemAddresses<'_> {
-    /// Returns all addresses of an item, as words.
+    /// Returns all addresses of an item in words.
     pub fn facts(&self, scope: &Scope<'_>, item: &Item) -> String {
         let object = |(index, sub)| address::object(index, sub);
         let mut facts = Vec::new();
@@ -30,7 +30,7 @@ impl ItemAddresses<'_> {
         facts.join(", ")
     }
 
-    /// Returns the main addresses in a few words.
+    /// Returns the main addresses in short form.
     pub fn heading(&self) -> String {
         let object = self.canopen.or(self.coe).map(|(index, sub)| address::object(index, sub));
         let register = self.modbus.map(|register_binding| match register_binding.bit_offset {
@@ -46,7 +46,7 @@ impl ItemAddresses<'_> {
         self.image.map(|field| field.facts()).or(memory).or(self.number_in_words()).unwrap_or_default()
     }
 
-    /// Returns the number of the item behind a window, and the buses that use the window.
+    /// Returns the number that selects the item in a window, and the buses that use the window.
     fn number_in_words(&self) -> Option<String> {
         let number = self.number()?;
         let window = |route: &Route<'_>| route.access_paths().find_map(|access_path| access_path.window);
@@ -55,7 +55,7 @@ impl ItemAddresses<'_> {
         Some(format!("indirect access with number 0x{number:04X} on {}", windowed.join(", ")))
     }
 
-    /// Returns the number of the item behind a window.
+    /// Returns the number that selects the item in a window.
     fn number(&self) -> Option<u32> {
         self.routes
             .iter()
@@ -64,11 +64,11 @@ impl ItemAddresses<'_> {
             .map(|(_, number)| number)
     }
 
-    /// Returns the suffix that distinguishes the item from others with the same name.
+    /// Returns a suffix that distinguishes the item from others with the same name.
     pub fn suffix(&self) -> String {
         match (self.modbus, self.canopen.or(self.coe), self.serial) {
             (Some(register), _, _) => {
-                // Tables of Modbus use the same numbers.
+                // Different Modbus tables use the same addresses.
                 let table = match register.space {
                     RegisterSpace::Holding => "",
                     RegisterSpace::Input => "input_",

@@ -1,4 +1,4 @@
-//! Completion of commands: when a command is completed, and which field indicates it.
+//! Completion of commands: when a command is completed, and which reply field indicates this.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use crate::backend::rust::links::DocModule;
 use crate::ir::{Completion, Device, Message, MessageValue, Shape, Type, Value};
 use crate::resolve::messages::Step;
 
-/// Returns the sentence about the completion of a message.
+/// Returns a sentence that states when the command of a message is completed.
 pub(super) fn sentence(context: &Context<'_>, message: &Message, doc_module: DocModule<'_>) -> Option<String> {
     let late = message.reply_time.map(|time| format!(", after about {time} ms")).unwrap_or_default();
     Some(match &message.completion {
@@ -24,8 +24,8 @@ pub(super) fn sentence(context: &Context<'_>, message: &Message, doc_module: Doc
     })
 }
 
-/// Returns the expression of a reply's `is_complete`: the first polling condition that the fields of the reply can
-/// evaluate. Returns `None` if the fields may still refer to the previous command.
+/// Returns the expression of a reply's `is_complete`. It uses the first polling condition that can be evaluated from
+/// fields of the reply. Returns `None` if the fields may still refer to the previous command.
 pub(super) fn expression(
     context: &Context<'_>,
     conditions: &Conditions<'_>,
@@ -47,7 +47,7 @@ pub(super) fn expression(
 /// A polling condition: the polled bit of a field, the mask and the expected value.
 type Polled<'c> = (Option<&'c str>, Option<u64>, Option<&'c Value>);
 
-/// The first polling condition of each field.
+/// The first polling condition for each field.
 pub(super) type Conditions<'c> = HashMap<&'c str, Polled<'c>>;
 
 pub(super) fn conditions(device: &Device) -> Conditions<'_> {
@@ -82,14 +82,14 @@ fn compare(
         let is_set = expected.is_none_or(|expected| expected != 0);
         return Some(if is_set { operand } else { format!("!{operand}") });
     }
-    // Maximum number that can be compared with the operand.
+    // The maximum number that the field's type can represent.
     let (_, maximum) = base.integer_range()?;
     let number = |number: u64| (i128::from(number) <= maximum).then(|| format!("{number:#X}").replace("0X", "0x"));
     let (offset, mask) = match bit {
         Some(bit) => bits(context, value.item.ty, bit)?,
         None => (0, mask.unwrap_or(u64::MAX)),
     };
-    // Bits that no number has, or that the mask excludes, never indicate completion.
+    // The condition is never true if the type or the mask excludes the expected bits.
     if mask == 0 || expected.is_some_and(|expected| expected & !mask != 0) {
         return None;
     }
@@ -104,7 +104,7 @@ fn compare(
     })
 }
 
-/// Returns the offset and mask of the bits with this name.
+/// Returns the offset and mask of the named bits in a bit field.
 fn bits(context: &Context<'_>, ty: Type, name: &str) -> Option<(u32, u64)> {
     let Shape::BitField { fields, .. } = &context.resolve(ty).1?.1.shape else { return None };
     let field = fields.iter().find(|field| field.name == name)?;

@@ -11,33 +11,33 @@ use crate::ir::Message;
 use crate::names::{self, Case};
 use crate::resolve::messages::Shaped;
 
-/// Maximum number of arguments. Clippy warns about more.
+/// Maximum number of arguments of a method. Clippy warns about more arguments.
 const MAX_ARGUMENTS: usize = 6;
 
 /// A method that sends a message, ready to be printed.
 pub(in crate::backend::rust) struct CallModel {
     pub method: String,
     pub docs: Vec<String>,
-    /// The type of the message, with its lifetime.
+    /// The type of the message with its lifetime argument.
     pub ty: String,
     pub arguments: Vec<String>,
-    /// The expression of the message.
+    /// Expression that creates the message.
     pub build: Doc,
     /// Whether the arguments have a lifetime.
     pub borrows: bool,
     pub deprecated: Option<String>,
     pub is_selector: bool,
-    /// Type of the message that must precede this one.
+    /// Type of the message that must be sent before this one.
     pub after: Option<String>,
 }
 
-/// The driver in its state after power-on.
+/// The state of the driver after power-on.
 pub(in crate::backend::rust) struct DefaultModel {
-    /// Type of the message that would select this state.
+    /// Type of the message that would also select this state.
     pub selector: String,
 }
 
-/// Returns the methods of all requests.
+/// Returns the methods that send requests.
 pub(super) fn calls(
     shaped: &[Shaped<'_>],
     messages: &[MessageModel],
@@ -80,8 +80,8 @@ pub(super) fn calls(
     calls
 }
 
-/// Returns the names of a method's arguments: the names of the fields. A name of digits only is replaced because clippy
-/// rejects it.
+/// Returns the names of a method's arguments: the names of the fields. A name that consists only of digits is replaced
+/// because clippy rejects it.
 fn arguments(fields: &[Field]) -> Vec<String> {
     let mut names: Vec<String> = fields.iter().map(|field| field.name.clone()).collect();
     for at in 0..names.len() {
@@ -92,13 +92,14 @@ fn arguments(fields: &[Field]) -> Vec<String> {
     names
 }
 
-/// Returns the documentation of a method: the lines about the message, and the type that the method sends.
+/// Returns the documentation of a method: the lines about the message, and the type of the request.
 fn docs(model: &MessageModel, request: &DataModel) -> Vec<String> {
     let sends = format!("Sends the message {}.", DocModule::TOP.whole(&format!("messages::{}", request.name)));
     model.call_docs.iter().cloned().chain([String::new(), sends]).collect()
 }
 
-/// Returns the state after power-on; `None` if the description does not state it or the selector is unknown.
+/// Returns the state after power-on. Returns `None` if the description does not state it, or if no message selects this
+/// state.
 pub(super) fn by_default(
     shaped: &[Shaped<'_>],
     messages: &[MessageModel],
@@ -109,7 +110,7 @@ pub(super) fn by_default(
     calls.iter().any(|call| call.after.as_ref() == Some(&selector)).then_some(DefaultModel { selector })
 }
 
-/// Returns a note about the message that replaces another one, and the models that have the replacement.
+/// Returns a note about the replacement of a message. The note names the new message and the models that have it.
 fn replacement(message: &Message, all: &[Shaped<'_>]) -> Option<String> {
     let name = message.availability.as_ref()?.replaced_by.as_ref()?;
     let other = all.iter().find(|shape| shape.message.name == *name);

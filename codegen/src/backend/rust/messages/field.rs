@@ -14,7 +14,7 @@ use crate::ir::{Item, MessageValue, Type};
 use crate::names::{self, Case};
 use crate::resolve::messages::Step;
 
-/// Maximum length of a field's name. The lines that write the field must stay below the margin.
+/// Maximum length of a field's name. It limits the length of the lines that write the field.
 const MAX_NAME: usize = 24;
 
 /// A field, ready to be printed.
@@ -22,11 +22,11 @@ pub(in crate::backend::rust) struct Field {
     pub name: String,
     pub docs: Vec<String>,
     pub ty: String,
-    /// The type as the device's module names it.
+    /// The type, as written in the device's module.
     ty_at_top: String,
     /// Attribute that controls how `serde` handles the field.
     pub attribute: Option<String>,
-    /// Name of the constant with the scale of the field, and the type of the scale.
+    /// Name of the constant for the field's scale, and the type of the scale.
     pub scale: Option<(String, Doc)>,
     position: usize,
     kind: FieldKind,
@@ -44,10 +44,10 @@ enum FieldKind {
     Bytes,
 }
 
-/// A check of a value: the type that checks it, the value, and its range.
+/// A range check: the type that checks the value, the value, and its range.
 type Check = (String, String, Doc);
 
-/// Returns the fields of these steps. `entry` is the name of the type of list entries.
+/// Returns the fields for these steps. `entry` is the name of the type of list entries.
 pub(super) fn fields(context: &Context<'_>, steps: &[Step<'_>], entry: &str) -> Vec<Field> {
     let with: Vec<&Step<'_>> = steps.iter().filter(|step| name(step).is_some()).collect();
     let name_requests = names::numbered(with.iter().map(|step| name(step).unwrap_or_default()), "field");
@@ -57,7 +57,7 @@ pub(super) fn fields(context: &Context<'_>, steps: &[Step<'_>], entry: &str) -> 
     all.map(|(position, (step, name))| field(context, step, names::escaped(name), position, entry)).collect()
 }
 
-/// Returns the name of a step's field; `None` if the step has no field.
+/// Returns the name of a step's field. Returns `None` if the step has no field.
 pub(super) fn name<'s>(step: &'s Step<'_>) -> Option<&'s str> {
     Some(match step {
         Step::Value { value, .. } => value.item.name.as_str(),
@@ -120,7 +120,7 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
     let base = context.base(item.ty);
     let (ty, kind) = match field_type {
         FieldType::Bytes(length) => (format!("[u8; {length}]"), FieldKind::Text { length }),
-        // A number of odd width is stored in a primitive integer with a check.
+        // A number with an unusual width is stored in a primitive integer with a range check.
         FieldType::Odd(signed, _) => {
             let native = native(signed, bits);
             let width: u32 = native[1..].parse().unwrap_or(64);
@@ -141,13 +141,13 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
         }
         other => {
             let ty = other.path("super::");
-            // The bits of a signed integer are read as an unsigned number.
+            // Signed bits are read as an unsigned number.
             let base = match &other {
                 FieldType::Named(..) => context.enumeration(item.ty).map_or(base, |named| named.ty),
                 _ => base,
             };
             let check = match &other {
-                // Allowed values are a constant, which cannot contain calls.
+                // Check the raw value, because the allowed values are a constant, which cannot contain calls.
                 FieldType::Named(_, native)
                     if other.cut(bits).is_some() || !variant::widest(item).allowed.is_empty() =>
                 {
@@ -168,12 +168,12 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
     Field { docs: documentation(context, item, base), ty, ty_at_top, attribute: None, scale, position, kind, name }
 }
 
-/// Returns the name of the variable that holds the value read for the field at this position.
+/// Returns the name of the variable for the value that was read for the field at this position.
 fn local(position: usize) -> String {
     format!("value_{position}")
 }
 
-/// Returns the check of a value; `None` if every number of the type is allowed.
+/// Returns the range check of a value. Returns `None` if all numbers of the type are allowed.
 fn range(item: &Item, base: Type, name: &str, named: Option<&str>) -> Option<Check> {
     let ty = ValueType::of(base);
     let wrap = |literal: String| match named {
@@ -185,17 +185,17 @@ fn range(item: &Item, base: Type, name: &str, named: Option<&str>) -> Option<Che
     (range.text() != "rt::Range::Full").then(|| (path, format!("self.{name}"), range))
 }
 
-/// Returns the check of a number that has fewer bits than its Rust type.
+/// Returns the range check for a number with fewer bits than its Rust type.
 fn narrow(item: &Item, base: Type, native: &str, value: String) -> Option<Check> {
     let value_type = ValueType::Odd { name: "", range: base.integer_range()? };
     Some((native.to_owned(), value, value_type.range_within(&variant::widest(item))?))
 }
 
-/// Returns the name of the constant with the scale of a field.
+/// Returns the name of the constant for a field's scale.
 fn constant(field: &str) -> String {
     let name = field.trim_start_matches("r#").to_ascii_uppercase();
     match name.as_str() {
-        // Constants of messages.
+        // Messages already have constants with these names.
         "NAME" | "COMPLETION" | "OUTCOMES" => name + "_SCALE",
         _ => name,
     }
@@ -223,7 +223,7 @@ fn documentation(context: &Context<'_>, item: &Item, base: Type) -> Vec<String> 
 }
 
 impl Field {
-    /// Returns the name of the variable that holds the value read.
+    /// Returns the name of the variable for the value that was read.
     pub(super) fn local(&self) -> String {
         match self.kind {
             FieldKind::List => "list".to_owned(),
@@ -231,12 +231,12 @@ impl Field {
         }
     }
 
-    /// Returns whether the field borrows from the data.
+    /// Returns whether the field borrows from the message data.
     pub(super) fn borrows(&self) -> bool {
         self.ty.contains("'a")
     }
 
-    /// Returns the number of bytes of a text; `None` for other fields.
+    /// Returns the number of bytes of a text. Returns `None` if the field is not a text.
     pub(super) fn text_length(&self) -> Option<u32> {
         match self.kind {
             FieldKind::Text { length } => Some(length),
@@ -244,7 +244,7 @@ impl Field {
         }
     }
 
-    /// Returns whether limits of the field may resemble a mathematical constant, which clippy reports.
+    /// Returns whether limits of the field may be close to a mathematical constant. Clippy reports such literals.
     pub(super) fn has_real_limits(&self) -> bool {
         matches!(&self.kind, FieldKind::Value { check: Some((ty, ..)), .. } if ty.starts_with('f'))
     }
@@ -254,7 +254,7 @@ impl Field {
         matches!(self.kind, FieldKind::List)
     }
 
-    /// Returns whether the field holds the value of one parameter of a parameter space.
+    /// Returns whether the field contains the value of a single parameter in a parameter space.
     pub(super) fn is_value_of(&self, space: &str) -> bool {
         match &self.kind {
             FieldKind::Setting { space: of_field, .. } | FieldKind::ValueOnly { space: of_field } => of_field == space,
@@ -262,8 +262,7 @@ impl Field {
         }
     }
 
-    /// Returns the argument that a method takes for the field under this name, and the name and value of the field
-    /// built from it.
+    /// Returns the method argument for the field, named `name`, and the field initializer that uses this argument.
     pub(super) fn argument(&self, name: &str, rules: &Rules) -> (String, (String, Doc)) {
         match &self.kind {
             FieldKind::Settings { space, bits } => {

@@ -1,4 +1,4 @@
-//! Constants of a protocol: frame delimiters, maximum length, and whether requests carry a station number.
+//! Constants of a message protocol: frame delimiters, maximum length, and whether requests contain a station number.
 
 use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::context::Context;
@@ -6,11 +6,11 @@ use crate::backend::rust::docs;
 use crate::ir::{Device, Framing};
 use crate::resolve::messages::{Shaped, Step};
 
-/// Buffer size for data of unbounded length.
+/// Size of the buffer for data without a maximum length.
 const UNBOUNDED_LENGTH: u32 = 256;
 
-/// Returns the expression of the framing; `None` if frames have no end byte, or the runtime does not support their
-/// check.
+/// Returns the expression of the framing. Returns `None` if frames have no end byte, or the runtime does not support
+/// their checksum.
 pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> {
     let byte = |byte: u8| Doc::from(format!("0x{byte:02X}"));
     let max = framing.max_data.map_or_else(|| "usize::MAX".to_owned(), |max| max.to_string());
@@ -51,12 +51,12 @@ fn check(framing: &Framing) -> Option<String> {
     })
 }
 
-/// Returns the byte of the requests at which a field begins.
+/// Returns the byte position at which a field starts in the requests.
 fn check_start(field: &str, shaped: &[Shaped<'_>]) -> Option<u32> {
     shaped.iter().find_map(|shape| shape.request.byte_offset(field))
 }
 
-/// Returns the maximum length of the data of a message.
+/// Returns the maximum length of message data.
 pub(super) fn max_data(device: &Device, shaped: &[Shaped<'_>]) -> u32 {
     if let Some(max) = device.framing.as_ref().and_then(|framing| framing.max_data) {
         return max.into();

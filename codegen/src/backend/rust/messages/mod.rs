@@ -1,4 +1,4 @@
-//! Message protocols: a type for each request and reply, the encoding of parameters, and the framing.
+//! Message protocols: types for requests and replies, the encoding of parameters, and the framing.
 
 mod completion;
 mod device;
@@ -27,7 +27,7 @@ pub(super) use parameters::{Arm, ParametersModel};
 use rules::{RuleModel, Rules};
 pub(super) use steps::Statements;
 
-/// A protocol, ready to be printed.
+/// A message protocol, ready to be printed.
 pub(super) struct ProtocolModel {
     /// Expression of the framing constant.
     pub framing: Option<Doc>,
@@ -39,7 +39,7 @@ pub(super) struct ProtocolModel {
     pub rules: Vec<RuleModel>,
     pub messages: Vec<MessageModel>,
     pub parameters: Option<ParametersModel>,
-    /// Requests that a simulated device distinguishes, and whether they borrow from the data.
+    /// Types of the requests that a simulated device can distinguish, and whether each borrows from the data.
     pub requests: Vec<(String, bool)>,
     pub request_derives: Vec<String>,
     pub calls: Vec<CallModel>,
@@ -47,21 +47,21 @@ pub(super) struct ProtocolModel {
     pub by_default: Option<DefaultModel>,
 }
 
-/// A request and its reply.
+/// A message, which consists of a request and a reply, ready to be printed.
 pub(super) struct MessageModel {
     pub title: String,
     /// Documentation of the method that sends the request.
     pub call_docs: Vec<String>,
-    /// The request; `None` if only the device sends the message.
+    /// The request. `None` if only the device sends the message.
     pub request: Option<DataModel>,
-    /// The reply; `None` if it is not described.
+    /// The reply. `None` if the description does not contain it.
     pub reply: Option<DataModel>,
-    /// Type of the reply with which the device refuses the request.
+    /// Type of the reply that refuses the request.
     pub refusal: String,
     pub completion: Doc,
-    /// Whether this request decides the meaning of other requests.
+    /// Whether this request determines the meaning of other requests.
     pub is_selector: bool,
-    /// Effect of the command in each state.
+    /// Effects of the command in each state.
     pub outcomes: Vec<OutcomesModel>,
 }
 
@@ -75,7 +75,7 @@ pub(super) struct DataModel {
     pub code: Statements,
     /// Type of list entries.
     pub entry: Option<EntryModel>,
-    /// Expression that determines whether the command is completed.
+    /// Expression that returns whether the command is completed.
     pub is_complete: Option<String>,
 }
 
@@ -90,8 +90,8 @@ pub(super) struct EntryModel {
 }
 
 impl ProtocolModel {
-    /// Creates the protocol of a device; `None` if it has no messages. `reserved` are names that its methods must not
-    /// have.
+    /// Creates the protocol of a device. Returns `None` if the device has no messages. `reserved` contains names that
+    /// the protocol's methods must not have.
     pub(super) fn new(context: &Context<'_>, options: &RustOptions, types: &Types, reserved: &[&str]) -> Option<Self> {
         let device = context.device?;
         let NamedMessages { shapes, names } = &context.names.messages;
@@ -147,34 +147,34 @@ impl ProtocolModel {
         fields.any(Field::has_real_limits)
     }
 
-    /// Returns whether some requests decide the meaning of others.
+    /// Returns whether some requests determine the meaning of other requests.
     pub(super) fn selects(&self) -> bool {
         self.messages.iter().any(|message| message.is_selector)
     }
 
-    /// Returns whether some methods are available in every state.
+    /// Returns whether some methods are available in all states.
     pub(super) fn has_free(&self) -> bool {
         self.calls.iter().any(|call| call.after.is_none() && !call.is_selector)
     }
 
-    /// Returns whether the requests that are distinguished borrow from the data.
+    /// Returns whether any distinguishable request borrows from the data.
     pub(super) fn requests_borrow(&self) -> bool {
         self.requests.iter().any(|(_, borrows)| *borrows)
     }
 }
 
-/// Creates models of messages.
+/// Creates the models of messages.
 struct Maker<'m, 'a> {
     context: &'m Context<'a>,
     options: &'m RustOptions,
-    /// Polling conditions of completion.
+    /// Polling conditions that indicate completion.
     polled: completion::Conditions<'m>,
-    /// Names of the messages that decide the meaning of others.
+    /// Names of messages that determine the meaning of other messages.
     selectors: HashSet<&'m str>,
     rules: &'m Rules,
     shapes: &'m [Shaped<'a>],
     names: &'m [Names],
-    /// Paths of states, by their names in the description.
+    /// Paths of states, keyed by their names in the description.
     states: &'m HashMap<String, String>,
 }
 
@@ -240,7 +240,7 @@ impl Maker<'_, '_> {
     fn entry(&self, steps: &[Step<'_>], length: u32, owner: &str, name: &str) -> EntryModel {
         let (fields, borrows) = self.fields(steps, "");
         let mut code = steps::statements(steps, &fields, self.rules);
-        // Another entry may follow, so the check for the end of the data is removed.
+        // Remove the check for the end of the data, because another list entry may follow.
         code.read.pop();
         EntryModel {
             name: name.to_owned(),
@@ -252,18 +252,18 @@ impl Maker<'_, '_> {
         }
     }
 
-    /// Returns the fields of a struct, and whether one borrows from the data.
+    /// Returns the fields of a struct, and whether any of them borrows from the data.
     fn fields(&self, steps: &[Step<'_>], entry: &str) -> (Vec<Field>, bool) {
         let mut fields = field::fields(self.context, steps, entry);
         let borrows = fields.iter().any(Field::borrows);
-        // `serde` is not derived for structs that borrow, so their fields need no attribute.
+        // If the struct borrows, `serde` is not derived and the fields need no attribute.
         for field in fields.iter_mut().filter(|_| !borrows) {
             field.attribute = field.text_length().and_then(|length| self.options.octets_attribute(length));
         }
         (fields, borrows)
     }
 
-    /// Returns the derives of a struct. Data that borrows, such as a list, supports neither `serde` nor `defmt`.
+    /// Returns the derives of a struct. Structs that borrow, for example lists, support neither `serde` nor `defmt`.
     fn derives(&self, borrows: bool) -> Vec<String> {
         if !borrows {
             return self.options.derives(true);
@@ -273,14 +273,15 @@ impl Maker<'_, '_> {
         plain.derives(true)
     }
 
-    /// Returns the documentation of a message. Its links start at `doc_module`.
+    /// Returns the documentation of a message. Links are relative to `doc_module`.
     fn documentation(&self, message: &Message, doc_module: DocModule<'_>) -> Vec<String> {
         let mut lines = vec![docs::sentence(&docs::escape(&message.name))];
         let mut sentences = Vec::new();
         docs::words(message.documentation.as_deref(), &mut sentences);
         sentences.extend(completion::sentence(self.context, message, doc_module));
         if !message.accepted_in.is_empty() {
-            // The documentation of the method links to the message, which links to the states.
+            // Only the documentation of the message links to states. The documentation of the method links to the
+            // message.
             let state = |name: &str| match self.states.get(name).filter(|_| !doc_module.is_top()) {
                 Some(path) => doc_module.code(path),
                 None => docs::escape(name),
@@ -329,7 +330,8 @@ fn completion(completion: &Completion) -> Doc {
     seq!["rt::message::Completion::", name]
 }
 
-/// Returns the requests that can be distinguished. If several have the same form, only the first is returned.
+/// Returns the requests that can be distinguished by their bytes. If several requests have the same form, only the
+/// first one is returned.
 fn requests(messages: &[MessageModel]) -> Vec<(String, bool)> {
     let mut seen = HashSet::new();
     let requests = messages.iter().filter_map(|message| message.request.as_ref());

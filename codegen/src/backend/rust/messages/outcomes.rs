@@ -1,4 +1,4 @@
-//! Effects of messages in each state of a device: the rows of its table of commands and states.
+//! Effects of messages in each state of the device: the rows of the manual's table of commands and states.
 
 use std::collections::HashMap;
 
@@ -12,7 +12,7 @@ use crate::backend::rust::named::Types;
 use crate::ir::{CommandOutcomes, Device, Outcome, StateMachine, StateOutcome};
 use crate::names::{self, Case, NameRequest};
 
-/// A row, ready to be printed.
+/// The effects of a message in each state, ready to be printed.
 pub(in crate::backend::rust) struct OutcomesModel {
     /// The name of the constant.
     pub name: String,
@@ -22,7 +22,7 @@ pub(in crate::backend::rust) struct OutcomesModel {
     pub value: Doc,
 }
 
-/// Returns the rows of each message, by its name.
+/// Returns the effects of all messages, keyed by message name.
 pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<String, Vec<OutcomesModel>> {
     let machines: Vec<&StateMachine> = device.machines.iter().filter(|machine| !machine.outcomes.is_empty()).collect();
     let mut all: HashMap<String, Vec<OutcomesModel>> = HashMap::new();
@@ -49,21 +49,21 @@ pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> H
     all
 }
 
-/// Returns the name of the constant of a machine if several machines have such tables.
+/// Returns the name of a machine's constant if several machines have effects.
 fn constant(machine: &str) -> String {
     let name = format!("outcomes {machine}");
     let name_request = NameRequest { name: &name, fallback: String::new(), suffix: "machine".to_owned() };
     names::unique(&[name_request], &[], Case::Snake).remove(0).to_ascii_uppercase()
 }
 
-/// Returns the type of a machine's states, and its variants by the names of the states.
+/// Returns the type of a machine's states, and its variants keyed by the names of the states.
 fn states(context: &Context<'_>, device: &Device, machine: &StateMachine, types: &Types) -> Option<Variants> {
     let at = device.machines.iter().position(|other| other.name == machine.name);
     let model = at.and_then(|at| types.machines.get(at)).and_then(|model| model.states.as_ref());
     machine::states_of(context, machine, model, &types.enumerations)
 }
 
-/// Returns links from the messages to the states of all machines, by the names of the states.
+/// Returns links from message types to the states of all machines, keyed by state name.
 pub(super) fn links(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<String, String> {
     let mut links = HashMap::new();
     for (ty, variants) in device.machines.iter().filter_map(|machine| states(context, device, machine, types)) {

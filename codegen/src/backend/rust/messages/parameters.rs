@@ -1,4 +1,4 @@
-//! Messages that read and write numbered parameters one by one.
+//! Messages that read or write a single numbered parameter.
 
 use super::rules::Rules;
 use super::MessageModel;
@@ -6,26 +6,26 @@ use crate::backend::rust::code::{call, Doc};
 use crate::ir::Device;
 use crate::resolve::messages::{carriers, Shaped, Step};
 
-/// The implementation of `ParameterMessages`, ready to be printed.
+/// The implementation of the trait `ParameterMessages`, ready to be printed.
 #[derive(Default)]
 pub(in crate::backend::rust) struct ParametersModel {
     pub read: Vec<Arm>,
     pub write: Vec<Arm>,
 }
 
-/// The parameters of a space, and the message that carries them.
+/// The message that reads or writes the parameters of a space.
 pub(in crate::backend::rust) struct Arm {
-    /// Constant with the parameter numbers and lengths of the space.
+    /// Name of the constant with the space's parameter numbers and lengths.
     pub rule: String,
-    /// The type of the message.
+    /// Type of the message.
     pub message: String,
-    /// Names and values of the fields of the message.
+    /// Names and values of the message's fields.
     pub build: Vec<(String, Doc)>,
-    /// Expression of the value in the reply.
+    /// Expression that returns the value from the reply.
     pub value: String,
 }
 
-/// Returns the implementation; `None` if messages neither read nor write parameters.
+/// Returns the implementation. Returns `None` if there are no messages for single parameters.
 pub(super) fn model(
     device: &Device,
     shapes: &[Shaped<'_>],

@@ -1,4 +1,4 @@
-//! Encoding of parameters in messages: a constant for each parameter space.
+//! Encoding rules for parameters in messages. Each parameter space has a constant.
 
 use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
@@ -7,28 +7,28 @@ use crate::ir::{Device, ParameterSpace, Type};
 use crate::names::{self, Case, NameRequest};
 use crate::resolve::messages::{numbered, Step};
 
-/// Maximum length of a name. The lines that use the name must stay below the margin.
+/// Maximum length of a constant's name. It limits the length of the lines that use the name.
 const MAX_NAME: usize = 24;
 
-/// A constant, ready to be printed.
+/// A constant with an encoding rule, ready to be printed.
 pub(in crate::backend::rust) struct RuleModel {
     pub name: String,
     pub space: String,
     pub docs: String,
     pub code_bits: u32,
     pub order: String,
-    /// Ranges of parameter numbers, each with the length of its values in bytes.
+    /// Ranges of parameter numbers, each with the byte length of its values.
     pub lengths: Vec<String>,
 }
 
-/// All constants.
+/// The constants of all encoding rules.
 #[derive(Default)]
 pub(in crate::backend::rust) struct Rules {
     pub models: Vec<RuleModel>,
 }
 
 impl Rules {
-    /// Creates the constants that these steps need. `types` are the names of types in the same module.
+    /// Creates the constants that these steps use. `types` contains the names of types in the same module.
     pub(super) fn new<'a>(
         context: &Context<'_>,
         device: &Device,
@@ -54,7 +54,8 @@ impl Rules {
             suffix: bits.to_string(),
         };
         let name_requests: Vec<NameRequest<'_>> = used.iter().map(name_request).collect();
-        // A type name of one letter, or of one letter and digits, has the form of a constant.
+        // Type names of one letter, and of one letter followed by digits, look like constants, so these names are
+        // reserved.
         let upper_case = types.iter().filter(|name| name.to_ascii_uppercase() == **name);
         let types: Vec<String> = upper_case.map(|name| name.to_ascii_lowercase()).collect();
         let mut reserved = vec!["framing", "max_data"];
@@ -76,15 +77,15 @@ impl Rules {
         Rules { models: models.collect() }
     }
 
-    /// Returns the name of the constant for a space and numbers of this many bits; for any number of bits if `bits` is
-    /// `None`.
+    /// Returns the name of a space's constant for parameter numbers with this many bits. If `bits` is `None`, the
+    /// number of bits does not matter.
     pub(super) fn name(&self, space: &str, bits: Option<u32>) -> &str {
         let fits = |model: &&RuleModel| model.space == space && bits.is_none_or(|bits| model.code_bits == bits);
         self.models.iter().find(fits).map_or("", |model| model.name.as_str())
     }
 }
 
-/// Returns the documentation of a constant.
+/// Returns the documentation of a rule's constant.
 fn documentation(context: &Context<'_>, definition: Option<&ParameterSpace>, space: &str) -> String {
     let mut text = format!("Encoding of the parameters of the space {} in messages.", docs::escape(space));
     let messages = definition.map_or([None, None], |definition| [definition.read.as_ref(), definition.write.as_ref()]);
@@ -96,7 +97,7 @@ fn documentation(context: &Context<'_>, definition: Option<&ParameterSpace>, spa
     text
 }
 
-/// Returns ranges of consecutive numbers whose values have the same length.
+/// Returns ranges of consecutive parameter numbers with values of the same length.
 fn lengths(context: &Context<'_>, device: &Device, space: &str) -> Vec<String> {
     let mut spans: Vec<(u32, u32, u32)> = Vec::new();
     for (code, item) in numbered(device, space) {
@@ -111,7 +112,7 @@ fn lengths(context: &Context<'_>, device: &Device, space: &str) -> Vec<String> {
     spans.iter().map(one).collect()
 }
 
-/// Returns the number of bytes of a value; `None` if it is variable or more than 8.
+/// Returns the byte length of a value. Returns `None` if the length is variable or greater than 8.
 fn length(ty: Type) -> Option<u32> {
     ty.bits().map(|bits| bits.div_ceil(8)).filter(|length| (1..=8).contains(length))
 }

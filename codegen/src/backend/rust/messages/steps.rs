@@ -1,4 +1,4 @@
-//! Statements that write and read the data of a message.
+//! Generates the statements that write and read the data of a message.
 
 use super::field::Field;
 use super::rules::Rules;
@@ -6,32 +6,32 @@ use crate::backend::rust::code::{call, seq, Doc};
 use crate::ir::{Limits, Value};
 use crate::resolve::messages::{tail, Step};
 
-/// The statements for a request or a reply.
+/// The statements for writing and reading a request or a reply.
 #[derive(Default)]
 pub(in crate::backend::rust) struct Statements {
     pub write: Vec<Doc>,
     pub read: Vec<Doc>,
-    /// Value of each field, computed from the data that was read.
+    /// Name and value of each field. The values are calculated from the data that was read.
     pub build: Vec<(String, Doc)>,
-    /// Whether writing needs the request.
+    /// Whether the statements for writing use the request.
     pub writes_request: bool,
-    /// Whether reading needs the request.
+    /// Whether the statements for reading use the request.
     pub reads_request: bool,
-    /// Whether writing and reading need the station number.
+    /// Whether the statements use the station number.
     pub uses_station: bool,
 }
 
-/// Maximum number of fixed bytes on a line.
+/// Maximum number of fixed bytes per line.
 const LINE: usize = 8;
 
-/// Returns the statements for these steps. `fields` are the fields of the steps, in order.
+/// Returns the statements for these steps. `fields` contains the steps' fields in order.
 pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) -> Statements {
     let mut statements = Statements::default();
     let list = fields.iter().find(|field| field.is_list()).map_or("", |field| field.name.as_str());
     let mut fields = fields.iter();
-    // Statements that need the total length.
+    // Statements at the end, which need the total length.
     let mut end = Vec::new();
-    // Statement that checks the step after the next one is written.
+    // A check that follows the statement of the next step.
     let mut next = None;
     for (at, step) in steps.iter().enumerate() {
         let tail = tail(steps.get(at + 1..).unwrap_or_default());
@@ -141,7 +141,7 @@ fn reading(bits: u32, order: &[u8]) -> String {
     }
 }
 
-/// Returns the check of the station number; `None` if every number is allowed.
+/// Returns a check of the station number. Returns `None` if all numbers are allowed.
 fn station(bits: u32, limits: &Limits) -> Option<Doc> {
     let number =
         |limit: &Option<Value>| limit.as_ref().and_then(Value::as_int).and_then(|number| u32::try_from(number).ok());
@@ -167,7 +167,7 @@ fn array(bytes: &[u8]) -> String {
     format!("[{}]", bytes.join(", "))
 }
 
-/// Adds the statements for a step with a field.
+/// Adds the statements for a step that has a field.
 fn value(statements: &mut Statements, field: Option<&Field>, list: Option<Doc>, rules: &Rules, tail: u32) {
     let Some(field) = field else { return };
     let local = field.local();

@@ -1,10 +1,10 @@
-//! Names of composite numbers, which are split over several items.
+//! Names of composite numbers, which consist of several items.
 
 use crate::backend::rust::bus_facts;
 use crate::ir::{Composite, Device};
 use crate::names::{self, Case};
 
-/// Other names in the same module.
+/// Names of other elements in the same module.
 const RESERVED: [&str; 6] = ["device", "axes", "module", "entries", "identity", "node_id"];
 
 /// A composite number and the name of its constant.
@@ -13,7 +13,7 @@ pub(in crate::backend::rust) struct NamedComposite<'a> {
     pub name: String,
 }
 
-/// Returns the names of the constants.
+/// Returns the composite numbers with the names of their constants.
 pub(super) fn names(device: &Device) -> Vec<NamedComposite<'_>> {
     let name_requests = names::numbered(device.composites.iter().map(|composite| composite.name.as_str()), "composite");
     let reserved: Vec<&str> = bus_facts::RESERVED.iter().chain(&RESERVED).copied().collect();

@@ -1,4 +1,4 @@
-//! Names of the handles of objects, of their entries and of registers.
+//! Names of the handles of objects, object entries and registers.
 
 use std::borrow::Cow;
 
@@ -9,11 +9,11 @@ use crate::backend::rust::reachable::{addressable, is_module};
 use crate::ir::{Group, Item, ItemId, ObjectCode};
 use crate::names::{self, Case, NameRequest};
 
-/// Reserved names within the module of an object. The methods `new`, `into` and `try_into` would look like constructors
-/// or be hidden by methods that every type has. Constants cannot conflict.
+/// Names that are reserved in the module of an object. Clippy would mistake a method `new` for a constructor. Methods
+/// that all types have would hide `into` and `try_into`. Constants cannot conflict with them.
 const RESERVED_IN_OBJECT: [&str; 7] = ["self", "super", "crate", "rt", "new", "into", "try_into"];
 
-/// An item and the name of its handle before escaping.
+/// An item with the name of its handle. The name is not escaped.
 pub(in crate::backend::rust) struct NamedItem<'a> {
     pub id: ItemId,
     pub item: &'a Item,
@@ -26,22 +26,22 @@ pub(in crate::backend::rust) struct NamedRegister<'a> {
     pub entry: NamedItem<'a>,
 }
 
-/// An object with values, and its name.
+/// An object with values and its name.
 pub(in crate::backend::rust) struct NamedObject<'a> {
     pub group: &'a Group,
     position: u32,
     pub name: String,
-    /// Whether the object is a module of several values. Otherwise its only value has the object's name.
+    /// Whether the object is a module with several values. If not, its only value has the object's name.
     pub is_module: bool,
     pub entries: Vec<NamedItem<'a>>,
 }
 
-/// The names of handles in Rust.
+/// The Rust names of all handles.
 #[derive(Default)]
 pub(in crate::backend::rust) struct HandleNames<'a> {
-    /// Registers, sorted by ID.
+    /// Registers with their names, sorted by ID.
     pub registers: Vec<NamedRegister<'a>>,
-    /// Objects, sorted by the position of their group.
+    /// Objects with their names, sorted by the position of their group.
     pub objects: Vec<NamedObject<'a>>,
 }
 
@@ -69,8 +69,8 @@ impl<'a> HandleNames<'a> {
         self.registers.is_empty() && self.objects.is_empty()
     }
 
-    /// Returns the name of an item's handle if the name describes the value. Returns `None` for elements of arrays and
-    /// for entries without a name.
+    /// Returns the name of an item's handle if this name describes the value. Returns `None` for array elements and
+    /// unnamed entries.
     pub(super) fn of_entry(&self, id: ItemId) -> Option<&str> {
         let (object, entry) = self.find(id)?;
         let is_array = |object: &NamedObject<'_>| object.group.object_code() == Some(ObjectCode::Array);
@@ -78,8 +78,8 @@ impl<'a> HandleNames<'a> {
         is_descriptive.then_some(entry.name.as_str())
     }
 
-    /// Returns the full name of an item: the name of its handle, preceded by the name of its object if that has several
-    /// values. The prefix is omitted if the item's name starts with it.
+    /// Returns the full name of an item: the name of its handle. If the object has several values, the object's name
+    /// precedes it unless the item's name already starts with it.
     pub(super) fn whole(&self, id: ItemId) -> Option<Cow<'_, str>> {
         let (object, entry) = self.find(id)?;
         let (title, name) = (object.map_or("", |object| object.group.name.trim()), entry.item.name.trim());
@@ -91,7 +91,7 @@ impl<'a> HandleNames<'a> {
         })
     }
 
-    /// Returns an item, and its object if the object has several values.
+    /// Returns an item. If its object has several values, also returns the object.
     fn find(&self, id: ItemId) -> Option<(Option<&NamedObject<'a>>, &NamedItem<'a>)> {
         if let Ok(at) = self.registers.binary_search_by_key(&id, |register| register.entry.id) {
             return Some((None, &self.registers[at].entry));
@@ -102,7 +102,7 @@ impl<'a> HandleNames<'a> {
     }
 }
 
-/// Returns the names of the registers, followed by the names of the objects.
+/// Returns unique names: first of the registers, then of the objects.
 fn unique(located: &Located<'_>) -> Vec<String> {
     let suffixes: Vec<String> =
         located.registers.iter().map(|register| ItemAddresses::of(located, register.item).suffix()).collect();
@@ -117,7 +117,7 @@ fn unique(located: &Located<'_>) -> Vec<String> {
     names::unique(&name_requests, &reserved, Case::Snake)
 }
 
-/// Returns whether the name of a constant differs from the name of a module or method.
+/// Returns whether a name has letters, so that a constant with this name differs from a module or method.
 pub(in crate::backend::rust) fn is_cased(name: &str) -> bool {
     name.to_ascii_uppercase() != name
 }

@@ -1,4 +1,4 @@
-//! Names of state machines: the types of their states and commands, and the bit field methods that read and write them.
+//! Names of state machines: types of states and commands, and the bit field methods for reading and writing them.
 
 use crate::ir::StateMachine;
 use crate::names::{self, Case, NameRequest};
@@ -6,19 +6,19 @@ use crate::names::{self, Case, NameRequest};
 /// A state machine and its names.
 pub(in crate::backend::rust) struct NamedMachine<'a> {
     pub machine: &'a StateMachine,
-    /// Type of the states.
+    /// Name of the type of states.
     pub states: String,
-    /// Type of the commands.
+    /// Name of the type of commands.
     pub commands: String,
-    /// Bit field method that returns the state.
+    /// Name of the bit field method that returns the state.
     pub getter: String,
-    /// Bit field method that returns the command.
+    /// Name of the bit field method that returns the command.
     pub command_getter: String,
-    /// Bit field method that sets the command.
+    /// Name of the bit field method that sets the command.
     pub command_setter: String,
 }
 
-/// Returns the names to request for the types of states and commands. They are `State` and `Command` if the device has
+/// Returns the preferred names for the types of states and commands. They are `State` and `Command` if the device has
 /// one machine and no other type with these names.
 pub(super) fn type_names(machines: &[StateMachine], is_used: &dyn Fn(&str) -> bool) -> Vec<[String; 2]> {
     let is_simple = |name: &str| machines.len() == 1 && !is_used(name);

@@ -4,10 +4,10 @@ use crate::ir::{Device, Message, MessageId};
 use crate::names::{self, Case, NameRequest};
 use crate::resolve::messages::{self, Shaped};
 
-/// Names that the generated code of messages uses.
+/// Names that are used in the generated code of messages.
 const RESERVED: [&str; 10] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "Protocol", "Request", "E"];
 
-/// Names of the types of a message: request, reply, entry of the request's list, entry of the reply's list.
+/// Names of a message's types: request, reply, list entry of the request, and list entry of the reply.
 pub(in crate::backend::rust) type MessageNames = [String; 4];
 
 fn names(shapes: &[Shaped<'_>]) -> Vec<MessageNames> {
@@ -19,8 +19,8 @@ fn names(shapes: &[Shaped<'_>]) -> Vec<MessageNames> {
     shapes.iter().map(|_| std::array::from_fn(|_| names.next().unwrap_or_default())).collect()
 }
 
-/// Returns the names to request for the types of a message. A message that only the device sends keeps its name for the
-/// reply.
+/// Returns the preferred names for the types of a message. If only the device sends the message, the reply has the name
+/// of the message.
 fn base_names(message: &Message) -> MessageNames {
     let name = &message.name;
     let reply = if message.request.is_empty() { name.to_string() } else { format!("{name} reply") };
@@ -31,16 +31,16 @@ fn base_names(message: &Message) -> MessageNames {
 /// The path of a message, relative to the device's module.
 pub(in crate::backend::rust) struct MessagePath {
     pub id: MessageId,
-    /// Whether the message is a request. Otherwise only the device sends it.
+    /// Whether the message is a request. If not, only the device sends the message.
     pub is_request: bool,
     pub path: String,
 }
 
-/// The messages of a device that have a shape, with their names.
+/// The messages of a device that have a shape, with the names of their types.
 #[derive(Default)]
 pub(in crate::backend::rust) struct NamedMessages<'a> {
     pub shapes: Vec<Shaped<'a>>,
-    /// Names, by the positions of the shapes.
+    /// Names of types, by the position of the message's shape.
     pub names: Vec<MessageNames>,
 }
 

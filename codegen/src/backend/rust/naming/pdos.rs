@@ -1,4 +1,4 @@
-//! Names of PDOs.
+//! Names of PDOs and their fields.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
@@ -13,25 +13,25 @@ use crate::names::{self, Case, NameRequest};
 pub(in crate::backend::rust) struct NamedPdo<'a> {
     pub pdo: &'a Pdo,
     pub name: String,
-    /// Fields of the PDO; empty if the PDO has no struct.
+    /// Fields of the PDO. Empty if the PDO has no struct.
     pub fields: Vec<NamedField<'a>>,
 }
 
-/// An entry with a field, and its name before escaping.
+/// A PDO entry that becomes a field, with the name of the field. The name is not escaped.
 pub(in crate::backend::rust) struct NamedField<'a> {
     pub entry: &'a PdoEntry,
     pub name: String,
 }
 
-/// Returns the names of the PDOs and of their fields.
+/// Returns the PDOs with the names of their structs and fields.
 pub(super) fn names<'a>(scope: &Scope<'a>, handles: &HandleNames<'_>) -> Vec<NamedPdo<'a>> {
     let named = scope.pdos.iter().zip(struct_names(scope));
     named.map(|(pdo, name)| NamedPdo { pdo, name, fields: fields(scope, handles, pdo) }).collect()
 }
 
-/// Returns the fields of a PDO. A field has the name of its item's accessor. Elements of arrays, entries without a
-/// name, and entries whose name is not unique are named after object and entry. The name in the PDO is used only if the
-/// dictionary does not contain the item.
+/// Returns the fields of a PDO. A field has the name of its item's accessor. The names of the object and the entry are
+/// combined for array elements, unnamed entries, and entries with ambiguous names. The name in the PDO is used only if
+/// the dictionary does not contain the item.
 fn fields<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>, pdo: &'a Pdo) -> Vec<NamedField<'a>> {
     if !is_generated(pdo) {
         return Vec::new();
@@ -67,8 +67,8 @@ fn fields<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>, pdo: &'a Pdo) -> Vec
     entries.into_iter().zip(names).map(|(entry, name)| NamedField { entry, name }).collect()
 }
 
-/// Returns the name of a mapped entry in the description: its name in the PDO, otherwise the name of its object. For an
-/// object with several values, the name of the entry follows.
+/// Returns the description's name of a mapped entry. It is the name in the PDO, or the name of the object. If the
+/// object has several values, the name of the entry is appended.
 pub(in crate::backend::rust) fn title(scope: &Scope<'_>, entry: &PdoEntry) -> String {
     if scope.bus == ObjectBus::CoE && !entry.name.is_empty() {
         return entry.name.to_string();
@@ -77,15 +77,15 @@ pub(in crate::backend::rust) fn title(scope: &Scope<'_>, entry: &PdoEntry) -> St
     if !is_module(group) {
         return group.name.to_string();
     }
-    // Entries of compact objects repeat the name of the object.
+    // Entries of compact objects already contain the object's name.
     match entry.name.starts_with(group.name.as_str()) {
         true => entry.name.to_string(),
         false => format!("{} {}", group.name, entry.name),
     }
 }
 
-/// Returns the names of the structs. PDOs of CANopen are named by their number, also on EtherCAT if the device supports
-/// both. PDOs of EtherCAT have names.
+/// Returns the names of the PDO structs. The names of CANopen PDOs contain their number. This also applies to EtherCAT
+/// PDOs if the device supports both buses. Other EtherCAT PDOs have the names of the description.
 fn struct_names(scope: &Scope<'_>) -> Vec<String> {
     let all_numbered = scope.pdos.iter().all(|pdo| pdo.communication.is_some());
     let by_number = |pdo: &Pdo| all_numbered || scope.bus_of(pdo) == ObjectBus::CanOpen;
@@ -96,8 +96,8 @@ fn struct_names(scope: &Scope<'_>) -> Vec<String> {
     scope.pdos.iter().filter_map(name).collect()
 }
 
-/// Returns names such as `RxPdo1`. Further PDOs with the same number are `RxPdo1_2`, …: a table and the dictionary may
-/// both describe a PDO.
+/// Returns names such as `RxPdo1`. If several PDOs have the same number, the next names are `RxPdo1_2`, and so on. This
+/// happens if both a table and the dictionary describe a PDO.
 fn numbered<'p>(pdos: impl Iterator<Item = &'p Pdo>) -> Vec<String> {
     let mut seen: HashMap<String, usize> = HashMap::new();
     let name = |pdo: &Pdo| {
@@ -113,7 +113,7 @@ fn numbered<'p>(pdos: impl Iterator<Item = &'p Pdo>) -> Vec<String> {
     pdos.map(name).collect()
 }
 
-/// Returns the names of PDOs in the description. None of them is one of `numbers`.
+/// Returns names that are based on the PDO names in the description. None of the names is in `numbers`.
 fn names_by_source(scope: &Scope<'_>, is_named: impl Fn(&Pdo) -> bool, numbers: &[String]) -> Vec<String> {
     let mut seen = HashSet::new();
     let name_requests: Vec<NameRequest<'_>> = scope
@@ -121,7 +121,7 @@ fn names_by_source(scope: &Scope<'_>, is_named: impl Fn(&Pdo) -> bool, numbers: 
         .iter()
         .filter(|pdo| is_named(pdo))
         .map(|pdo| {
-            // A PDO index that is used on two sync managers is an error in the description.
+            // The index is repeated if the description wrongly uses one PDO index for two sync managers.
             let twice = if seen.insert(pdo.mapping_index) { String::new() } else { format!("_{}", pdo.origin.line) };
             NameRequest::new(&pdo.name, prefix(pdo.direction), format!("{:04X}{twice}", pdo.mapping_index))
         })
@@ -130,7 +130,8 @@ fn names_by_source(scope: &Scope<'_>, is_named: impl Fn(&Pdo) -> bool, numbers: 
     names::unique(&name_requests, &reserved, Case::Pascal)
 }
 
-/// Names that the generated code of PDOs uses, and the type names that would match one of its constructors.
+/// Names that are used in the generated code of PDOs. Also type names that would make clippy mistake a method for a
+/// constructor.
 const RESERVED: [&str; 13] =
     ["Self", "Result", "Ok", "Err", "Option", "Some", "None", "AsRef", "AsMut", "B", "At", "New", "Unpack"];
 
@@ -141,13 +142,13 @@ fn prefix(direction: Direction) -> &'static str {
     }
 }
 
-/// Returns whether a struct is generated for a PDO.
+/// Returns whether a PDO gets a struct.
 pub(in crate::backend::rust) fn is_generated(pdo: &Pdo) -> bool {
     let mut mapped = pdo.entries.iter().filter(|entry| is_field(entry)).peekable();
     mapped.peek().is_some() && mapped.all(|entry| entry.bits <= crate::limits::MAX_FIELD_BITS)
 }
 
-/// Returns whether an entry has a field.
+/// Returns whether an entry becomes a field.
 pub(in crate::backend::rust) fn is_field(entry: &PdoEntry) -> bool {
     entry.kind != PdoEntryKind::Padding && entry.bits > 0
 }

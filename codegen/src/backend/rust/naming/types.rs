@@ -1,4 +1,4 @@
-//! Types that a description defines and that generated code names: enumerations, bit fields and their views, states and
+//! Types of the description that have names in generated code: enumerations, bit fields and their views, states and
 //! commands.
 
 use std::collections::{HashMap, HashSet};
@@ -14,9 +14,9 @@ use crate::names::{self, Case, NameRequest};
 #[derive(Clone, Debug)]
 pub(in crate::backend::rust) struct NamedType {
     pub name: String,
-    /// Path of the base type in the runtime: `u8`, `rt::Uint<3>`.
+    /// Path of the base type in the runtime, such as `u8` or `rt::Uint<3>`.
     pub base: &'static str,
-    /// Primitive integer that holds the raw value: `u8`.
+    /// Primitive integer that holds the raw value, such as `u8`.
     pub native: &'static str,
     /// Integer type of the raw value.
     pub ty: Type,
@@ -25,7 +25,7 @@ pub(in crate::backend::rust) struct NamedType {
 }
 
 impl NamedType {
-    /// Creates an unnamed type with this base; `None` if Rust has no such integer.
+    /// Creates a type with this base and without a name. Returns `None` if Rust has no such integer.
     fn with_base(ty: Type) -> Option<Self> {
         let (base, native) = ValueType::of(ty).number()?;
         Some(NamedType { name: String::new(), base, native, ty, bits: ty.bits()? })
@@ -37,11 +37,11 @@ impl NamedType {
     }
 }
 
-/// The bits of a bit field that apply under one condition.
+/// The view of a bit field: the bits that apply under one condition.
 pub(in crate::backend::rust) struct View {
     pub name: String,
     pub condition: Condition,
-    /// Condition as words for the name: `in profile position`.
+    /// The condition in words, for the name of the view: `in profile position`.
     pub words: String,
 }
 
@@ -52,16 +52,16 @@ pub(in crate::backend::rust) struct TypeNames<'a> {
     pub enumerations: Vec<(u32, NamedType)>,
     /// Bit fields with their views, sorted by the positions of their definitions.
     pub bit_fields: Vec<(u32, NamedType, Vec<View>)>,
-    /// Enumerations that fields of bit fields use.
+    /// Enumerations that are types of fields in bit fields.
     pub in_fields: HashSet<u32>,
     pub machines: Vec<NamedMachine<'a>>,
 }
 
-/// Names of the prelude that the module uses, and names that would make clippy mistake a method for a constructor.
+/// Names of the prelude that the module uses. Also names that would make clippy mistake a method for a constructor.
 const RESERVED: [&str; 9] = ["Self", "Option", "Result", "Unknown", "Some", "None", "Default", "New", "FromRaw"];
 
 impl<'a> TypeNames<'a> {
-    /// Returns the types of items and PDO entries, and the types of fields of bit fields.
+    /// Returns the named types of items, PDO entries and fields in bit fields.
     pub(super) fn of(scope: &Scope<'a>, handles: &HandleNames<'_>) -> Self {
         let mut types = used(scope, handles);
         let machines = scope.device.map_or(&[][..], |device| &device.machines);
@@ -92,7 +92,7 @@ impl<'a> TypeNames<'a> {
         self.enumerations.get(at).map(|(_, named)| named)
     }
 
-    /// Returns the names of enumerations, bit fields, views, states and commands.
+    /// Returns unique names of the enumerations, bit fields, views, states and commands.
     fn unique(&self, scope: &Scope<'_>, machines: &[StateMachine]) -> Vec<String> {
         let definition = |at: u32| &scope.types[at as usize];
         let enumerations = || self.enumerations.iter().map(|(at, _)| *at);
@@ -133,12 +133,12 @@ impl<'a> TypeNames<'a> {
     }
 }
 
-/// Returns the name that a type would have if it were the only one.
+/// Returns the name of a type before it is made unique.
 fn pascal(name_request: &NameRequest<'_>) -> String {
     names::identifier(name_request, Case::Pascal)
 }
 
-/// Numbers of types that share a name, or a name and a base type.
+/// Number of types with the same name, and number of types with the same name and base type.
 struct NameCounts<'a> {
     by_name: HashMap<&'a str, usize>,
     by_base: HashMap<(&'a str, Type), usize>,
@@ -154,7 +154,8 @@ impl<'a> NameCounts<'a> {
         counts
     }
 
-    /// Returns the suffix of a type with an ambiguous name: its base type if that is unique, otherwise its position.
+    /// Returns the suffix of a type whose name is ambiguous. It is the base type if this makes the name unique,
+    /// otherwise the position.
     fn suffix(&self, scope: &Scope<'_>, definition: &TypeDef, position: u32) -> String {
         let base = base_type(scope, definition);
         let name = definition.name.as_str();
@@ -173,7 +174,7 @@ fn base_type(scope: &Scope<'_>, definition: &TypeDef) -> Type {
     }
 }
 
-/// Returns the types that are used, without names.
+/// Returns the types that generated code uses. Their names are empty.
 fn used<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>) -> TypeNames<'a> {
     let items = scope.groups.iter().flat_map(|group| &group.items).map(|item| item.ty);
     let entries = scope.pdos.iter().flat_map(|pdo| &pdo.entries).map(|entry| entry.ty);
@@ -206,7 +207,7 @@ fn used<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>) -> TypeNames<'a> {
     TypeNames { enumerations, bit_fields, in_fields, machines: Vec::new() }
 }
 
-/// Returns whether any bit has a name. Fallback names such as "Bit 3" do not count.
+/// Returns whether any bit has a name in the description. Fallback names such as "Bit 3" do not count.
 fn is_named(fields: &[BitFieldEntry]) -> bool {
     fields.iter().any(|field| match field.meaning {
         BitMeaning::Reserved { .. } => false,
@@ -215,10 +216,10 @@ fn is_named(fields: &[BitFieldEntry]) -> bool {
     })
 }
 
-/// Returns the enumeration at this position; `None` if its integer type holds none of its values.
+/// Returns the enumeration at this position. Returns `None` if none of its values fits its integer type.
 fn enumeration(scope: &Scope<'_>, position: u32) -> Option<NamedType> {
     let Shape::Enumeration { base, values, .. } = &scope.types.get(position as usize)?.shape else { return None };
-    // A Boolean with named values is a one-bit integer.
+    // If a Boolean has named values, its base type is a one-bit integer.
     let base = match scope.base(*base) {
         Type::Boolean => Type::Unsigned(1),
         other => other,
@@ -228,13 +229,13 @@ fn enumeration(scope: &Scope<'_>, position: u32) -> Option<NamedType> {
     NamedType::with_base(base).filter(|_| has_value)
 }
 
-/// Returns the bit field at this position. Bit fields are unsigned.
+/// Returns the bit field at this position. Bit fields are always unsigned.
 fn bit_field(scope: &Scope<'_>, position: u32) -> Option<NamedType> {
     let Shape::BitField { base, .. } = &scope.types.get(position as usize)?.shape else { return None };
     NamedType::with_base(Type::Unsigned(u8::try_from(scope.base(*base).bits()?).ok()?))
 }
 
-/// Returns the conditions under which bits of the type at this position apply.
+/// Returns the conditions under which bits of the type at this position have a meaning.
 fn views(scope: &Scope<'_>, handles: &HandleNames<'_>, position: u32) -> Vec<View> {
     let Shape::BitField { fields, .. } = &scope.types[position as usize].shape else { return Vec::new() };
     let mut views: Vec<View> = Vec::new();
@@ -248,7 +249,7 @@ fn views(scope: &Scope<'_>, handles: &HandleNames<'_>, position: u32) -> Vec<Vie
     views
 }
 
-/// Returns the names of the values of a condition; `None` if a value has no name or the condition has a mask.
+/// Returns the names of the values in a condition. Returns `None` if a value has no name or the condition has a mask.
 pub(in crate::backend::rust) fn value_names(scope: &Scope<'_>, condition: &Condition) -> Option<Vec<String>> {
     let item = scope.referred(&condition.item);
     let definition = item.and_then(|item| scope.resolve(item.ty).1).map(|(_, definition)| definition);
@@ -265,7 +266,7 @@ pub(in crate::backend::rust) fn value_names(scope: &Scope<'_>, condition: &Condi
     type_names.or_else(stated_names).filter(|_| condition.mask.is_none())
 }
 
-/// Returns the words of a condition, for a name.
+/// Returns a condition in words, for the name of a view.
 fn words(scope: &Scope<'_>, handles: &HandleNames<'_>, condition: &Condition) -> String {
     let item = condition.item.id.and_then(|id| handles.whole(id));
     let item = item.unwrap_or_else(|| condition.item.as_str().into());

@@ -1,4 +1,4 @@
-//! The type of a device: one method for each value and each request.
+//! Prints the type of a device. It has a method for each value and each request.
 
 use super::objects::access;
 use crate::backend::rust::code::{call, generic, line, open, seq, Code};
@@ -17,7 +17,8 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     methods(code, model);
 }
 
-/// Returns the type parameter that follows the client if the type of the device tracks the last selecting request.
+/// Returns the type parameter after the client. It exists if the device's type tracks which selecting request was sent
+/// last.
 pub(super) fn selected(model: &Model) -> &'static str {
     if model.selects() {
         ", S"

@@ -1,4 +1,4 @@
-//! Bit fields and their views.
+//! Prints bit fields and their views.
 
 use crate::backend::rust::bit_field::{BitFieldModel, DebugModel, FieldModel, ViewModel};
 use crate::backend::rust::code::{call, line, open, seq, slice, Code};

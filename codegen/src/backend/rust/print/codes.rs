@@ -1,4 +1,4 @@
-//! Code tables.
+//! Prints code tables.
 
 use super::section;
 use crate::backend::rust::code::{line, open, Code};

@@ -1,4 +1,4 @@
-//! The start of a device's module: its identity, and what an EtherCAT master needs.
+//! Prints the start of a device's module: its identity and the constants for an EtherCAT master.
 
 use crate::backend::rust::code::{line, open, Code};
 use crate::backend::rust::ethercat::EtherCatModel;

@@ -1,4 +1,4 @@
-//! The default process image.
+//! Prints the default process image.
 
 use super::section;
 use crate::backend::rust::code::{call, generic, line, open, seq, Code, Doc, Stop};
@@ -58,7 +58,7 @@ fn unpack(code: &mut Code, image: &ImageModel) {
     for (left, field) in (0..image.fields.len()).rev().zip(&image.fields) {
         let bytes = call!(seq!["&rt::bits::get_bytes::<", field.length, ">"], "data", field.bit);
         let value = call!(seq!["super::pdo::", field.pdo, "::unpack"], bytes);
-        // The last comma may be beyond the margin.
+        // The last comma may exceed the maximum line width.
         let end = (left == 0).then_some(Stop);
         line!(code, field.name, ": ", value, "?", end, ",");
     }
@@ -94,7 +94,8 @@ fn view(code: &mut Code, image: &ImageModel) {
     code.close("}");
 }
 
-/// Writes the method that returns the view of a PDO. `bytes` is the type of the bytes, and `borrow` the method that borrows them.
+/// Writes the method that returns the view of a PDO. `bytes` is the type of the image's bytes, and `borrow` is the method that
+/// borrows them.
 fn pdo(code: &mut Code, field: &ImageField, method: Doc, bytes: &str, borrow: &str) {
     code.doc(&field.docs);
     line!(code, "#[inline]");

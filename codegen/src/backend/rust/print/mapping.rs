@@ -1,4 +1,4 @@
-//! The modules that `lexibus::pdo!` looks up: PDOs with a changeable mapping, and items that can be mapped.
+//! Prints the modules that `lexibus::pdo!` reads: PDOs with a changeable mapping, and items that can be mapped.
 
 use crate::backend::rust::code::{line, list, open, Code, Stop};
 use crate::backend::rust::model::Model;

@@ -1,4 +1,4 @@
-//! Requests and replies.
+//! Prints requests and replies.
 
 use super::accessors::selected;
 use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Data, Doc, Stop};
@@ -69,7 +69,7 @@ fn constants(code: &mut Code, protocol: &ProtocolModel) {
     code.close("}");
 }
 
-/// Writes the start of a function that has one line for each parameter.
+/// Writes the first lines of a function. Each parameter has its own line.
 fn function(code: &mut Code, start: &str, parameters: &[&str], result: &str) {
     open!(code, start, "(");
     for parameter in parameters {
@@ -124,7 +124,7 @@ fn parameters(code: &mut Code, model: &ParametersModel, has_station: bool) {
     code.close("}");
 }
 
-/// Writes the code that sends the first message whose condition holds, and the end of the function.
+/// Writes code that sends the message of the first arm whose condition is true. Also writes the end of the function.
 fn sent(code: &mut Code, arms: &[Arm], has_station: bool, unused: &str, condition: impl Fn(&Arm) -> String) {
     if arms.is_empty() {
         line!(code, "let _ = (", unused, ", &mut to);");
@@ -233,7 +233,7 @@ fn reply(code: &mut Code, data: &DataModel) {
     code.close("}");
 }
 
-/// Writes the function that writes the data. `given` is the parameter in addition to `self` and the writer.
+/// Writes the function that writes the message data. `given` is an additional parameter, besides `self` and the writer.
 fn writes(code: &mut Code, given: &str, statements: &Statements) {
     let to = if statements.write.is_empty() { "_" } else { "to" };
     let to = format!("{to}: &mut rt::message::Writer<'_>");
@@ -243,7 +243,7 @@ fn writes(code: &mut Code, given: &str, statements: &Statements) {
     code.close("}");
 }
 
-/// Writes the statements that read the data and build the struct.
+/// Writes the statements that read the message data and create the struct.
 fn reads(code: &mut Code, statements: &Statements) {
     code.lines(&statements.read);
     line!(code, "let parsed = ", Data::fields("Self", statements.build.clone()), ";");

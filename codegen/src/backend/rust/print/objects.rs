@@ -1,4 +1,4 @@
-//! Handles of objects and registers, and the windows through which some items are accessed.
+//! Prints the handles of objects and registers, and the windows through which some items are accessed.
 
 use super::section;
 use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Doc, Stop};
@@ -45,7 +45,8 @@ fn windows(code: &mut Code, windows: &[WindowModel]) {
     code.close("}");
 }
 
-/// Writes the location types that the runtime does not define, and the functions that create shared locations.
+/// Writes the location types that are not part of the runtime, and the functions that create the locations of several
+/// items.
 fn locations(code: &mut Code, model: &Model) {
     for (name, docs, fields) in &model.locations {
         open!(code, "rt::location! {");
@@ -91,7 +92,7 @@ fn handle_types(code: &mut Code, model: &Model) {
     }
 }
 
-/// Writes an object: the module of its values, or its only value.
+/// Writes an object: a module with its values, or its only value.
 pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &ObjectModel) {
     if !object.is_module {
         return object.items.iter().for_each(|item| handle(code, item, ""));
@@ -105,7 +106,8 @@ pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &
     if model.has_accessors {
         code.doc(&format!("Access to the entries of {}", object.heading));
         open!(code, "pub struct Accessors<'c, C> {");
-        // The constructor is in the methods of the device, or of any device of the file if there are several.
+        // Methods of the device call the constructor. If the file has several devices, methods of any device may call
+        // it.
         let users = if model.is_one_of_several { "super::super::super" } else { "super::super" };
         line!(code, "pub(in ", users, ") client: &'c mut C,");
         code.close("}");
@@ -123,7 +125,7 @@ pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &
     code.close("}");
 }
 
-/// Returns the type of access to an item.
+/// Returns the type that gives access to an item.
 pub(super) fn access(outer: &str, access: &str, arguments: &[Doc]) -> Doc {
     let client = ["'_", "C"].map(Doc::from);
     list(&format!("{outer}{access}Access<"), client.iter().chain(arguments), ">")

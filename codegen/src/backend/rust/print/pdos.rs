@@ -1,4 +1,4 @@
-//! PDO structs.
+//! Prints PDO structs.
 
 use super::section;
 use crate::backend::rust::code::{line, open, Code};
@@ -108,7 +108,7 @@ fn configuration(code: &mut Code, pdo: &PdoModel) {
     code.close("}");
 }
 
-/// Writes the constant that proves that unpacking and packing return the same bits.
+/// Writes a constant that fails to compile unless unpacking and packing return the same bits.
 fn proof(code: &mut Code, pdo: &PdoModel) {
     open!(code, "const _: () = {");
     line!(code, "let word = ", pdo.covered, ";");

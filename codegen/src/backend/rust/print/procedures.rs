@@ -1,4 +1,4 @@
-//! Procedures that consist only of writes.
+//! Prints procedures that consist only of object writes.
 
 use crate::backend::rust::code::{line, list, open, Code};
 use crate::backend::rust::procedure::ProcedureModel;

@@ -1,4 +1,4 @@
-//! PROFINET devices.
+//! Prints PROFINET devices.
 
 mod diagnosis;
 mod image;
@@ -9,7 +9,7 @@ use super::device::identity;
 use crate::backend::rust::code::{line, list, open, Code, Data, Doc};
 use crate::backend::rust::profinet::{DapModel, FieldModel, FileModel, ModuleModel, SubmoduleModel};
 
-/// Writes all device access points of a file, and the modules and submodules that can be plugged into them.
+/// Writes all device access points of a file with the modules and submodules that fit into them.
 pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
     for point in &file.access_points {
         if file.is_single {
@@ -120,7 +120,7 @@ fn fields(code: &mut Code, fields: &[FieldModel]) {
     }
 }
 
-/// Returns the literal of a struct with these fields.
+/// Returns a struct literal with these fields.
 fn literal(fields: Vec<(&str, Doc)>) -> Doc {
     if fields.is_empty() {
         return Doc::from("Self {}");

@@ -1,14 +1,14 @@
-//! Modules of definitions.
+//! Prints the modules that contain definitions.
 
 use crate::backend::rust::code::{line, Code, Data};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::reexport::{Reexport, Section};
 
-/// Writes a section of a device: re-exports of earlier devices' definitions, and new definitions. Writes nothing if
-/// there are none.
+/// Writes a section of a device: re-exports of definitions in earlier devices, and new definitions. Writes nothing if
+/// there are neither.
 ///
-/// `names_runtime` is `None` if the section has no new definitions. Otherwise it states whether their code names the
-/// runtime.
+/// `names_runtime` states whether the code of new definitions names the runtime. It is `None` if there are no new
+/// definitions.
 pub(super) fn write(
     code: &mut Code,
     model: &Model,

@@ -1,4 +1,4 @@
-//! The static table of all items.
+//! Prints the static table of all items.
 
 use crate::backend::rust::code::{call, line, open, Code, Doc};
 use crate::backend::rust::model::Model;

@@ -1,4 +1,4 @@
-//! Enumerations, bit fields and state machines.
+//! Prints enumerations, bit fields and state machines.
 
 use super::{bit_field, section};
 use crate::backend::rust::code::{call, generic, line, open, seq, Code};

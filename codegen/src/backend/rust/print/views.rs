@@ -1,4 +1,4 @@
-//! Views of PDOs within a process image.
+//! Prints the views of PDOs within a process image.
 
 use super::section;
 use crate::backend::rust::code::{call, line, open, seq, Code};
@@ -18,7 +18,7 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     });
 }
 
-/// Writes the view of a PDO. Images of this device construct views, as do images of other devices in the file.
+/// Writes the view of a PDO. Images of this device create views, and so do images of other devices in the file.
 pub(in crate::backend::rust) fn view(code: &mut Code, pdo: &PdoModel, is_one_of_several: bool) {
     let visibility = if is_one_of_several { "pub(in super::super)" } else { "pub(super)" };
     code.docs(&pdo.view_docs);

@@ -1,4 +1,4 @@
-//! Modules, submodules and device access points as constants.
+//! Constants that describe modules, submodules and device access points.
 
 use super::docs;
 use super::f_record::{self, FRecordModel};
@@ -25,9 +25,9 @@ pub(in crate::backend::rust) struct SubmoduleModel<'a> {
     pub images: Vec<ImageModel>,
     pub records: Vec<RecordModel>,
     pub f_record: Option<FRecordModel>,
-    /// Elements of the list of records, sorted by transfer sequence.
+    /// Elements of the record list, sorted by transfer sequence.
     pub record_list: Vec<Doc>,
-    /// Whether a field is an enumeration.
+    /// Whether any field is an enumeration.
     pub uses_values: bool,
 }
 
@@ -90,14 +90,14 @@ fn submodule_docs(
     lines
 }
 
-/// Returns the length of the data, including an F message trailer.
+/// Returns the length of the cyclic data, including an F message trailer.
 fn length(data: Option<&IoData>) -> String {
     let Some(data) = data else { return "None".to_owned() };
     let length = u64::from(data.image.length) + u64::from(data.image.overhead);
     format!("Some({})", length.min(u64::from(u16::MAX)))
 }
 
-/// Returns the records, sorted by transfer sequence. Records with sequence 0 have no fixed order and come last.
+/// Returns the records sorted by transfer sequence. Records with sequence 0 have no fixed order and come last.
 fn record_list(records: &[RecordModel], f_record: Option<&FRecordModel>) -> Vec<Doc> {
     let element = |index: u16, sequence: u16, title: &str, data: &str| {
         let index = format!("0x{index:04X}");
@@ -241,7 +241,7 @@ fn places(places: &SlotNumbers) -> Doc {
 }
 
 fn numbers(numbers: &Numbers) -> Vec<String> {
-    // Subslots of interfaces and ports are written in hexadecimal by convention.
+    // By convention, subslots of interfaces and ports are hexadecimal.
     let number = |number: u16| if number < 0x8000 { number.to_string() } else { format!("0x{number:04X}") };
     let range = |&(first, last): &(u16, u16)| format!("({}, {})", number(first), number(last));
     numbers.0.iter().map(range).collect()

@@ -1,4 +1,4 @@
-//! Channel diagnosis and user structures.
+//! Channel diagnosis and user-defined diagnosis structures.
 
 use std::collections::BTreeMap;
 
@@ -15,13 +15,13 @@ use crate::names::{self, Case, NameRequest};
 /// Name of the table of channel errors in the IR.
 const ERRORS: &str = "channel_diagnosis";
 
-/// Name of the table of extended channel errors. Their first cell is the error type that they extend.
+/// Name of the table of extended channel errors in the IR. Their first cell is the error type that they extend.
 const EXTENDED: &str = "extended_channel_diagnosis";
 
-/// Key of an error: the application process (API) whose profile defines it, and the error type.
+/// Key of a channel error: the application process (API) whose profile defines it, and the error type.
 type Key = (u32, u16);
 
-/// Returns the channel errors that the description names, as elements of a table. Each error is listed once.
+/// Returns the channel errors in the description as elements of a table. Each error is listed once.
 pub(super) fn channel_errors(catalog: &Catalog) -> Vec<Doc> {
     let rows = |name: &'static str| {
         catalog.code_tables.iter().filter(move |table| table.name == name).flat_map(|table| &table.rows)
@@ -38,7 +38,7 @@ pub(super) fn channel_errors(catalog: &Catalog) -> Vec<Doc> {
             errors.entry((api, parent)).or_default().1.entry(code).or_insert(row);
         }
     }
-    // The extended errors of a profile may belong to an error that only the standard API names.
+    // The extended errors of a profile can belong to an error that only the standard API defines.
     let of_all = |code: u16| errors.get(&(0, code)).and_then(|(row, _)| *row);
     errors.iter().map(|(key, (row, extended))| error(*key, row.or(of_all(key.1)), extended)).collect()
 }
@@ -69,7 +69,7 @@ fn texts(row: &CodeRow) -> (String, String) {
     (literal::string(&row.name), literal::string(help))
 }
 
-/// A user structure, ready to be printed.
+/// A user-defined diagnosis structure, ready to be printed.
 pub(in crate::backend::rust) struct UnitModel {
     pub name: String,
     pub docs: Vec<String>,
@@ -80,7 +80,7 @@ pub(in crate::backend::rust) struct UnitModel {
     pub fields: Vec<FieldModel>,
 }
 
-/// Returns the user structures that have fields.
+/// Returns the user-defined diagnosis structures that have fields.
 pub(super) fn units(catalog: &Catalog, values: &Values<'_>, options: &RustOptions) -> Vec<UnitModel> {
     let units: Vec<&UnitDiagnosis> = catalog.unit_diagnoses.iter().filter(|unit| length(unit).is_some()).collect();
     let name_requests: Vec<NameRequest<'_>> = units

@@ -5,12 +5,12 @@ pub(super) use super::super::docs::sentence;
 use super::super::docs;
 use crate::ir::{Documentation, Value};
 
-/// Returns text as one line of Markdown without markup; empty if no character can be shown.
+/// Converts a text to one line of Markdown without markup. The result is empty if no character can be shown.
 pub(super) fn escape(text: &str) -> String {
     docs::escape(text).trim().to_owned()
 }
 
-/// Adds the documentation of `name` to `lines`, one paragraph per line. A text that only repeats the name is omitted.
+/// Adds the documentation of `name` to `lines` with one line per paragraph. Omits a text that only repeats the name.
 pub(super) fn paragraphs(name: &str, documentation: Option<&Documentation>, lines: &mut Vec<String>) {
     let Some(documentation) = documentation.filter(|documentation| documentation.text.trim() != name.trim()) else {
         return;
@@ -21,7 +21,7 @@ pub(super) fn paragraphs(name: &str, documentation: Option<&Documentation>, line
     }
 }
 
-/// Returns `title` followed by `facts`, as one sentence.
+/// Returns a sentence that consists of `title` and `facts`.
 pub(super) fn titled(title: &str, facts: &str) -> String {
     let title = escape(title);
     match title.trim_end_matches(['.', ':']) {
@@ -30,7 +30,7 @@ pub(super) fn titled(title: &str, facts: &str) -> String {
     }
 }
 
-/// Returns a number of bytes in words: `1 byte`, `2 bytes`.
+/// Returns a number of bytes with its noun: `1 byte`, `2 bytes`.
 pub(super) fn bytes(count: u32) -> String {
     format!("{count} byte{}", if count == 1 { "" } else { "s" })
 }

@@ -3,18 +3,18 @@
 use crate::backend::rust::code::{call, seq, slice, Doc};
 use crate::ir::{FParameter, FParameters};
 
-/// The record, ready to be printed.
+/// The F-parameter record, ready to be printed.
 pub(in crate::backend::rust) struct FRecordModel {
     pub index: u16,
     pub transfer_sequence: u16,
     pub length: u32,
     pub docs: Vec<String>,
-    /// Fields of the runtime's type, each with its default.
+    /// Fields of the runtime's type with their default values.
     pub defaults: Vec<(&'static str, String)>,
     pub limits: Vec<Doc>,
 }
 
-/// Parameters: the name in GSDML, the field of the runtime's struct, and the variant of its `FField`.
+/// F-parameters: the GSDML name, the field in the runtime's struct, and the variant of the runtime's `FField`.
 const PARAMETERS: [(&str, &str, &str); 12] = [
     ("F_Check_iPar", "check_i_par", "CheckIPar"),
     ("F_SIL", "sil", "Sil"),
@@ -30,8 +30,8 @@ const PARAMETERS: [(&str, &str, &str); 12] = [
     ("F_iPar_CRC", "i_par_crc", "IParCrc"),
 ];
 
-/// Labels of values in GSDML, with their numbers in the record. The only label for the seed means a cleared bit. The
-/// checksums that vendors calculate for their defaults confirm this.
+/// GSDML labels of values, with their numbers in the record. The only label of the seed means that its bit is cleared.
+/// The checksums of vendors over their defaults confirm this.
 const LABELS: [(&str, u32); 12] = [
     ("NoCheck", 0),
     ("Check", 1),
@@ -71,7 +71,7 @@ fn label(text: &str) -> Option<u32> {
     LABELS.iter().find(|(label, _)| *label == text).map(|(_, number)| *number)
 }
 
-/// Returns the default value as it is encoded in the record.
+/// Returns the default value in the encoding of the record.
 fn number(parameter: &FParameter) -> u32 {
     label(&parameter.label).unwrap_or_else(|| u32::try_from(parameter.default).unwrap_or(0))
 }
@@ -94,7 +94,7 @@ fn literal(field: &str, value: u32) -> String {
     }
 }
 
-/// Returns the allowed values of a parameter; `None` if every value is allowed.
+/// Returns the allowed values of a parameter. Returns `None` if all values are allowed.
 fn limit(parameter: &FParameter, variant: &str) -> Option<Doc> {
     let default = number(parameter);
     let mut list: Vec<(u32, u32)> = parameter

@@ -1,4 +1,4 @@
-//! A field of a byte string: its Rust type, and the code that reads and writes the field.
+//! A field in a sequence of bytes: its Rust type, and the code that reads and writes the field.
 
 use super::types::type_name;
 use super::values::{Enumeration, Values};
@@ -6,21 +6,21 @@ use crate::backend::rust::code::{call, seq, Doc};
 use crate::backend::rust::value_type::native;
 use crate::ir::{TimeFormat, Type, TypeDef};
 
-/// Bits of a word. Only byte strings may be longer.
+/// Number of bits in a word. Only byte strings may be longer.
 const WORD: u32 = 64;
 
-/// Position of the bits of a field. A field that spans bytes without filling them is a part of the big-endian number in
-/// these bytes.
+/// Position of a field's bits. If a field is in several bytes without filling them, it is a part of the big-endian
+/// number in these bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct FieldPosition {
     pub byte: u32,
-    /// Number of less significant bits in the byte or number.
+    /// Number of less significant bits in the same byte or number.
     pub bit: u32,
     pub bits: u32,
 }
 
 impl FieldPosition {
-    /// Returns the position of `bits` bits at bit offset `offset`; `None` if they are not within `length` bytes.
+    /// Returns the position of `bits` bits at bit offset `offset`. Returns `None` if they exceed `length` bytes.
     pub(super) fn within(length: u32, offset: u32, bits: u32) -> Option<Self> {
         let position = FieldPosition { byte: offset / 8, bit: offset % 8, bits };
         let last_bit = (position.bit + 8).checked_add(bits)?;
@@ -32,7 +32,7 @@ impl FieldPosition {
         self.bit == 0 && self.bits.is_multiple_of(8)
     }
 
-    /// Returns the position in words: `bytes 2 and 3`.
+    /// Returns the position in words, such as `bytes 2 and 3`.
     pub(super) fn words(self) -> String {
         let last_bit = self.bit + self.bits - 1;
         let bytes = match (last_bit / 8, self.byte) {
@@ -54,7 +54,7 @@ impl FieldPosition {
 enum FieldKind {
     /// One bit.
     Bit,
-    /// A byte that is zero or nonzero.
+    /// A byte that means false if it is 0, and true otherwise.
     Flag,
     /// An integer of a primitive type that fills whole bytes.
     Native {
@@ -65,17 +65,17 @@ enum FieldKind {
         signed: bool,
     },
     Real,
-    /// A runtime type of six bytes. The value is the name of its conversion functions.
+    /// A runtime type that consists of six bytes. The text is the name of its conversion functions.
     Time(&'static str),
     Bytes,
 }
 
-/// Use of a field's struct. It decides which Rust types represent odd widths.
+/// Purpose of the struct that contains a field. It determines the Rust types of integers with unusual widths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Use {
-    /// In an image, which is written without a check. The types can hold no other values.
+    /// In an image, which is written without checks. The types can only hold valid values.
     Image,
-    /// In a record, whose fields are checked. The types are primitive integers.
+    /// In a record, which is checked before it is written. The types are primitive integers.
     Record,
 }
 
@@ -89,8 +89,8 @@ pub(super) struct Field<'v> {
 }
 
 impl<'v> Field<'v> {
-    /// Creates a field of type `ty`. `bits` are its bit offset and its number of bits. Returns `None` if it is not
-    /// within `length` bytes or has no Rust type.
+    /// Creates a field of type `ty`. `bits` contains its bit offset and its number of bits. Returns `None` if the field
+    /// exceeds `length` bytes or has no Rust type.
     pub(super) fn new(values: &'v Values<'_>, ty: Type, bits: (u32, u32), length: u32, usage: Use) -> Option<Self> {
         let position = FieldPosition::within(length, bits.0, bits.1)?;
         let (base, enumeration) = values.resolve(ty);
@@ -99,18 +99,18 @@ impl<'v> Field<'v> {
         Some(Field { kind, position, enumeration, usage })
     }
 
-    /// Returns its type in the description and its position, in words.
+    /// Returns the field's original type and its position, in words.
     pub(super) fn facts(&self, types: &[TypeDef], ty: Type) -> String {
         let position = self.position.words();
         match self.kind {
-            // Single bits and bit areas have no type in the description.
+            // The description has no type for single bits and bit areas.
             FieldKind::Bit => position,
             FieldKind::Number { .. } if !self.position.is_bytes() => position,
             _ => format!("{}, {position}", type_name(types, ty)),
         }
     }
 
-    /// Returns its Rust type as a table shows it.
+    /// Returns the field's Rust type for a documentation table.
     pub(super) fn type_link(&self) -> String {
         match self.enumeration {
             Some(enumeration) => format!("[`{}`]({})", enumeration.name, enumeration.path),
@@ -118,7 +118,7 @@ impl<'v> Field<'v> {
         }
     }
 
-    /// Returns its Rust type.
+    /// Returns the field's Rust type.
     pub(super) fn rust_type(&self) -> String {
         if let Some(enumeration) = self.enumeration {
             return enumeration.path.clone();
@@ -136,7 +136,7 @@ impl<'v> Field<'v> {
         }
     }
 
-    /// Returns the primitive integer that holds the value. For an enumeration, it is the integer of the raw value.
+    /// Returns the primitive integer that holds the value. For an enumeration, it holds the raw value.
     pub(super) fn native(&self) -> &'static str {
         match self.enumeration {
             Some(enumeration) => enumeration.native,
@@ -158,12 +158,12 @@ impl<'v> Field<'v> {
         matches!(self.kind, FieldKind::Bit | FieldKind::Flag)
     }
 
-    /// Returns the length of a byte string; `None` for other fields.
+    /// Returns the length of a byte string. Returns `None` for other fields.
     pub(super) fn byte_string(&self) -> Option<u32> {
         (self.kind == FieldKind::Bytes).then_some(self.position.bits / 8)
     }
 
-    /// Returns the minimum and maximum of an integer; `None` for other fields.
+    /// Returns the minimum and maximum of an integer. Returns `None` for other fields.
     pub(super) fn range(&self) -> Option<(i128, i128)> {
         let bits = u8::try_from(self.position.bits).ok()?;
         match self.kind {
@@ -182,12 +182,12 @@ impl<'v> Field<'v> {
             && !matches!(self.position.bits, 8 | 16 | 32 | 64)
     }
 
-    /// Returns whether the field can be read in a `const fn` with the minimum supported Rust version of the runtime.
+    /// Returns whether a `const fn` can read the field in the minimum supported Rust version of the runtime.
     pub(super) fn is_const(&self) -> bool {
         self.kind != FieldKind::Real
     }
 
-    /// Returns the expression that reads the field. `data` is a reference to an array of bytes.
+    /// Returns an expression that reads the field. `data` is a reference to a byte array.
     pub(super) fn read(&self, data: &str) -> Doc {
         let FieldPosition { byte, bit, bits } = self.position;
         let bytes = || call!("rt::profinet::be::bytes", data, byte);
@@ -217,7 +217,7 @@ impl<'v> Field<'v> {
         }
     }
 
-    /// Returns the statement that writes `value` to an array of bytes. `data` names the array, and `reference` is a
+    /// Returns a statement that writes `value` to a byte array. `data` is the name of the array, and `reference` is a
     /// mutable reference to it.
     pub(super) fn write(&self, data: &str, reference: &str, value: &str) -> Doc {
         let FieldPosition { byte, bit, bits } = self.position;
@@ -244,7 +244,7 @@ impl<'v> Field<'v> {
     }
 }
 
-/// Returns the kind of a field with a basic type.
+/// Returns the interpretation of a field with a basic type.
 fn kind(base: Type, position: FieldPosition) -> Option<FieldKind> {
     let FieldPosition { bit, bits, .. } = position;
     let is_bytes = position.is_bytes();

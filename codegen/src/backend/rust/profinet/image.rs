@@ -1,4 +1,4 @@
-//! Structs and views of the cyclic data of submodules.
+//! Structs for the cyclic data of submodules, and views of the bytes.
 
 use super::docs;
 use super::field::{Field, Use};
@@ -9,13 +9,13 @@ use crate::backend::rust::doc_table;
 use crate::ir::{Direction, IoData, PdoEntry, PdoEntryKind, Submodule};
 use crate::names::{self, Case, NameRequest};
 
-/// Maximum length of a field's name. The lines that read and write the field must stay below the margin.
+/// Maximum length of a field's name. It limits the length of the lines that read and write the field.
 const MAX_FIELD_NAME: usize = 30;
 
 /// Names that fields must not have.
 const RESERVED: [&str; 8] = ["self", "super", "crate", "new", "view", "clone", "into", "try_into"];
 
-/// The data of one direction, ready to be printed.
+/// The cyclic data of a submodule in one direction, ready to be printed.
 pub(in crate::backend::rust) struct ImageModel {
     /// `Inputs` or `Outputs`.
     pub name: &'static str,
@@ -25,7 +25,7 @@ pub(in crate::backend::rust) struct ImageModel {
     pub length: u32,
     pub trailer: u32,
     pub status: u8,
-    /// Attribute that suppresses lints for names of fields.
+    /// Attribute that suppresses lints about field names.
     pub allow: Option<&'static str>,
     pub fields: Vec<FieldModel>,
 }
@@ -42,19 +42,19 @@ pub(in crate::backend::rust) struct FieldModel {
     pub is_enumeration: bool,
     /// Attribute of the field.
     pub attribute: Option<String>,
-    /// Expression that reads the field from a view.
+    /// Expression that reads the field in a view.
     pub get: Doc,
     /// Expression that reads the field from the array `data`.
     pub read: Doc,
-    /// Statement that writes the field of `self` to the array `data`.
+    /// Statement that writes the struct's field to the array `data`.
     pub pack: Doc,
-    /// Statement that writes `value` to a view.
+    /// Statement that writes `value` to the field in a view.
     pub set: Doc,
-    /// `const ` if the field can be read in a `const fn`; otherwise empty.
+    /// `const ` if a `const fn` can read the field. Otherwise empty.
     pub constant: &'static str,
 }
 
-/// Returns the inputs or outputs of `submodule`; `None` if they have no fields.
+/// Returns the inputs or outputs of `submodule`. Returns `None` if they have no fields.
 pub(super) fn model(
     submodule: &Submodule,
     direction: Direction,
@@ -90,8 +90,8 @@ pub(super) fn model(
     })
 }
 
-/// Returns the lines of the table of all fields of a struct with these methods. `default` returns the default value of
-/// a field.
+/// Returns the lines of the table with all fields of a struct. `methods` are the struct's methods, and `default`
+/// returns the default value of a field.
 pub(super) fn table<'f>(
     fields: impl IntoIterator<Item = &'f FieldModel>,
     methods: &[&str],
@@ -134,7 +134,7 @@ fn fields(data: &IoData, values: &Values<'_>, options: &RustOptions) -> Vec<Fiel
     .collect()
 }
 
-/// Returns the name request of a field. The position of the field is the suffix of ambiguous names.
+/// Returns the name request of a field. If the name is ambiguous, the position of the field is the suffix.
 pub(super) fn name_request<'n>(name: &'n str, field: &Field<'_>) -> NameRequest<'n> {
     let position = field.position;
     let is_whole = position.bit == 0 && position.bits.is_multiple_of(8);
@@ -143,7 +143,7 @@ pub(super) fn name_request<'n>(name: &'n str, field: &Field<'_>) -> NameRequest<
 }
 
 impl FieldModel {
-    /// Creates the model of a field. `name` is not escaped yet.
+    /// Creates the model of a field. `name` must not be escaped.
     pub(super) fn new(field: &Field<'_>, name: &str, docs: Vec<String>, options: &RustOptions) -> Self {
         let name = names::escaped(name);
         FieldModel {
@@ -168,7 +168,8 @@ impl FieldModel {
     }
 }
 
-/// Returns the attribute that getters with these names need. Clippy expects certain signatures for some prefixes.
+/// Returns the attribute for getters with these names. It suppresses a clippy lint about prefixes that imply a certain
+/// signature.
 fn allow<'n>(mut names: impl Iterator<Item = &'n str>) -> Option<&'static str> {
     let has_prefix =
         names.any(|name| ["from_", "into_", "to_", "is_", "as_"].iter().any(|prefix| name.starts_with(prefix)));

@@ -1,7 +1,7 @@
-//! PROFINET devices: submodules, parameter records, diagnosis, and the constants from which a program plans slots.
+//! PROFINET devices: submodules, parameter records, diagnosis, and constants with which a program plans slots.
 //!
-//! The device access points of a file share modules and submodules. Modules and submodules that none of them can
-//! contain are not generated.
+//! The device access points of a file share modules and submodules. No code is generated for modules and submodules
+//! that fit none of the device access points.
 
 mod descriptor;
 mod diagnosis;
@@ -29,18 +29,18 @@ pub(super) use values::Enumeration;
 /// All device access points of a file, ready to be printed.
 pub(super) struct FileModel<'a> {
     pub access_points: Vec<DapModel<'a>>,
-    /// Whether the file has one device access point, whose content is at the top of the output.
+    /// Whether the file has a single device access point. If so, its content is at the top level of the output.
     pub is_single: bool,
     pub modules: Vec<ModuleModel<'a>>,
     pub submodules: Vec<SubmoduleModel<'a>>,
     pub values: Vec<&'a Enumeration>,
-    /// Channel errors.
+    /// Channel errors as elements of a table.
     pub errors: Vec<Doc>,
     /// User structures of diagnosis.
     pub units: Vec<UnitModel>,
 }
 
-/// Returns the Rust module for all device access points of `catalog`; `None` if it has none.
+/// Returns the Rust module for all device access points of `catalog`. Returns `None` if there are none.
 pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) -> Option<String> {
     let scope = Scope::new(catalog, options);
     if scope.access_points.is_empty() {

@@ -16,13 +16,13 @@ use crate::names::{self, Case, NameRequest};
 use bytes::{default_bytes, value_of};
 use check::{check, ranges};
 
-/// Maximum length of a record's name. The lines that name its type must stay below the margin.
+/// Maximum length of a record's name. It limits the length of the lines that name the record's type.
 const MAX_NAME: usize = 32;
 
 /// Maximum length of a field's name.
 const MAX_FIELD_NAME: usize = 30;
 
-/// Names of the constants that every record has.
+/// Names of constants that all records have.
 const RESERVED_CONSTANTS: [&str; 8] =
     ["self", "super", "crate", "index", "len", "transfer_sequence", "default", "default_bytes"];
 
@@ -37,19 +37,19 @@ pub(in crate::backend::rust) struct RecordModel {
     pub length: u32,
     pub transfer_sequence: u16,
     pub default_bytes: String,
-    /// Fields that can be changed.
+    /// Changeable fields.
     pub fields: Vec<FieldModel>,
-    /// Default values of the fields.
+    /// Default values of the changeable fields.
     pub defaults: Vec<Doc>,
-    /// Fields that can't be changed.
+    /// Fields that cannot be changed.
     pub constants: Vec<ConstantModel>,
-    /// Statements that check the fields.
+    /// Statements that check the values of the fields.
     pub checks: Vec<Doc>,
-    /// Whether a literal may resemble a mathematical constant, which clippy reports.
+    /// Whether a literal may be close to a mathematical constant. Clippy reports such literals.
     pub has_real: bool,
 }
 
-/// A field that can't be changed.
+/// A field that cannot be changed. It becomes a constant.
 pub(in crate::backend::rust) struct ConstantModel {
     pub name: String,
     pub docs: Vec<String>,
@@ -59,13 +59,13 @@ pub(in crate::backend::rust) struct ConstantModel {
     pub value: Doc,
 }
 
-/// An item and its field.
+/// An item and its field in the record.
 struct Parameter<'i> {
     item: &'i Item,
     field: Field<'i>,
 }
 
-/// Returns the records of a submodule, in the order of the description.
+/// Returns the records of a submodule in the order of the description.
 pub(super) fn models<'a>(groups: &'a [Group], values: &'a Values<'a>, options: &RustOptions) -> Vec<RecordModel> {
     let records = groups.iter().filter_map(|group| match &group.kind {
         GroupKind::Record(record) if (1..=MAX_RECORD_BYTES).contains(&record.length) => Some((group, &**record)),
@@ -128,7 +128,7 @@ fn model<'a>(
     }
 }
 
-/// Returns record index, bit offset and number of bits of an item.
+/// Returns the record index, bit offset and number of bits of an item.
 fn record_address(item: &Item) -> Option<(u16, u32, u32)> {
     item.bindings.iter().find_map(|binding| match binding {
         Binding::Record { index, bit_offset, bits } => Some((*index, *bit_offset, *bits)),
@@ -188,7 +188,7 @@ fn facts(parameter: &Parameter<'_>, values: &Values<'_>) -> Vec<String> {
         })
         .collect();
     if !ranges.is_empty() {
-        /// Maximum number of ranges that a comment lists.
+        /// Maximum number of ranges that documentation lists.
         const SHOWN: usize = 16;
         let more = if ranges.len() > SHOWN { ", …" } else { "" };
         facts += &format!(", allowed {}{more}", ranges[..ranges.len().min(SHOWN)].join(", "));

@@ -1,5 +1,5 @@
-//! Generated elements and their names: device access points, and the modules and submodules that can be plugged into
-//! them.
+//! The elements of a file for which code is generated, with their names: device access points, and the modules and
+//! submodules that fit into them.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::RustOptions;
 use crate::ir::{Catalog, Device, GroupKind, Module, ProfinetSettings, Submodule, SubmoduleId, SubmoduleUse, Type};
 use crate::names::{self, Case, NameRequest};
 
-/// Names at the top of the output.
+/// Reserved names at the top level of the output.
 const RESERVED: [&str; 10] =
     ["self", "super", "crate", "rt", "modules", "submodules", "values", "diagnosis", "core", "std"];
 
@@ -19,20 +19,20 @@ pub(super) struct AccessPoint<'a> {
     pub name: String,
 }
 
-/// All generated elements of a file.
+/// All elements of a file for which code is generated.
 pub(super) struct Scope<'a> {
     pub catalog: &'a Catalog,
     pub options: &'a RustOptions,
     pub access_points: Vec<AccessPoint<'a>>,
-    /// Modules with their names, by their position in the catalog.
+    /// Modules with their names, keyed by their position in the catalog.
     pub modules: BTreeMap<u32, (&'a Module, String)>,
-    /// Submodules with their names, by their position in the catalog.
+    /// Submodules with their names, keyed by their position in the catalog.
     pub submodules: BTreeMap<u32, (&'a Submodule, String)>,
     pub values: Values<'a>,
 }
 
 impl<'a> Scope<'a> {
-    /// Collects the device access points of `catalog`, and everything that can be plugged into them.
+    /// Collects the device access points of `catalog`, and all modules and submodules that fit into them.
     pub(super) fn new(catalog: &'a Catalog, options: &'a RustOptions) -> Self {
         let access_points = access_points(catalog);
         let modules = modules(catalog, &access_points);
@@ -42,7 +42,7 @@ impl<'a> Scope<'a> {
         Scope { catalog, options, access_points, modules, submodules, values }
     }
 
-    /// Returns whether the file has one device access point, whose content is at the top of the output.
+    /// Returns whether the file has a single device access point. If so, its content is at the top level of the output.
     pub(super) fn is_single(&self) -> bool {
         self.access_points.len() == 1
     }
@@ -108,8 +108,8 @@ fn submodules<'a>(
     found.into_iter().zip(names).map(|((at, submodule), name)| (at, (submodule, names::escaped(&name)))).collect()
 }
 
-/// Returns the suffix that distinguishes elements with equal names: letters and digits of the description's ID,
-/// otherwise the ident number.
+/// Returns the suffix that distinguishes elements with the same name. It consists of the letters and digits of the
+/// description's ID, or is the ident number.
 fn identifier(id: &str, ident: u32, position: usize) -> String {
     let words = id.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let words: Vec<&str> = words.collect();
@@ -120,7 +120,7 @@ fn identifier(id: &str, ident: u32, position: usize) -> String {
     }
 }
 
-/// Returns the types of all fields.
+/// Returns the types of all fields in these submodules.
 fn types(catalog: &Catalog, submodules: &BTreeMap<u32, (&Submodule, String)>) -> Vec<Type> {
     let mut types = Vec::new();
     for (submodule, _) in submodules.values() {

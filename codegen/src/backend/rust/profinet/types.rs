@@ -1,12 +1,12 @@
-//! Named types: their basic types, and their names in GSDML.
+//! Named types: their basic types and their GSDML names.
 
 use super::docs;
 use crate::ir::{Scale, Shape, TimeFormat, Type, TypeDef};
 
-/// Longer chains of type names are treated as cycles.
+/// Maximum length of a chain of type names. Longer chains are treated as cycles.
 const DEPTH: usize = 16;
 
-/// Returns the basic type of `ty`, and the position of the enumeration if `ty` is one.
+/// Returns the basic type of `ty`. If `ty` is an enumeration, also returns its position.
 pub(super) fn resolve(types: &[TypeDef], ty: Type) -> (Type, Option<u32>) {
     let (mut ty, mut enumeration) = (ty, None);
     for _ in 0..DEPTH {
@@ -25,7 +25,7 @@ pub(super) fn resolve(types: &[TypeDef], ty: Type) -> (Type, Option<u32>) {
     (Type::Opaque(None), None)
 }
 
-/// Returns the name of a type in GSDML, with the scale factor of a scaled type.
+/// Returns the GSDML name of a type. If the type is scaled, the name includes the scale factor.
 pub(super) fn type_name(types: &[TypeDef], ty: Type) -> String {
     match ty {
         Type::Boolean => "Boolean".to_owned(),

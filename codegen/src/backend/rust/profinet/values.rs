@@ -1,4 +1,4 @@
-//! Enumerations: the named values of fields (`ValueItem`).
+//! Enumerations. They contain the named values of fields (`ValueItem`).
 
 use std::collections::BTreeMap;
 use std::collections::HashSet;
@@ -11,11 +11,11 @@ use crate::backend::rust::value_type::native;
 use crate::ir::{EnumValue, Shape, Type, TypeDef};
 use crate::names::{self, Case, NameRequest};
 
-/// Names that variants must not have: `Self`, and the variant for values that the description does not list.
+/// Names that variants must not have: `Self`, and the variant for unlisted values.
 const RESERVED_VARIANTS: [&str; 2] = ["Self", "Unknown"];
 
-/// Names that enumerations must not have: names of the prelude that generated code uses, and a name that would match a
-/// constructor.
+/// Names that enumerations must not have. These are prelude names in generated code, and a name that would make clippy
+/// mistake a method for a constructor.
 const RESERVED_TYPES: [&str; 8] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "FromRaw"];
 
 /// The enumerations of a catalog that generated code uses.
@@ -27,16 +27,16 @@ pub(super) struct Values<'a> {
 /// An enumeration, ready to be printed.
 pub(in crate::backend::rust) struct Enumeration {
     pub name: String,
-    /// Path from the module of a submodule.
+    /// Path of the enumeration, relative to a submodule's module.
     pub path: String,
-    /// Primitive integer that holds the numbers of the values.
+    /// Primitive integer that holds the values.
     pub native: &'static str,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
     pub variants: Vec<Variant>,
 }
 
-/// A value of an enumeration.
+/// A named value of an enumeration.
 pub(in crate::backend::rust) struct Variant {
     pub name: String,
     pub docs: String,
@@ -44,7 +44,7 @@ pub(in crate::backend::rust) struct Variant {
 }
 
 impl<'a> Values<'a> {
-    /// Creates the enumerations among the types `used`.
+    /// Creates the enumerations that occur among the types `used`.
     pub(super) fn new(types: &'a [TypeDef], used: impl Iterator<Item = Type>, options: &RustOptions) -> Self {
         let mut positions: Vec<u32> = used.filter_map(|ty| resolve(types, ty).1).collect();
         positions.sort_unstable();
@@ -57,7 +57,7 @@ impl<'a> Values<'a> {
                 Some((at, definition, base, values))
             })
             .collect();
-        // One list of values is a separate enumeration for each base type.
+        // If a list of values is used with several base types, each base type gets its own enumeration.
         let name_requests: Vec<NameRequest<'_>> = found
             .iter()
             .map(|(at, definition, base, _)| NameRequest {
@@ -78,15 +78,15 @@ impl<'a> Values<'a> {
         self.enumerations.values()
     }
 
-    /// Returns the basic type of `ty`, and its enumeration.
+    /// Returns the basic type of `ty`, and its enumeration if it has one.
     pub(super) fn resolve(&self, ty: Type) -> (Type, Option<&Enumeration>) {
         let (base, position) = resolve(self.types, ty);
         (base, position.and_then(|position| self.enumerations.get(&position)))
     }
 }
 
-/// Returns the base type of an enumeration, and its values that fit in the base type, each once. Ranges of values
-/// become no variants.
+/// Returns the base type of an enumeration and the values that fit in it, without repetitions. Ranges of values do not
+/// become variants.
 fn listed<'a>(types: &[TypeDef], definition: &'a TypeDef) -> Option<(Type, Vec<&'a EnumValue>)> {
     let Shape::Enumeration { base, values, .. } = &definition.shape else { return None };
     let base = match resolve(types, *base).0 {
@@ -103,7 +103,7 @@ fn listed<'a>(types: &[TypeDef], definition: &'a TypeDef) -> Option<(Type, Vec<&
 
 fn model(definition: &TypeDef, base: Type, values: &[&EnumValue], name: String, options: &RustOptions) -> Enumeration {
     let native = native(base.is_signed(), base.bits().unwrap_or(64));
-    // At most 255 values become variants. If every number of 8 bits had a name, `Unknown` would be unreachable.
+    // Use at most 255 values as variants. If all 8-bit numbers had a variant, `Unknown` would be unreachable.
     let values = &values[..values.len().min(usize::from(u8::MAX))];
     let name_requests: Vec<NameRequest<'_>> = values
         .iter()

@@ -1,4 +1,4 @@
-//! Channel errors and user structures.
+//! Prints channel errors and user-defined diagnosis structures.
 
 use super::{fields, hexadecimal, literal};
 use crate::backend::rust::code::{call, line, list, open, Code};

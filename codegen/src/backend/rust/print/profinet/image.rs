@@ -1,4 +1,4 @@
-//! Structs of cyclic data, and views of the bytes.
+//! Prints structs for cyclic data and views of the bytes.
 
 use super::{fields, literal};
 use crate::backend::rust::code::{call, line, open, seq, Break, Code, Doc};
@@ -105,7 +105,7 @@ fn view_mut(code: &mut Code, image: &ImageModel) {
     code.close("}");
 }
 
-/// Writes a method with a body of one line.
+/// Writes a method whose body is a single line.
 fn method(code: &mut Code, docs: &str, function: Doc, body: &Doc) {
     code.doc(docs);
     line!(code, "#[inline]");

@@ -1,4 +1,4 @@
-//! Parameter records.
+//! Prints parameter records.
 
 use super::{fields, hexadecimal, literal};
 use crate::backend::rust::code::{call, line, list, open, Code};
@@ -29,7 +29,7 @@ pub(super) fn write(code: &mut Code, record: &RecordModel) {
     record_data(code, name);
 }
 
-/// Writes the attribute of a function or constant whose numbers may resemble a mathematical constant.
+/// Writes an attribute for a function or constant whose numbers may be close to a mathematical constant.
 fn allow_real(code: &mut Code, record: &RecordModel) {
     if record.has_real {
         line!(code, "#[allow(clippy::approx_constant)]");

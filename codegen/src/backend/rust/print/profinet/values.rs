@@ -1,4 +1,4 @@
-//! Enumerations.
+//! Prints enumerations.
 
 use crate::backend::rust::code::{line, open, Code};
 use crate::backend::rust::profinet::Enumeration;

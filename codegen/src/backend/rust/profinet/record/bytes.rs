@@ -1,4 +1,4 @@
-//! Default bytes of a record, and the values of its fields in these bytes.
+//! The default bytes of a record, and the default values of its fields.
 
 use super::Parameter;
 use crate::backend::rust::code::{call, seq, Doc};
@@ -7,7 +7,8 @@ use crate::backend::rust::profinet::field::Field;
 use crate::backend::rust::profinet::values::Enumeration;
 use crate::ir::{Record, Value};
 
-/// Returns the default bytes of the record: its constants, overwritten by the defaults of its parameters.
+/// Returns the default bytes of the record. They consist of its constants, overwritten with the defaults of its
+/// parameters.
 pub(super) fn default_bytes(record: &Record, parameters: &[Parameter<'_>]) -> Vec<u8> {
     let mut bytes = vec![0; record.length as usize];
     for (offset, constant) in &record.constants {
@@ -21,7 +22,7 @@ pub(super) fn default_bytes(record: &Record, parameters: &[Parameter<'_>]) -> Ve
     bytes
 }
 
-/// Copies `data` to `bytes`, as far as it fits.
+/// Copies `data` to `bytes` at `offset`. Data beyond the end is ignored.
 fn put(bytes: &mut [u8], offset: u32, data: &[u8]) {
     for (to, from) in bytes.iter_mut().skip(offset as usize).zip(data) {
         *to = *from;
@@ -32,7 +33,7 @@ fn put_default(bytes: &mut [u8], field: &Field<'_>, default: &Value) {
     let position = field.position;
     if let Some(length) = field.byte_string() {
         let octets = match default {
-            // A character is one byte in ISO 8859-1.
+            // ISO 8859-1 encodes a character as one byte.
             Value::Text(text) => text.chars().map(|letter| u8::try_from(letter).unwrap_or(b'?')).collect(),
             Value::Bytes(data) => data.clone(),
             _ => return,
@@ -55,8 +56,8 @@ fn put_default(bytes: &mut [u8], field: &Field<'_>, default: &Value) {
     }
 }
 
-/// Returns byte and mask of bit `at` of the big-endian number in the bytes starting at `first`. `end` is the number of
-/// bits in these bytes.
+/// Returns the byte position and the mask of bit `at` in a big-endian number. `first` is the first byte of the number,
+/// and `end` is its number of bits.
 fn bit_of(first: u32, end: u32, at: u32) -> (usize, u8) {
     let last = first + (end - 1) / 8;
     ((last - at / 8) as usize, 1 << (at % 8))
@@ -71,7 +72,7 @@ fn number_of(field: &Field<'_>, bytes: &[u8]) -> u64 {
     })
 }
 
-/// Returns the value of the field in these bytes, as a literal.
+/// Returns a literal with the value of the field in these bytes.
 pub(super) fn value_of(field: &Field<'_>, bytes: &[u8]) -> Doc {
     let position = field.position;
     if let Some(length) = field.byte_string() {

@@ -1,4 +1,4 @@
-//! Checks of a record's fields against the allowed values.
+//! Generates checks of a record's fields against their allowed values.
 
 use super::Parameter;
 use crate::backend::rust::code::{call, seq, slice, Doc};
@@ -17,7 +17,7 @@ pub(super) fn ranges(limits: &Limits) -> Vec<(Option<Value>, Option<Value>)> {
     }
 }
 
-/// Returns the statement that checks a field; `None` if all values of its type are allowed, or no value of its type is.
+/// Returns a statement that checks a field. Returns `None` if all values or no values of its type are allowed.
 pub(super) fn check(parameter: &Parameter<'_>, name: &str) -> Option<Doc> {
     let Parameter { item, field } = parameter;
     let allowed = ranges(&item.limits);
@@ -62,7 +62,7 @@ fn reals(allowed: &[(Option<Value>, Option<Value>)], bits: u32) -> Option<Vec<St
 
 fn integers(allowed: &[(Option<Value>, Option<Value>)], field: &Field<'_>) -> Option<Vec<String>> {
     let (low, high) = field.range()?;
-    // The type of an enumeration may have fewer bits than the field.
+    // An enumeration's type may have fewer bits than the field.
     let (low, high) = match field.enumeration.and_then(|enumeration| native_range(enumeration.native)) {
         Some((low_native, high_native)) => (low.max(low_native), high.min(high_native)),
         None => (low, high),
