@@ -27,28 +27,28 @@ impl<C> DemoDrive<C> {
     pub fn client(&mut self) -> &mut C {
         &mut self.client
     }
-    /// Consumes the driver and returns the client.
+    /// Returns the client and drops the driver.
     pub fn into_client(self) -> C {
         self.client
     }
     /// Device profile number and additional information on the device.
     ///
     /// Device type: Default 0x20192, 0x1000:00, UNSIGNED32, read-only.
-    /// Constant: [`objects::DEVICE_TYPE`]. Values: [`DeviceType`](types::DeviceType).
+    /// Constant: [`objects::DEVICE_TYPE`]. Type of the value: [`DeviceType`](types::DeviceType).
     pub fn device_type(&mut self) -> objects::ReadOnlyAccess<'_, C, types::DeviceType> {
         objects::DEVICE_TYPE.at(&mut self.client)
     }
     /// Kinds of errors that are currently present.
     ///
     /// Error register: Default 0, 0x1001:00, UNSIGNED8, read-only, mappable into TPDOs.
-    /// Constant: [`objects::ERROR_REGISTER`]. Values: [`ErrorRegister`](types::ErrorRegister).
+    /// Constant: [`objects::ERROR_REGISTER`]. Type of the value: [`ErrorRegister`](types::ErrorRegister).
     pub fn error_register(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ErrorRegister> {
         objects::ERROR_REGISTER.at(&mut self.client)
     }
     /// Pre-defined error field: 0x1003.
-    /// Constants: [`objects::pre_defined_error_field`].
+    /// The constants of these entries are in [`objects::pre_defined_error_field`].
     pub fn pre_defined_error_field(
         &mut self,
     ) -> objects::pre_defined_error_field::Accessors<'_, C> {
@@ -59,7 +59,7 @@ impl<C> DemoDrive<C> {
     /// COB-ID of the SYNC message.
     ///
     /// COB-ID SYNC message: Default 0x80, 0x1005:00, UNSIGNED32, read-write.
-    /// Constant: [`objects::COB_ID_SYNC_MESSAGE`]. Values: [`SyncIdentifier`](types::SyncIdentifier).
+    /// Constant: [`objects::COB_ID_SYNC_MESSAGE`]. Type of the value: [`SyncIdentifier`](types::SyncIdentifier).
     pub fn cob_id_sync_message(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::SyncIdentifier> {
@@ -84,7 +84,7 @@ impl<C> DemoDrive<C> {
         objects::MANUFACTURER_SOFTWARE_VERSION.at(&mut self.client)
     }
     /// Store parameters: 0x1010.
-    /// Constants: [`objects::store_parameters`].
+    /// The constants of these entries are in [`objects::store_parameters`].
     pub fn store_parameters(&mut self) -> objects::store_parameters::Accessors<'_, C> {
         objects::store_parameters::Accessors {
             client: &mut self.client,
@@ -93,7 +93,7 @@ impl<C> DemoDrive<C> {
     /// COB-ID of the emergency messages.
     ///
     /// COB-ID EMCY: Default \$NODEID+0x80, 0x1014:00, UNSIGNED32, read-write.
-    /// Constant: [`objects::COB_ID_EMCY`]. Values: [`EmergencyIdentifier`](types::EmergencyIdentifier).
+    /// Constant: [`objects::COB_ID_EMCY`]. Type of the value: [`EmergencyIdentifier`](types::EmergencyIdentifier).
     pub fn cob_id_emcy(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::EmergencyIdentifier> {
@@ -107,14 +107,14 @@ impl<C> DemoDrive<C> {
         objects::PRODUCER_HEARTBEAT_TIME.at(&mut self.client)
     }
     /// Identity object: 0x1018.
-    /// Constants: [`objects::identity_object`].
+    /// The constants of these entries are in [`objects::identity_object`].
     pub fn identity_object(&mut self) -> objects::identity_object::Accessors<'_, C> {
         objects::identity_object::Accessors {
             client: &mut self.client,
         }
     }
     /// RPDO 1 communication: 0x1400.
-    /// Constants: [`objects::rpdo_1_communication`].
+    /// The constants of these entries are in [`objects::rpdo_1_communication`].
     pub fn rpdo_1_communication(
         &mut self,
     ) -> objects::rpdo_1_communication::Accessors<'_, C> {
@@ -123,7 +123,7 @@ impl<C> DemoDrive<C> {
         }
     }
     /// RPDO 2 communication: 0x1401.
-    /// Constants: [`objects::rpdo_2_communication`].
+    /// The constants of these entries are in [`objects::rpdo_2_communication`].
     pub fn rpdo_2_communication(
         &mut self,
     ) -> objects::rpdo_2_communication::Accessors<'_, C> {
@@ -132,21 +132,21 @@ impl<C> DemoDrive<C> {
         }
     }
     /// RPDO 1 mapping: 0x1600.
-    /// Constants: [`objects::rpdo_1_mapping`].
+    /// The constants of these entries are in [`objects::rpdo_1_mapping`].
     pub fn rpdo_1_mapping(&mut self) -> objects::rpdo_1_mapping::Accessors<'_, C> {
         objects::rpdo_1_mapping::Accessors {
             client: &mut self.client,
         }
     }
     /// RPDO 2 mapping: 0x1601.
-    /// Constants: [`objects::rpdo_2_mapping`].
+    /// The constants of these entries are in [`objects::rpdo_2_mapping`].
     pub fn rpdo_2_mapping(&mut self) -> objects::rpdo_2_mapping::Accessors<'_, C> {
         objects::rpdo_2_mapping::Accessors {
             client: &mut self.client,
         }
     }
     /// TPDO 1 communication: 0x1800.
-    /// Constants: [`objects::tpdo_1_communication`].
+    /// The constants of these entries are in [`objects::tpdo_1_communication`].
     pub fn tpdo_1_communication(
         &mut self,
     ) -> objects::tpdo_1_communication::Accessors<'_, C> {
@@ -155,7 +155,7 @@ impl<C> DemoDrive<C> {
         }
     }
     /// TPDO 2 communication: 0x1801.
-    /// Constants: [`objects::tpdo_2_communication`].
+    /// The constants of these entries are in [`objects::tpdo_2_communication`].
     pub fn tpdo_2_communication(
         &mut self,
     ) -> objects::tpdo_2_communication::Accessors<'_, C> {
@@ -164,14 +164,14 @@ impl<C> DemoDrive<C> {
         }
     }
     /// TPDO 1 mapping: 0x1A00.
-    /// Constants: [`objects::tpdo_1_mapping`].
+    /// The constants of these entries are in [`objects::tpdo_1_mapping`].
     pub fn tpdo_1_mapping(&mut self) -> objects::tpdo_1_mapping::Accessors<'_, C> {
         objects::tpdo_1_mapping::Accessors {
             client: &mut self.client,
         }
     }
     /// TPDO 2 mapping: 0x1A01.
-    /// Constants: [`objects::tpdo_2_mapping`].
+    /// The constants of these entries are in [`objects::tpdo_2_mapping`].
     pub fn tpdo_2_mapping(&mut self) -> objects::tpdo_2_mapping::Accessors<'_, C> {
         objects::tpdo_2_mapping::Accessors {
             client: &mut self.client,
@@ -201,7 +201,7 @@ impl<C> DemoDrive<C> {
         objects::FIRMWARE_IMAGE.at(&mut self.client)
     }
     /// Analogue inputs: 0x2010.
-    /// Constants: [`objects::analogue_inputs`].
+    /// The constants of these entries are in [`objects::analogue_inputs`].
     pub fn analogue_inputs(&mut self) -> objects::analogue_inputs::Accessors<'_, C> {
         objects::analogue_inputs::Accessors {
             client: &mut self.client,
@@ -217,7 +217,7 @@ impl<C> DemoDrive<C> {
     /// Control word: commands of the drive state machine and of the mode of operation.
     ///
     /// Controlword: Default 0, 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
-    /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`RxPdo1`](pdo::RxPdo1), [`RxPdo2`](pdo::RxPdo2).
+    /// Constant: [`objects::CONTROLWORD`]. Type of the value: [`Controlword`](types::Controlword). Mapped in [`RxPdo1`](pdo::RxPdo1), [`RxPdo2`](pdo::RxPdo2).
     pub fn controlword(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::Controlword> {
@@ -226,14 +226,14 @@ impl<C> DemoDrive<C> {
     /// Status word: state of the drive state machine and of the mode of operation.
     ///
     /// Statusword: 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
-    /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`TxPdo1`](pdo::TxPdo1), [`TxPdo2`](pdo::TxPdo2).
+    /// Constant: [`objects::STATUSWORD`]. Type of the value: [`Statusword`](types::Statusword). Mapped in [`TxPdo1`](pdo::TxPdo1), [`TxPdo2`](pdo::TxPdo2).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
     /// Requested mode of operation; the active mode is in 0x6061.
     ///
     /// Modes of operation: Range \-128 to 8, default 1, 0x6060:00, INTEGER8, read-write, mappable into any PDO.
-    /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`ModesOfOperation`](types::ModesOfOperation).
+    /// Constant: [`objects::MODES_OF_OPERATION`]. Type of the value: [`ModesOfOperation`](types::ModesOfOperation).
     pub fn modes_of_operation(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperation> {
@@ -242,7 +242,7 @@ impl<C> DemoDrive<C> {
     /// Active mode of operation.
     ///
     /// Modes of operation display: 0x6061:00, INTEGER8, read-only, mappable into TPDOs.
-    /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Values: [`ModesOfOperation`](types::ModesOfOperation).
+    /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Type of the value: [`ModesOfOperation`](types::ModesOfOperation).
     pub fn modes_of_operation_display(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ModesOfOperation> {
@@ -251,19 +251,19 @@ impl<C> DemoDrive<C> {
     /// Position actual value.
     ///
     /// 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
-    /// Constant: [`objects::POSITION_ACTUAL_VALUE`]. Carried by [`TxPdo2`](pdo::TxPdo2).
+    /// Constant: [`objects::POSITION_ACTUAL_VALUE`]. Mapped in [`TxPdo2`](pdo::TxPdo2).
     pub fn position_actual_value(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::POSITION_ACTUAL_VALUE.at(&mut self.client)
     }
     /// Target position.
     ///
     /// Range \-1000000 to 1000000, default 0, 0x607A:00, INTEGER32, read-write, mappable into any PDO.
-    /// Constant: [`objects::TARGET_POSITION`]. Carried by [`RxPdo2`](pdo::RxPdo2).
+    /// Constant: [`objects::TARGET_POSITION`]. Mapped in [`RxPdo2`](pdo::RxPdo2).
     pub fn target_position(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::TARGET_POSITION.at(&mut self.client)
     }
     /// Software position limit: 0x607D.
-    /// Constants: [`objects::software_position_limit`].
+    /// The constants of these entries are in [`objects::software_position_limit`].
     pub fn software_position_limit(
         &mut self,
     ) -> objects::software_position_limit::Accessors<'_, C> {
@@ -291,13 +291,13 @@ pub mod types {
     use ::lexibus as rt;
     /// ModesOfOperation.
     ///
-    /// From CiA 402, 10.3.8.
+    /// Definition from CiA 402, 10.3.8.
     ///
-    /// Values of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION), [`MODES_OF_OPERATION_DISPLAY`](super::objects::MODES_OF_OPERATION_DISPLAY).
+    /// Type of the values of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION), [`MODES_OF_OPERATION_DISPLAY`](super::objects::MODES_OF_OPERATION_DISPLAY).
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
-    /// | -128 to -1 | [`Unknown`](Self::Unknown) | manufacturer specific. Vendor-specific. |
+    /// | -128 to -1 | [`Unknown`](Self::Unknown) | manufacturer specific. This value is vendor-specific. |
     /// | 0 | [`NoMode`](Self::NoMode) |  |
     /// | 1 | [`ProfilePosition`](Self::ProfilePosition) |  |
     /// | 2 | [`Velocity`](Self::Velocity) |  |
@@ -309,7 +309,7 @@ pub mod types {
     /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
     /// | 10 | [`CyclicSynchronousTorque`](Self::CyclicSynchronousTorque) |  |
     /// | 11 | [`CyclicSynchronousTorqueWithAngle`](Self::CyclicSynchronousTorqueWithAngle) | The controller supplies the commutation angle. |
-    /// | 12 to 127 | [`Unknown`](Self::Unknown) | reserved. Reserved: do not use. |
+    /// | 12 to 127 | [`Unknown`](Self::Unknown) | reserved. This value is reserved. Do not use it. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperation {
         /// 0: no mode.
@@ -334,11 +334,11 @@ pub mod types {
         CyclicSynchronousTorque,
         /// 11: cyclic synchronous torque with angle. The controller supplies the commutation angle.
         CyclicSynchronousTorqueWithAngle,
-        /// Any other number.
+        /// A number without a variant of its own.
         Unknown(i8),
     }
     impl ModesOfOperation {
-        /// Returns the value with this number.
+        /// Returns the variant for this number.
         pub const fn from_raw(raw: i8) -> Self {
             match raw {
                 0 => Self::NoMode,
@@ -355,7 +355,7 @@ pub mod types {
                 other => Self::Unknown(other),
             }
         }
-        /// Returns the number of the value.
+        /// Returns the number of the variant.
         pub const fn raw(self) -> i8 {
             match self {
                 Self::NoMode => 0,
@@ -384,9 +384,9 @@ pub mod types {
     }
     /// StoreParameters.
     ///
-    /// From CiA 301, 7.5.2.13.
+    /// Definition from CiA 301, 7.5.2.13.
     ///
-    /// Values of [`store_parameters::SAVE_ALL_PARAMETERS`](super::objects::store_parameters::SAVE_ALL_PARAMETERS).
+    /// Type of the values of [`store_parameters::SAVE_ALL_PARAMETERS`](super::objects::store_parameters::SAVE_ALL_PARAMETERS).
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
@@ -407,11 +407,11 @@ pub mod types {
         OnCommandAndAtOnce,
         /// 0x65766173: save. Write: command to store the parameters (ASCII "save").
         Save,
-        /// Any other number.
+        /// A number without a variant of its own.
         Unknown(u32),
     }
     impl StoreParameters {
-        /// Returns the value with this number.
+        /// Returns the variant for this number.
         pub const fn from_raw(raw: u32) -> Self {
             match raw {
                 0 => Self::Never,
@@ -422,7 +422,7 @@ pub mod types {
                 other => Self::Unknown(other),
             }
         }
-        /// Returns the number of the value.
+        /// Returns the number of the variant.
         pub const fn raw(self) -> u32 {
             match self {
                 Self::Never => 0,
@@ -449,12 +449,12 @@ pub mod types {
     ///
     /// Description from CiA 301, 7.5.2.35.
     ///
-    /// Values of [`rpdo_1_communication::TRANSMISSION_TYPE`](super::objects::rpdo_1_communication::TRANSMISSION_TYPE), [`rpdo_2_communication::TRANSMISSION_TYPE`](super::objects::rpdo_2_communication::TRANSMISSION_TYPE).
+    /// Type of the values of [`rpdo_1_communication::TRANSMISSION_TYPE`](super::objects::rpdo_1_communication::TRANSMISSION_TYPE), [`rpdo_2_communication::TRANSMISSION_TYPE`](super::objects::rpdo_2_communication::TRANSMISSION_TYPE).
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
     /// | 0 to 240 | [`Unknown`](Self::Unknown) | synchronous. The data are applied at the next SYNC. |
-    /// | 241 to 253 | [`Unknown`](Self::Unknown) | reserved. Reserved: do not use. |
+    /// | 241 to 253 | [`Unknown`](Self::Unknown) | reserved. This value is reserved. Do not use it. |
     /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | The data are applied at once, or as the manufacturer defines. |
     /// | 255 | [`EventOfTheProfile`](Self::EventOfTheProfile) | The data are applied at once, or as the device profile defines. |
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -463,11 +463,11 @@ pub mod types {
         EventOfTheManufacturer,
         /// 255: event of the profile. The data are applied at once, or as the device profile defines.
         EventOfTheProfile,
-        /// Any other number.
+        /// A number without a variant of its own.
         Unknown(u8),
     }
     impl ReceiveType {
-        /// Returns the value with this number.
+        /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
                 254 => Self::EventOfTheManufacturer,
@@ -475,7 +475,7 @@ pub mod types {
                 other => Self::Unknown(other),
             }
         }
-        /// Returns the number of the value.
+        /// Returns the number of the variant.
         pub const fn raw(self) -> u8 {
             match self {
                 Self::EventOfTheManufacturer => 254,
@@ -499,13 +499,13 @@ pub mod types {
     ///
     /// Description from CiA 301, 7.5.2.37.
     ///
-    /// Values of [`tpdo_1_communication::TRANSMISSION_TYPE`](super::objects::tpdo_1_communication::TRANSMISSION_TYPE), [`tpdo_2_communication::TRANSMISSION_TYPE`](super::objects::tpdo_2_communication::TRANSMISSION_TYPE).
+    /// Type of the values of [`tpdo_1_communication::TRANSMISSION_TYPE`](super::objects::tpdo_1_communication::TRANSMISSION_TYPE), [`tpdo_2_communication::TRANSMISSION_TYPE`](super::objects::tpdo_2_communication::TRANSMISSION_TYPE).
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
     /// | 0 | [`SynchronousAcyclic`](Self::SynchronousAcyclic) | Transmitted at the next SYNC after an event. |
     /// | 1 to 240 | [`Unknown`](Self::Unknown) | synchronous cyclic. Transmitted after this number of SYNC messages. |
-    /// | 241 to 251 | [`Unknown`](Self::Unknown) | reserved. Reserved: do not use. |
+    /// | 241 to 251 | [`Unknown`](Self::Unknown) | reserved. This value is reserved. Do not use it. |
     /// | 252 | [`RemoteRequestSynchronous`](Self::RemoteRequestSynchronous) | remote request, synchronous. Sampled at SYNC, and transmitted on a remote frame. |
     /// | 253 | [`RemoteRequest`](Self::RemoteRequest) | Sampled and transmitted on a remote frame. |
     /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | Transmitted on events that the manufacturer defines. |
@@ -522,11 +522,11 @@ pub mod types {
         EventOfTheManufacturer,
         /// 255: event of the profile. Transmitted on events that the device profile defines.
         EventOfTheProfile,
-        /// Any other number.
+        /// A number without a variant of its own.
         Unknown(u8),
     }
     impl TransmitType {
-        /// Returns the value with this number.
+        /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
                 0 => Self::SynchronousAcyclic,
@@ -537,7 +537,7 @@ pub mod types {
                 other => Self::Unknown(other),
             }
         }
-        /// Returns the number of the value.
+        /// Returns the number of the variant.
         pub const fn raw(self) -> u8 {
             match self {
                 Self::SynchronousAcyclic => 0,
@@ -560,19 +560,19 @@ pub mod types {
     }
     /// Controlword.
     ///
-    /// From CiA 402, 10.3.1.
+    /// Definition from CiA 402, 10.3.1.
     ///
-    /// Values of [`CONTROLWORD`](super::objects::CONTROLWORD).
+    /// Type of the values of [`CONTROLWORD`](super::objects::CONTROLWORD).
     ///
-    /// Bits 0x400 are written as 0.
+    /// The reserved bits 0x400 are written as 0.
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0 | [`switch_on`](Self::switch_on) |  |
     /// | 1 | [`enable_voltage`](Self::enable_voltage) |  |
-    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 commands a quick stop. Active low: true if the bit is 0. |
+    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 commands a quick stop. Active low: the flag is true if the bit is 0. |
     /// | 3 | [`enable_operation`](Self::enable_operation) |  |
-    /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | Rising edge: the drive accepts the target position. Acts on the rising edge. |
+    /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | Rising edge: the drive accepts the target position. The device reacts to the rising edge. |
     /// | 4 | [`in_velocity().enable_ramp()`](ControlwordInVelocity::enable_ramp) |  |
     /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | 1 starts homing, 0 aborts it. |
     /// | 4 | [`in_interpolated_position().enable_interpolation()`](ControlwordInInterpolatedPosition::enable_interpolation) |  |
@@ -580,15 +580,15 @@ pub mod types {
     /// | 5 | [`in_velocity().unlock_ramp()`](ControlwordInVelocity::unlock_ramp) |  |
     /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | 1: the target position is relative; 0: it is absolute. |
     /// | 6 | [`in_velocity().reference_ramp()`](ControlwordInVelocity::reference_ramp) |  |
-    /// | 7 | [`fault_reset`](Self::fault_reset) | Acts on the rising edge. |
+    /// | 7 | [`fault_reset`](Self::fault_reset) | The device reacts to the rising edge. |
     /// | 8 | [`halt`](Self::halt) | 1 stops the axis with the reaction of the halt option code (0x605D). |
     /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the previous target at the profile velocity, then moves to the new one. |
-    /// | 10 | reserved | Written as 0. |
+    /// | 10 | reserved | The value 0 is written. |
     /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Controlword(u16);
     impl Controlword {
-        /// Creates a value with all bits 0.
+        /// Creates a value in which all bits are 0.
         pub const fn new() -> Self {
             Self(0)
         }
@@ -604,7 +604,7 @@ pub mod types {
         pub const fn switch_on(self) -> bool {
             rt::bits16::flag(self.0, 0x1)
         }
-        /// Returns a copy with another [`switch_on`](Self::switch_on).
+        /// Returns a copy with [`switch_on`](Self::switch_on) set to `value`.
         #[must_use]
         pub const fn with_switch_on(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1, value))
@@ -613,16 +613,16 @@ pub mod types {
         pub const fn enable_voltage(self) -> bool {
             rt::bits16::flag(self.0, 0x2)
         }
-        /// Returns a copy with another [`enable_voltage`](Self::enable_voltage).
+        /// Returns a copy with [`enable_voltage`](Self::enable_voltage) set to `value`.
         #[must_use]
         pub const fn with_enable_voltage(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
-        /// Bit 2: quick stop. Active low: true if the bit is 0. 0 commands a quick stop.
+        /// Bit 2: quick stop. Active low: the flag is true if the bit is 0. 0 commands a quick stop.
         pub const fn quick_stop(self) -> bool {
             !rt::bits16::flag(self.0, 0x4)
         }
-        /// Returns a copy with another [`quick_stop`](Self::quick_stop).
+        /// Returns a copy with [`quick_stop`](Self::quick_stop) set to `value`.
         #[must_use]
         pub const fn with_quick_stop(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x4, !value))
@@ -631,16 +631,16 @@ pub mod types {
         pub const fn enable_operation(self) -> bool {
             rt::bits16::flag(self.0, 0x8)
         }
-        /// Returns a copy with another [`enable_operation`](Self::enable_operation).
+        /// Returns a copy with [`enable_operation`](Self::enable_operation) set to `value`.
         #[must_use]
         pub const fn with_enable_operation(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
-        /// Bit 7: fault reset. Acts on the rising edge.
+        /// Bit 7: fault reset. The device reacts to the rising edge.
         pub const fn fault_reset(self) -> bool {
             rt::bits16::flag(self.0, 0x80)
         }
-        /// Returns a copy with another [`fault_reset`](Self::fault_reset).
+        /// Returns a copy with [`fault_reset`](Self::fault_reset) set to `value`.
         #[must_use]
         pub const fn with_fault_reset(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x80, value))
@@ -649,7 +649,7 @@ pub mod types {
         pub const fn halt(self) -> bool {
             rt::bits16::flag(self.0, 0x100)
         }
-        /// Returns a copy with another [`halt`](Self::halt).
+        /// Returns a copy with [`halt`](Self::halt) set to `value`.
         #[must_use]
         pub const fn with_halt(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x100, value))
@@ -658,24 +658,24 @@ pub mod types {
         pub const fn manufacturer_specific(self) -> u8 {
             rt::bits16::field(self.0, 0xF800) as u8
         }
-        /// Returns a copy with another [`manufacturer_specific`](Self::manufacturer_specific).
+        /// Returns a copy with [`manufacturer_specific`](Self::manufacturer_specific) set to `value`.
         #[must_use]
         pub const fn with_manufacturer_specific(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xF800, value as u16))
         }
-        /// Returns the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
         pub const fn in_profile_position(self) -> ControlwordInProfilePosition {
             ControlwordInProfilePosition(self.0)
         }
-        /// Returns the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
         pub const fn in_velocity(self) -> ControlwordInVelocity {
             ControlwordInVelocity(self.0)
         }
-        /// Returns the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
         pub const fn in_homing(self) -> ControlwordInHoming {
             ControlwordInHoming(self.0)
         }
-        /// Returns the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
         pub const fn in_interpolated_position(
             self,
         ) -> ControlwordInInterpolatedPosition {
@@ -709,19 +709,19 @@ pub mod types {
             )
         }
     }
-    /// View of [`Controlword`] with the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
     #[derive(Clone, Copy)]
     pub struct ControlwordInProfilePosition(u16);
     impl ControlwordInProfilePosition {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
-        /// Bit 4: new set-point. Acts on the rising edge. Rising edge: the drive accepts the target position.
+        /// Bit 4: new set-point. The device reacts to the rising edge. Rising edge: the drive accepts the target position.
         pub const fn new_set_point(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
-        /// Returns a copy with another [`new_set_point`](Self::new_set_point).
+        /// Returns a copy with [`new_set_point`](Self::new_set_point) set to `value`.
         #[must_use]
         pub const fn with_new_set_point(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
@@ -730,7 +730,7 @@ pub mod types {
         pub const fn change_set_immediately(self) -> bool {
             rt::bits16::flag(self.0, 0x20)
         }
-        /// Returns a copy with another [`change_set_immediately`](Self::change_set_immediately).
+        /// Returns a copy with [`change_set_immediately`](Self::change_set_immediately) set to `value`.
         #[must_use]
         pub const fn with_change_set_immediately(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, value))
@@ -739,7 +739,7 @@ pub mod types {
         pub const fn relative(self) -> bool {
             rt::bits16::flag(self.0, 0x40)
         }
-        /// Returns a copy with another [`relative`](Self::relative).
+        /// Returns a copy with [`relative`](Self::relative) set to `value`.
         #[must_use]
         pub const fn with_relative(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
@@ -748,17 +748,17 @@ pub mod types {
         pub const fn change_on_set_point(self) -> bool {
             rt::bits16::flag(self.0, 0x200)
         }
-        /// Returns a copy with another [`change_on_set_point`](Self::change_on_set_point).
+        /// Returns a copy with [`change_on_set_point`](Self::change_on_set_point) set to `value`.
         #[must_use]
         pub const fn with_change_on_set_point(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
     }
-    /// View of [`Controlword`] with the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
     #[derive(Clone, Copy)]
     pub struct ControlwordInVelocity(u16);
     impl ControlwordInVelocity {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -766,7 +766,7 @@ pub mod types {
         pub const fn enable_ramp(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
-        /// Returns a copy with another [`enable_ramp`](Self::enable_ramp).
+        /// Returns a copy with [`enable_ramp`](Self::enable_ramp) set to `value`.
         #[must_use]
         pub const fn with_enable_ramp(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
@@ -775,7 +775,7 @@ pub mod types {
         pub const fn unlock_ramp(self) -> bool {
             rt::bits16::flag(self.0, 0x20)
         }
-        /// Returns a copy with another [`unlock_ramp`](Self::unlock_ramp).
+        /// Returns a copy with [`unlock_ramp`](Self::unlock_ramp) set to `value`.
         #[must_use]
         pub const fn with_unlock_ramp(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, value))
@@ -784,17 +784,17 @@ pub mod types {
         pub const fn reference_ramp(self) -> bool {
             rt::bits16::flag(self.0, 0x40)
         }
-        /// Returns a copy with another [`reference_ramp`](Self::reference_ramp).
+        /// Returns a copy with [`reference_ramp`](Self::reference_ramp) set to `value`.
         #[must_use]
         pub const fn with_reference_ramp(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
     }
-    /// View of [`Controlword`] with the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
     #[derive(Clone, Copy)]
     pub struct ControlwordInHoming(u16);
     impl ControlwordInHoming {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -802,17 +802,17 @@ pub mod types {
         pub const fn homing_start(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
-        /// Returns a copy with another [`homing_start`](Self::homing_start).
+        /// Returns a copy with [`homing_start`](Self::homing_start) set to `value`.
         #[must_use]
         pub const fn with_homing_start(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
-    /// View of [`Controlword`] with the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
     #[derive(Clone, Copy)]
     pub struct ControlwordInInterpolatedPosition(u16);
     impl ControlwordInInterpolatedPosition {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -820,7 +820,7 @@ pub mod types {
         pub const fn enable_interpolation(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
-        /// Returns a copy with another [`enable_interpolation`](Self::enable_interpolation).
+        /// Returns a copy with [`enable_interpolation`](Self::enable_interpolation) set to `value`.
         #[must_use]
         pub const fn with_enable_interpolation(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
@@ -828,9 +828,9 @@ pub mod types {
     }
     /// Statusword.
     ///
-    /// From CiA 402, 10.3.2.
+    /// Definition from CiA 402, 10.3.2.
     ///
-    /// Values of [`STATUSWORD`](super::objects::STATUSWORD).
+    /// Type of the values of [`STATUSWORD`](super::objects::STATUSWORD).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -839,7 +839,7 @@ pub mod types {
     /// | 2 | [`operation_enabled`](Self::operation_enabled) |  |
     /// | 3 | [`fault`](Self::fault) |  |
     /// | 4 | [`voltage_enabled`](Self::voltage_enabled) | The power stage is supplied with voltage. |
-    /// | 5 | [`quick_stop`](Self::quick_stop) | 0 while a quick stop is requested. Active low: true if the bit is 0. |
+    /// | 5 | [`quick_stop`](Self::quick_stop) | 0 while a quick stop is requested. Active low: the flag is true if the bit is 0. |
     /// | 6 | [`switch_on_disabled`](Self::switch_on_disabled) |  |
     /// | 7 | [`warning`](Self::warning) |  |
     /// | 8 | [`manufacturer_specific_8`](Self::manufacturer_specific_8) | manufacturer specific. |
@@ -861,7 +861,7 @@ pub mod types {
     #[derive(Clone, Copy, PartialEq)]
     pub struct Statusword(u16);
     impl Statusword {
-        /// Creates a value with all bits 0.
+        /// Creates a value in which all bits are 0.
         pub const fn new() -> Self {
             Self(0)
         }
@@ -877,7 +877,7 @@ pub mod types {
         pub const fn ready_to_switch_on(self) -> bool {
             rt::bits16::flag(self.0, 0x1)
         }
-        /// Returns a copy with another [`ready_to_switch_on`](Self::ready_to_switch_on).
+        /// Returns a copy with [`ready_to_switch_on`](Self::ready_to_switch_on) set to `value`.
         #[must_use]
         pub const fn with_ready_to_switch_on(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1, value))
@@ -886,7 +886,7 @@ pub mod types {
         pub const fn switched_on(self) -> bool {
             rt::bits16::flag(self.0, 0x2)
         }
-        /// Returns a copy with another [`switched_on`](Self::switched_on).
+        /// Returns a copy with [`switched_on`](Self::switched_on) set to `value`.
         #[must_use]
         pub const fn with_switched_on(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2, value))
@@ -895,7 +895,7 @@ pub mod types {
         pub const fn operation_enabled(self) -> bool {
             rt::bits16::flag(self.0, 0x4)
         }
-        /// Returns a copy with another [`operation_enabled`](Self::operation_enabled).
+        /// Returns a copy with [`operation_enabled`](Self::operation_enabled) set to `value`.
         #[must_use]
         pub const fn with_operation_enabled(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x4, value))
@@ -904,7 +904,7 @@ pub mod types {
         pub const fn fault(self) -> bool {
             rt::bits16::flag(self.0, 0x8)
         }
-        /// Returns a copy with another [`fault`](Self::fault).
+        /// Returns a copy with [`fault`](Self::fault) set to `value`.
         #[must_use]
         pub const fn with_fault(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x8, value))
@@ -913,16 +913,16 @@ pub mod types {
         pub const fn voltage_enabled(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
-        /// Returns a copy with another [`voltage_enabled`](Self::voltage_enabled).
+        /// Returns a copy with [`voltage_enabled`](Self::voltage_enabled) set to `value`.
         #[must_use]
         pub const fn with_voltage_enabled(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
-        /// Bit 5: quick stop. Active low: true if the bit is 0. 0 while a quick stop is requested.
+        /// Bit 5: quick stop. Active low: the flag is true if the bit is 0. 0 while a quick stop is requested.
         pub const fn quick_stop(self) -> bool {
             !rt::bits16::flag(self.0, 0x20)
         }
-        /// Returns a copy with another [`quick_stop`](Self::quick_stop).
+        /// Returns a copy with [`quick_stop`](Self::quick_stop) set to `value`.
         #[must_use]
         pub const fn with_quick_stop(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, !value))
@@ -931,7 +931,7 @@ pub mod types {
         pub const fn switch_on_disabled(self) -> bool {
             rt::bits16::flag(self.0, 0x40)
         }
-        /// Returns a copy with another [`switch_on_disabled`](Self::switch_on_disabled).
+        /// Returns a copy with [`switch_on_disabled`](Self::switch_on_disabled) set to `value`.
         #[must_use]
         pub const fn with_switch_on_disabled(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
@@ -940,7 +940,7 @@ pub mod types {
         pub const fn warning(self) -> bool {
             rt::bits16::flag(self.0, 0x80)
         }
-        /// Returns a copy with another [`warning`](Self::warning).
+        /// Returns a copy with [`warning`](Self::warning) set to `value`.
         #[must_use]
         pub const fn with_warning(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x80, value))
@@ -949,7 +949,7 @@ pub mod types {
         pub const fn manufacturer_specific_8(self) -> bool {
             rt::bits16::flag(self.0, 0x100)
         }
-        /// Returns a copy with another [`manufacturer_specific_8`](Self::manufacturer_specific_8).
+        /// Returns a copy with [`manufacturer_specific_8`](Self::manufacturer_specific_8) set to `value`.
         #[must_use]
         pub const fn with_manufacturer_specific_8(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x100, value))
@@ -958,7 +958,7 @@ pub mod types {
         pub const fn remote(self) -> bool {
             rt::bits16::flag(self.0, 0x200)
         }
-        /// Returns a copy with another [`remote`](Self::remote).
+        /// Returns a copy with [`remote`](Self::remote) set to `value`.
         #[must_use]
         pub const fn with_remote(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x200, value))
@@ -967,7 +967,7 @@ pub mod types {
         pub const fn target_reached(self) -> bool {
             rt::bits16::flag(self.0, 0x400)
         }
-        /// Returns a copy with another [`target_reached`](Self::target_reached).
+        /// Returns a copy with [`target_reached`](Self::target_reached) set to `value`.
         #[must_use]
         pub const fn with_target_reached(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x400, value))
@@ -976,7 +976,7 @@ pub mod types {
         pub const fn internal_limit_active(self) -> bool {
             rt::bits16::flag(self.0, 0x800)
         }
-        /// Returns a copy with another [`internal_limit_active`](Self::internal_limit_active).
+        /// Returns a copy with [`internal_limit_active`](Self::internal_limit_active) set to `value`.
         #[must_use]
         pub const fn with_internal_limit_active(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x800, value))
@@ -985,40 +985,40 @@ pub mod types {
         pub const fn manufacturer_specific_14(self) -> u8 {
             rt::bits16::field(self.0, 0xC000) as u8
         }
-        /// Returns a copy with another [`manufacturer_specific_14`](Self::manufacturer_specific_14).
+        /// Returns a copy with [`manufacturer_specific_14`](Self::manufacturer_specific_14) set to `value`.
         #[must_use]
         pub const fn with_manufacturer_specific_14(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xC000, value as u16))
         }
-        /// Returns the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
         pub const fn in_profile_position(self) -> StatuswordInProfilePosition {
             StatuswordInProfilePosition(self.0)
         }
-        /// Returns the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile velocity (3).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile velocity (3).
         pub const fn in_profile_velocity(self) -> StatuswordInProfileVelocity {
             StatuswordInProfileVelocity(self.0)
         }
-        /// Returns the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
         pub const fn in_homing(self) -> StatuswordInHoming {
             StatuswordInHoming(self.0)
         }
-        /// Returns the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is interpolated position (7).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is interpolated position (7).
         pub const fn in_interpolated_position(self) -> StatuswordInInterpolatedPosition {
             StatuswordInInterpolatedPosition(self.0)
         }
-        /// Returns the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous position (8).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous position (8).
         pub const fn in_cyclic_synchronous_position(
             self,
         ) -> StatuswordInCyclicSynchronousPosition {
             StatuswordInCyclicSynchronousPosition(self.0)
         }
-        /// Returns the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous velocity (9).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous velocity (9).
         pub const fn in_cyclic_synchronous_velocity(
             self,
         ) -> StatuswordInCyclicSynchronousVelocity {
             StatuswordInCyclicSynchronousVelocity(self.0)
         }
-        /// Returns the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous torque (10).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous torque (10).
         pub const fn in_cyclic_synchronous_torque(
             self,
         ) -> StatuswordInCyclicSynchronousTorque {
@@ -1049,11 +1049,11 @@ pub mod types {
             )
         }
     }
-    /// View of [`Statusword`] with the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfilePosition(u16);
     impl StatuswordInProfilePosition {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1061,7 +1061,7 @@ pub mod types {
         pub const fn set_point_acknowledge(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`set_point_acknowledge`](Self::set_point_acknowledge).
+        /// Returns a copy with [`set_point_acknowledge`](Self::set_point_acknowledge) set to `value`.
         #[must_use]
         pub const fn with_set_point_acknowledge(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
@@ -1070,17 +1070,17 @@ pub mod types {
         pub const fn following_error(self) -> bool {
             rt::bits16::flag(self.0, 0x2000)
         }
-        /// Returns a copy with another [`following_error`](Self::following_error).
+        /// Returns a copy with [`following_error`](Self::following_error) set to `value`.
         #[must_use]
         pub const fn with_following_error(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile velocity (3).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile velocity (3).
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfileVelocity(u16);
     impl StatuswordInProfileVelocity {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1088,7 +1088,7 @@ pub mod types {
         pub const fn speed_zero(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`speed_zero`](Self::speed_zero).
+        /// Returns a copy with [`speed_zero`](Self::speed_zero) set to `value`.
         #[must_use]
         pub const fn with_speed_zero(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
@@ -1097,17 +1097,17 @@ pub mod types {
         pub const fn max_slippage_error(self) -> bool {
             rt::bits16::flag(self.0, 0x2000)
         }
-        /// Returns a copy with another [`max_slippage_error`](Self::max_slippage_error).
+        /// Returns a copy with [`max_slippage_error`](Self::max_slippage_error) set to `value`.
         #[must_use]
         pub const fn with_max_slippage_error(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
     #[derive(Clone, Copy)]
     pub struct StatuswordInHoming(u16);
     impl StatuswordInHoming {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1115,7 +1115,7 @@ pub mod types {
         pub const fn homing_attained(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`homing_attained`](Self::homing_attained).
+        /// Returns a copy with [`homing_attained`](Self::homing_attained) set to `value`.
         #[must_use]
         pub const fn with_homing_attained(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
@@ -1124,17 +1124,17 @@ pub mod types {
         pub const fn homing_error(self) -> bool {
             rt::bits16::flag(self.0, 0x2000)
         }
-        /// Returns a copy with another [`homing_error`](Self::homing_error).
+        /// Returns a copy with [`homing_error`](Self::homing_error) set to `value`.
         #[must_use]
         pub const fn with_homing_error(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is interpolated position (7).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is interpolated position (7).
     #[derive(Clone, Copy)]
     pub struct StatuswordInInterpolatedPosition(u16);
     impl StatuswordInInterpolatedPosition {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1142,17 +1142,17 @@ pub mod types {
         pub const fn interpolation_active(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`interpolation_active`](Self::interpolation_active).
+        /// Returns a copy with [`interpolation_active`](Self::interpolation_active) set to `value`.
         #[must_use]
         pub const fn with_interpolation_active(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous position (8).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous position (8).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousPosition(u16);
     impl StatuswordInCyclicSynchronousPosition {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1160,7 +1160,7 @@ pub mod types {
         pub const fn follows_command_value(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`follows_command_value`](Self::follows_command_value).
+        /// Returns a copy with [`follows_command_value`](Self::follows_command_value) set to `value`.
         #[must_use]
         pub const fn with_follows_command_value(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
@@ -1169,17 +1169,17 @@ pub mod types {
         pub const fn following_error(self) -> bool {
             rt::bits16::flag(self.0, 0x2000)
         }
-        /// Returns a copy with another [`following_error`](Self::following_error).
+        /// Returns a copy with [`following_error`](Self::following_error) set to `value`.
         #[must_use]
         pub const fn with_following_error(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous velocity (9).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous velocity (9).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousVelocity(u16);
     impl StatuswordInCyclicSynchronousVelocity {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1187,17 +1187,17 @@ pub mod types {
         pub const fn follows_command_value(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`follows_command_value`](Self::follows_command_value).
+        /// Returns a copy with [`follows_command_value`](Self::follows_command_value) set to `value`.
         #[must_use]
         pub const fn with_follows_command_value(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that apply while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous torque (10).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous torque (10).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousTorque(u16);
     impl StatuswordInCyclicSynchronousTorque {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1205,7 +1205,7 @@ pub mod types {
         pub const fn follows_command_value(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`follows_command_value`](Self::follows_command_value).
+        /// Returns a copy with [`follows_command_value`](Self::follows_command_value) set to `value`.
         #[must_use]
         pub const fn with_follows_command_value(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
@@ -1213,18 +1213,18 @@ pub mod types {
     }
     /// DeviceType.
     ///
-    /// From CiA 301, 7.5.2.1.
+    /// Definition from CiA 301, 7.5.2.1.
     ///
-    /// Values of [`DEVICE_TYPE`](super::objects::DEVICE_TYPE).
+    /// Type of the values of [`DEVICE_TYPE`](super::objects::DEVICE_TYPE).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
-    /// | 0–15 | [`profile`](Self::profile) | Number of the device profile; 0 if the device follows none. |
+    /// | 0–15 | [`profile`](Self::profile) | Number of the device profile; 0 if the device follows no profile. |
     /// | 16–31 | [`additional_information`](Self::additional_information) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DeviceType(u32);
     impl DeviceType {
-        /// Creates a value with all bits 0.
+        /// Creates a value in which all bits are 0.
         pub const fn new() -> Self {
             Self(0)
         }
@@ -1236,11 +1236,11 @@ pub mod types {
         pub const fn raw(self) -> u32 {
             self.0
         }
-        /// Bits 15 to 0: profile. Number of the device profile; 0 if the device follows none.
+        /// Bits 15 to 0: profile. Number of the device profile; 0 if the device follows no profile.
         pub const fn profile(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF) as u16
         }
-        /// Returns a copy with another [`profile`](Self::profile).
+        /// Returns a copy with [`profile`](Self::profile) set to `value`.
         #[must_use]
         pub const fn with_profile(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
@@ -1249,7 +1249,7 @@ pub mod types {
         pub const fn additional_information(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
-        /// Returns a copy with another [`additional_information`](Self::additional_information).
+        /// Returns a copy with [`additional_information`](Self::additional_information) set to `value`.
         #[must_use]
         pub const fn with_additional_information(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
@@ -1281,11 +1281,11 @@ pub mod types {
     }
     /// ErrorRegister.
     ///
-    /// From CiA 301, 7.5.2.2.
+    /// Definition from CiA 301, 7.5.2.2.
     ///
-    /// Values of [`ERROR_REGISTER`](super::objects::ERROR_REGISTER).
+    /// Type of the values of [`ERROR_REGISTER`](super::objects::ERROR_REGISTER).
     ///
-    /// Bits 0x40 are written as 0.
+    /// The reserved bits 0x40 are written as 0.
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -1295,12 +1295,12 @@ pub mod types {
     /// | 3 | [`temperature`](Self::temperature) |  |
     /// | 4 | [`communication`](Self::communication) |  |
     /// | 5 | [`device_profile`](Self::device_profile) |  |
-    /// | 6 | reserved | Written as 0. |
+    /// | 6 | reserved | The value 0 is written. |
     /// | 7 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ErrorRegister(u8);
     impl ErrorRegister {
-        /// Creates a value with all bits 0.
+        /// Creates a value in which all bits are 0.
         pub const fn new() -> Self {
             Self(0)
         }
@@ -1316,7 +1316,7 @@ pub mod types {
         pub const fn generic(self) -> bool {
             rt::bits8::flag(self.0, 0x1)
         }
-        /// Returns a copy with another [`generic`](Self::generic).
+        /// Returns a copy with [`generic`](Self::generic) set to `value`.
         #[must_use]
         pub const fn with_generic(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x1, value))
@@ -1325,7 +1325,7 @@ pub mod types {
         pub const fn current(self) -> bool {
             rt::bits8::flag(self.0, 0x2)
         }
-        /// Returns a copy with another [`current`](Self::current).
+        /// Returns a copy with [`current`](Self::current) set to `value`.
         #[must_use]
         pub const fn with_current(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x2, value))
@@ -1334,7 +1334,7 @@ pub mod types {
         pub const fn voltage(self) -> bool {
             rt::bits8::flag(self.0, 0x4)
         }
-        /// Returns a copy with another [`voltage`](Self::voltage).
+        /// Returns a copy with [`voltage`](Self::voltage) set to `value`.
         #[must_use]
         pub const fn with_voltage(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x4, value))
@@ -1343,7 +1343,7 @@ pub mod types {
         pub const fn temperature(self) -> bool {
             rt::bits8::flag(self.0, 0x8)
         }
-        /// Returns a copy with another [`temperature`](Self::temperature).
+        /// Returns a copy with [`temperature`](Self::temperature) set to `value`.
         #[must_use]
         pub const fn with_temperature(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x8, value))
@@ -1352,7 +1352,7 @@ pub mod types {
         pub const fn communication(self) -> bool {
             rt::bits8::flag(self.0, 0x10)
         }
-        /// Returns a copy with another [`communication`](Self::communication).
+        /// Returns a copy with [`communication`](Self::communication) set to `value`.
         #[must_use]
         pub const fn with_communication(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x10, value))
@@ -1361,7 +1361,7 @@ pub mod types {
         pub const fn device_profile(self) -> bool {
             rt::bits8::flag(self.0, 0x20)
         }
-        /// Returns a copy with another [`device_profile`](Self::device_profile).
+        /// Returns a copy with [`device_profile`](Self::device_profile) set to `value`.
         #[must_use]
         pub const fn with_device_profile(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x20, value))
@@ -1370,7 +1370,7 @@ pub mod types {
         pub const fn manufacturer_specific(self) -> bool {
             rt::bits8::flag(self.0, 0x80)
         }
-        /// Returns a copy with another [`manufacturer_specific`](Self::manufacturer_specific).
+        /// Returns a copy with [`manufacturer_specific`](Self::manufacturer_specific) set to `value`.
         #[must_use]
         pub const fn with_manufacturer_specific(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x80, value))
@@ -1405,9 +1405,9 @@ pub mod types {
     }
     /// MappingEntry.
     ///
-    /// From CiA 301, 7.5.2.36, 7.5.2.38.
+    /// Definition from CiA 301, 7.5.2.36, 7.5.2.38.
     ///
-    /// Values of [`rpdo_1_mapping::MAPPED_OBJECT_1`](super::objects::rpdo_1_mapping::MAPPED_OBJECT_1), [`rpdo_2_mapping::MAPPED_OBJECT_1`](super::objects::rpdo_2_mapping::MAPPED_OBJECT_1), [`rpdo_2_mapping::MAPPED_OBJECT_2`](super::objects::rpdo_2_mapping::MAPPED_OBJECT_2), [`tpdo_1_mapping::MAPPED_OBJECT_1`](super::objects::tpdo_1_mapping::MAPPED_OBJECT_1), [`tpdo_2_mapping::MAPPED_OBJECT_1`](super::objects::tpdo_2_mapping::MAPPED_OBJECT_1), [`tpdo_2_mapping::MAPPED_OBJECT_2`](super::objects::tpdo_2_mapping::MAPPED_OBJECT_2).
+    /// Type of the values of [`rpdo_1_mapping::MAPPED_OBJECT_1`](super::objects::rpdo_1_mapping::MAPPED_OBJECT_1), [`rpdo_2_mapping::MAPPED_OBJECT_1`](super::objects::rpdo_2_mapping::MAPPED_OBJECT_1), [`rpdo_2_mapping::MAPPED_OBJECT_2`](super::objects::rpdo_2_mapping::MAPPED_OBJECT_2), [`tpdo_1_mapping::MAPPED_OBJECT_1`](super::objects::tpdo_1_mapping::MAPPED_OBJECT_1), [`tpdo_2_mapping::MAPPED_OBJECT_1`](super::objects::tpdo_2_mapping::MAPPED_OBJECT_1), [`tpdo_2_mapping::MAPPED_OBJECT_2`](super::objects::tpdo_2_mapping::MAPPED_OBJECT_2).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -1417,7 +1417,7 @@ pub mod types {
     #[derive(Clone, Copy, PartialEq)]
     pub struct MappingEntry(u32);
     impl MappingEntry {
-        /// Creates a value with all bits 0.
+        /// Creates a value in which all bits are 0.
         pub const fn new() -> Self {
             Self(0)
         }
@@ -1433,7 +1433,7 @@ pub mod types {
         pub const fn length(self) -> u8 {
             rt::bits32::field(self.0, 0xFF) as u8
         }
-        /// Returns a copy with another [`length`](Self::length).
+        /// Returns a copy with [`length`](Self::length) set to `value`.
         #[must_use]
         pub const fn with_length(self, value: u8) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFF, value as u32))
@@ -1442,7 +1442,7 @@ pub mod types {
         pub const fn sub_index(self) -> u8 {
             rt::bits32::field(self.0, 0xFF00) as u8
         }
-        /// Returns a copy with another [`sub_index`](Self::sub_index).
+        /// Returns a copy with [`sub_index`](Self::sub_index) set to `value`.
         #[must_use]
         pub const fn with_sub_index(self, value: u8) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFF00, value as u32))
@@ -1451,7 +1451,7 @@ pub mod types {
         pub const fn index(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
-        /// Returns a copy with another [`index`](Self::index).
+        /// Returns a copy with [`index`](Self::index) set to `value`.
         #[must_use]
         pub const fn with_index(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
@@ -1483,9 +1483,9 @@ pub mod types {
     }
     /// ErrorFieldEntry.
     ///
-    /// From CiA 301, 7.5.2.3.
+    /// Definition from CiA 301, 7.5.2.3.
     ///
-    /// Values of [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4).
+    /// Type of the values of [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4).
     ///
     /// | Bits | Name |
     /// |---|---|
@@ -1494,7 +1494,7 @@ pub mod types {
     #[derive(Clone, Copy, PartialEq)]
     pub struct ErrorFieldEntry(u32);
     impl ErrorFieldEntry {
-        /// Creates a value with all bits 0.
+        /// Creates a value in which all bits are 0.
         pub const fn new() -> Self {
             Self(0)
         }
@@ -1510,7 +1510,7 @@ pub mod types {
         pub const fn error_code(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF) as u16
         }
-        /// Returns a copy with another [`error_code`](Self::error_code).
+        /// Returns a copy with [`error_code`](Self::error_code) set to `value`.
         #[must_use]
         pub const fn with_error_code(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
@@ -1519,7 +1519,7 @@ pub mod types {
         pub const fn additional_information(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
-        /// Returns a copy with another [`additional_information`](Self::additional_information).
+        /// Returns a copy with [`additional_information`](Self::additional_information) set to `value`.
         #[must_use]
         pub const fn with_additional_information(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
@@ -1551,9 +1551,9 @@ pub mod types {
     }
     /// SyncIdentifier.
     ///
-    /// From CiA 301, 7.5.2.5.
+    /// Definition from CiA 301, 7.5.2.5.
     ///
-    /// Values of [`COB_ID_SYNC_MESSAGE`](super::objects::COB_ID_SYNC_MESSAGE).
+    /// Type of the values of [`COB_ID_SYNC_MESSAGE`](super::objects::COB_ID_SYNC_MESSAGE).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -1563,7 +1563,7 @@ pub mod types {
     #[derive(Clone, Copy, PartialEq)]
     pub struct SyncIdentifier(u32);
     impl SyncIdentifier {
-        /// Creates a value with all bits 0.
+        /// Creates a value in which all bits are 0.
         pub const fn new() -> Self {
             Self(0)
         }
@@ -1579,7 +1579,7 @@ pub mod types {
         pub const fn identifier(self) -> u32 {
             rt::bits32::field(self.0, 0x1FFFFFFF)
         }
-        /// Returns a copy with another [`identifier`](Self::identifier).
+        /// Returns a copy with [`identifier`](Self::identifier) set to `value`.
         #[must_use]
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
@@ -1588,7 +1588,7 @@ pub mod types {
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
-        /// Returns a copy with another [`extended`](Self::extended).
+        /// Returns a copy with [`extended`](Self::extended) set to `value`.
         #[must_use]
         pub const fn with_extended(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x20000000, value))
@@ -1597,7 +1597,7 @@ pub mod types {
         pub const fn generates(self) -> bool {
             rt::bits32::flag(self.0, 0x40000000)
         }
-        /// Returns a copy with another [`generates`](Self::generates).
+        /// Returns a copy with [`generates`](Self::generates) set to `value`.
         #[must_use]
         pub const fn with_generates(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x40000000, value))
@@ -1629,22 +1629,22 @@ pub mod types {
     }
     /// EmergencyIdentifier.
     ///
-    /// From CiA 301, 7.5.2.17.
+    /// Definition from CiA 301, 7.5.2.17.
     ///
-    /// Values of [`COB_ID_EMCY`](super::objects::COB_ID_EMCY).
+    /// Type of the values of [`COB_ID_EMCY`](super::objects::COB_ID_EMCY).
     ///
-    /// Bits 0x40000000 are written as 0.
+    /// The reserved bits 0x40000000 are written as 0.
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
     /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
-    /// | 30 | reserved | Written as 0. |
-    /// | 31 | [`valid`](Self::valid) | 0 if the COB-ID is in use. Active low: true if the bit is 0. |
+    /// | 30 | reserved | The value 0 is written. |
+    /// | 31 | [`valid`](Self::valid) | 0 if the COB-ID is in use. Active low: the flag is true if the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct EmergencyIdentifier(u32);
     impl EmergencyIdentifier {
-        /// Creates a value with all bits 0.
+        /// Creates a value in which all bits are 0.
         pub const fn new() -> Self {
             Self(0)
         }
@@ -1660,7 +1660,7 @@ pub mod types {
         pub const fn identifier(self) -> u32 {
             rt::bits32::field(self.0, 0x1FFFFFFF)
         }
-        /// Returns a copy with another [`identifier`](Self::identifier).
+        /// Returns a copy with [`identifier`](Self::identifier) set to `value`.
         #[must_use]
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
@@ -1669,16 +1669,16 @@ pub mod types {
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
-        /// Returns a copy with another [`extended`](Self::extended).
+        /// Returns a copy with [`extended`](Self::extended) set to `value`.
         #[must_use]
         pub const fn with_extended(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
-        /// Bit 31: valid. Active low: true if the bit is 0. 0 if the COB-ID is in use.
+        /// Bit 31: valid. Active low: the flag is true if the bit is 0. 0 if the COB-ID is in use.
         pub const fn valid(self) -> bool {
             !rt::bits32::flag(self.0, 0x80000000)
         }
-        /// Returns a copy with another [`valid`](Self::valid).
+        /// Returns a copy with [`valid`](Self::valid) set to `value`.
         #[must_use]
         pub const fn with_valid(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
@@ -1713,18 +1713,18 @@ pub mod types {
     }
     /// RevisionNumber.
     ///
-    /// From CiA 301, 7.5.2.21.
+    /// Definition from CiA 301, 7.5.2.21.
     ///
-    /// Values of [`identity_object::REVISION_NUMBER`](super::objects::identity_object::REVISION_NUMBER).
+    /// Type of the values of [`identity_object::REVISION_NUMBER`](super::objects::identity_object::REVISION_NUMBER).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
-    /// | 0–15 | [`minor`](Self::minor) | Changes with versions that behave the same on the bus. |
-    /// | 16–31 | [`major`](Self::major) | Changes with versions that behave differently on the bus. |
+    /// | 0–15 | [`minor`](Self::minor) | Minor revision: changes without a change of the behavior on the bus. |
+    /// | 16–31 | [`major`](Self::major) | Major revision: changes with each change of the behavior on the bus. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct RevisionNumber(u32);
     impl RevisionNumber {
-        /// Creates a value with all bits 0.
+        /// Creates a value in which all bits are 0.
         pub const fn new() -> Self {
             Self(0)
         }
@@ -1736,20 +1736,20 @@ pub mod types {
         pub const fn raw(self) -> u32 {
             self.0
         }
-        /// Bits 15 to 0: minor. Changes with versions that behave the same on the bus.
+        /// Bits 15 to 0: minor. Minor revision: changes without a change of the behavior on the bus.
         pub const fn minor(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF) as u16
         }
-        /// Returns a copy with another [`minor`](Self::minor).
+        /// Returns a copy with [`minor`](Self::minor) set to `value`.
         #[must_use]
         pub const fn with_minor(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
-        /// Bits 31 to 16: major. Changes with versions that behave differently on the bus.
+        /// Bits 31 to 16: major. Major revision: changes with each change of the behavior on the bus.
         pub const fn major(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
-        /// Returns a copy with another [`major`](Self::major).
+        /// Returns a copy with [`major`](Self::major) set to `value`.
         #[must_use]
         pub const fn with_major(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
@@ -1781,19 +1781,19 @@ pub mod types {
     }
     /// ReceivePdoIdentifier.
     ///
-    /// From CiA 301, 7.5.2.35.
+    /// Definition from CiA 301, 7.5.2.35.
     ///
-    /// Values of [`rpdo_1_communication::COB_ID`](super::objects::rpdo_1_communication::COB_ID), [`rpdo_2_communication::COB_ID`](super::objects::rpdo_2_communication::COB_ID).
+    /// Type of the values of [`rpdo_1_communication::COB_ID`](super::objects::rpdo_1_communication::COB_ID), [`rpdo_2_communication::COB_ID`](super::objects::rpdo_2_communication::COB_ID).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
     /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
-    /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Active low: true if the bit is 0. |
+    /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Active low: the flag is true if the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ReceivePdoIdentifier(u32);
     impl ReceivePdoIdentifier {
-        /// Creates a value with all bits 0.
+        /// Creates a value in which all bits are 0.
         pub const fn new() -> Self {
             Self(0)
         }
@@ -1809,7 +1809,7 @@ pub mod types {
         pub const fn identifier(self) -> u32 {
             rt::bits32::field(self.0, 0x1FFFFFFF)
         }
-        /// Returns a copy with another [`identifier`](Self::identifier).
+        /// Returns a copy with [`identifier`](Self::identifier) set to `value`.
         #[must_use]
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
@@ -1818,16 +1818,16 @@ pub mod types {
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
-        /// Returns a copy with another [`extended`](Self::extended).
+        /// Returns a copy with [`extended`](Self::extended) set to `value`.
         #[must_use]
         pub const fn with_extended(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
-        /// Bit 31: valid. Active low: true if the bit is 0. 0 if the PDO is in use.
+        /// Bit 31: valid. Active low: the flag is true if the bit is 0. 0 if the PDO is in use.
         pub const fn valid(self) -> bool {
             !rt::bits32::flag(self.0, 0x80000000)
         }
-        /// Returns a copy with another [`valid`](Self::valid).
+        /// Returns a copy with [`valid`](Self::valid) set to `value`.
         #[must_use]
         pub const fn with_valid(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
@@ -1859,20 +1859,20 @@ pub mod types {
     }
     /// TransmitPdoIdentifier.
     ///
-    /// From CiA 301, 7.5.2.37.
+    /// Definition from CiA 301, 7.5.2.37.
     ///
-    /// Values of [`tpdo_1_communication::COB_ID`](super::objects::tpdo_1_communication::COB_ID), [`tpdo_2_communication::COB_ID`](super::objects::tpdo_2_communication::COB_ID).
+    /// Type of the values of [`tpdo_1_communication::COB_ID`](super::objects::tpdo_1_communication::COB_ID), [`tpdo_2_communication::COB_ID`](super::objects::tpdo_2_communication::COB_ID).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
     /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
-    /// | 30 | [`remote_request`](Self::remote_request) | 0 if a remote frame may request the PDO. Active low: true if the bit is 0. |
-    /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Active low: true if the bit is 0. |
+    /// | 30 | [`remote_request`](Self::remote_request) | 0 if a remote frame may request the PDO. Active low: the flag is true if the bit is 0. |
+    /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Active low: the flag is true if the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct TransmitPdoIdentifier(u32);
     impl TransmitPdoIdentifier {
-        /// Creates a value with all bits 0.
+        /// Creates a value in which all bits are 0.
         pub const fn new() -> Self {
             Self(0)
         }
@@ -1888,7 +1888,7 @@ pub mod types {
         pub const fn identifier(self) -> u32 {
             rt::bits32::field(self.0, 0x1FFFFFFF)
         }
-        /// Returns a copy with another [`identifier`](Self::identifier).
+        /// Returns a copy with [`identifier`](Self::identifier) set to `value`.
         #[must_use]
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
@@ -1897,25 +1897,25 @@ pub mod types {
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
-        /// Returns a copy with another [`extended`](Self::extended).
+        /// Returns a copy with [`extended`](Self::extended) set to `value`.
         #[must_use]
         pub const fn with_extended(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
-        /// Bit 30: remote request. Active low: true if the bit is 0. 0 if a remote frame may request the PDO.
+        /// Bit 30: remote request. Active low: the flag is true if the bit is 0. 0 if a remote frame may request the PDO.
         pub const fn remote_request(self) -> bool {
             !rt::bits32::flag(self.0, 0x40000000)
         }
-        /// Returns a copy with another [`remote_request`](Self::remote_request).
+        /// Returns a copy with [`remote_request`](Self::remote_request) set to `value`.
         #[must_use]
         pub const fn with_remote_request(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x40000000, !value))
         }
-        /// Bit 31: valid. Active low: true if the bit is 0. 0 if the PDO is in use.
+        /// Bit 31: valid. Active low: the flag is true if the bit is 0. 0 if the PDO is in use.
         pub const fn valid(self) -> bool {
             !rt::bits32::flag(self.0, 0x80000000)
         }
-        /// Returns a copy with another [`valid`](Self::valid).
+        /// Returns a copy with [`valid`](Self::valid) set to `value`.
         #[must_use]
         pub const fn with_valid(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
@@ -1947,7 +1947,7 @@ pub mod types {
     }
     /// States of drive, read from [Statusword](super::objects::STATUSWORD).
     ///
-    /// From CiA 402, 10.1.1.
+    /// Definition from CiA 402, 10.1.1.
     ///
     /// | State | Bits |
     /// |---|---|
@@ -1979,7 +1979,7 @@ pub mod types {
         Fault,
     }
     impl State {
-        /// Returns the state with these bits; `None` if no state matches.
+        /// Returns the state that these bits encode; `None` if no state matches.
         pub const fn from_raw(raw: u16) -> Option<Self> {
             if raw & 0x4F == 0 {
                 return Some(Self::NotReadyToSwitchOn);
@@ -2099,7 +2099,7 @@ pub mod types {
     }
     /// Commands of drive, written to [Controlword](super::objects::CONTROLWORD).
     ///
-    /// From CiA 402, 10.1.1.
+    /// Definition from CiA 402, 10.1.1.
     ///
     /// | Command | Bits |
     /// |---|---|
@@ -2130,7 +2130,7 @@ pub mod types {
     /// | 14 | [`FaultReactionActive`](State::FaultReactionActive) | [`Fault`](State::Fault) | automatic |  |
     /// | 15 | [`Fault`](State::Fault) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`FaultReset`](Command::FaultReset) |  |
     /// | 16 | [`QuickStopActive`](State::QuickStopActive) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](Command::EnableOperation) |  |
-    /// | 13 | any state | [`FaultReactionActive`](State::FaultReactionActive) | automatic | Automatic when a fault occurs. |
+    /// | 13 | any state | [`FaultReactionActive`](State::FaultReactionActive) | automatic | Automatic transition when a fault occurs. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Command {
         /// shutdown: `xxxx xxxx 0xxx x110`.
@@ -2149,7 +2149,7 @@ pub mod types {
         FaultReset,
     }
     impl Command {
-        /// Returns the mask of the bits that the command sets or clears.
+        /// Returns the mask of all bits that the command sets or clears.
         pub const fn mask(self) -> u16 {
             match self {
                 Self::Shutdown => 0x87,
@@ -2175,21 +2175,21 @@ pub mod types {
         }
     }
     impl Controlword {
-        /// Returns a copy with the bits of `command`.
+        /// Returns a copy in which `command` has set and cleared its bits.
         #[must_use]
         pub const fn with_command(self, command: Command) -> Self {
             Self((self.0 & !command.mask()) | command.value())
         }
     }
 }
-/// Code tables. `rt::codes::find` looks up a code.
+/// Code tables. The function `codes::find` of the runtime returns the row of a code.
 pub mod codes {
     use ::lexibus as rt;
     /// drive errors.
     ///
-    /// From CiA 402, 6.2.
+    /// Definition from CiA 402, 6.2.
     ///
-    /// Type of the codes: [`DriveErrors`].
+    /// The codes have the type [`DriveErrors`].
     pub static DRIVE_ERRORS: &[rt::codes::Code] = &[
         rt::codes::Code::new(0x2310, 0x2310, "continuous over-current", "", &[]),
         rt::codes::Code::new(0x2320, 0x2320, "short circuit or earth leakage", "", &[]),
@@ -2225,7 +2225,7 @@ pub mod codes {
         rt::codes::Code::new(0xF003, 0xF003, "stroke operation", "", &[]),
         rt::codes::Code::new(0xF004, 0xF004, "control", "", &[]),
     ];
-    /// A code of [`DRIVE_ERRORS`].
+    /// Code of the table [`DRIVE_ERRORS`].
     ///
     /// | Code | Name | Meaning |
     /// |---|---|---|
@@ -2330,7 +2330,7 @@ pub mod codes {
         StrokeOperation,
         /// 0xF004: control.
         Control,
-        /// Any other code.
+        /// A code that is not in the table.
         Unknown(u16),
     }
     impl rt::codes::CodeTable for DriveErrors {
@@ -2417,9 +2417,9 @@ pub mod codes {
     }
     /// emergency.
     ///
-    /// From CiA 301, 7.2.7.1.
+    /// Definition from CiA 301, 7.2.7.1.
     ///
-    /// Type of the codes: [`Emergency`].
+    /// The codes have the type [`Emergency`].
     pub static EMERGENCY: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             0,
@@ -2487,7 +2487,7 @@ pub mod codes {
         rt::codes::Code::new(0xF000, 0xF0FF, "additional functions", "", &[]),
         rt::codes::Code::new(0xFF00, 0xFFFF, "device specific", "", &[]),
     ];
-    /// A code of [`EMERGENCY`].
+    /// Code of the table [`EMERGENCY`].
     ///
     /// | Code | Name | Meaning |
     /// |---|---|---|
@@ -2598,7 +2598,7 @@ pub mod codes {
         AdditionalFunctions(u16),
         /// 0xFF00 to 0xFFFF: device specific.
         DeviceSpecific(u16),
-        /// Any other code.
+        /// A code that is not in the table.
         Unknown(u16),
     }
     impl rt::codes::CodeTable for Emergency {
@@ -2745,7 +2745,7 @@ pub mod objects {
     /// Device type.
     ///
     /// Default 0x20192, 0x1000:00, UNSIGNED32, read-only.
-    /// Accessor: [`device_type`](super::DemoDrive::device_type). Values: [`DeviceType`](super::types::DeviceType).
+    /// Accessor: [`device_type`](super::DemoDrive::device_type). Type of the value: [`DeviceType`](super::types::DeviceType).
     ///
     /// Device profile number and additional information on the device.
     ///
@@ -2761,7 +2761,7 @@ pub mod objects {
     /// Error register.
     ///
     /// Default 0, 0x1001:00, UNSIGNED8, read-only, mappable into TPDOs.
-    /// Accessor: [`error_register`](super::DemoDrive::error_register). Values: [`ErrorRegister`](super::types::ErrorRegister).
+    /// Accessor: [`error_register`](super::DemoDrive::error_register). Type of the value: [`ErrorRegister`](super::types::ErrorRegister).
     ///
     /// Kinds of errors that are currently present.
     ///
@@ -2792,7 +2792,7 @@ pub mod objects {
         /// Pre-defined error field1.
         ///
         /// 0x1003:01, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::pre_defined_error_field1`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`Accessors::pre_defined_error_field1`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Recorded error; sub-index 1 has the newest.
         ///
@@ -2809,7 +2809,7 @@ pub mod objects {
         /// Pre-defined error field2.
         ///
         /// 0x1003:02, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::pre_defined_error_field2`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`Accessors::pre_defined_error_field2`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Recorded error; sub-index 1 has the newest.
         ///
@@ -2826,7 +2826,7 @@ pub mod objects {
         /// Pre-defined error field3.
         ///
         /// 0x1003:03, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::pre_defined_error_field3`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`Accessors::pre_defined_error_field3`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Recorded error; sub-index 1 has the newest.
         ///
@@ -2843,7 +2843,7 @@ pub mod objects {
         /// Pre-defined error field4.
         ///
         /// 0x1003:04, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::pre_defined_error_field4`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`Accessors::pre_defined_error_field4`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Recorded error; sub-index 1 has the newest.
         ///
@@ -2872,7 +2872,7 @@ pub mod objects {
             /// Recorded error; sub-index 1 has the newest.
             ///
             /// Pre-defined error field1: 0x1003:01, UNSIGNED32, read-only.
-            /// Constant: [`PRE_DEFINED_ERROR_FIELD1`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+            /// Constant: [`PRE_DEFINED_ERROR_FIELD1`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field1(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
@@ -2881,7 +2881,7 @@ pub mod objects {
             /// Recorded error; sub-index 1 has the newest.
             ///
             /// Pre-defined error field2: 0x1003:02, UNSIGNED32, read-only.
-            /// Constant: [`PRE_DEFINED_ERROR_FIELD2`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+            /// Constant: [`PRE_DEFINED_ERROR_FIELD2`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field2(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
@@ -2890,7 +2890,7 @@ pub mod objects {
             /// Recorded error; sub-index 1 has the newest.
             ///
             /// Pre-defined error field3: 0x1003:03, UNSIGNED32, read-only.
-            /// Constant: [`PRE_DEFINED_ERROR_FIELD3`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+            /// Constant: [`PRE_DEFINED_ERROR_FIELD3`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field3(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
@@ -2899,7 +2899,7 @@ pub mod objects {
             /// Recorded error; sub-index 1 has the newest.
             ///
             /// Pre-defined error field4: 0x1003:04, UNSIGNED32, read-only.
-            /// Constant: [`PRE_DEFINED_ERROR_FIELD4`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+            /// Constant: [`PRE_DEFINED_ERROR_FIELD4`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field4(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
@@ -2910,7 +2910,7 @@ pub mod objects {
     /// COB-ID SYNC message.
     ///
     /// Default 0x80, 0x1005:00, UNSIGNED32, read-write.
-    /// Accessor: [`cob_id_sync_message`](super::DemoDrive::cob_id_sync_message). Values: [`SyncIdentifier`](super::types::SyncIdentifier).
+    /// Accessor: [`cob_id_sync_message`](super::DemoDrive::cob_id_sync_message). Type of the value: [`SyncIdentifier`](super::types::SyncIdentifier).
     ///
     /// COB-ID of the SYNC message.
     ///
@@ -2960,7 +2960,7 @@ pub mod objects {
         /// Save all parameters.
         ///
         /// Default 1, 0x1010:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::save_all_parameters`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
+        /// Accessor: [`Accessors::save_all_parameters`]. Type of the value: [`StoreParameters`](super::super::types::StoreParameters).
         ///
         /// Writing "save" stores the parameters in non-volatile memory; reading returns the storage capability.
         ///
@@ -2992,7 +2992,7 @@ pub mod objects {
             /// Writing "save" stores the parameters in non-volatile memory; reading returns the storage capability.
             ///
             /// Save all parameters: Default 1, 0x1010:01, UNSIGNED32, read-write.
-            /// Constant: [`SAVE_ALL_PARAMETERS`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
+            /// Constant: [`SAVE_ALL_PARAMETERS`]. Type of the value: [`StoreParameters`](super::super::types::StoreParameters).
             pub fn save_all_parameters(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::StoreParameters> {
@@ -3003,7 +3003,7 @@ pub mod objects {
     /// COB-ID EMCY.
     ///
     /// Default \$NODEID+0x80, 0x1014:00, UNSIGNED32, read-write.
-    /// Accessor: [`cob_id_emcy`](super::DemoDrive::cob_id_emcy). Values: [`EmergencyIdentifier`](super::types::EmergencyIdentifier).
+    /// Accessor: [`cob_id_emcy`](super::DemoDrive::cob_id_emcy). Type of the value: [`EmergencyIdentifier`](super::types::EmergencyIdentifier).
     ///
     /// COB-ID of the emergency messages.
     ///
@@ -3081,7 +3081,7 @@ pub mod objects {
         /// Revision number.
         ///
         /// Default 0x10000, 0x1018:03, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::revision_number`]. Values: [`RevisionNumber`](super::super::types::RevisionNumber).
+        /// Accessor: [`Accessors::revision_number`]. Type of the value: [`RevisionNumber`](super::super::types::RevisionNumber).
         ///
         /// Revision number of the product.
         ///
@@ -3140,7 +3140,7 @@ pub mod objects {
             /// Revision number of the product.
             ///
             /// Revision number: Default 0x10000, 0x1018:03, UNSIGNED32, read-only.
-            /// Constant: [`REVISION_NUMBER`]. Values: [`RevisionNumber`](super::super::types::RevisionNumber).
+            /// Constant: [`REVISION_NUMBER`]. Type of the value: [`RevisionNumber`](super::super::types::RevisionNumber).
             pub fn revision_number(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::RevisionNumber> {
@@ -3173,7 +3173,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::cob_id`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        /// Accessor: [`Accessors::cob_id`]. Type of the value: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
         /// COB-ID of the RPDO.
         ///
@@ -3193,7 +3193,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// Default 255, 0x1400:02, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::transmission_type`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
+        /// Accessor: [`Accessors::transmission_type`]. Type of the value: [`ReceiveType`](super::super::types::ReceiveType).
         ///
         /// Transmission type: when the device applies the received data.
         ///
@@ -3225,7 +3225,7 @@ pub mod objects {
             /// COB-ID of the RPDO.
             ///
             /// COB-ID: Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+            /// Constant: [`COB_ID`]. Type of the value: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -3238,7 +3238,7 @@ pub mod objects {
             /// Transmission type: when the device applies the received data.
             ///
             /// Transmission type: Default 255, 0x1400:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
+            /// Constant: [`TRANSMISSION_TYPE`]. Type of the value: [`ReceiveType`](super::super::types::ReceiveType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::ReceiveType> {
@@ -3264,7 +3264,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// Default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::cob_id`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        /// Accessor: [`Accessors::cob_id`]. Type of the value: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
         /// COB-ID of the RPDO.
         ///
@@ -3284,7 +3284,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// Default 1, 0x1401:02, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::transmission_type`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
+        /// Accessor: [`Accessors::transmission_type`]. Type of the value: [`ReceiveType`](super::super::types::ReceiveType).
         ///
         /// Transmission type: when the device applies the received data.
         ///
@@ -3316,7 +3316,7 @@ pub mod objects {
             /// COB-ID of the RPDO.
             ///
             /// COB-ID: Default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+            /// Constant: [`COB_ID`]. Type of the value: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -3329,7 +3329,7 @@ pub mod objects {
             /// Transmission type: when the device applies the received data.
             ///
             /// Transmission type: Default 1, 0x1401:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
+            /// Constant: [`TRANSMISSION_TYPE`]. Type of the value: [`ReceiveType`](super::super::types::ReceiveType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::ReceiveType> {
@@ -3354,7 +3354,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// Default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Accessors::mapped_object_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the RPDO: index, sub-index and length in bits.
         ///
@@ -3384,7 +3384,7 @@ pub mod objects {
             /// Object mapped to the RPDO: index, sub-index and length in bits.
             ///
             /// Mapped object 1: Default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+            /// Constant: [`MAPPED_OBJECT_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3409,7 +3409,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// Default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Accessors::mapped_object_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the RPDO: index, sub-index and length in bits.
         ///
@@ -3425,7 +3425,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// Default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Accessors::mapped_object_2`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the RPDO: index, sub-index and length in bits.
         ///
@@ -3455,7 +3455,7 @@ pub mod objects {
             /// Object mapped to the RPDO: index, sub-index and length in bits.
             ///
             /// Mapped object 1: Default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+            /// Constant: [`MAPPED_OBJECT_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3464,7 +3464,7 @@ pub mod objects {
             /// Object mapped to the RPDO: index, sub-index and length in bits.
             ///
             /// Mapped object 2: Default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+            /// Constant: [`MAPPED_OBJECT_2`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3490,7 +3490,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// Default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::cob_id`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        /// Accessor: [`Accessors::cob_id`]. Type of the value: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
         /// COB-ID of the TPDO.
         ///
@@ -3510,7 +3510,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// Default 255, 0x1800:02, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmitType`](super::super::types::TransmitType).
+        /// Accessor: [`Accessors::transmission_type`]. Type of the value: [`TransmitType`](super::super::types::TransmitType).
         ///
         /// Transmission type: when the TPDO is transmitted.
         ///
@@ -3542,7 +3542,7 @@ pub mod objects {
             /// COB-ID of the TPDO.
             ///
             /// COB-ID: Default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+            /// Constant: [`COB_ID`]. Type of the value: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -3555,7 +3555,7 @@ pub mod objects {
             /// Transmission type: when the TPDO is transmitted.
             ///
             /// Transmission type: Default 255, 0x1800:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmitType`](super::super::types::TransmitType).
+            /// Constant: [`TRANSMISSION_TYPE`]. Type of the value: [`TransmitType`](super::super::types::TransmitType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmitType> {
@@ -3581,7 +3581,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// Default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::cob_id`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        /// Accessor: [`Accessors::cob_id`]. Type of the value: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
         /// COB-ID of the TPDO.
         ///
@@ -3601,7 +3601,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// Default 1, 0x1801:02, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmitType`](super::super::types::TransmitType).
+        /// Accessor: [`Accessors::transmission_type`]. Type of the value: [`TransmitType`](super::super::types::TransmitType).
         ///
         /// Transmission type: when the TPDO is transmitted.
         ///
@@ -3633,7 +3633,7 @@ pub mod objects {
             /// COB-ID of the TPDO.
             ///
             /// COB-ID: Default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+            /// Constant: [`COB_ID`]. Type of the value: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -3646,7 +3646,7 @@ pub mod objects {
             /// Transmission type: when the TPDO is transmitted.
             ///
             /// Transmission type: Default 1, 0x1801:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmitType`](super::super::types::TransmitType).
+            /// Constant: [`TRANSMISSION_TYPE`]. Type of the value: [`TransmitType`](super::super::types::TransmitType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmitType> {
@@ -3671,7 +3671,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// Default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Accessors::mapped_object_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the TPDO: index, sub-index and length in bits.
         ///
@@ -3701,7 +3701,7 @@ pub mod objects {
             /// Object mapped to the TPDO: index, sub-index and length in bits.
             ///
             /// Mapped object 1: Default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+            /// Constant: [`MAPPED_OBJECT_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3726,7 +3726,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// Default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Accessors::mapped_object_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the TPDO: index, sub-index and length in bits.
         ///
@@ -3742,7 +3742,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// Default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Accessors::mapped_object_2`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the TPDO: index, sub-index and length in bits.
         ///
@@ -3772,7 +3772,7 @@ pub mod objects {
             /// Object mapped to the TPDO: index, sub-index and length in bits.
             ///
             /// Mapped object 1: Default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+            /// Constant: [`MAPPED_OBJECT_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3781,7 +3781,7 @@ pub mod objects {
             /// Object mapped to the TPDO: index, sub-index and length in bits.
             ///
             /// Mapped object 2: Default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
+            /// Constant: [`MAPPED_OBJECT_2`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3894,7 +3894,7 @@ pub mod objects {
     /// Controlword.
     ///
     /// Default 0, 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
-    /// Accessor: [`controlword`](super::DemoDrive::controlword). Values: [`Controlword`](super::types::Controlword). Carried by [`RxPdo1`](super::pdo::RxPdo1), [`RxPdo2`](super::pdo::RxPdo2).
+    /// Accessor: [`controlword`](super::DemoDrive::controlword). Type of the value: [`Controlword`](super::types::Controlword). Mapped in [`RxPdo1`](super::pdo::RxPdo1), [`RxPdo2`](super::pdo::RxPdo2).
     ///
     /// Control word: commands of the drive state machine and of the mode of operation.
     ///
@@ -3911,7 +3911,7 @@ pub mod objects {
     /// Statusword.
     ///
     /// 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
-    /// Accessor: [`statusword`](super::DemoDrive::statusword). Values: [`Statusword`](super::types::Statusword). Carried by [`TxPdo1`](super::pdo::TxPdo1), [`TxPdo2`](super::pdo::TxPdo2).
+    /// Accessor: [`statusword`](super::DemoDrive::statusword). Type of the value: [`Statusword`](super::types::Statusword). Mapped in [`TxPdo1`](super::pdo::TxPdo1), [`TxPdo2`](super::pdo::TxPdo2).
     ///
     /// Status word: state of the drive state machine and of the mode of operation.
     ///
@@ -3927,7 +3927,7 @@ pub mod objects {
     /// Modes of operation.
     ///
     /// Range \-128 to 8, default 1, 0x6060:00, INTEGER8, read-write, mappable into any PDO.
-    /// Accessor: [`modes_of_operation`](super::DemoDrive::modes_of_operation). Values: [`ModesOfOperation`](super::types::ModesOfOperation).
+    /// Accessor: [`modes_of_operation`](super::DemoDrive::modes_of_operation). Type of the value: [`ModesOfOperation`](super::types::ModesOfOperation).
     ///
     /// Requested mode of operation; the active mode is in 0x6061.
     ///
@@ -3945,7 +3945,7 @@ pub mod objects {
     /// Modes of operation display.
     ///
     /// 0x6061:00, INTEGER8, read-only, mappable into TPDOs.
-    /// Accessor: [`modes_of_operation_display`](super::DemoDrive::modes_of_operation_display). Values: [`ModesOfOperation`](super::types::ModesOfOperation).
+    /// Accessor: [`modes_of_operation_display`](super::DemoDrive::modes_of_operation_display). Type of the value: [`ModesOfOperation`](super::types::ModesOfOperation).
     ///
     /// Active mode of operation.
     ///
@@ -3961,7 +3961,7 @@ pub mod objects {
     /// Position actual value.
     ///
     /// 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
-    /// Accessor: [`position_actual_value`](super::DemoDrive::position_actual_value). Carried by [`TxPdo2`](super::pdo::TxPdo2).
+    /// Accessor: [`position_actual_value`](super::DemoDrive::position_actual_value). Mapped in [`TxPdo2`](super::pdo::TxPdo2).
     pub const POSITION_ACTUAL_VALUE: ReadOnly<i32> = ReadOnlyI32::flagged_object(
         0x6064,
         0x00,
@@ -3971,7 +3971,7 @@ pub mod objects {
     /// Target position.
     ///
     /// Range \-1000000 to 1000000, default 0, 0x607A:00, INTEGER32, read-write, mappable into any PDO.
-    /// Accessor: [`target_position`](super::DemoDrive::target_position). Carried by [`RxPdo2`](super::pdo::RxPdo2).
+    /// Accessor: [`target_position`](super::DemoDrive::target_position). Mapped in [`RxPdo2`](super::pdo::RxPdo2).
     pub const TARGET_POSITION: ReadWrite<i32> = ReadWriteI32::new(
         rt::OnCanOpen::canopen(0x607A, 0x00),
         "Target position",
@@ -4069,10 +4069,10 @@ pub mod objects {
         rt::Flags::NONE,
     );
 }
-/// PDOs with a mapping that can be changed. `lexibus::pdo!` looks them up here.
+/// PDOs with a writable mapping, for use by the macro `lexibus::pdo!`.
 pub mod remappable {
     use ::lexibus as rt;
-    /// RPDO 1: RPDO 1 mapping. Default mapping: [`RxPdo1`](super::pdo::RxPdo1).
+    /// RPDO 1: RPDO 1 mapping. The default mapping is [`RxPdo1`](super::pdo::RxPdo1).
     pub enum RxPdo1 {}
     impl rt::Remappable for RxPdo1 {
         type Direction = rt::Rpdo;
@@ -4087,7 +4087,7 @@ pub mod remappable {
         ];
         const COB_ID: rt::CobId = rt::CobId::from_node(0x200);
     }
-    /// RPDO 2: RPDO 2 mapping. Default mapping: [`RxPdo2`](super::pdo::RxPdo2).
+    /// RPDO 2: RPDO 2 mapping. The default mapping is [`RxPdo2`](super::pdo::RxPdo2).
     pub enum RxPdo2 {}
     impl rt::Remappable for RxPdo2 {
         type Direction = rt::Rpdo;
@@ -4100,7 +4100,7 @@ pub mod remappable {
         const TIMING: &'static [rt::SdoWrite] = &[rt::SdoWrite::new_u8(0x1401, 0x02, 1)];
         const COB_ID: rt::CobId = rt::CobId::from_node(0x300);
     }
-    /// TPDO 1: TPDO 1 mapping. Default mapping: [`TxPdo1`](super::pdo::TxPdo1).
+    /// TPDO 1: TPDO 1 mapping. The default mapping is [`TxPdo1`](super::pdo::TxPdo1).
     pub enum TxPdo1 {}
     impl rt::Remappable for TxPdo1 {
         type Direction = rt::Tpdo;
@@ -4114,7 +4114,7 @@ pub mod remappable {
         ];
         const COB_ID: rt::CobId = rt::CobId::from_node(0x180);
     }
-    /// TPDO 2: TPDO 2 mapping. Default mapping: [`TxPdo2`](super::pdo::TxPdo2).
+    /// TPDO 2: TPDO 2 mapping. The default mapping is [`TxPdo2`](super::pdo::TxPdo2).
     pub enum TxPdo2 {}
     impl rt::Remappable for TxPdo2 {
         type Direction = rt::Tpdo;
@@ -4127,7 +4127,7 @@ pub mod remappable {
         const COB_ID: rt::CobId = rt::CobId::from_node(0x280);
     }
 }
-/// Items that can be mapped into PDOs, by the names of their accessors. `lexibus::pdo!` looks them up here.
+/// Items that can be mapped into PDOs, for use by the macro `lexibus::pdo!`. Their names are those of the accessors.
 #[allow(missing_docs, non_camel_case_types)]
 pub mod mappable {
     use ::lexibus as rt;
@@ -4166,14 +4166,14 @@ pub mod pdo {
     use ::lexibus as rt;
     /// RPDO 1: RPDO 1 mapping.
     ///
-    /// Mapping 0x1600, 16 bits, COB-ID 0x200 + node-ID, transmission type 255.
+    /// Mapping object 0x1600, 16 bits, COB-ID 0x200 + node-ID, transmission type 255.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
     /// | 0–1 | [`controlword`](Self::controlword) | [0x6040:00](super::objects::CONTROLWORD) | [`Controlword`](super::types::Controlword) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1 {
-        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits at bit offset 0.
         pub controlword: super::types::Controlword,
     }
     impl RxPdo1 {
@@ -4183,7 +4183,7 @@ pub mod pdo {
         pub const LEN: usize = 2;
         /// Default COB-ID (CiA 301 7.5.2.35).
         pub const COB_ID: rt::CobId = rt::CobId::from_node(0x200);
-        /// Returns the bytes of a frame. Padding is 0.
+        /// Returns the bytes of the PDO. Unmapped bits are 0.
         #[inline]
         pub const fn pack(&self) -> [u8; 2] {
             let mut word = 0;
@@ -4191,7 +4191,7 @@ pub mod pdo {
             word |= bits;
             rt::pdo::to_bytes(word)
         }
-        /// Reads the fields of a frame. Bytes after the mapped ones are ignored.
+        /// Decodes the fields of the PDO. Bytes after the mapped objects are ignored.
         ///
         /// # Errors
         ///
@@ -4211,7 +4211,8 @@ pub mod pdo {
         pub const fn configuration(node_id: rt::NodeId) -> [rt::SdoWrite; 6] {
             Self::configuration_as(Self::COB_ID.resolve(node_id))
         }
-        /// Returns the writes that configure the PDO with `cob_id`: disable, clear, map, count, timing, enable.
+        /// Returns the writes that configure the PDO with `cob_id`. In order, they disable the PDO, clear the mapping,
+        /// write the entries and their number, set the timing, and enable the PDO.
         /// Read-only communication parameters are left out.
         pub const fn configuration_as(cob_id: u32) -> [rt::SdoWrite; 6] {
             [
@@ -4243,7 +4244,7 @@ pub mod pdo {
     };
     /// RPDO 2: RPDO 2 mapping.
     ///
-    /// Mapping 0x1601, 48 bits, COB-ID 0x300 + node-ID, transmission type 1.
+    /// Mapping object 0x1601, 48 bits, COB-ID 0x300 + node-ID, transmission type 1.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
@@ -4251,9 +4252,9 @@ pub mod pdo {
     /// | 2–5 | [`target_position`](Self::target_position) | [0x607A:00](super::objects::TARGET_POSITION) | `i32` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo2 {
-        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits at bit offset 0.
         pub controlword: super::types::Controlword,
-        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 16.
+        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits at bit offset 16.
         pub target_position: i32,
     }
     impl RxPdo2 {
@@ -4263,7 +4264,7 @@ pub mod pdo {
         pub const LEN: usize = 6;
         /// Default COB-ID (CiA 301 7.5.2.35).
         pub const COB_ID: rt::CobId = rt::CobId::from_node(0x300);
-        /// Returns the bytes of a frame. Padding is 0.
+        /// Returns the bytes of the PDO. Unmapped bits are 0.
         #[inline]
         pub const fn pack(&self) -> [u8; 6] {
             let mut word = 0;
@@ -4273,7 +4274,7 @@ pub mod pdo {
             word |= bits << 16;
             rt::pdo::to_bytes(word)
         }
-        /// Reads the fields of a frame. Bytes after the mapped ones are ignored.
+        /// Decodes the fields of the PDO. Bytes after the mapped objects are ignored.
         ///
         /// # Errors
         ///
@@ -4294,7 +4295,8 @@ pub mod pdo {
         pub const fn configuration(node_id: rt::NodeId) -> [rt::SdoWrite; 7] {
             Self::configuration_as(Self::COB_ID.resolve(node_id))
         }
-        /// Returns the writes that configure the PDO with `cob_id`: disable, clear, map, count, timing, enable.
+        /// Returns the writes that configure the PDO with `cob_id`. In order, they disable the PDO, clear the mapping,
+        /// write the entries and their number, set the timing, and enable the PDO.
         /// Read-only communication parameters are left out.
         pub const fn configuration_as(cob_id: u32) -> [rt::SdoWrite; 7] {
             [
@@ -4328,14 +4330,14 @@ pub mod pdo {
     };
     /// TPDO 1: TPDO 1 mapping.
     ///
-    /// Mapping 0x1A00, 16 bits, COB-ID 0x180 + node-ID, transmission type 255.
+    /// Mapping object 0x1A00, 16 bits, COB-ID 0x180 + node-ID, transmission type 255.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
     /// | 0–1 | [`statusword`](Self::statusword) | [0x6041:00](super::objects::STATUSWORD) | [`Statusword`](super::types::Statusword) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1 {
-        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits at bit offset 0.
         pub statusword: super::types::Statusword,
     }
     impl TxPdo1 {
@@ -4345,7 +4347,7 @@ pub mod pdo {
         pub const LEN: usize = 2;
         /// Default COB-ID (CiA 301 7.5.2.35).
         pub const COB_ID: rt::CobId = rt::CobId::from_node(0x180);
-        /// Returns the bytes of a frame. Padding is 0.
+        /// Returns the bytes of the PDO. Unmapped bits are 0.
         #[inline]
         pub const fn pack(&self) -> [u8; 2] {
             let mut word = 0;
@@ -4353,7 +4355,7 @@ pub mod pdo {
             word |= bits;
             rt::pdo::to_bytes(word)
         }
-        /// Reads the fields of a frame. Bytes after the mapped ones are ignored.
+        /// Decodes the fields of the PDO. Bytes after the mapped objects are ignored.
         ///
         /// # Errors
         ///
@@ -4373,7 +4375,8 @@ pub mod pdo {
         pub const fn configuration(node_id: rt::NodeId) -> [rt::SdoWrite; 6] {
             Self::configuration_as(Self::COB_ID.resolve(node_id))
         }
-        /// Returns the writes that configure the PDO with `cob_id`: disable, clear, map, count, timing, enable.
+        /// Returns the writes that configure the PDO with `cob_id`. In order, they disable the PDO, clear the mapping,
+        /// write the entries and their number, set the timing, and enable the PDO.
         /// Read-only communication parameters are left out.
         pub const fn configuration_as(cob_id: u32) -> [rt::SdoWrite; 6] {
             [
@@ -4405,7 +4408,7 @@ pub mod pdo {
     };
     /// TPDO 2: TPDO 2 mapping.
     ///
-    /// Mapping 0x1A01, 48 bits, COB-ID 0x280 + node-ID, transmission type 1.
+    /// Mapping object 0x1A01, 48 bits, COB-ID 0x280 + node-ID, transmission type 1.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
@@ -4413,9 +4416,9 @@ pub mod pdo {
     /// | 2–5 | [`position_actual_value`](Self::position_actual_value) | [0x6064:00](super::objects::POSITION_ACTUAL_VALUE) | `i32` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo2 {
-        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits at bit offset 0.
         pub statusword: super::types::Statusword,
-        /// Position actual value: [0x6064:00](super::objects::POSITION_ACTUAL_VALUE), 32 bits from bit 16.
+        /// Position actual value: [0x6064:00](super::objects::POSITION_ACTUAL_VALUE), 32 bits at bit offset 16.
         pub position_actual_value: i32,
     }
     impl TxPdo2 {
@@ -4425,7 +4428,7 @@ pub mod pdo {
         pub const LEN: usize = 6;
         /// Default COB-ID (CiA 301 7.5.2.35).
         pub const COB_ID: rt::CobId = rt::CobId::from_node(0x280);
-        /// Returns the bytes of a frame. Padding is 0.
+        /// Returns the bytes of the PDO. Unmapped bits are 0.
         #[inline]
         pub const fn pack(&self) -> [u8; 6] {
             let mut word = 0;
@@ -4435,7 +4438,7 @@ pub mod pdo {
             word |= bits << 16;
             rt::pdo::to_bytes(word)
         }
-        /// Reads the fields of a frame. Bytes after the mapped ones are ignored.
+        /// Decodes the fields of the PDO. Bytes after the mapped objects are ignored.
         ///
         /// # Errors
         ///
@@ -4456,7 +4459,8 @@ pub mod pdo {
         pub const fn configuration(node_id: rt::NodeId) -> [rt::SdoWrite; 7] {
             Self::configuration_as(Self::COB_ID.resolve(node_id))
         }
-        /// Returns the writes that configure the PDO with `cob_id`: disable, clear, map, count, timing, enable.
+        /// Returns the writes that configure the PDO with `cob_id`. In order, they disable the PDO, clear the mapping,
+        /// write the entries and their number, set the timing, and enable the PDO.
         /// Read-only communication parameters are left out.
         pub const fn configuration_as(cob_id: u32) -> [rt::SdoWrite; 7] {
             [
@@ -4489,7 +4493,7 @@ pub mod pdo {
         assert!(packed == word);
     };
 }
-/// All items. Registers that are not objects come first, sorted by address. Objects follow, sorted by index and sub-index.
+/// All items of the device. Items that are only registers come first, sorted by address. Objects follow, sorted by index and sub-index.
 #[cfg(feature = "table")]
 #[allow(clippy::approx_constant)]
 pub static ENTRIES: &[rt::table::Entry] = &[

@@ -13,7 +13,7 @@ pub const IDENTITY: rt::Identity = rt::Identity {
     product_name: "AX-1 axis",
     order_code: "AX-1",
 };
-/// EtherCAT description of Example AX-1 axis, for a master.
+/// EtherCAT description of Example AX-1 axis for the master.
 pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
     identity: IDENTITY,
     sync_managers: &[
@@ -108,19 +108,19 @@ impl<C> Ax1<C> {
     pub fn client(&mut self) -> &mut C {
         &mut self.client
     }
-    /// Consumes the driver and returns the client.
+    /// Returns the client and drops the driver.
     pub fn into_client(self) -> C {
         self.client
     }
     /// 0x2000.
-    /// Constants: [`objects::object_2000`].
+    /// The constants of these entries are in [`objects::object_2000`].
     pub fn object_2000(&mut self) -> objects::object_2000::Accessors<'_, C> {
         objects::object_2000::Accessors {
             client: &mut self.client,
         }
     }
     /// 0x2001.
-    /// Constants: [`objects::object_2001`].
+    /// The constants of these entries are in [`objects::object_2001`].
     pub fn object_2001(&mut self) -> objects::object_2001::Accessors<'_, C> {
         objects::object_2001::Accessors {
             client: &mut self.client,
@@ -129,7 +129,7 @@ impl<C> Ax1<C> {
     /// Control word: commands of the drive state machine and of the mode of operation.
     ///
     /// Controlword: 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
-    /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`SetPoints`](pdo::SetPoints).
+    /// Constant: [`objects::CONTROLWORD`]. Type of the value: [`Controlword`](types::Controlword). Mapped in [`SetPoints`](pdo::SetPoints).
     pub fn controlword(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::Controlword> {
@@ -138,14 +138,14 @@ impl<C> Ax1<C> {
     /// Status word: state of the drive state machine and of the mode of operation.
     ///
     /// Statusword: 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
-    /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`ActualValues`](pdo::ActualValues), [`DriveStatus`](pdo::DriveStatus).
+    /// Constant: [`objects::STATUSWORD`]. Type of the value: [`Statusword`](types::Statusword). Mapped in [`ActualValues`](pdo::ActualValues), [`DriveStatus`](pdo::DriveStatus).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
     /// Requested mode of operation; the active mode is in 0x6061.
     ///
     /// Modes of operation: 0x6060:00, INTEGER8, read-write, mappable into RPDOs.
-    /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`ModesOfOperation`](types::ModesOfOperation). Carried by [`SetPoints`](pdo::SetPoints).
+    /// Constant: [`objects::MODES_OF_OPERATION`]. Type of the value: [`ModesOfOperation`](types::ModesOfOperation). Mapped in [`SetPoints`](pdo::SetPoints).
     pub fn modes_of_operation(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperation> {
@@ -154,35 +154,35 @@ impl<C> Ax1<C> {
     /// Position.
     ///
     /// 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
-    /// Constant: [`objects::POSITION`]. Carried by [`ActualValues`](pdo::ActualValues), [`DriveStatus`](pdo::DriveStatus).
+    /// Constant: [`objects::POSITION`]. Mapped in [`ActualValues`](pdo::ActualValues), [`DriveStatus`](pdo::DriveStatus).
     pub fn position(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::POSITION.at(&mut self.client)
     }
     /// Velocity.
     ///
     /// 0x606C:00, INTEGER32, read-only, mappable into TPDOs.
-    /// Constant: [`objects::VELOCITY`]. Carried by [`ActualValues`](pdo::ActualValues).
+    /// Constant: [`objects::VELOCITY`]. Mapped in [`ActualValues`](pdo::ActualValues).
     pub fn velocity(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::VELOCITY.at(&mut self.client)
     }
     /// Actual torque, relative to the rated torque.
     ///
     /// Torque: 1 LSB = 0.1 %, 0x6077:00, INTEGER16, read-only, mappable into TPDOs.
-    /// Constant: [`objects::TORQUE`]. Carried by [`DriveStatus`](pdo::DriveStatus).
+    /// Constant: [`objects::TORQUE`]. Mapped in [`DriveStatus`](pdo::DriveStatus).
     pub fn torque(&mut self) -> objects::ReadOnlyAccess<'_, C, rt::Scaled<i16, 1, 10>> {
         objects::TORQUE.at(&mut self.client)
     }
     /// Target position.
     ///
     /// 0x607A:00, INTEGER32, read-write, mappable into RPDOs.
-    /// Constant: [`objects::TARGET_POSITION`]. Carried by [`SetPoints`](pdo::SetPoints).
+    /// Constant: [`objects::TARGET_POSITION`]. Mapped in [`SetPoints`](pdo::SetPoints).
     pub fn target_position(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::TARGET_POSITION.at(&mut self.client)
     }
     /// Torque offset: added to the target torque, relative to the rated torque.
     ///
     /// Torque offset: 1 LSB = 0.1 %, 0x60B2:00, INTEGER16, read-write, mappable into RPDOs.
-    /// Constant: [`objects::TORQUE_OFFSET`]. Carried by [`SetPoints`](pdo::SetPoints).
+    /// Constant: [`objects::TORQUE_OFFSET`]. Mapped in [`SetPoints`](pdo::SetPoints).
     pub fn torque_offset(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 10>> {
@@ -191,7 +191,7 @@ impl<C> Ax1<C> {
     /// Target velocity.
     ///
     /// 0x60FF:00, INTEGER32, read-write, mappable into RPDOs.
-    /// Constant: [`objects::TARGET_VELOCITY`]. Carried by [`SetPoints`](pdo::SetPoints).
+    /// Constant: [`objects::TARGET_VELOCITY`]. Mapped in [`SetPoints`](pdo::SetPoints).
     pub fn target_velocity(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::TARGET_VELOCITY.at(&mut self.client)
     }
@@ -201,7 +201,7 @@ pub mod types {
     use ::lexibus as rt;
     /// Mode.
     ///
-    /// Values of [`object_2000::MODE`](super::objects::object_2000::MODE), [`object_2001::MODE`](super::objects::object_2001::MODE).
+    /// Type of the values of [`object_2000::MODE`](super::objects::object_2000::MODE), [`object_2001::MODE`](super::objects::object_2001::MODE).
     ///
     /// | Value | Name |
     /// |---|---|
@@ -219,11 +219,11 @@ pub mod types {
         Velocity,
         /// 4: Torque.
         Torque,
-        /// Any other number.
+        /// A number without a variant of its own.
         Unknown(u8),
     }
     impl Mode {
-        /// Returns the value with this number.
+        /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
                 0 => Self::Off,
@@ -233,7 +233,7 @@ pub mod types {
                 other => Self::Unknown(other),
             }
         }
-        /// Returns the number of the value.
+        /// Returns the number of the variant.
         pub const fn raw(self) -> u8 {
             match self {
                 Self::Off => 0,
@@ -255,13 +255,13 @@ pub mod types {
     }
     /// ModesOfOperation.
     ///
-    /// From CiA 402, 10.3.8.
+    /// Definition from CiA 402, 10.3.8.
     ///
-    /// Values of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION).
+    /// Type of the values of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION).
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
-    /// | -128 to -1 | [`Unknown`](Self::Unknown) | manufacturer specific. Vendor-specific. |
+    /// | -128 to -1 | [`Unknown`](Self::Unknown) | manufacturer specific. This value is vendor-specific. |
     /// | 0 | [`NoMode`](Self::NoMode) |  |
     /// | 1 | [`ProfilePosition`](Self::ProfilePosition) |  |
     /// | 2 | [`Velocity`](Self::Velocity) |  |
@@ -273,7 +273,7 @@ pub mod types {
     /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
     /// | 10 | [`CyclicSynchronousTorque`](Self::CyclicSynchronousTorque) |  |
     /// | 11 | [`CyclicSynchronousTorqueWithAngle`](Self::CyclicSynchronousTorqueWithAngle) | The controller supplies the commutation angle. |
-    /// | 12 to 127 | [`Unknown`](Self::Unknown) | reserved. Reserved: do not use. |
+    /// | 12 to 127 | [`Unknown`](Self::Unknown) | reserved. This value is reserved. Do not use it. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperation {
         /// 0: no mode.
@@ -298,11 +298,11 @@ pub mod types {
         CyclicSynchronousTorque,
         /// 11: cyclic synchronous torque with angle. The controller supplies the commutation angle.
         CyclicSynchronousTorqueWithAngle,
-        /// Any other number.
+        /// A number without a variant of its own.
         Unknown(i8),
     }
     impl ModesOfOperation {
-        /// Returns the value with this number.
+        /// Returns the variant for this number.
         pub const fn from_raw(raw: i8) -> Self {
             match raw {
                 0 => Self::NoMode,
@@ -319,7 +319,7 @@ pub mod types {
                 other => Self::Unknown(other),
             }
         }
-        /// Returns the number of the value.
+        /// Returns the number of the variant.
         pub const fn raw(self) -> i8 {
             match self {
                 Self::NoMode => 0,
@@ -348,19 +348,19 @@ pub mod types {
     }
     /// Controlword.
     ///
-    /// From CiA 402, 10.3.1.
+    /// Definition from CiA 402, 10.3.1.
     ///
-    /// Values of [`CONTROLWORD`](super::objects::CONTROLWORD).
+    /// Type of the values of [`CONTROLWORD`](super::objects::CONTROLWORD).
     ///
-    /// Bits 0x400 are written as 0.
+    /// The reserved bits 0x400 are written as 0.
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0 | [`switch_on`](Self::switch_on) |  |
     /// | 1 | [`enable_voltage`](Self::enable_voltage) |  |
-    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 commands a quick stop. Active low: true if the bit is 0. |
+    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 commands a quick stop. Active low: the flag is true if the bit is 0. |
     /// | 3 | [`enable_operation`](Self::enable_operation) |  |
-    /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | Rising edge: the drive accepts the target position. Acts on the rising edge. |
+    /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | Rising edge: the drive accepts the target position. The device reacts to the rising edge. |
     /// | 4 | [`in_velocity().enable_ramp()`](ControlwordInVelocity::enable_ramp) |  |
     /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | 1 starts homing, 0 aborts it. |
     /// | 4 | [`in_interpolated_position().enable_interpolation()`](ControlwordInInterpolatedPosition::enable_interpolation) |  |
@@ -368,15 +368,15 @@ pub mod types {
     /// | 5 | [`in_velocity().unlock_ramp()`](ControlwordInVelocity::unlock_ramp) |  |
     /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | 1: the target position is relative; 0: it is absolute. |
     /// | 6 | [`in_velocity().reference_ramp()`](ControlwordInVelocity::reference_ramp) |  |
-    /// | 7 | [`fault_reset`](Self::fault_reset) | Acts on the rising edge. |
+    /// | 7 | [`fault_reset`](Self::fault_reset) | The device reacts to the rising edge. |
     /// | 8 | [`halt`](Self::halt) | 1 stops the axis with the reaction of the halt option code (0x605D). |
     /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the previous target at the profile velocity, then moves to the new one. |
-    /// | 10 | reserved | Written as 0. |
+    /// | 10 | reserved | The value 0 is written. |
     /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Controlword(u16);
     impl Controlword {
-        /// Creates a value with all bits 0.
+        /// Creates a value in which all bits are 0.
         pub const fn new() -> Self {
             Self(0)
         }
@@ -392,7 +392,7 @@ pub mod types {
         pub const fn switch_on(self) -> bool {
             rt::bits16::flag(self.0, 0x1)
         }
-        /// Returns a copy with another [`switch_on`](Self::switch_on).
+        /// Returns a copy with [`switch_on`](Self::switch_on) set to `value`.
         #[must_use]
         pub const fn with_switch_on(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1, value))
@@ -401,16 +401,16 @@ pub mod types {
         pub const fn enable_voltage(self) -> bool {
             rt::bits16::flag(self.0, 0x2)
         }
-        /// Returns a copy with another [`enable_voltage`](Self::enable_voltage).
+        /// Returns a copy with [`enable_voltage`](Self::enable_voltage) set to `value`.
         #[must_use]
         pub const fn with_enable_voltage(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
-        /// Bit 2: quick stop. Active low: true if the bit is 0. 0 commands a quick stop.
+        /// Bit 2: quick stop. Active low: the flag is true if the bit is 0. 0 commands a quick stop.
         pub const fn quick_stop(self) -> bool {
             !rt::bits16::flag(self.0, 0x4)
         }
-        /// Returns a copy with another [`quick_stop`](Self::quick_stop).
+        /// Returns a copy with [`quick_stop`](Self::quick_stop) set to `value`.
         #[must_use]
         pub const fn with_quick_stop(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x4, !value))
@@ -419,16 +419,16 @@ pub mod types {
         pub const fn enable_operation(self) -> bool {
             rt::bits16::flag(self.0, 0x8)
         }
-        /// Returns a copy with another [`enable_operation`](Self::enable_operation).
+        /// Returns a copy with [`enable_operation`](Self::enable_operation) set to `value`.
         #[must_use]
         pub const fn with_enable_operation(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
-        /// Bit 7: fault reset. Acts on the rising edge.
+        /// Bit 7: fault reset. The device reacts to the rising edge.
         pub const fn fault_reset(self) -> bool {
             rt::bits16::flag(self.0, 0x80)
         }
-        /// Returns a copy with another [`fault_reset`](Self::fault_reset).
+        /// Returns a copy with [`fault_reset`](Self::fault_reset) set to `value`.
         #[must_use]
         pub const fn with_fault_reset(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x80, value))
@@ -437,7 +437,7 @@ pub mod types {
         pub const fn halt(self) -> bool {
             rt::bits16::flag(self.0, 0x100)
         }
-        /// Returns a copy with another [`halt`](Self::halt).
+        /// Returns a copy with [`halt`](Self::halt) set to `value`.
         #[must_use]
         pub const fn with_halt(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x100, value))
@@ -446,24 +446,24 @@ pub mod types {
         pub const fn manufacturer_specific(self) -> u8 {
             rt::bits16::field(self.0, 0xF800) as u8
         }
-        /// Returns a copy with another [`manufacturer_specific`](Self::manufacturer_specific).
+        /// Returns a copy with [`manufacturer_specific`](Self::manufacturer_specific) set to `value`.
         #[must_use]
         pub const fn with_manufacturer_specific(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xF800, value as u16))
         }
-        /// Returns the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
         pub const fn in_profile_position(self) -> ControlwordInProfilePosition {
             ControlwordInProfilePosition(self.0)
         }
-        /// Returns the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
         pub const fn in_velocity(self) -> ControlwordInVelocity {
             ControlwordInVelocity(self.0)
         }
-        /// Returns the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
         pub const fn in_homing(self) -> ControlwordInHoming {
             ControlwordInHoming(self.0)
         }
-        /// Returns the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
         pub const fn in_interpolated_position(
             self,
         ) -> ControlwordInInterpolatedPosition {
@@ -497,19 +497,19 @@ pub mod types {
             )
         }
     }
-    /// View of [`Controlword`] with the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
     #[derive(Clone, Copy)]
     pub struct ControlwordInProfilePosition(u16);
     impl ControlwordInProfilePosition {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
-        /// Bit 4: new set-point. Acts on the rising edge. Rising edge: the drive accepts the target position.
+        /// Bit 4: new set-point. The device reacts to the rising edge. Rising edge: the drive accepts the target position.
         pub const fn new_set_point(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
-        /// Returns a copy with another [`new_set_point`](Self::new_set_point).
+        /// Returns a copy with [`new_set_point`](Self::new_set_point) set to `value`.
         #[must_use]
         pub const fn with_new_set_point(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
@@ -518,7 +518,7 @@ pub mod types {
         pub const fn change_set_immediately(self) -> bool {
             rt::bits16::flag(self.0, 0x20)
         }
-        /// Returns a copy with another [`change_set_immediately`](Self::change_set_immediately).
+        /// Returns a copy with [`change_set_immediately`](Self::change_set_immediately) set to `value`.
         #[must_use]
         pub const fn with_change_set_immediately(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, value))
@@ -527,7 +527,7 @@ pub mod types {
         pub const fn relative(self) -> bool {
             rt::bits16::flag(self.0, 0x40)
         }
-        /// Returns a copy with another [`relative`](Self::relative).
+        /// Returns a copy with [`relative`](Self::relative) set to `value`.
         #[must_use]
         pub const fn with_relative(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
@@ -536,17 +536,17 @@ pub mod types {
         pub const fn change_on_set_point(self) -> bool {
             rt::bits16::flag(self.0, 0x200)
         }
-        /// Returns a copy with another [`change_on_set_point`](Self::change_on_set_point).
+        /// Returns a copy with [`change_on_set_point`](Self::change_on_set_point) set to `value`.
         #[must_use]
         pub const fn with_change_on_set_point(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
     }
-    /// View of [`Controlword`] with the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
     #[derive(Clone, Copy)]
     pub struct ControlwordInVelocity(u16);
     impl ControlwordInVelocity {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -554,7 +554,7 @@ pub mod types {
         pub const fn enable_ramp(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
-        /// Returns a copy with another [`enable_ramp`](Self::enable_ramp).
+        /// Returns a copy with [`enable_ramp`](Self::enable_ramp) set to `value`.
         #[must_use]
         pub const fn with_enable_ramp(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
@@ -563,7 +563,7 @@ pub mod types {
         pub const fn unlock_ramp(self) -> bool {
             rt::bits16::flag(self.0, 0x20)
         }
-        /// Returns a copy with another [`unlock_ramp`](Self::unlock_ramp).
+        /// Returns a copy with [`unlock_ramp`](Self::unlock_ramp) set to `value`.
         #[must_use]
         pub const fn with_unlock_ramp(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, value))
@@ -572,17 +572,17 @@ pub mod types {
         pub const fn reference_ramp(self) -> bool {
             rt::bits16::flag(self.0, 0x40)
         }
-        /// Returns a copy with another [`reference_ramp`](Self::reference_ramp).
+        /// Returns a copy with [`reference_ramp`](Self::reference_ramp) set to `value`.
         #[must_use]
         pub const fn with_reference_ramp(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
     }
-    /// View of [`Controlword`] with the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
     #[derive(Clone, Copy)]
     pub struct ControlwordInHoming(u16);
     impl ControlwordInHoming {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -590,17 +590,17 @@ pub mod types {
         pub const fn homing_start(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
-        /// Returns a copy with another [`homing_start`](Self::homing_start).
+        /// Returns a copy with [`homing_start`](Self::homing_start) set to `value`.
         #[must_use]
         pub const fn with_homing_start(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
-    /// View of [`Controlword`] with the bits that apply while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
     #[derive(Clone, Copy)]
     pub struct ControlwordInInterpolatedPosition(u16);
     impl ControlwordInInterpolatedPosition {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -608,7 +608,7 @@ pub mod types {
         pub const fn enable_interpolation(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
-        /// Returns a copy with another [`enable_interpolation`](Self::enable_interpolation).
+        /// Returns a copy with [`enable_interpolation`](Self::enable_interpolation) set to `value`.
         #[must_use]
         pub const fn with_enable_interpolation(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
@@ -616,9 +616,9 @@ pub mod types {
     }
     /// Statusword.
     ///
-    /// From CiA 402, 10.3.2.
+    /// Definition from CiA 402, 10.3.2.
     ///
-    /// Values of [`STATUSWORD`](super::objects::STATUSWORD).
+    /// Type of the values of [`STATUSWORD`](super::objects::STATUSWORD).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -627,7 +627,7 @@ pub mod types {
     /// | 2 | [`operation_enabled`](Self::operation_enabled) |  |
     /// | 3 | [`fault`](Self::fault) |  |
     /// | 4 | [`voltage_enabled`](Self::voltage_enabled) | The power stage is supplied with voltage. |
-    /// | 5 | [`quick_stop`](Self::quick_stop) | 0 while a quick stop is requested. Active low: true if the bit is 0. |
+    /// | 5 | [`quick_stop`](Self::quick_stop) | 0 while a quick stop is requested. Active low: the flag is true if the bit is 0. |
     /// | 6 | [`switch_on_disabled`](Self::switch_on_disabled) |  |
     /// | 7 | [`warning`](Self::warning) |  |
     /// | 8 | [`manufacturer_specific_8`](Self::manufacturer_specific_8) | manufacturer specific. |
@@ -649,7 +649,7 @@ pub mod types {
     #[derive(Clone, Copy, PartialEq)]
     pub struct Statusword(u16);
     impl Statusword {
-        /// Creates a value with all bits 0.
+        /// Creates a value in which all bits are 0.
         pub const fn new() -> Self {
             Self(0)
         }
@@ -665,7 +665,7 @@ pub mod types {
         pub const fn ready_to_switch_on(self) -> bool {
             rt::bits16::flag(self.0, 0x1)
         }
-        /// Returns a copy with another [`ready_to_switch_on`](Self::ready_to_switch_on).
+        /// Returns a copy with [`ready_to_switch_on`](Self::ready_to_switch_on) set to `value`.
         #[must_use]
         pub const fn with_ready_to_switch_on(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1, value))
@@ -674,7 +674,7 @@ pub mod types {
         pub const fn switched_on(self) -> bool {
             rt::bits16::flag(self.0, 0x2)
         }
-        /// Returns a copy with another [`switched_on`](Self::switched_on).
+        /// Returns a copy with [`switched_on`](Self::switched_on) set to `value`.
         #[must_use]
         pub const fn with_switched_on(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2, value))
@@ -683,7 +683,7 @@ pub mod types {
         pub const fn operation_enabled(self) -> bool {
             rt::bits16::flag(self.0, 0x4)
         }
-        /// Returns a copy with another [`operation_enabled`](Self::operation_enabled).
+        /// Returns a copy with [`operation_enabled`](Self::operation_enabled) set to `value`.
         #[must_use]
         pub const fn with_operation_enabled(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x4, value))
@@ -692,7 +692,7 @@ pub mod types {
         pub const fn fault(self) -> bool {
             rt::bits16::flag(self.0, 0x8)
         }
-        /// Returns a copy with another [`fault`](Self::fault).
+        /// Returns a copy with [`fault`](Self::fault) set to `value`.
         #[must_use]
         pub const fn with_fault(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x8, value))
@@ -701,16 +701,16 @@ pub mod types {
         pub const fn voltage_enabled(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
-        /// Returns a copy with another [`voltage_enabled`](Self::voltage_enabled).
+        /// Returns a copy with [`voltage_enabled`](Self::voltage_enabled) set to `value`.
         #[must_use]
         pub const fn with_voltage_enabled(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
-        /// Bit 5: quick stop. Active low: true if the bit is 0. 0 while a quick stop is requested.
+        /// Bit 5: quick stop. Active low: the flag is true if the bit is 0. 0 while a quick stop is requested.
         pub const fn quick_stop(self) -> bool {
             !rt::bits16::flag(self.0, 0x20)
         }
-        /// Returns a copy with another [`quick_stop`](Self::quick_stop).
+        /// Returns a copy with [`quick_stop`](Self::quick_stop) set to `value`.
         #[must_use]
         pub const fn with_quick_stop(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, !value))
@@ -719,7 +719,7 @@ pub mod types {
         pub const fn switch_on_disabled(self) -> bool {
             rt::bits16::flag(self.0, 0x40)
         }
-        /// Returns a copy with another [`switch_on_disabled`](Self::switch_on_disabled).
+        /// Returns a copy with [`switch_on_disabled`](Self::switch_on_disabled) set to `value`.
         #[must_use]
         pub const fn with_switch_on_disabled(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
@@ -728,7 +728,7 @@ pub mod types {
         pub const fn warning(self) -> bool {
             rt::bits16::flag(self.0, 0x80)
         }
-        /// Returns a copy with another [`warning`](Self::warning).
+        /// Returns a copy with [`warning`](Self::warning) set to `value`.
         #[must_use]
         pub const fn with_warning(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x80, value))
@@ -737,7 +737,7 @@ pub mod types {
         pub const fn manufacturer_specific_8(self) -> bool {
             rt::bits16::flag(self.0, 0x100)
         }
-        /// Returns a copy with another [`manufacturer_specific_8`](Self::manufacturer_specific_8).
+        /// Returns a copy with [`manufacturer_specific_8`](Self::manufacturer_specific_8) set to `value`.
         #[must_use]
         pub const fn with_manufacturer_specific_8(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x100, value))
@@ -746,7 +746,7 @@ pub mod types {
         pub const fn remote(self) -> bool {
             rt::bits16::flag(self.0, 0x200)
         }
-        /// Returns a copy with another [`remote`](Self::remote).
+        /// Returns a copy with [`remote`](Self::remote) set to `value`.
         #[must_use]
         pub const fn with_remote(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x200, value))
@@ -755,7 +755,7 @@ pub mod types {
         pub const fn target_reached(self) -> bool {
             rt::bits16::flag(self.0, 0x400)
         }
-        /// Returns a copy with another [`target_reached`](Self::target_reached).
+        /// Returns a copy with [`target_reached`](Self::target_reached) set to `value`.
         #[must_use]
         pub const fn with_target_reached(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x400, value))
@@ -764,7 +764,7 @@ pub mod types {
         pub const fn internal_limit_active(self) -> bool {
             rt::bits16::flag(self.0, 0x800)
         }
-        /// Returns a copy with another [`internal_limit_active`](Self::internal_limit_active).
+        /// Returns a copy with [`internal_limit_active`](Self::internal_limit_active) set to `value`.
         #[must_use]
         pub const fn with_internal_limit_active(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x800, value))
@@ -773,40 +773,40 @@ pub mod types {
         pub const fn manufacturer_specific_14(self) -> u8 {
             rt::bits16::field(self.0, 0xC000) as u8
         }
-        /// Returns a copy with another [`manufacturer_specific_14`](Self::manufacturer_specific_14).
+        /// Returns a copy with [`manufacturer_specific_14`](Self::manufacturer_specific_14) set to `value`.
         #[must_use]
         pub const fn with_manufacturer_specific_14(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xC000, value as u16))
         }
-        /// Returns the bits that apply while 0x6061 is profile position (1).
+        /// Returns a view of the bits that are defined while 0x6061 is profile position (1).
         pub const fn in_profile_position(self) -> StatuswordInProfilePosition {
             StatuswordInProfilePosition(self.0)
         }
-        /// Returns the bits that apply while 0x6061 is profile velocity (3).
+        /// Returns a view of the bits that are defined while 0x6061 is profile velocity (3).
         pub const fn in_profile_velocity(self) -> StatuswordInProfileVelocity {
             StatuswordInProfileVelocity(self.0)
         }
-        /// Returns the bits that apply while 0x6061 is homing (6).
+        /// Returns a view of the bits that are defined while 0x6061 is homing (6).
         pub const fn in_homing(self) -> StatuswordInHoming {
             StatuswordInHoming(self.0)
         }
-        /// Returns the bits that apply while 0x6061 is interpolated position (7).
+        /// Returns a view of the bits that are defined while 0x6061 is interpolated position (7).
         pub const fn in_interpolated_position(self) -> StatuswordInInterpolatedPosition {
             StatuswordInInterpolatedPosition(self.0)
         }
-        /// Returns the bits that apply while 0x6061 is cyclic synchronous position (8).
+        /// Returns a view of the bits that are defined while 0x6061 is cyclic synchronous position (8).
         pub const fn in_cyclic_synchronous_position(
             self,
         ) -> StatuswordInCyclicSynchronousPosition {
             StatuswordInCyclicSynchronousPosition(self.0)
         }
-        /// Returns the bits that apply while 0x6061 is cyclic synchronous velocity (9).
+        /// Returns a view of the bits that are defined while 0x6061 is cyclic synchronous velocity (9).
         pub const fn in_cyclic_synchronous_velocity(
             self,
         ) -> StatuswordInCyclicSynchronousVelocity {
             StatuswordInCyclicSynchronousVelocity(self.0)
         }
-        /// Returns the bits that apply while 0x6061 is cyclic synchronous torque (10).
+        /// Returns a view of the bits that are defined while 0x6061 is cyclic synchronous torque (10).
         pub const fn in_cyclic_synchronous_torque(
             self,
         ) -> StatuswordInCyclicSynchronousTorque {
@@ -837,11 +837,11 @@ pub mod types {
             )
         }
     }
-    /// View of [`Statusword`] with the bits that apply while 0x6061 is profile position (1).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is profile position (1).
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfilePosition(u16);
     impl StatuswordInProfilePosition {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -849,7 +849,7 @@ pub mod types {
         pub const fn set_point_acknowledge(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`set_point_acknowledge`](Self::set_point_acknowledge).
+        /// Returns a copy with [`set_point_acknowledge`](Self::set_point_acknowledge) set to `value`.
         #[must_use]
         pub const fn with_set_point_acknowledge(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
@@ -858,17 +858,17 @@ pub mod types {
         pub const fn following_error(self) -> bool {
             rt::bits16::flag(self.0, 0x2000)
         }
-        /// Returns a copy with another [`following_error`](Self::following_error).
+        /// Returns a copy with [`following_error`](Self::following_error) set to `value`.
         #[must_use]
         pub const fn with_following_error(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that apply while 0x6061 is profile velocity (3).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is profile velocity (3).
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfileVelocity(u16);
     impl StatuswordInProfileVelocity {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -876,7 +876,7 @@ pub mod types {
         pub const fn speed_zero(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`speed_zero`](Self::speed_zero).
+        /// Returns a copy with [`speed_zero`](Self::speed_zero) set to `value`.
         #[must_use]
         pub const fn with_speed_zero(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
@@ -885,17 +885,17 @@ pub mod types {
         pub const fn max_slippage_error(self) -> bool {
             rt::bits16::flag(self.0, 0x2000)
         }
-        /// Returns a copy with another [`max_slippage_error`](Self::max_slippage_error).
+        /// Returns a copy with [`max_slippage_error`](Self::max_slippage_error) set to `value`.
         #[must_use]
         pub const fn with_max_slippage_error(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that apply while 0x6061 is homing (6).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is homing (6).
     #[derive(Clone, Copy)]
     pub struct StatuswordInHoming(u16);
     impl StatuswordInHoming {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -903,7 +903,7 @@ pub mod types {
         pub const fn homing_attained(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`homing_attained`](Self::homing_attained).
+        /// Returns a copy with [`homing_attained`](Self::homing_attained) set to `value`.
         #[must_use]
         pub const fn with_homing_attained(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
@@ -912,17 +912,17 @@ pub mod types {
         pub const fn homing_error(self) -> bool {
             rt::bits16::flag(self.0, 0x2000)
         }
-        /// Returns a copy with another [`homing_error`](Self::homing_error).
+        /// Returns a copy with [`homing_error`](Self::homing_error) set to `value`.
         #[must_use]
         pub const fn with_homing_error(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that apply while 0x6061 is interpolated position (7).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is interpolated position (7).
     #[derive(Clone, Copy)]
     pub struct StatuswordInInterpolatedPosition(u16);
     impl StatuswordInInterpolatedPosition {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -930,17 +930,17 @@ pub mod types {
         pub const fn interpolation_active(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`interpolation_active`](Self::interpolation_active).
+        /// Returns a copy with [`interpolation_active`](Self::interpolation_active) set to `value`.
         #[must_use]
         pub const fn with_interpolation_active(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that apply while 0x6061 is cyclic synchronous position (8).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is cyclic synchronous position (8).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousPosition(u16);
     impl StatuswordInCyclicSynchronousPosition {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -948,7 +948,7 @@ pub mod types {
         pub const fn follows_command_value(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`follows_command_value`](Self::follows_command_value).
+        /// Returns a copy with [`follows_command_value`](Self::follows_command_value) set to `value`.
         #[must_use]
         pub const fn with_follows_command_value(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
@@ -957,17 +957,17 @@ pub mod types {
         pub const fn following_error(self) -> bool {
             rt::bits16::flag(self.0, 0x2000)
         }
-        /// Returns a copy with another [`following_error`](Self::following_error).
+        /// Returns a copy with [`following_error`](Self::following_error) set to `value`.
         #[must_use]
         pub const fn with_following_error(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that apply while 0x6061 is cyclic synchronous velocity (9).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is cyclic synchronous velocity (9).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousVelocity(u16);
     impl StatuswordInCyclicSynchronousVelocity {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -975,17 +975,17 @@ pub mod types {
         pub const fn follows_command_value(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`follows_command_value`](Self::follows_command_value).
+        /// Returns a copy with [`follows_command_value`](Self::follows_command_value) set to `value`.
         #[must_use]
         pub const fn with_follows_command_value(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that apply while 0x6061 is cyclic synchronous torque (10).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is cyclic synchronous torque (10).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousTorque(u16);
     impl StatuswordInCyclicSynchronousTorque {
-        /// Returns all bits.
+        /// Returns the bit field with all bits.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -993,7 +993,7 @@ pub mod types {
         pub const fn follows_command_value(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
-        /// Returns a copy with another [`follows_command_value`](Self::follows_command_value).
+        /// Returns a copy with [`follows_command_value`](Self::follows_command_value) set to `value`.
         #[must_use]
         pub const fn with_follows_command_value(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
@@ -1001,7 +1001,7 @@ pub mod types {
     }
     /// States of drive, read from [Statusword](super::objects::STATUSWORD).
     ///
-    /// From CiA 402, 10.1.1.
+    /// Definition from CiA 402, 10.1.1.
     ///
     /// | State | Bits |
     /// |---|---|
@@ -1033,7 +1033,7 @@ pub mod types {
         Fault,
     }
     impl State {
-        /// Returns the state with these bits; `None` if no state matches.
+        /// Returns the state that these bits encode; `None` if no state matches.
         pub const fn from_raw(raw: u16) -> Option<Self> {
             if raw & 0x4F == 0 {
                 return Some(Self::NotReadyToSwitchOn);
@@ -1153,7 +1153,7 @@ pub mod types {
     }
     /// Commands of drive, written to [Controlword](super::objects::CONTROLWORD).
     ///
-    /// From CiA 402, 10.1.1.
+    /// Definition from CiA 402, 10.1.1.
     ///
     /// | Command | Bits |
     /// |---|---|
@@ -1184,7 +1184,7 @@ pub mod types {
     /// | 14 | [`FaultReactionActive`](State::FaultReactionActive) | [`Fault`](State::Fault) | automatic |  |
     /// | 15 | [`Fault`](State::Fault) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`FaultReset`](Command::FaultReset) |  |
     /// | 16 | [`QuickStopActive`](State::QuickStopActive) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](Command::EnableOperation) |  |
-    /// | 13 | any state | [`FaultReactionActive`](State::FaultReactionActive) | automatic | Automatic when a fault occurs. |
+    /// | 13 | any state | [`FaultReactionActive`](State::FaultReactionActive) | automatic | Automatic transition when a fault occurs. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Command {
         /// shutdown: `xxxx xxxx 0xxx x110`.
@@ -1203,7 +1203,7 @@ pub mod types {
         FaultReset,
     }
     impl Command {
-        /// Returns the mask of the bits that the command sets or clears.
+        /// Returns the mask of all bits that the command sets or clears.
         pub const fn mask(self) -> u16 {
             match self {
                 Self::Shutdown => 0x87,
@@ -1229,21 +1229,21 @@ pub mod types {
         }
     }
     impl Controlword {
-        /// Returns a copy with the bits of `command`.
+        /// Returns a copy in which `command` has set and cleared its bits.
         #[must_use]
         pub const fn with_command(self, command: Command) -> Self {
             Self((self.0 & !command.mask()) | command.value())
         }
     }
 }
-/// Code tables. `rt::codes::find` looks up a code.
+/// Code tables. The function `codes::find` of the runtime returns the row of a code.
 pub mod codes {
     use ::lexibus as rt;
     /// drive errors.
     ///
-    /// From CiA 402, 6.2.
+    /// Definition from CiA 402, 6.2.
     ///
-    /// Type of the codes: [`DriveErrors`].
+    /// The codes have the type [`DriveErrors`].
     pub static DRIVE_ERRORS: &[rt::codes::Code] = &[
         rt::codes::Code::new(0x2310, 0x2310, "continuous over-current", "", &[]),
         rt::codes::Code::new(0x2320, 0x2320, "short circuit or earth leakage", "", &[]),
@@ -1279,7 +1279,7 @@ pub mod codes {
         rt::codes::Code::new(0xF003, 0xF003, "stroke operation", "", &[]),
         rt::codes::Code::new(0xF004, 0xF004, "control", "", &[]),
     ];
-    /// A code of [`DRIVE_ERRORS`].
+    /// Code of the table [`DRIVE_ERRORS`].
     ///
     /// | Code | Name | Meaning |
     /// |---|---|---|
@@ -1384,7 +1384,7 @@ pub mod codes {
         StrokeOperation,
         /// 0xF004: control.
         Control,
-        /// Any other code.
+        /// A code that is not in the table.
         Unknown(u16),
     }
     impl rt::codes::CodeTable for DriveErrors {
@@ -1471,9 +1471,9 @@ pub mod codes {
     }
     /// emergency.
     ///
-    /// From CiA 301, 7.2.7.1.
+    /// Definition from CiA 301, 7.2.7.1.
     ///
-    /// Type of the codes: [`Emergency`].
+    /// The codes have the type [`Emergency`].
     pub static EMERGENCY: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             0,
@@ -1541,7 +1541,7 @@ pub mod codes {
         rt::codes::Code::new(0xF000, 0xF0FF, "additional functions", "", &[]),
         rt::codes::Code::new(0xFF00, 0xFFFF, "device specific", "", &[]),
     ];
-    /// A code of [`EMERGENCY`].
+    /// Code of the table [`EMERGENCY`].
     ///
     /// | Code | Name | Meaning |
     /// |---|---|---|
@@ -1652,7 +1652,7 @@ pub mod codes {
         AdditionalFunctions(u16),
         /// 0xFF00 to 0xFFFF: device specific.
         DeviceSpecific(u16),
-        /// Any other code.
+        /// A code that is not in the table.
         Unknown(u16),
     }
     impl rt::codes::CodeTable for Emergency {
@@ -1774,7 +1774,7 @@ pub mod objects {
         /// Ready.
         ///
         /// 0x2000:01, BOOLEAN, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::ready`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Accessors::ready`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const READY: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
@@ -1786,7 +1786,7 @@ pub mod objects {
         /// Mode.
         ///
         /// 0x2000:02, UNSIGNED3, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::mode`]. Values: [`Mode`](super::super::types::Mode). Carried by [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Accessors::mode`]. Type of the value: [`Mode`](super::super::types::Mode). Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
@@ -1798,7 +1798,7 @@ pub mod objects {
         /// Referenced.
         ///
         /// 0x2000:03, BOOLEAN, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::referenced`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Accessors::referenced`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const REFERENCED: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
@@ -1810,7 +1810,7 @@ pub mod objects {
         /// Position.
         ///
         /// 0x2000:04, INTEGER24, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::position`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Accessors::position`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const POSITION: super::ReadOnly<rt::Int<24>> = super::ReadOnlyInt24::flagged_coe_object(
@@ -1822,7 +1822,7 @@ pub mod objects {
         /// Overflow.
         ///
         /// 0x2000:05, BOOLEAN, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::overflow`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Accessors::overflow`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const OVERFLOW: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
@@ -1834,7 +1834,7 @@ pub mod objects {
         /// Quality.
         ///
         /// 0x2000:06, UNSIGNED2, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::quality`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Accessors::quality`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const QUALITY: super::ReadOnly<rt::Uint<2>> = super::ReadOnlyUint2::flagged_coe_object(
@@ -1846,7 +1846,7 @@ pub mod objects {
         /// Speed.
         ///
         /// 0x2000:07, INTEGER16, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::speed`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Accessors::speed`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const SPEED: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_coe_object(
@@ -1863,14 +1863,14 @@ pub mod objects {
             /// Ready.
             ///
             /// 0x2000:01, BOOLEAN, read-only, mappable into TPDOs.
-            /// Constant: [`READY`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+            /// Constant: [`READY`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
             pub fn ready(&mut self) -> super::ReadOnlyAccess<'_, C, bool> {
                 READY.at(self.client)
             }
             /// Mode.
             ///
             /// 0x2000:02, UNSIGNED3, read-only, mappable into TPDOs.
-            /// Constant: [`MODE`]. Values: [`Mode`](super::super::types::Mode). Carried by [`Encoder`](super::super::pdo::Encoder).
+            /// Constant: [`MODE`]. Type of the value: [`Mode`](super::super::types::Mode). Mapped in [`Encoder`](super::super::pdo::Encoder).
             pub fn mode(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::Mode> {
@@ -1879,35 +1879,35 @@ pub mod objects {
             /// Referenced.
             ///
             /// 0x2000:03, BOOLEAN, read-only, mappable into TPDOs.
-            /// Constant: [`REFERENCED`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+            /// Constant: [`REFERENCED`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
             pub fn referenced(&mut self) -> super::ReadOnlyAccess<'_, C, bool> {
                 REFERENCED.at(self.client)
             }
             /// Position.
             ///
             /// 0x2000:04, INTEGER24, read-only, mappable into TPDOs.
-            /// Constant: [`POSITION`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+            /// Constant: [`POSITION`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
             pub fn position(&mut self) -> super::ReadOnlyAccess<'_, C, rt::Int<24>> {
                 POSITION.at(self.client)
             }
             /// Overflow.
             ///
             /// 0x2000:05, BOOLEAN, read-only, mappable into TPDOs.
-            /// Constant: [`OVERFLOW`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+            /// Constant: [`OVERFLOW`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
             pub fn overflow(&mut self) -> super::ReadOnlyAccess<'_, C, bool> {
                 OVERFLOW.at(self.client)
             }
             /// Quality.
             ///
             /// 0x2000:06, UNSIGNED2, read-only, mappable into TPDOs.
-            /// Constant: [`QUALITY`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+            /// Constant: [`QUALITY`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
             pub fn quality(&mut self) -> super::ReadOnlyAccess<'_, C, rt::Uint<2>> {
                 QUALITY.at(self.client)
             }
             /// Speed.
             ///
             /// 0x2000:07, INTEGER16, read-only, mappable into TPDOs.
-            /// Constant: [`SPEED`]. Carried by [`Encoder`](super::super::pdo::Encoder).
+            /// Constant: [`SPEED`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
             pub fn speed(&mut self) -> super::ReadOnlyAccess<'_, C, i16> {
                 SPEED.at(self.client)
             }
@@ -1921,7 +1921,7 @@ pub mod objects {
         /// Limit.
         ///
         /// 0x2001:01, BOOLEAN, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::limit`]. Carried by [`ActualValues`](super::super::pdo::ActualValues).
+        /// Accessor: [`Accessors::limit`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const LIMIT: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
@@ -1933,7 +1933,7 @@ pub mod objects {
         /// Mode.
         ///
         /// 0x2001:02, UNSIGNED3, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::mode`]. Values: [`Mode`](super::super::types::Mode). Carried by [`ActualValues`](super::super::pdo::ActualValues).
+        /// Accessor: [`Accessors::mode`]. Type of the value: [`Mode`](super::super::types::Mode). Mapped in [`ActualValues`](super::super::pdo::ActualValues).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
@@ -1945,7 +1945,7 @@ pub mod objects {
         /// Current.
         ///
         /// 0x2001:03, UNSIGNED12, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::current`]. Carried by [`ActualValues`](super::super::pdo::ActualValues).
+        /// Accessor: [`Accessors::current`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const CURRENT: super::ReadOnly<rt::Uint<12>> = super::ReadOnlyUint12::flagged_coe_object(
@@ -1962,14 +1962,14 @@ pub mod objects {
             /// Limit.
             ///
             /// 0x2001:01, BOOLEAN, read-only, mappable into TPDOs.
-            /// Constant: [`LIMIT`]. Carried by [`ActualValues`](super::super::pdo::ActualValues).
+            /// Constant: [`LIMIT`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
             pub fn limit(&mut self) -> super::ReadOnlyAccess<'_, C, bool> {
                 LIMIT.at(self.client)
             }
             /// Mode.
             ///
             /// 0x2001:02, UNSIGNED3, read-only, mappable into TPDOs.
-            /// Constant: [`MODE`]. Values: [`Mode`](super::super::types::Mode). Carried by [`ActualValues`](super::super::pdo::ActualValues).
+            /// Constant: [`MODE`]. Type of the value: [`Mode`](super::super::types::Mode). Mapped in [`ActualValues`](super::super::pdo::ActualValues).
             pub fn mode(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::Mode> {
@@ -1978,7 +1978,7 @@ pub mod objects {
             /// Current.
             ///
             /// 0x2001:03, UNSIGNED12, read-only, mappable into TPDOs.
-            /// Constant: [`CURRENT`]. Carried by [`ActualValues`](super::super::pdo::ActualValues).
+            /// Constant: [`CURRENT`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
             pub fn current(&mut self) -> super::ReadOnlyAccess<'_, C, rt::Uint<12>> {
                 CURRENT.at(self.client)
             }
@@ -1987,7 +1987,7 @@ pub mod objects {
     /// Controlword.
     ///
     /// 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
-    /// Accessor: [`controlword`](super::Ax1::controlword). Values: [`Controlword`](super::types::Controlword). Carried by [`SetPoints`](super::pdo::SetPoints).
+    /// Accessor: [`controlword`](super::Ax1::controlword). Type of the value: [`Controlword`](super::types::Controlword). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Control word: commands of the drive state machine and of the mode of operation.
     ///
@@ -2005,7 +2005,7 @@ pub mod objects {
     /// Statusword.
     ///
     /// 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
-    /// Accessor: [`statusword`](super::Ax1::statusword). Values: [`Statusword`](super::types::Statusword). Carried by [`ActualValues`](super::pdo::ActualValues), [`DriveStatus`](super::pdo::DriveStatus).
+    /// Accessor: [`statusword`](super::Ax1::statusword). Type of the value: [`Statusword`](super::types::Statusword). Mapped in [`ActualValues`](super::pdo::ActualValues), [`DriveStatus`](super::pdo::DriveStatus).
     ///
     /// Status word: state of the drive state machine and of the mode of operation.
     ///
@@ -2021,7 +2021,7 @@ pub mod objects {
     /// Modes of operation.
     ///
     /// 0x6060:00, INTEGER8, read-write, mappable into RPDOs.
-    /// Accessor: [`modes_of_operation`](super::Ax1::modes_of_operation). Values: [`ModesOfOperation`](super::types::ModesOfOperation). Carried by [`SetPoints`](super::pdo::SetPoints).
+    /// Accessor: [`modes_of_operation`](super::Ax1::modes_of_operation). Type of the value: [`ModesOfOperation`](super::types::ModesOfOperation). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Requested mode of operation; the active mode is in 0x6061.
     ///
@@ -2039,7 +2039,7 @@ pub mod objects {
     /// Position.
     ///
     /// 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
-    /// Accessor: [`position`](super::Ax1::position). Carried by [`ActualValues`](super::pdo::ActualValues), [`DriveStatus`](super::pdo::DriveStatus).
+    /// Accessor: [`position`](super::Ax1::position). Mapped in [`ActualValues`](super::pdo::ActualValues), [`DriveStatus`](super::pdo::DriveStatus).
     ///
     /// Access rights from the rule for objects that only a PDO describes.
     pub const POSITION: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
@@ -2051,7 +2051,7 @@ pub mod objects {
     /// Velocity.
     ///
     /// 0x606C:00, INTEGER32, read-only, mappable into TPDOs.
-    /// Accessor: [`velocity`](super::Ax1::velocity). Carried by [`ActualValues`](super::pdo::ActualValues).
+    /// Accessor: [`velocity`](super::Ax1::velocity). Mapped in [`ActualValues`](super::pdo::ActualValues).
     ///
     /// Access rights from the rule for objects that only a PDO describes.
     pub const VELOCITY: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
@@ -2063,7 +2063,7 @@ pub mod objects {
     /// Torque.
     ///
     /// 1 LSB = 0.1 %, 0x6077:00, INTEGER16, read-only, mappable into TPDOs.
-    /// Accessor: [`torque`](super::Ax1::torque). Carried by [`DriveStatus`](super::pdo::DriveStatus).
+    /// Accessor: [`torque`](super::Ax1::torque). Mapped in [`DriveStatus`](super::pdo::DriveStatus).
     ///
     /// Actual torque, relative to the rated torque.
     ///
@@ -2083,7 +2083,7 @@ pub mod objects {
     /// Target position.
     ///
     /// 0x607A:00, INTEGER32, read-write, mappable into RPDOs.
-    /// Accessor: [`target_position`](super::Ax1::target_position). Carried by [`SetPoints`](super::pdo::SetPoints).
+    /// Accessor: [`target_position`](super::Ax1::target_position). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Access rights from the rule for objects that only a PDO describes.
     pub const TARGET_POSITION: ReadWrite<i32> = ReadWriteI32::flagged_coe_object(
@@ -2095,7 +2095,7 @@ pub mod objects {
     /// Torque offset.
     ///
     /// 1 LSB = 0.1 %, 0x60B2:00, INTEGER16, read-write, mappable into RPDOs.
-    /// Accessor: [`torque_offset`](super::Ax1::torque_offset). Carried by [`SetPoints`](super::pdo::SetPoints).
+    /// Accessor: [`torque_offset`](super::Ax1::torque_offset). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Torque offset: added to the target torque, relative to the rated torque.
     ///
@@ -2115,7 +2115,7 @@ pub mod objects {
     /// Target velocity.
     ///
     /// 0x60FF:00, INTEGER32, read-write, mappable into RPDOs.
-    /// Accessor: [`target_velocity`](super::Ax1::target_velocity). Carried by [`SetPoints`](super::pdo::SetPoints).
+    /// Accessor: [`target_velocity`](super::Ax1::target_velocity). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Access rights from the rule for objects that only a PDO describes.
     pub const TARGET_VELOCITY: ReadWrite<i32> = ReadWriteI32::flagged_coe_object(
@@ -2130,7 +2130,7 @@ pub mod pdo {
     use ::lexibus as rt;
     /// RxPDO 0x1600: Set points.
     ///
-    /// Mapping 0x1600, 112 bits.
+    /// Mapping object 0x1600, 112 bits.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
@@ -2142,15 +2142,15 @@ pub mod pdo {
     /// | 12–13 | [`torque_offset`](Self::torque_offset) | [0x60B2:00](super::objects::TORQUE_OFFSET) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct SetPoints {
-        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits at bit offset 0.
         pub controlword: super::types::Controlword,
-        /// Modes of operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits from bit 16.
+        /// Modes of operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits at bit offset 16.
         pub modes_of_operation: super::types::ModesOfOperation,
-        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 32.
+        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits at bit offset 32.
         pub target_position: i32,
-        /// Target velocity: [0x60FF:00](super::objects::TARGET_VELOCITY), 32 bits from bit 64.
+        /// Target velocity: [0x60FF:00](super::objects::TARGET_VELOCITY), 32 bits at bit offset 64.
         pub target_velocity: i32,
-        /// Torque offset: [0x60B2:00](super::objects::TORQUE_OFFSET), 16 bits from bit 96.
+        /// Torque offset: [0x60B2:00](super::objects::TORQUE_OFFSET), 16 bits at bit offset 96.
         pub torque_offset: i16,
     }
     impl SetPoints {
@@ -2158,7 +2158,7 @@ pub mod pdo {
         pub const BITS: u32 = 112;
         /// Length in bytes.
         pub const LEN: usize = 14;
-        /// Returns the bytes of a frame. Padding is 0.
+        /// Returns the bytes of the PDO. Unmapped bits are 0.
         #[inline]
         pub fn pack(&self) -> [u8; 14] {
             let mut data = [0; 14];
@@ -2174,7 +2174,7 @@ pub mod pdo {
             data = rt::bits::put(data, 96, 16, bits);
             data
         }
-        /// Reads the fields of a frame. Bytes after the mapped ones are ignored.
+        /// Decodes the fields of the PDO. Bytes after the mapped objects are ignored.
         ///
         /// # Errors
         ///
@@ -2212,7 +2212,7 @@ pub mod pdo {
     }
     /// TxPDO 0x1A00: Encoder.
     ///
-    /// Mapping 0x1A00, 48 bits.
+    /// Mapping object 0x1A00, 48 bits.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
@@ -2225,19 +2225,19 @@ pub mod pdo {
     /// | 4–5 | [`speed`](Self::speed) | [0x2000:07](super::objects::object_2000::SPEED) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Encoder {
-        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bits from bit 0.
+        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bits at bit offset 0.
         pub ready: bool,
-        /// Mode: [0x2000:02](super::objects::object_2000::MODE), 3 bits from bit 1.
+        /// Mode: [0x2000:02](super::objects::object_2000::MODE), 3 bits at bit offset 1.
         pub mode: super::types::Mode,
-        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bits from bit 4.
+        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bits at bit offset 4.
         pub referenced: bool,
-        /// Position: [0x2000:04](super::objects::object_2000::POSITION), 24 bits from bit 5.
+        /// Position: [0x2000:04](super::objects::object_2000::POSITION), 24 bits at bit offset 5.
         pub position: rt::Int<24>,
-        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bits from bit 29.
+        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bits at bit offset 29.
         pub overflow: bool,
-        /// Quality: [0x2000:06](super::objects::object_2000::QUALITY), 2 bits from bit 30.
+        /// Quality: [0x2000:06](super::objects::object_2000::QUALITY), 2 bits at bit offset 30.
         pub quality: rt::Uint<2>,
-        /// Speed: [0x2000:07](super::objects::object_2000::SPEED), 16 bits from bit 32.
+        /// Speed: [0x2000:07](super::objects::object_2000::SPEED), 16 bits at bit offset 32.
         pub speed: i16,
     }
     impl Encoder {
@@ -2245,7 +2245,7 @@ pub mod pdo {
         pub const BITS: u32 = 48;
         /// Length in bytes.
         pub const LEN: usize = 6;
-        /// Returns the bytes of a frame. Padding is 0.
+        /// Returns the bytes of the PDO. Unmapped bits are 0.
         #[inline]
         pub const fn pack(&self) -> [u8; 6] {
             let mut word = 0;
@@ -2265,7 +2265,7 @@ pub mod pdo {
             word |= bits << 32;
             rt::pdo::to_bytes(word)
         }
-        /// Reads the fields of a frame. Bytes after the mapped ones are ignored.
+        /// Decodes the fields of the PDO. Bytes after the mapped objects are ignored.
         ///
         /// # Errors
         ///
@@ -2313,7 +2313,7 @@ pub mod pdo {
     };
     /// TxPDO 0x1A01: Actual values.
     ///
-    /// Mapping 0x1A01, 96 bits.
+    /// Mapping object 0x1A01, 96 bits.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
@@ -2325,17 +2325,17 @@ pub mod pdo {
     /// | 10.4–11.7 | [`current`](Self::current) | [0x2001:03](super::objects::object_2001::CURRENT) | `Uint<12>` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ActualValues {
-        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits at bit offset 0.
         pub statusword: super::types::Statusword,
-        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bits from bit 16.
+        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bits at bit offset 16.
         pub limit: bool,
-        /// Mode: [0x2001:02](super::objects::object_2001::MODE), 3 bits from bit 17.
+        /// Mode: [0x2001:02](super::objects::object_2001::MODE), 3 bits at bit offset 17.
         pub mode: super::types::Mode,
-        /// Position: [0x6064:00](super::objects::POSITION), 32 bits from bit 20.
+        /// Position: [0x6064:00](super::objects::POSITION), 32 bits at bit offset 20.
         pub position: i32,
-        /// Velocity: [0x606C:00](super::objects::VELOCITY), 32 bits from bit 52.
+        /// Velocity: [0x606C:00](super::objects::VELOCITY), 32 bits at bit offset 52.
         pub velocity: i32,
-        /// Current: [0x2001:03](super::objects::object_2001::CURRENT), 12 bits from bit 84.
+        /// Current: [0x2001:03](super::objects::object_2001::CURRENT), 12 bits at bit offset 84.
         pub current: rt::Uint<12>,
     }
     impl ActualValues {
@@ -2343,7 +2343,7 @@ pub mod pdo {
         pub const BITS: u32 = 96;
         /// Length in bytes.
         pub const LEN: usize = 12;
-        /// Returns the bytes of a frame. Padding is 0.
+        /// Returns the bytes of the PDO. Unmapped bits are 0.
         #[inline]
         pub fn pack(&self) -> [u8; 12] {
             let mut words = [0; 2];
@@ -2362,7 +2362,7 @@ pub mod pdo {
             words[1] |= bits << 20;
             rt::bits::from_words(words)
         }
-        /// Reads the fields of a frame. Bytes after the mapped ones are ignored.
+        /// Decodes the fields of the PDO. Bytes after the mapped objects are ignored.
         ///
         /// # Errors
         ///
@@ -2399,7 +2399,7 @@ pub mod pdo {
     }
     /// TxPDO 0x1A02: Drive status.
     ///
-    /// Mapping 0x1A02, 64 bits.
+    /// Mapping object 0x1A02, 64 bits.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
@@ -2408,11 +2408,11 @@ pub mod pdo {
     /// | 6–7 | [`torque`](Self::torque) | [0x6077:00](super::objects::TORQUE) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct DriveStatus {
-        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits at bit offset 0.
         pub statusword: super::types::Statusword,
-        /// Position: [0x6064:00](super::objects::POSITION), 32 bits from bit 16.
+        /// Position: [0x6064:00](super::objects::POSITION), 32 bits at bit offset 16.
         pub position: i32,
-        /// Torque: [0x6077:00](super::objects::TORQUE), 16 bits from bit 48.
+        /// Torque: [0x6077:00](super::objects::TORQUE), 16 bits at bit offset 48.
         pub torque: i16,
     }
     impl DriveStatus {
@@ -2420,7 +2420,7 @@ pub mod pdo {
         pub const BITS: u32 = 64;
         /// Length in bytes.
         pub const LEN: usize = 8;
-        /// Returns the bytes of a frame. Padding is 0.
+        /// Returns the bytes of the PDO. Unmapped bits are 0.
         #[inline]
         pub const fn pack(&self) -> [u8; 8] {
             let mut word = 0;
@@ -2432,7 +2432,7 @@ pub mod pdo {
             word |= bits << 48;
             rt::pdo::to_bytes(word)
         }
-        /// Reads the fields of a frame. Bytes after the mapped ones are ignored.
+        /// Decodes the fields of the PDO. Bytes after the mapped objects are ignored.
         ///
         /// # Errors
         ///
@@ -2471,12 +2471,12 @@ pub mod pdo {
         assert!(packed == word);
     };
 }
-/// Views that read and write PDOs of a process image in place.
+/// Views that read and write the PDOs in a process image in place.
 pub mod view {
     use ::lexibus as rt;
     /// RxPDO 0x1600: Set points.
     ///
-    /// Layout: [`pdo::SetPoints`](super::pdo::SetPoints).
+    /// The layout is that of [`pdo::SetPoints`](super::pdo::SetPoints).
     pub struct SetPoints<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -2486,58 +2486,58 @@ pub mod view {
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the PDO.
+        /// Fails if `data` ends before the end of the PDO.
         #[inline]
         pub fn new(data: B) -> Result<Self, rt::LengthError> {
             Self::at(data, 0)
         }
-        /// Creates a view of the PDO that starts at this bit of `data`.
+        /// Creates a view of the PDO that starts at bit offset `bit` of `data`.
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the PDO.
+        /// Fails if `data` ends before the end of the PDO.
         #[inline]
         pub fn at(data: B, bit: usize) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(112))?;
             Ok(Self { data, bit })
         }
-        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits at bit offset 0.
         #[inline]
         pub fn controlword(&self) -> super::types::Controlword {
             super::types::Controlword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Modes of operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits from bit 16.
+        /// Modes of operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits at bit offset 16.
         #[inline]
         pub fn modes_of_operation(&self) -> super::types::ModesOfOperation {
             super::types::ModesOfOperation::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 16, 8) as i8,
             )
         }
-        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 32.
+        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits at bit offset 32.
         #[inline]
         pub fn target_position(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 32, 32) as i32
         }
-        /// Target velocity: [0x60FF:00](super::objects::TARGET_VELOCITY), 32 bits from bit 64.
+        /// Target velocity: [0x60FF:00](super::objects::TARGET_VELOCITY), 32 bits at bit offset 64.
         #[inline]
         pub fn target_velocity(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 64, 32) as i32
         }
-        /// Torque offset: [0x60B2:00](super::objects::TORQUE_OFFSET), 16 bits from bit 96.
+        /// Torque offset: [0x60B2:00](super::objects::TORQUE_OFFSET), 16 bits at bit offset 96.
         #[inline]
         pub fn torque_offset(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 96, 16) as i16
         }
     }
     impl<B: AsMut<[u8]>> SetPoints<B> {
-        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits at bit offset 0.
         #[inline]
         pub fn set_controlword(&mut self, value: super::types::Controlword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Modes of operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits from bit 16.
+        /// Modes of operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits at bit offset 16.
         #[inline]
         pub fn set_modes_of_operation(&mut self, value: super::types::ModesOfOperation) {
             rt::bits::set(
@@ -2547,17 +2547,17 @@ pub mod view {
                 value.raw() as u8 as u64,
             );
         }
-        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 32.
+        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits at bit offset 32.
         #[inline]
         pub fn set_target_position(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 32, value as u32 as u64);
         }
-        /// Target velocity: [0x60FF:00](super::objects::TARGET_VELOCITY), 32 bits from bit 64.
+        /// Target velocity: [0x60FF:00](super::objects::TARGET_VELOCITY), 32 bits at bit offset 64.
         #[inline]
         pub fn set_target_velocity(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 64, 32, value as u32 as u64);
         }
-        /// Torque offset: [0x60B2:00](super::objects::TORQUE_OFFSET), 16 bits from bit 96.
+        /// Torque offset: [0x60B2:00](super::objects::TORQUE_OFFSET), 16 bits at bit offset 96.
         #[inline]
         pub fn set_torque_offset(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 96, 16, value as u16 as u64);
@@ -2565,7 +2565,7 @@ pub mod view {
     }
     /// TxPDO 0x1A00: Encoder.
     ///
-    /// Layout: [`pdo::Encoder`](super::pdo::Encoder).
+    /// The layout is that of [`pdo::Encoder`](super::pdo::Encoder).
     pub struct Encoder<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -2575,91 +2575,91 @@ pub mod view {
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the PDO.
+        /// Fails if `data` ends before the end of the PDO.
         #[inline]
         pub fn new(data: B) -> Result<Self, rt::LengthError> {
             Self::at(data, 0)
         }
-        /// Creates a view of the PDO that starts at this bit of `data`.
+        /// Creates a view of the PDO that starts at bit offset `bit` of `data`.
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the PDO.
+        /// Fails if `data` ends before the end of the PDO.
         #[inline]
         pub fn at(data: B, bit: usize) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
             Ok(Self { data, bit })
         }
-        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bits from bit 0.
+        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bits at bit offset 0.
         #[inline]
         pub fn ready(&self) -> bool {
             rt::bits::get(self.data.as_ref(), self.bit, 1) != 0
         }
-        /// Mode: [0x2000:02](super::objects::object_2000::MODE), 3 bits from bit 1.
+        /// Mode: [0x2000:02](super::objects::object_2000::MODE), 3 bits at bit offset 1.
         #[inline]
         pub fn mode(&self) -> super::types::Mode {
             super::types::Mode::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 1, 3) as u8,
             )
         }
-        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bits from bit 4.
+        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bits at bit offset 4.
         #[inline]
         pub fn referenced(&self) -> bool {
             rt::bits::get(self.data.as_ref(), self.bit + 4, 1) != 0
         }
-        /// Position: [0x2000:04](super::objects::object_2000::POSITION), 24 bits from bit 5.
+        /// Position: [0x2000:04](super::objects::object_2000::POSITION), 24 bits at bit offset 5.
         #[inline]
         pub fn position(&self) -> rt::Int<24> {
             rt::Int::from_raw(rt::bits::get(self.data.as_ref(), self.bit + 5, 24))
         }
-        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bits from bit 29.
+        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bits at bit offset 29.
         #[inline]
         pub fn overflow(&self) -> bool {
             rt::bits::get(self.data.as_ref(), self.bit + 29, 1) != 0
         }
-        /// Quality: [0x2000:06](super::objects::object_2000::QUALITY), 2 bits from bit 30.
+        /// Quality: [0x2000:06](super::objects::object_2000::QUALITY), 2 bits at bit offset 30.
         #[inline]
         pub fn quality(&self) -> rt::Uint<2> {
             rt::Uint::from_raw(rt::bits::get(self.data.as_ref(), self.bit + 30, 2))
         }
-        /// Speed: [0x2000:07](super::objects::object_2000::SPEED), 16 bits from bit 32.
+        /// Speed: [0x2000:07](super::objects::object_2000::SPEED), 16 bits at bit offset 32.
         #[inline]
         pub fn speed(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 32, 16) as i16
         }
     }
     impl<B: AsMut<[u8]>> Encoder<B> {
-        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bits from bit 0.
+        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bits at bit offset 0.
         #[inline]
         pub fn set_ready(&mut self, value: bool) {
             rt::bits::set(self.data.as_mut(), self.bit, 1, value as u64);
         }
-        /// Mode: [0x2000:02](super::objects::object_2000::MODE), 3 bits from bit 1.
+        /// Mode: [0x2000:02](super::objects::object_2000::MODE), 3 bits at bit offset 1.
         #[inline]
         pub fn set_mode(&mut self, value: super::types::Mode) {
             rt::bits::set(self.data.as_mut(), self.bit + 1, 3, value.raw() as u64);
         }
-        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bits from bit 4.
+        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bits at bit offset 4.
         #[inline]
         pub fn set_referenced(&mut self, value: bool) {
             rt::bits::set(self.data.as_mut(), self.bit + 4, 1, value as u64);
         }
-        /// Position: [0x2000:04](super::objects::object_2000::POSITION), 24 bits from bit 5.
+        /// Position: [0x2000:04](super::objects::object_2000::POSITION), 24 bits at bit offset 5.
         #[inline]
         pub fn set_position(&mut self, value: rt::Int<24>) {
             rt::bits::set(self.data.as_mut(), self.bit + 5, 24, value.raw());
         }
-        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bits from bit 29.
+        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bits at bit offset 29.
         #[inline]
         pub fn set_overflow(&mut self, value: bool) {
             rt::bits::set(self.data.as_mut(), self.bit + 29, 1, value as u64);
         }
-        /// Quality: [0x2000:06](super::objects::object_2000::QUALITY), 2 bits from bit 30.
+        /// Quality: [0x2000:06](super::objects::object_2000::QUALITY), 2 bits at bit offset 30.
         #[inline]
         pub fn set_quality(&mut self, value: rt::Uint<2>) {
             rt::bits::set(self.data.as_mut(), self.bit + 30, 2, value.raw());
         }
-        /// Speed: [0x2000:07](super::objects::object_2000::SPEED), 16 bits from bit 32.
+        /// Speed: [0x2000:07](super::objects::object_2000::SPEED), 16 bits at bit offset 32.
         #[inline]
         pub fn set_speed(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 16, value as u16 as u64);
@@ -2667,7 +2667,7 @@ pub mod view {
     }
     /// TxPDO 0x1A01: Actual values.
     ///
-    /// Layout: [`pdo::ActualValues`](super::pdo::ActualValues).
+    /// The layout is that of [`pdo::ActualValues`](super::pdo::ActualValues).
     pub struct ActualValues<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -2677,83 +2677,83 @@ pub mod view {
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the PDO.
+        /// Fails if `data` ends before the end of the PDO.
         #[inline]
         pub fn new(data: B) -> Result<Self, rt::LengthError> {
             Self::at(data, 0)
         }
-        /// Creates a view of the PDO that starts at this bit of `data`.
+        /// Creates a view of the PDO that starts at bit offset `bit` of `data`.
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the PDO.
+        /// Fails if `data` ends before the end of the PDO.
         #[inline]
         pub fn at(data: B, bit: usize) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(96))?;
             Ok(Self { data, bit })
         }
-        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits at bit offset 0.
         #[inline]
         pub fn statusword(&self) -> super::types::Statusword {
             super::types::Statusword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bits from bit 16.
+        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bits at bit offset 16.
         #[inline]
         pub fn limit(&self) -> bool {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 1) != 0
         }
-        /// Mode: [0x2001:02](super::objects::object_2001::MODE), 3 bits from bit 17.
+        /// Mode: [0x2001:02](super::objects::object_2001::MODE), 3 bits at bit offset 17.
         #[inline]
         pub fn mode(&self) -> super::types::Mode {
             super::types::Mode::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 17, 3) as u8,
             )
         }
-        /// Position: [0x6064:00](super::objects::POSITION), 32 bits from bit 20.
+        /// Position: [0x6064:00](super::objects::POSITION), 32 bits at bit offset 20.
         #[inline]
         pub fn position(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 20, 32) as i32
         }
-        /// Velocity: [0x606C:00](super::objects::VELOCITY), 32 bits from bit 52.
+        /// Velocity: [0x606C:00](super::objects::VELOCITY), 32 bits at bit offset 52.
         #[inline]
         pub fn velocity(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 52, 32) as i32
         }
-        /// Current: [0x2001:03](super::objects::object_2001::CURRENT), 12 bits from bit 84.
+        /// Current: [0x2001:03](super::objects::object_2001::CURRENT), 12 bits at bit offset 84.
         #[inline]
         pub fn current(&self) -> rt::Uint<12> {
             rt::Uint::from_raw(rt::bits::get(self.data.as_ref(), self.bit + 84, 12))
         }
     }
     impl<B: AsMut<[u8]>> ActualValues<B> {
-        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits at bit offset 0.
         #[inline]
         pub fn set_statusword(&mut self, value: super::types::Statusword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bits from bit 16.
+        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bits at bit offset 16.
         #[inline]
         pub fn set_limit(&mut self, value: bool) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 1, value as u64);
         }
-        /// Mode: [0x2001:02](super::objects::object_2001::MODE), 3 bits from bit 17.
+        /// Mode: [0x2001:02](super::objects::object_2001::MODE), 3 bits at bit offset 17.
         #[inline]
         pub fn set_mode(&mut self, value: super::types::Mode) {
             rt::bits::set(self.data.as_mut(), self.bit + 17, 3, value.raw() as u64);
         }
-        /// Position: [0x6064:00](super::objects::POSITION), 32 bits from bit 20.
+        /// Position: [0x6064:00](super::objects::POSITION), 32 bits at bit offset 20.
         #[inline]
         pub fn set_position(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 20, 32, value as u32 as u64);
         }
-        /// Velocity: [0x606C:00](super::objects::VELOCITY), 32 bits from bit 52.
+        /// Velocity: [0x606C:00](super::objects::VELOCITY), 32 bits at bit offset 52.
         #[inline]
         pub fn set_velocity(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 52, 32, value as u32 as u64);
         }
-        /// Current: [0x2001:03](super::objects::object_2001::CURRENT), 12 bits from bit 84.
+        /// Current: [0x2001:03](super::objects::object_2001::CURRENT), 12 bits at bit offset 84.
         #[inline]
         pub fn set_current(&mut self, value: rt::Uint<12>) {
             rt::bits::set(self.data.as_mut(), self.bit + 84, 12, value.raw());
@@ -2761,7 +2761,7 @@ pub mod view {
     }
     /// TxPDO 0x1A02: Drive status.
     ///
-    /// Layout: [`pdo::DriveStatus`](super::pdo::DriveStatus).
+    /// The layout is that of [`pdo::DriveStatus`](super::pdo::DriveStatus).
     pub struct DriveStatus<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -2771,61 +2771,61 @@ pub mod view {
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the PDO.
+        /// Fails if `data` ends before the end of the PDO.
         #[inline]
         pub fn new(data: B) -> Result<Self, rt::LengthError> {
             Self::at(data, 0)
         }
-        /// Creates a view of the PDO that starts at this bit of `data`.
+        /// Creates a view of the PDO that starts at bit offset `bit` of `data`.
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the PDO.
+        /// Fails if `data` ends before the end of the PDO.
         #[inline]
         pub fn at(data: B, bit: usize) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(64))?;
             Ok(Self { data, bit })
         }
-        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits at bit offset 0.
         #[inline]
         pub fn statusword(&self) -> super::types::Statusword {
             super::types::Statusword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Position: [0x6064:00](super::objects::POSITION), 32 bits from bit 16.
+        /// Position: [0x6064:00](super::objects::POSITION), 32 bits at bit offset 16.
         #[inline]
         pub fn position(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 32) as i32
         }
-        /// Torque: [0x6077:00](super::objects::TORQUE), 16 bits from bit 48.
+        /// Torque: [0x6077:00](super::objects::TORQUE), 16 bits at bit offset 48.
         #[inline]
         pub fn torque(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 48, 16) as i16
         }
     }
     impl<B: AsMut<[u8]>> DriveStatus<B> {
-        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits at bit offset 0.
         #[inline]
         pub fn set_statusword(&mut self, value: super::types::Statusword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Position: [0x6064:00](super::objects::POSITION), 32 bits from bit 16.
+        /// Position: [0x6064:00](super::objects::POSITION), 32 bits at bit offset 16.
         #[inline]
         pub fn set_position(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 32, value as u32 as u64);
         }
-        /// Torque: [0x6077:00](super::objects::TORQUE), 16 bits from bit 48.
+        /// Torque: [0x6077:00](super::objects::TORQUE), 16 bits at bit offset 48.
         #[inline]
         pub fn set_torque(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 48, 16, value as u16 as u64);
         }
     }
 }
-/// Default process image: one struct for each sync manager.
+/// Process image of the default PDO assignment, with one struct for each sync manager.
 pub mod image {
     use ::lexibus as rt;
-    /// Outputs: default data of sync manager 0.
+    /// Outputs: data of sync manager 0 with the default PDO assignment.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1600: Set points.
@@ -2836,14 +2836,14 @@ pub mod image {
         pub const SYNC_MANAGER: u8 = 0;
         /// Length in bytes.
         pub const LEN: usize = 14;
-        /// Returns the bytes of the image. Padding is 0.
+        /// Returns the bytes of the process image. Unmapped bits are 0.
         #[inline]
         pub fn pack(&self) -> [u8; 14] {
             let mut data = [0; 14];
             rt::bits::set_bytes(&mut data, 0, &self.set_points.pack());
             data
         }
-        /// Reads the PDOs of an image. Bytes after it are ignored.
+        /// Decodes the PDOs of a process image. Bytes after the image are ignored.
         ///
         /// # Errors
         ///
@@ -2859,12 +2859,12 @@ pub mod image {
             Ok(image)
         }
     }
-    /// Outputs: default data of sync manager 0. Reads and writes the bytes in place.
+    /// Outputs: data of sync manager 0 with the default PDO assignment. This view reads and writes the bytes in place.
     pub struct OutputsView<B> {
         data: B,
     }
     impl<B: AsRef<[u8]>> OutputsView<B> {
-        /// Creates a view of the image in `data`.
+        /// Creates a view of the process image at the start of `data`.
         ///
         /// # Errors
         ///
@@ -2893,7 +2893,7 @@ pub mod image {
             }
         }
     }
-    /// Inputs: default data of sync manager 1.
+    /// Inputs: data of sync manager 1 with the default PDO assignment.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Inputs {
         /// TxPDO 0x1A00: Encoder.
@@ -2906,7 +2906,7 @@ pub mod image {
         pub const SYNC_MANAGER: u8 = 1;
         /// Length in bytes.
         pub const LEN: usize = 18;
-        /// Returns the bytes of the image. Padding is 0.
+        /// Returns the bytes of the process image. Unmapped bits are 0.
         #[inline]
         pub fn pack(&self) -> [u8; 18] {
             let mut data = [0; 18];
@@ -2914,7 +2914,7 @@ pub mod image {
             rt::bits::set_bytes(&mut data, 48, &self.actual_values.pack());
             data
         }
-        /// Reads the PDOs of an image. Bytes after it are ignored.
+        /// Decodes the PDOs of a process image. Bytes after the image are ignored.
         ///
         /// # Errors
         ///
@@ -2933,12 +2933,12 @@ pub mod image {
             Ok(image)
         }
     }
-    /// Inputs: default data of sync manager 1. Reads and writes the bytes in place.
+    /// Inputs: data of sync manager 1 with the default PDO assignment. This view reads and writes the bytes in place.
     pub struct InputsView<B> {
         data: B,
     }
     impl<B: AsRef<[u8]>> InputsView<B> {
-        /// Creates a view of the image in `data`.
+        /// Creates a view of the process image at the start of `data`.
         ///
         /// # Errors
         ///

@@ -42,7 +42,7 @@ pub static DAP: rt::profinet::Dap = rt::profinet::Dap {
     },
     max_record_size: 4068,
 };
-/// Identity of the device. The product code is the DeviceID of PROFINET.
+/// Identity of the device. The product code is the PROFINET device ID.
 pub const IDENTITY: rt::Identity = rt::Identity {
     vendor_id: Some(0x0FAB),
     product_code: Some(0x0002),
@@ -60,7 +60,7 @@ pub mod modules {
     /// - [`standard_telegram_1`](super::submodules::standard_telegram_1), can be plugged in
     pub mod axis {
         use ::lexibus as rt;
-        /// Description of the module, for plans of slots.
+        /// Description of the module. A slot plan uses this constant.
         pub static MODULE: rt::profinet::Module = rt::profinet::Module {
             ident: 0x00000030,
             name: "Axis",
@@ -87,7 +87,7 @@ pub mod submodules {
     /// Servo head: submodule 0x00000001.
     pub mod servo_head {
         use ::lexibus as rt;
-        /// Description of the submodule, for modules and plans of slots.
+        /// Description of the submodule. Modules and slot plans use this constant.
         pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {
             ident: 0x00000001,
             api: 0x0000,
@@ -102,7 +102,7 @@ pub mod submodules {
     /// Interface: submodule 0x00008000.
     pub mod interface {
         use ::lexibus as rt;
-        /// Description of the submodule, for modules and plans of slots.
+        /// Description of the submodule. Modules and slot plans use this constant.
         pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {
             ident: 0x00008000,
             api: 0x0000,
@@ -117,7 +117,7 @@ pub mod submodules {
     /// Port 1: submodule 0x00008001.
     pub mod port_1 {
         use ::lexibus as rt;
-        /// Description of the submodule, for modules and plans of slots.
+        /// Description of the submodule. Modules and slot plans use this constant.
         pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {
             ident: 0x00008001,
             api: 0x0000,
@@ -132,7 +132,7 @@ pub mod submodules {
     /// Module access point: submodule 0x0000FFFF of API 0x3A00.
     pub mod module_access_point {
         use ::lexibus as rt;
-        /// Description of the submodule, for modules and plans of slots.
+        /// Description of the submodule. Modules and slot plans use this constant.
         pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {
             ident: 0x0000FFFF,
             api: 0x3A00,
@@ -152,7 +152,7 @@ pub mod submodules {
     /// | [`Outputs`](standard_telegram_1::Outputs) | 4 bytes |
     pub mod standard_telegram_1 {
         use ::lexibus as rt;
-        /// Description of the submodule, for modules and plans of slots.
+        /// Description of the submodule. Modules and slot plans use this constant.
         pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {
             ident: 0x00000001,
             api: 0x3A00,
@@ -165,7 +165,7 @@ pub mod submodules {
         };
         /// Inputs: data from the device to the controller.
         ///
-        /// 4 bytes of user data, consistent as a whole.
+        /// 4 bytes of user data, all of which are consistent.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|
@@ -181,7 +181,7 @@ pub mod submodules {
         impl Inputs {
             /// Length of the user data in bytes.
             pub const LEN: usize = 4;
-            /// Returns the user data. Bits that no field covers are 0.
+            /// Returns the bytes of the user data. Bits without a field are 0.
             #[inline]
             pub fn pack(&self) -> [u8; 4] {
                 let mut data = [0; 4];
@@ -189,7 +189,7 @@ pub mod submodules {
                 rt::profinet::be::put(&mut data, 2, &self.nist_a.to_be_bytes());
                 data
             }
-            /// Reads the fields of the user data. Bytes after them are ignored.
+            /// Decodes the fields of the user data. Bytes after the user data are ignored.
             ///
             /// # Errors
             ///
@@ -244,7 +244,7 @@ pub mod submodules {
         }
         /// Outputs: data from the controller to the device.
         ///
-        /// 4 bytes of user data, consistent as a whole.
+        /// 4 bytes of user data, all of which are consistent.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|
@@ -260,7 +260,7 @@ pub mod submodules {
         impl Outputs {
             /// Length of the user data in bytes.
             pub const LEN: usize = 4;
-            /// Returns the user data. Bits that no field covers are 0.
+            /// Returns the bytes of the user data. Bits without a field are 0.
             #[inline]
             pub fn pack(&self) -> [u8; 4] {
                 let mut data = [0; 4];
@@ -269,7 +269,7 @@ pub mod submodules {
                 view.set_nsoll_a(self.nsoll_a);
                 data
             }
-            /// Reads the fields of the user data. Bytes after them are ignored.
+            /// Decodes the fields of the user data. Bytes after the user data are ignored.
             ///
             /// # Errors
             ///
@@ -359,7 +359,7 @@ pub mod submodules {
     /// | [`Outputs`](standard_telegram_3::Outputs) | 10 bytes |
     pub mod standard_telegram_3 {
         use ::lexibus as rt;
-        /// Description of the submodule, for modules and plans of slots.
+        /// Description of the submodule. Modules and slot plans use this constant.
         pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {
             ident: 0x00000003,
             api: 0x3A00,
@@ -372,7 +372,7 @@ pub mod submodules {
         };
         /// Inputs: data from the device to the controller.
         ///
-        /// 18 bytes of user data, consistent as a whole.
+        /// 18 bytes of user data, all of which are consistent.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|
@@ -409,7 +409,7 @@ pub mod submodules {
         impl Inputs {
             /// Length of the user data in bytes.
             pub const LEN: usize = 18;
-            /// Returns the user data. Bits that no field covers are 0.
+            /// Returns the bytes of the user data. Bits without a field are 0.
             #[inline]
             pub fn pack(&self) -> [u8; 18] {
                 let mut data = [0; 18];
@@ -424,7 +424,7 @@ pub mod submodules {
                 rt::profinet::be::put(&mut data, 14, &self.g1_xist2.to_be_bytes());
                 data
             }
-            /// Reads the fields of the user data. Bytes after them are ignored.
+            /// Decodes the fields of the user data. Bytes after the user data are ignored.
             ///
             /// # Errors
             ///
@@ -521,7 +521,7 @@ pub mod submodules {
         }
         /// Outputs: data from the controller to the device.
         ///
-        /// 10 bytes of user data, consistent as a whole.
+        /// 10 bytes of user data, all of which are consistent.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|
@@ -564,7 +564,7 @@ pub mod submodules {
         impl Outputs {
             /// Length of the user data in bytes.
             pub const LEN: usize = 10;
-            /// Returns the user data. Bits that no field covers are 0.
+            /// Returns the bytes of the user data. Bits without a field are 0.
             #[inline]
             pub fn pack(&self) -> [u8; 10] {
                 let mut data = [0; 10];
@@ -582,7 +582,7 @@ pub mod submodules {
                 view.set_g1_stw(self.g1_stw);
                 data
             }
-            /// Reads the fields of the user data. Bytes after them are ignored.
+            /// Decodes the fields of the user data. Bytes after the user data are ignored.
             ///
             /// # Errors
             ///
