@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Measures the cost of a compiler as a build dependency: a cold `cargo build` of a crate whose build script uses it, in the dev
-# profile.
+# Measures what the compiler costs as a build dependency. Runs a cold `cargo build` of a crate whose build script uses the
+# compiler, in the dev profile.
 #
 #     benches/build-time.sh                 # Lexibus, with EDS and tables, with EDS alone, prost-build, svd2rust
 #     benches/build-time.sh lexibus         # one of them
 #     COMMIT=main~20 benches/build-time.sh lexibus
 #
-# Prints processor seconds and wall-clock seconds. Run it on an idle machine. Dependencies are downloaded before the
-# measurement.
+# Prints processor seconds and wall-clock seconds. Run the script on an idle machine. The script downloads dependencies
+# before the measurement.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -19,7 +19,7 @@ if [[ -n ${COMMIT:-} ]]; then
     root=$work/source
 fi
 
-# Creates a crate with the build dependency $2 and the build script $3.
+# Creates a crate. $2 is its build dependency, and $3 is its build script.
 crate() {
     mkdir -p "$work/$1/src"
     printf '[package]\nname = "driver"\nversion = "0.1.0"\nedition = "2021"\n[build-dependencies]\n%s\n[workspace]\n' "$2" >"$work/$1/Cargo.toml"
@@ -44,15 +44,15 @@ lexibus() {
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
     measure lexibus
 }
-# Only these features.
+# Uses the compiler with only these features.
 lexibus-with() {
     crate "$1" "lexibus-codegen = { path = \"$root/codegen\", default-features = false, features = [$2] }" \
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
     measure "$1"
 }
-# EDS with profiles and overlays.
+# Uses the compiler for EDS with profiles and overlays.
 lexibus-eds-table() { lexibus-with lexibus-eds-table '"eds", "table"'; }
-# EDS with profiles.
+# Uses the compiler for EDS with profiles.
 lexibus-eds() { lexibus-with lexibus-eds '"eds"'; }
 prost-build() {
     crate prost-build 'prost-build = "0.14"' 'fn main() { let _ = prost_build::Config::new(); }'

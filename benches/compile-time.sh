@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Measures the time of rustc for generated bindings, per entry: benches/compile-time.sh [DESCRIPTION [RUNS]]
+# Measures how long rustc needs per entry of generated bindings: benches/compile-time.sh [DESCRIPTION [RUNS]]
 #
-# Without a description, it creates an EDS of 9,999 entries. Prints the median of RUNS runs of `rustc --emit=metadata`, minus
-# the time for an empty crate: for handles alone, with accessors, and also with PDO structs.
+# If no description is given, the script creates an EDS with 9,999 entries. The script then prints the median time of
+# RUNS runs of `rustc --emit=metadata`, minus the time for an empty crate. The bindings contain only handles, then also
+# accessors, and then also PDO structs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Measures the compile time of generated code by number of entries: benches/entry-points.sh [RUNS]
+# Measures the compile time of generated code for different numbers of entries: benches/entry-points.sh [RUNS]
 #
-# Creates a crate for each entry point, `dictionary!` and `build.rs`, with an EDS of 36, 990 and 9,999 entries. Prints the
-# median of RUNS runs of `cargo check` and `cargo build --release` of that crate, including generation but not its dependencies.
-# The first line is an empty crate.
+# Creates crates that use each entry point (`dictionary!` and `build.rs`) with an EDS of 36, 990 and 9,999 entries. Prints the
+# median time of RUNS runs of `cargo check` and `cargo build --release`. The times include generating the code, but not
+# compiling the dependencies. The first line is the time for an empty crate.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -12,7 +12,7 @@ export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}/entry-points CARGO_INC
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Uses the same input as the other measurements.
+# Use the same input as the other measurements.
 printf '#[allow(dead_code)] #[path = "%s/codegen/benches/inputs/eds.rs"] mod inputs;\n' "$root" > "$work/eds.rs"
 echo 'fn main() { print!("{}", inputs::eds(std::env::args().nth(1).unwrap().parse().unwrap())) }' >> "$work/eds.rs"
 rustc --edition 2021 -O -o "$work/eds" "$work/eds.rs"

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# Measures the peak memory of `lexibus check` and `lexibus generate`, above that of the smallest file, as a multiple of the
-# input size.
+# Measures the peak memory of `lexibus check` and `lexibus generate`. Subtracts the memory for the smallest file and prints
+# the rest as a multiple of the input size.
 #
 #     benches/memory.sh [FILE...]
 #
-# Without files, it measures the corpus files above 1 MB and the register tables. `LEXIBUS` names a binary other than
-# target/release/lexibus.
+# If no files are given, measures the corpus files above 1 MB and the register tables. Set `LEXIBUS` to use another binary
+# than target/release/lexibus.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 lexibus=${LEXIBUS:-target/release/lexibus}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Prints the peak memory of `lexibus $1 $2` in kilobytes.
+# Prints the peak memory of the command `lexibus $1 $2` in kilobytes.
 peak() {
     local out=(--out "$work/out.rs")
     [[ $1 == check ]] && out=()
@@ -20,7 +20,8 @@ peak() {
     tail -1 "$work/peak"
 }
 
-# Smallest description of the format, which needs the memory that does not depend on the input, such as profiles.
+# Writes the smallest description in the format of $1 and prints its path. Compiling this description needs only the
+# memory that does not depend on the input, for example for profiles.
 empty() {
     case $1 in
     *.toml) printf 'lexibus = 1\n[device]\nname = "a"\nvendor = "a"\n[[chapters]]\nname = "a"\nbus = "modbus"\n[chapters.registers]\na = { at = 1, type = "u16" }\n' ;;

@@ -1,8 +1,8 @@
-//! A CANopen drive from power-on to a movement, first with SDO transfers, then with PDOs.
+//! Moves a CANopen drive after power-on. Uses SDO transfers first, then PDOs.
 //!
 //!     cargo run --example canopen --features std,canopen
 //!
-//! The node is simulated at the level of CAN frames. For a real node, replace `simulated_node` by a CAN interface,
+//! The node is simulated at the level of CAN frames. For a real node, replace `simulated_node` with a CAN interface
 //! such as `socketcan::CanSocket::open("can0")?`.
 
 use std::error::Error;
@@ -14,7 +14,7 @@ use lexibus::{AbortCode, NodeId, Step};
 use lexibus_drives::demo_drive::types::{Command, Controlword, ModesOfOperation, State, Statusword};
 use lexibus_drives::demo_drive::{objects, pdo, DemoDrive, ENTRIES};
 
-/// Timeout of a response.
+/// Maximum time to wait for a response.
 const PATIENCE: Duration = Duration::from_millis(500);
 /// Maximum number of steps or cycles.
 const MOST_STEPS: u32 = 100;
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     move_to(&mut drive, id, 100_000)
 }
 
-/// Brings the drive to Operation enabled, step by step.
+/// Brings the drive step by step to the state Operation enabled.
 fn enable(drive: &mut Drive) -> Result<(), Box<dyn Error>> {
     for _ in 0..MOST_STEPS {
         let state = drive.statusword().read()?.state().ok_or("the statusword has no valid state")?;
@@ -55,7 +55,8 @@ fn enable(drive: &mut Drive) -> Result<(), Box<dyn Error>> {
     Err("the drive doesn't reach Operation enabled".into())
 }
 
-/// Moves with process data: RPDO 2 sends the target, TPDO 2 returns the position, both on SYNC.
+/// Moves the drive with process data. RPDO 2 sends the target, and TPDO 2 returns the position. Both PDOs are
+/// synchronized with SYNC.
 fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Error>> {
     for write in pdo::RxPdo2::configuration(id).iter().chain(&pdo::TxPdo2::configuration(id)) {
         write.send(drive.client())?;
@@ -80,7 +81,7 @@ fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Err
     Err("the drive doesn't reach the target".into())
 }
 
-/// A simulated drive that follows its controlword. Each controlword moves it a part of the way.
+/// Returns a simulated drive that follows its controlword. Each controlword moves it a part of the distance.
 fn simulated_node(id: NodeId) -> Result<CanNode, Box<dyn Error>> {
     let mut device = Device::new(ENTRIES).with_node_id(id);
     device.set_initial(objects::STATUSWORD, Statusword::from_raw(0x40))?;

@@ -1,8 +1,8 @@
-//! An EtherCAT drive from Init to motion, with typed objects, PDO assignment and process data.
+//! Moves an EtherCAT drive, starting in the state Init. Uses typed objects, a PDO assignment and process data.
 //!
 //! `cargo run --example ethercat --features std,ethercat,macros`
 //!
-//! The drive is simulated in this process. For a real segment, replace `Segment::run` by
+//! The drive is simulated in this process. For a real segment, replace `Segment::run` with
 //! `ethercrab::std::tx_rx_task`.
 
 use std::error::Error;
@@ -25,7 +25,8 @@ lexibus::dictionary! {
 use servo::types::{Controlword, State};
 use servo::{image, DemoServo};
 
-/// Limits: number of SubDevices (a power of two), bytes of process data, frames in flight, bytes in a frame.
+/// Limits of the segment: number of SubDevices (a power of two), bytes of process data, simultaneous frames, and bytes
+/// per frame.
 const SUBDEVICES: usize = 16;
 const PROCESS_DATA: usize = 64;
 const FRAMES: usize = 16;
@@ -49,14 +50,14 @@ async fn main() -> Result<(), Box<dyn Error>> {
 }
 
 async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
-    // From Init to Pre-Operational.
+    // Go from Init to Pre-Operational.
     let group = maindevice.init_single_group::<SUBDEVICES, PROCESS_DATA>(ethercat_now).await?;
     let found = group.iter(maindevice).position(|subdevice| is_a(&subdevice, &servo::IDENTITY));
     let position = found.ok_or("there is no demo servo")?;
     let subdevice = group.subdevice(maindevice, position)?;
     let mut drive = DemoServo::new(Sdo::new(maindevice, &subdevice));
 
-    // Access objects.
+    // Access objects through the mailbox.
     let mut buffer = [0; 64];
     println!("{}", drive.device_name().read_into_async(&mut buffer).await?);
     println!("operating time {} ms", drive.operating_time().read_async().await?);
@@ -77,7 +78,7 @@ async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
     let mut target = 0;
     for cycle in 0..16 {
         {
-            // `tx_rx` locks the process data, too, so the lock must end here.
+            // Release the lock here, because `tx_rx` also locks the process data.
             let mut outputs = subdevice.outputs_raw_mut();
             let mut outputs = image::OutputsView::new(&mut outputs[..])?;
             outputs.position_mode_mut().set_controlword(controlword);

@@ -1,4 +1,5 @@
-//! A drive on Modbus TCP, described by a register table: `cargo run --example modbus --features macros,modbus`.
+//! Accesses a drive on Modbus TCP. A register table describes the drive. Run it with `cargo run --example modbus
+//! --features macros,modbus`.
 //!
 //! The drive is simulated by a `tokio-modbus` server in this process. It has the registers of
 //! `examples/inverter.toml`.
@@ -22,7 +23,7 @@ lexibus::dictionary! {
 #[path = "../tests/support/modbus_server.rs"]
 mod server;
 
-// The values of a cycle are consistent only if one request reads them. Checked at compile time.
+// The values of a cycle are only consistent if a single request reads them. This is checked at compile time.
 const _: () = {
     let cycle = [
         objects::SPEED.location().modbus,
@@ -37,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let device = Device::new(simulated());
     let server = Server::start(&device, Framing::Tcp)?;
 
-    // The code for a real drive begins here. `MODBUS` has the limits of the drive's requests.
+    // Code for a real drive starts here. `MODBUS` contains the limits of the drive's requests.
     let context = sync::tcp::connect_with_timeout(server.address(), Some(Duration::from_secs(5)))?;
     let client = ModbusClient::new(context).with_limits(inverter::MODBUS);
     let mut drive = Inverter::new(client);
@@ -52,7 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     show("written", &device);
 
-    // Four measured values in one request.
+    // Read four measured values with one request.
     let (speed, current, position, temperature) =
         drive.client().read_block((objects::SPEED, objects::CURRENT, objects::POSITION, objects::TEMPERATURE))?;
     println!("speed {speed} rpm, current {} A", objects::CURRENT.physical(current));
@@ -62,8 +63,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     show("the cycle", &device);
 
-    // Items in any order, with as few requests as the drive allows. No request includes the password, which lies
-    // between two of them.
+    // Read items in any order with the fewest requests that the drive allows. No request includes the password,
+    // although it is between two of the items.
     let (limit, serial, mode, hours, stopped, setpoint) = drive.client().read_block((
         objects::CURRENT_LIMIT,
         objects::SERIAL_NUMBER,
@@ -85,7 +86,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Returns the registers of the drive after power-on.
+/// Returns a simulated drive's registers after power-on.
 fn simulated() -> Map {
     let text = |text: &[u8; 8]| [0, 2, 4, 6].map(|at| u16::from_be_bytes([text[at], text[at + 1]]));
     Map::default()

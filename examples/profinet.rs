@@ -2,7 +2,7 @@
 //!
 //!     cargo run --example profinet --features macros
 //!
-//! The drive is simulated in this program. For a real drive, replace `Servo` by an adapter to a controller library.
+//! The drive is simulated in this program. For a real drive, replace `Servo` with an adapter for a controller library.
 
 use std::collections::BTreeMap;
 use std::error;
@@ -34,7 +34,7 @@ fn main() -> AnyResult {
     turn(&plan, &mut drive)
 }
 
-/// Sends the start-up records, once before the data exchange.
+/// Sends the start-up records once, before the data exchange starts.
 fn start_up(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     for place in plan.expected() {
         println!("slot {} subslot {:#06x}: submodule {:#06x}", place.slot, place.subslot, place.submodule_ident);
@@ -47,7 +47,7 @@ fn start_up(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     Ok(())
 }
 
-/// Accesses a record as a struct.
+/// Reads and writes a record as a struct.
 fn records(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     let axis = plan.address(1, 1).ok_or("no submodule")?;
     let mut records = RecordAccess::<_, 64>::new(drive);
@@ -59,7 +59,7 @@ fn records(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     Ok(())
 }
 
-/// Reads parameters of axis 1. The device description doesn't contain them.
+/// Reads parameters of axis 1, which are not in the device description.
 fn parameters(drive: &mut Servo) -> AnyResult {
     let mut parameters = ParameterAccess::new(drive, 1, 1);
     let telegram: u16 = parameters.read(1, 922, 0)?;
@@ -70,14 +70,14 @@ fn parameters(drive: &mut Servo) -> AnyResult {
     Ok(())
 }
 
-/// Switches the axis on and turns it for some cycles.
+/// Switches on the axis and turns it for a few cycles.
 fn turn(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     let axis = plan.submodule_io(1, 2).ok_or("no telegram")?;
     let (inputs_len, outputs_len) = plan.lengths();
     let (mut inputs, mut outputs) = (vec![0; inputs_len as usize], vec![0; outputs_len as usize]);
     plan.set_status(&mut outputs, IoStatus::GOOD)?;
     for cycle in 0..4 {
-        let half = 1 << 13; // of the reference speed: 2^14 is all of it
+        let half = 1 << 13; // let half = 1 << 13; // half the reference speed, which is 2^14
         let data = Outputs {
             on: cycle > 0,
             no_coast_stop: true,
@@ -98,7 +98,7 @@ fn turn(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     Ok(())
 }
 
-/// A simulated drive with one axis. It answers a parameter request with a delay.
+/// A simulated drive with one axis. The drive delays its answers to parameter requests.
 struct Servo {
     axis: SubmoduleIo,
     limits: Vec<u8>,
@@ -121,7 +121,7 @@ impl Servo {
         })
     }
 
-    /// Executes a request for one parameter that isn't an array.
+    /// Executes a request for a single parameter that is not an array.
     fn parameter_request(&mut self, request: &[u8]) {
         let [reference, kind, axis, 1, _, _, high, low, _, _, rest @ ..] = request else { return };
         let pnu = u16::from_be_bytes([*high, *low]);

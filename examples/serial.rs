@@ -1,4 +1,4 @@
-//! Messages to a drive on a serial line, and its parameters as items.
+//! Sends messages to a drive on a serial line and accesses its parameters as items.
 //!
 //!     cargo run --example serial --features serial
 //!
@@ -33,7 +33,8 @@ mod unix {
     };
     use serialport::{SerialPort, TTYPort};
 
-    /// STX, data, checksum, ETX. STX, ETX and ESC in the data are sent as ESC and their complement.
+    /// A frame consists of STX, data, checksum and ETX. STX, ETX and ESC bytes in the data are replaced with ESC and
+    /// their complement.
     const FRAMING: Delimited = Delimited::new(Some(0x02), 0x03)
         .with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B])
         .with_check(Check::Xor(0xFF))
@@ -41,7 +42,7 @@ mod unix {
     const MAX_DATA: usize = 16;
 
     const NODE: u8 = 1;
-    /// Order codes: read a parameter, change a parameter, query the state, refusal.
+    /// Order codes for reading a parameter, changing a parameter, querying the state, and refusing a request.
     const READ: u8 = 0x10;
     const CHANGE: u8 = 0x11;
     const STATE: u8 = 0x12;
@@ -64,7 +65,7 @@ mod unix {
     }
 
     fn talk(port: TTYPort) -> Result<(), Box<dyn error::Error>> {
-        // Start, end, and twice the bytes of data and checksum.
+        // The line's buffer has room for start, end, and twice the bytes of data and checksum.
         let mut line: SerialLine<_, _, { 2 * (MAX_DATA + 1) + 2 }> = SerialLine::new(FromStd::new(port), FRAMING);
         let mut reply = [0; MAX_DATA];
         let length = line.exchange(&[NODE, STATE], &mut reply)?;
@@ -80,8 +81,8 @@ mod unix {
         Ok(())
     }
 
-    /// Messages: node, order code, parameter number and value, big-endian. The reply has the same start, or another
-    /// order code.
+    /// The message protocol: node, order code, parameter number and value, all big-endian. A reply starts with the same
+    /// bytes as its request, or has a different order code.
     struct Messages;
 
     fn head(order: u8, parameter: Parameter) -> [u8; 4] {
@@ -132,7 +133,7 @@ mod unix {
         }
     }
 
-    /// A simulated drive that stores parameters.
+    /// A simulated drive that stores its parameters.
     #[derive(Default)]
     struct Drive(BTreeMap<[u8; 2], Vec<u8>>);
 

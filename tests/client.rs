@@ -1,4 +1,4 @@
-//! A minimal client of twenty lines, used by all methods of an accessor.
+//! Tests all methods of an accessor with a minimal client of twenty lines.
 
 use std::collections::HashMap;
 
@@ -32,7 +32,7 @@ const PROGRAM: Item<Domain, Wo, OnCanOpen> =
 const COB_ID: Item<u32, Rw, OnCanOpen> =
     Item::new(OnCanOpen::canopen(0x1400, 1), "COB-ID", Range::Full, Initial::NodeId(0x200), "", Flags::NONE);
 
-/// A simulated device. It reports an object that it doesn't have.
+/// A simulated device. The error of an access is the object that the device does not have.
 #[derive(Default)]
 struct Memory(HashMap<Object, Vec<u8>>);
 

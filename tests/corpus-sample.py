@@ -36,22 +36,23 @@ CORPUS = ROOT.parent / "shared" / "corpus"
 LIST = ROOT / "tests" / "corpus-sample.txt"
 NOT_DESCRIPTIONS = {"MANIFEST.tsv", "oracle.json"}
 MINIMUM = {"eds": 12, "esi": 8, "gsdml": 8}
-# In bytes. Only the full tests read larger files: in a debug build, one of them takes longer than ten others.
+# Maximum size in bytes. Only the full tests read larger files, because a debug build needs longer for one of them than for ten
+# others.
 SIZE_LIMIT = 250_000
-# In bytes. Added to the size of each file, so that a medium-sized file is preferred to many tiny ones.
+# Number of bytes to add to the size of each file. It makes the script prefer a medium-sized file to many tiny ones.
 FILE_COST = 50_000
 
-# Formats that one frontend reads, or that become the same part of the intermediate representation.
+# Formats that share a front end, or that become the same part of the intermediate representation.
 FAMILIES = {"eds": "canopen", "dcf": "canopen", "xdd": "canopen", "esi": "ethercat", "gsdml": "profinet"}
-# Positions and free text.
+# Keys with positions and free text.
 IGNORED = {"at", "documentation", "doubts", "extensions", "files", "header", "name_at", "names", "origin", "span", "step_spans",
            "translations", "units"}
-# Keys whose text is the name of an enumeration variant. Other texts are data.
+# Keys whose text is the name of an enumeration variant. The text of other keys is data.
 ENUMERATIONS = {"access", "code", "completion", "direction", "kind", "meaning", "pdi_access", "purpose", "space", "storage",
                 "trigger", "type", "zone"}
-# Keys whose value is a type, in items, arrays, aliases and enumerations.
+# Keys whose value is a type. They occur in items, arrays, aliases and enumerations.
 TYPES = {"ty", "element", "alias", "base"}
-# Widths in bits that count separately. All other widths count as one.
+# Widths in bits that count as separate features. All other widths count as one feature.
 WIDTHS = {1, 8, 16, 24, 32, 64}
 KEYS = 5
 
@@ -169,7 +170,7 @@ def ir_features(value, family, path):
             if key in IGNORED:
                 continue
             inner = ("type",) if key in TYPES else path + (key,)
-            # A map with one key is a variant of an enumeration: its name counts even if its content is empty.
+            # A map with one key is an enumeration variant. Its name counts even if its content is empty.
             if len(value) == 1:
                 yield "ir", f"{family}: {'/'.join(inner[-KEYS:])}"
             yield from ir_features(part, family, inner)
@@ -204,7 +205,7 @@ def features_of_file(lexibus, warn, file):
             features.add(("format", f"root {root.group(1)}"))
         features.update(quirk_features(text, {"eds": "E", "esi": "X", "gsdml": "G"}[folder]))
     if size <= SIZE_LIMIT:
-        # `dump` prints nothing for a file with errors.
+        # `lexibus dump` prints nothing for a file with errors.
         dump = run("dump")
         if dump:
             features.update(ir_features(json.loads(dump), FAMILIES[info["format"]], ()))
@@ -213,7 +214,7 @@ def features_of_file(lexibus, warn, file):
 
 def choose_sample(files):
     """Returns the chosen files, each with the features that it was chosen for, and the features that only large files have."""
-    # `max` returns the first of equal files, so sorting makes the result reproducible.
+    # Sort the files, because `max` returns the first of equal files. The result is then reproducible.
     eligible = {file: entry for file, entry in sorted(files.items()) if entry[0] <= SIZE_LIMIT}
     features_of = {file: features for file, (_, features) in eligible.items()}
     everything = set().union(*features_of.values())

@@ -1,19 +1,21 @@
 #!/usr/bin/env bash
 # Measures line coverage: tests/coverage.sh [DETAILS.json]. Requires `cargo llvm-cov` and the LLVM tools of the toolchain
-# (`rustup component add llvm-tools`, or LLVM_COV and LLVM_PROFDATA). Takes about an hour. tests/COVERAGE.md has the last result.
+# (`rustup component add llvm-tools`, or LLVM_COV and LLVM_PROFDATA). Takes about an hour. tests/COVERAGE.md contains the last
+# result.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export CARGO_INCREMENTAL=0 LEXIBUS_LANE=full
-# Let the programs started by tests share four profile files instead of writing thousands.
+# Let all programs that tests start share four profile files. Otherwise, they would write thousands of files.
 export LLVM_PROFILE_FILE_NAME='lexibus-%4m.profraw'
 python=${LEXIBUS_PYTHON:-$PWD/target/python/bin/python}
 if "$python" -c 'import canopen, lxml' 2>/dev/null; then export LEXIBUS_PYTHON=$python; fi
 
-# Skip tests that compile other crates and measure size, instructions or messages: coverage counters change their results.
+# Skip tests that compile other crates or that measure size, instructions or messages. Coverage counters would change their
+# results.
 cargo llvm-cov test --no-report --workspace --all-features --no-fail-fast -- \
     --skip compile_fail --skip generated_code_costs --skip what_is_not_used --skip both_programs
 
-# Generated crates are not listed: they are output of the compiler.
+# Exclude generated crates, because they are output of the compiler.
 crates=(lexibus lexibus-codegen lexibus-export lexibus-import lexibus-site lexibus-cli lexibus-macros)
 printf '%-18s %8s %8s %8s\n' crate lines missed covered
 for crate in "${crates[@]}"; do

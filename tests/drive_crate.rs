@@ -1,5 +1,5 @@
-//! Drive crates, built outside the workspace as a user would. Each build compiles the compiler again, so only the
-//! full lane runs these tests. In the fast lane, `tests/drive-crate` is a member of the workspace.
+//! Builds drive crates outside the workspace, as a user would. Only the full lane runs these tests, because each build
+//! compiles the compiler again. In the fast lane, `tests/drive-crate` is a member of the workspace.
 
 #[path = "support/lane.rs"]
 mod lane;
@@ -11,7 +11,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Runs cargo in `folder` with the workspace's lock file, so that no other versions are downloaded.
+/// Runs Cargo in `folder`. Uses the workspace's lock file so that no other versions are downloaded.
 fn cargo(folder: &Path, arguments: &[&str]) -> Output {
     std::fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("the workspace's Cargo.lock");
     Command::new(env!("CARGO"))
@@ -47,7 +47,7 @@ fn a_users_crate_compiles_and_its_tests_pass() {
     assert!(out.contains("6 passed"), "{out}");
 }
 
-/// Creates a crate with these files. It depends on the runtime with all features that the macro can use.
+/// Creates a crate with these files. The crate depends on the runtime with all features that the macro can use.
 fn crate_of(name: &str, files: &[(&str, &str)]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&folder);
@@ -65,7 +65,7 @@ fn crate_of(name: &str, files: &[(&str, &str)]) -> PathBuf {
     folder
 }
 
-/// Creates a crate that contains only a `dictionary!` over `eds`.
+/// Creates a crate that contains only a call of `dictionary!` with `eds`.
 fn macro_crate(name: &str, eds: &str, options: &str) -> PathBuf {
     let code = format!("lexibus::dictionary! {{\n    pub mod valve = \"valve.eds\" {{ {options} }}\n}}\n");
     crate_of(name, &[("valve.eds", eds), ("src/lib.rs", &code)])
@@ -104,7 +104,7 @@ fn the_macro_warns_and_refuses_unknown_options() {
     assert!(errors.contains("unknown option `colour`"), "{errors}");
 }
 
-/// A TPDO with an INTEGER24, three single bits and a time: types defined by the runtime.
+/// A TPDO with an INTEGER24, three single bits and a time. The runtime defines the types of these fields.
 const SENSOR: &str = "[DeviceInfo]\nProductName=Sensor\nGranularity=1\nNrOfRXPDO=0\nNrOfTXPDO=2\n\
     [1A00]\nParameterName=Mapping\nObjectType=9\n\
     [1A00sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=2\n\
@@ -140,7 +140,7 @@ const THING: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 </ApplicationProcess></ProfileBody></ISO15745Profile>
 "#;
 
-/// A message with a text of 40 bytes, and one with a list of such texts.
+/// A message with a text of 40 bytes, and a message with a list of such texts.
 const NAMES: &str = "lexibus = 1\n[device]\nname = \"Sign\"\nvendor = \"Example\"\n\
     [[messages]]\nname = \"Name\"\nrequest = [{ bytes = [1] }, { field = \"text\", type = \"str(40)\" }]\nreply = [{ bytes = [1] }]\n\
     [[messages]]\nname = \"Names\"\nrequest = [{ bytes = [2] }]\n\
@@ -157,7 +157,7 @@ lexibus::dictionary! {
 }
 use thing::submodules::thing::{Inputs, Outputs, ThingRecord};
 fn both<T: serde::Serialize + for<'d> serde::Deserialize<'d> + defmt::Format>() {}
-/// All structs have the traits, including those with long byte strings.
+/// All structs must implement the traits. This includes structs with long byte strings.
 pub fn all() {
     both::<sensor::pdo::TxPdo1>();
     both::<sensor::pdo::TxPdo2>();
@@ -180,7 +180,8 @@ fn traits_of_other_crates_reach_every_generated_type() {
     assert!(output.status.success(), "{}", text(&output.stderr));
 }
 
-/// The first program of the book, assembled from its blocks, prints the output in the chapter.
+/// The first program of the book must print the output in the chapter. The test assembles the program from the blocks
+/// of the chapter.
 #[test]
 fn the_crate_of_the_book() {
     if lane::skips("a build outside of the workspace") {
@@ -193,13 +194,13 @@ fn the_crate_of_the_book() {
     let chapter = std::fs::read_to_string(root().join("docs/src/getting-started.md")).expect("the chapter");
     let mut printed = None;
     for part in chapter.split("<!-- file: ").skip(1) {
-        let (name, rest) = part.split_once(" -->\n```").expect("a block behind its name");
+        let (name, rest) = part.split_once(" -->\n```").expect("a block after its file name");
         let (_, rest) = rest.split_once('\n').expect("a block");
         let (block, _) = rest.split_once("\n```").expect("the end of a block");
         match name {
             "output" => printed = block.strip_prefix("$ cargo run\n").map(str::to_owned),
             "Cargo.toml" => {
-                // Use the crates of this workspace instead of the published ones.
+                // Use the crates of this workspace in place of the published crates.
                 let own = |name: &str, path: &Path| format!("{name} = {{ path = {path:?} }}\n");
                 let patch = own("lexibus", root()) + &own("lexibus-codegen", &root().join("codegen"));
                 let manifest = format!("{block}\n\n[workspace]\n\n[patch.crates-io]\n{patch}");
@@ -210,5 +211,5 @@ fn the_crate_of_the_book() {
     }
     let output = cargo(&folder, &["run", "--quiet"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    assert_eq!(text(&output.stdout).trim_end(), printed.expect("what the chapter says that it prints"));
+    assert_eq!(text(&output.stdout).trim_end(), printed.expect("the output differs from the chapter"));
 }

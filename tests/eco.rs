@@ -1,5 +1,5 @@
-//! The Eco's bindings on CANopen and EtherCAT, against the manual: the requests and scales in its examples, and PDOs.
-//! Quotation marks enclose titles of its sections. `frames` has the tests for Modbus.
+//! Tests the Eco's bindings on CANopen and EtherCAT against the manual: requests, scales and PDOs of its examples.
+//! Quotation marks enclose titles of the manual's sections. `frames` contains the tests for Modbus.
 
 #[path = "support/can_script.rs"]
 mod can_script;
@@ -31,7 +31,7 @@ use lexibus_drives::eco::{self, codes, pdo, procedures};
 
 type Answer<T> = Result<T, Error<Infallible>>;
 
-/// Returns a download request and its confirmation.
+/// Returns a download request with its confirmation.
 fn confirmed(request: [u8; 8]) -> ([u8; 8], [u8; 8]) {
     (request, [0x60, request[1], request[2], request[3], 0, 0, 0, 0])
 }
@@ -41,7 +41,7 @@ fn is_done(own: &mut Node<Script>) -> bool {
     own.port().is_done()
 }
 
-/// Checks the request that a write sends.
+/// Checks the request that is sent when an item is written.
 #[track_caller]
 fn writes<V, A, L>(item: Item<V, A, L>, value: V::Native, request: [u8; 8])
 where
@@ -58,7 +58,7 @@ fn control(raw: u16) -> Controlword {
     Controlword::from_raw(raw)
 }
 
-/// Writes a sequence of controlwords.
+/// Checks the requests that write a sequence of controlwords.
 fn commands(words: &[u16]) {
     for &word in words {
         let [low, high] = word.to_le_bytes();
@@ -68,24 +68,24 @@ fn commands(words: &[u16]) {
 
 #[test]
 fn homing() {
-    // "Modo Homing".
+    // Section "Modo Homing".
     writes(feed_constant::FEED_CONSTANT, 6000, [0x23, 0x92, 0x60, 1, 0x70, 0x17, 0, 0]);
     writes(objects::HOMING_METHOD, HomingMethod::MarkerForwards, [0x2F, 0x98, 0x60, 0, 0x22, 0, 0, 0]);
     writes(objects::HOME_OFFSET, -1000, [0x23, 0x7C, 0x60, 0, 0x18, 0xFC, 0xFF, 0xFF]);
     writes(homing_speeds::HOMING_SLOW_SPEED, 1000, [0x23, 0x99, 0x60, 2, 0xE8, 0x03, 0, 0]);
     writes(objects::MODES_OF_OPERATION, Mode::Homing, [0x2F, 0x60, 0x60, 0, 6, 0, 0, 0]);
-    // "Modo Homing".
+    // Section "Modo Homing".
     commands(&[0x0000, 0x0080, 0x0000, 0x0006, 0x0007, 0x000F, 0x000F, 0x001F]);
     let start = control(0x000F).in_homing().with_start_homing(true).controlword();
     assert_eq!(start.raw(), 0x001F);
-    // "Modo Homing": bits 12 and 13 of the statusword.
+    // Section "Modo Homing": bits 12 and 13 of the statusword.
     assert_eq!(format!("{:?}", Statusword::from_raw(0x1000).in_homing().homing()), "Done");
     assert_eq!(format!("{:?}", Statusword::from_raw(0x2000).in_homing().homing()), "Interrupted");
 }
 
 #[test]
 fn positioner() {
-    // "Modo posizionatore".
+    // Section "Modo posizionatore".
     writes(objects::PROFILE_VELOCITY, 20_000, [0x23, 0x81, 0x60, 0, 0x20, 0x4E, 0, 0]);
     writes(objects::PROFILE_ACCELERATION, 200, [0x23, 0x83, 0x60, 0, 0xC8, 0, 0, 0]);
     writes(objects::PROFILE_DECELERATION, 200, [0x23, 0x84, 0x60, 0, 0xC8, 0, 0, 0]);
@@ -100,7 +100,7 @@ fn positioner() {
 
 #[test]
 fn velocity() {
-    // "Modo controllo di velocità".
+    // Section "Modo controllo di velocità".
     writes(feed_constant::FEED_CONSTANT, 60, [0x23, 0x92, 0x60, 1, 0x3C, 0, 0, 0]);
     writes(objects::PROFILE_ACCELERATION, 5, [0x23, 0x83, 0x60, 0, 5, 0, 0, 0]);
     writes(objects::PROFILE_DECELERATION, 5, [0x23, 0x84, 0x60, 0, 5, 0, 0, 0]);
@@ -110,12 +110,12 @@ fn velocity() {
 
 #[test]
 fn saving_and_guarding() {
-    // "Disabilitazione del drive" and "Salvataggio".
+    // Sections "Disabilitazione del drive" and "Salvataggio".
     commands(&[0x0002]);
     let key = [0x23, 0x10, 0x10, 1, 0x73, 0x61, 0x76, 0x65];
     writes(store_parameter_field::SAVE_ALL_PARAMETERS, StoreParameters::Save, key);
     commands(&[0x0006]);
-    // "Abilitazione e disabilitazione del servizio node guarding": times of 0 disable guarding.
+    // Section "Abilitazione e disabilitazione del servizio node guarding". Guarding is disabled if both times are 0.
     writes(objects::GUARD_TIME, 500, [0x2B, 0x0C, 0x10, 0, 0xF4, 0x01, 0, 0]);
     writes(objects::LIFE_TIME_FACTOR, 2, [0x2F, 0x0D, 0x10, 0, 2, 0, 0, 0]);
     writes(objects::GUARD_TIME, 0, [0x2B, 0x0C, 0x10, 0, 0, 0, 0, 0]);
@@ -124,9 +124,9 @@ fn saving_and_guarding() {
 
 #[test]
 fn interpolator() {
-    // "Modo interpolatore". The statusword is mapped at sub-index 2; the manual prints 1.
+    // Section "Modo interpolatore". The statusword is mapped at sub-index 2, but the manual prints sub-index 1.
     writes(interpolation_time_period::IP_TIME_UNITS, 1, [0x2F, 0xC2, 0x60, 1, 1, 0, 0, 0]);
-    // The default COB-ID of node 1, set in all nodes that share the PDO.
+    // This is the default COB-ID for node 1. The example sets it in all nodes that share the PDO.
     let of_node_1 = ReceivePdoIdentifier::from_raw(513);
     writes(rpdo::COB_ID_OF_RPDO_1, of_node_1, [0x23, 0x00, 0x14, 1, 0x01, 0x02, 0, 0]);
     assert_eq!((of_node_1.identifier(), of_node_1.valid(), of_node_1.extended()), (0x201, true, false));
@@ -148,7 +148,7 @@ fn interpolator() {
     writes(tpdo_map::NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1, 2, [0x2F, 0x00, 0x1A, 0, 2, 0, 0, 0]);
 }
 
-/// Returns an SDO request that writes `bits` bits.
+/// Returns an SDO request that writes a value of `bits` bits.
 fn sdo(index: u16, sub_index: u8, bits: u8, value: u32) -> [u8; 8] {
     let [low, high] = index.to_le_bytes();
     let [a, b, c, d] = value.to_le_bytes();
@@ -170,10 +170,10 @@ fn sdo(index: u16, sub_index: u8, bits: u8, value: u32) -> [u8; 8] {
     ]
 }
 
-/// A list of writes: index, sub-index, length in bits, value.
+/// A list of writes: index, sub-index, length in bits, and value.
 type Listed<'l> = &'l [(u16, u8, u8, u32)];
 
-/// Sends a procedure to a node that expects the writes printed in the manual.
+/// Sends a procedure to a node. The node expects the writes that the manual prints.
 #[track_caller]
 fn sends(procedure: &[SdoWrite], listed: Listed<'_>) {
     let script: Vec<_> = listed.iter().map(|own| confirmed(sdo(own.0, own.1, own.2, own.3))).collect();
@@ -187,37 +187,37 @@ fn sends(procedure: &[SdoWrite], listed: Listed<'_>) {
 #[test]
 fn procedures_send_what_the_manual_lists() {
     let words = |all: &[u32]| all.iter().map(|word| (0x6040, 0, 16, *word)).collect::<Vec<_>>();
-    // "Modo Homing"; the sequence is the same in the other examples.
+    // Section "Modo Homing". The sequence is the same in the other examples.
     sends(&procedures::ENABLE, &words(&[0, 0x80, 0, 6, 7, 0xF]));
-    // "Disabilitazione del drive" and "Salvataggio".
+    // Sections "Disabilitazione del drive" and "Salvataggio".
     sends(&procedures::DISABLE, &words(&[2]));
-    // "Abilitazione e disabilitazione del servizio node guarding".
+    // Section "Abilitazione e disabilitazione del servizio node guarding".
     sends(&procedures::GUARD, &[(0x100C, 0, 16, 500), (0x100D, 0, 8, 2)]);
     sends(&procedures::STOP_GUARDING, &[(0x100C, 0, 16, 0), (0x100D, 0, 8, 0)]);
-    // "Modo posizionatore".
+    // Section "Modo posizionatore".
     let settings = [(0x6092, 1, 32, 6000), (0x6081, 0, 32, 20_000), (0x6083, 0, 32, 200), (0x6084, 0, 32, 200)];
     let target = [(0x6060, 0, 8, 1), (0x607A, 0, 32, 60_000)];
     sends(&procedures::POSITION_BY_402, &[&settings[..], &target, &words(&[0x4F, 0x5F])].concat());
-    // "Modo controllo di velocità".
+    // Section "Modo controllo di velocità".
     let settings = [(0x6092, 1, 32, 60), (0x6083, 0, 32, 5), (0x6084, 0, 32, 5)];
     sends(&procedures::VELOCITY_BY_402, &[&settings[..], &[(0x6060, 0, 8, 3), (0x60FF, 0, 32, 1000)]].concat());
-    // "Modo interpolatore". The statusword is mapped at sub-index 2; the manual prints 1.
+    // Section "Modo interpolatore". The statusword is mapped at sub-index 2, but the manual prints sub-index 1.
     let out = [(0x1400, 2, 8, 1), (0x1600, 0, 8, 0), (0x1600, 1, 32, 0x60C1_0120), (0x1600, 2, 32, 0x6040_0010)];
     let back = [(0x1800, 2, 8, 1), (0x1A00, 0, 8, 0), (0x1A00, 1, 32, 0x6064_0020), (0x1A00, 2, 32, 0x6041_0010)];
     let all = [&out[..], &[(0x1600, 0, 8, 2)], &back, &[(0x1A00, 0, 8, 2)]].concat();
     sends(&procedures::MAP_INTERPOLATOR, &all);
-    // "Modo interpolatore".
+    // Section "Modo interpolatore".
     let settings = [(0x6092, 1, 32, 6000), (0x60C2, 1, 8, 1), (0x6060, 0, 8, 7), (0x6040, 0, 16, 0x1F)];
     sends(&procedures::INTERPOLATE, &settings);
-    // "Esempio di configurazione dell'asse" and "Esempio posizionamento punto a punto" print the values for
-    // registers; the objects are the same items.
+    // The sections "Esempio di configurazione dell'asse" and "Esempio posizionamento punto a punto" print these values
+    // for registers. The objects belong to the same items.
     let motion = [(0x6092, 1, 32, 60), (0x6083, 0, 32, 100), (0x6084, 0, 32, 100), (0x6081, 0, 32, 1000)];
     let homing =
         [(0x6086, 0, 16, 0), (0x6098, 0, 8, 33), (0x607C, 0, 32, 0), (0x6099, 2, 32, 10), (0x609A, 0, 32, 100)];
     sends(&procedures::CONFIGURE_POSITIONER, &[&motion[..], &homing].concat());
 }
 
-/// "Salvataggio": disable torque, write the key, wait for bit 0 of the statusword.
+/// Section "Salvataggio": disables the torque, writes the key, and waits for bit 0 of the statusword.
 #[test]
 fn saving_on_canopen() -> Answer<()> {
     let state = |low| ([0x40, 0x41, 0x60, 0, 0, 0, 0, 0], [0x4B, 0x41, 0x60, 0, low, 0x02, 0, 0]);
@@ -250,7 +250,7 @@ where
 
 #[test]
 fn parameters_by_the_window_of_eight_bits() {
-    // "Lettura parametri drive": d1 is available once the address is 0 again.
+    // Section "Lettura parametri drive". d1 is available when the address becomes 0 again.
     let mut own = node(&[
         confirmed([0x2F, 0x00, 0x20, 3, 1, 0, 0, 0]),
         ([0x40, 0x00, 0x20, 3, 0, 0, 0, 0], [0x4F, 0x00, 0x20, 3, 1, 0, 0, 0]),
@@ -260,8 +260,8 @@ fn parameters_by_the_window_of_eight_bits() {
     drive_parameters_settings::PARAMETER_READ_ADDRESS.at(&mut own).write(1).expect("written");
     while read(&mut own, drive_parameters_settings::PARAMETER_READ_ADDRESS).expect("read") != 0 {}
     assert_eq!(read(&mut own, drive_parameters_settings::PARAMETER_READ_VALUE), Ok(80));
-    // "Scrittura parametri drive" and "Esempio completo di asse gestito con interpolatore": the value, then the
-    // address.
+    // Sections "Scrittura parametri drive" and "Esempio completo di asse gestito con interpolatore". The value is
+    // written before the address.
     for (address, value) in [(2, 40), (1, 80), (2, 20)] {
         let mut own = node(&[
             confirmed([0x2F, 0x00, 0x20, 2, value, 0, 0, 0]),
@@ -272,8 +272,8 @@ fn parameters_by_the_window_of_eight_bits() {
     }
 }
 
-/// Objects 0x2005 and 0x2006 access parameters by number, and registers from address 0x8000 on. Reads and writes wait
-/// for 3 ms instead of polling the acknowledgement.
+/// Tests the objects 0x2005 and 0x2006. These objects give access to parameters by number, and to registers from
+/// address 0x8000. Reads and writes wait for 3 ms and do not poll the acknowledgement.
 #[test]
 fn parameters_and_registers_by_the_window_of_32_bits() -> Answer<()> {
     let mut waited = Vec::new();
@@ -292,18 +292,18 @@ fn parameters_and_registers_by_the_window_of_32_bits() -> Answer<()> {
     );
     assert_eq!(objects::D1.at(&mut own).read()?, 80);
     objects::D2.at(&mut own).write(40)?;
-    // R01 and R00; a negative value is sign-extended to 32 bits.
+    // Registers R01 and R00. A negative value is sign-extended to 32 bits.
     assert_eq!(objects::MODES_OF_OPERATION.at(&mut own).read()?, Mode::ElectricAxis);
     let enabled = DriveCommand::new().with_torque_enable(true).with_motion_enable(true);
     objects::CONTROL_WORD.at(&mut own).write(enabled)?;
     assert!(is_done(own.client()));
-    // A value that is out of range for d2 isn't sent.
+    // A value outside the range of d2 must not be sent.
     assert_eq!(objects::D2.at(&mut own).write(100), Err(Error::OutOfRange(OutOfRange)));
     assert_eq!(waited, [Duration::from_millis(3); 4]);
     Ok(())
 }
 
-/// The same access with the acknowledgement, through the objects themselves.
+/// Tests the same access with the acknowledgement, by reading and writing the objects themselves.
 #[test]
 fn the_window_of_32_bits_with_its_acknowledgement() -> Answer<()> {
     let address = |index, number| ([0x40, index, 0x20, 1, 0, 0, 0, 0], [0x4B, index, 0x20, 1, number, 0, 0, 0]);
@@ -329,7 +329,7 @@ fn the_window_of_32_bits_with_its_acknowledgement() -> Answer<()> {
 
 #[test]
 fn windows_take_numbers_of_registers_and_parameters_only() {
-    // The ranges printed for objects 0x2005 and 0x2006.
+    // The manual prints these ranges for the objects 0x2005 and 0x2006.
     for (address, fits) in
         [(1, true), (99, true), (0x8000, true), (0x8FFF, true), (100, false), (0x7FFF, false), (0x9000, false)]
     {
@@ -340,23 +340,24 @@ fn windows_take_numbers_of_registers_and_parameters_only() {
 
 #[test]
 fn scales_follow_the_feed_constant() {
-    // "Modo posizionatore": 6000 units per turn, 200 rpm, reached in 100 ms.
+    // Section "Modo posizionatore": 6000 units per turn, 200 rpm, acceleration within 100 ms.
     assert_eq!(objects::PROFILE_VELOCITY.raw_by(200.0, 6000.0), Ok(20_000));
     let rate = 200.0 / 60.0 / 0.1;
     assert_eq!(objects::PROFILE_ACCELERATION.raw_by(rate, 6000.0), Ok(200));
-    // "Modo Homing": 10 rpm.
+    // Section "Modo Homing": 10 rpm.
     assert_eq!(homing_speeds::HOMING_SLOW_SPEED.raw_by(10.0, 6000.0), Ok(1000));
-    // "Modo controllo di velocità": 60 units per turn, so that speeds are in rpm; 1000 rpm, reached in 200 ms.
+    // Section "Modo controllo di velocità": 60 units per turn, so speeds are in rpm; 1000 rpm, acceleration within 200
+    // ms.
     assert_eq!(objects::TARGET_VELOCITY.raw_by(1000.0, 60.0), Ok(1000));
     assert_eq!(objects::PROFILE_DECELERATION.raw_by(1000.0 / 60.0 / 0.2, 60.0), Ok(5));
-    // "Modo posizionatore": ten turns, five turns.
+    // Section "Modo posizionatore": ten turns and five turns.
     assert_eq!(objects::TARGET_POSITION.raw_by(10.0, 6000.0), Ok(60_000));
     assert!((objects::TARGET_POSITION.physical_by(30_000, 6000.0) - 5.0).abs() < 1e-9);
 }
 
 #[test]
 fn a_window_that_is_off_is_no_number() {
-    // The value 0xFFFFFFFF disables the check of the following error (object 0x6065).
+    // The value 0xFFFFFFFF of object 0x6065 disables the following-error check.
     let off = [0x43, 0x65, 0x60, 0, 0xFF, 0xFF, 0xFF, 0xFF];
     let mut own = node(&[([0x40, 0x65, 0x60, 0, 0, 0, 0, 0], off)]);
     assert_eq!(objects::FOLLOWING_ERROR_WINDOW.at(&mut own).read(), Ok(u32::MAX));
@@ -367,7 +368,7 @@ fn a_window_that_is_off_is_no_number() {
 
 #[test]
 fn pdos_of_ethercat() {
-    // "PDO" in the EtherCAT chapter: controlword and setpoint in six bytes, in little-endian order.
+    // Section "PDO" of the EtherCAT chapter: the controlword and the setpoint occupy six bytes in little-endian order.
     let enabled = control(0x000F).in_interpolator().with_interpolate(true).controlword();
     let out = pdo::InterpolatedPosition { controlword: enabled, position_set_point: -2 };
     assert_eq!(out.pack(), [0x1F, 0, 0xFE, 0xFF, 0xFF, 0xFF]);
@@ -389,7 +390,7 @@ fn pdos_of_ethercat() {
 }
 
 lexibus::pdo! {
-    /// RPDO 1 as mapped in "Modo interpolatore": the setpoint precedes the controlword.
+    /// RPDO 1 with the mapping of section "Modo interpolatore". The setpoint precedes the controlword.
     pub struct SetPoint: lexibus_drives::eco::pdo::RxPdo1 { position_set_point: interpolation_data_record::position_set_point, controlword }
 }
 
@@ -403,7 +404,7 @@ fn the_mapping_of_the_example() {
 
 #[test]
 fn values_of_several_parameters() {
-    // Parameters P1 and P2: hundreds and units. H5 to H8: sign, ten thousands, hundreds, units.
+    // Parameters P1 and P2 contain hundreds and units. H5 to H8 contain sign, ten thousands, hundreds and units.
     assert_eq!(eco::PULSES_PER_TURN.split(4096), Ok([40, 96]));
     assert_eq!(eco::SPACE_OFFSET.join_signed(1, [12, 34, 56]), Ok(-123_456));
     let both: [Item<u16, Rw, _>; 2] = [objects::P1, objects::P2];

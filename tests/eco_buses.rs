@@ -1,5 +1,5 @@
-//! The Eco on two buses: the manual's example of a positioner (configuration, homing, positioning). The same
-//! generated code sends the bytes printed in "Esempio di configurazione dell'asse" on Modbus and in "Esempio
+//! Tests the Eco on two buses with the manual's example of a positioner: configuration, homing, positioning. The same
+//! generated code must send the bytes in "Esempio di configurazione dell'asse" on Modbus, and those in "Esempio
 //! posizionamento punto a punto" on PROFINET.
 
 use std::convert::Infallible;
@@ -12,10 +12,10 @@ use lexibus_drives::eco::types::{DriveCommand, HomingMethod, Mode, MotionProfile
 
 type Outcome<T> = Result<T, Error<Infallible>>;
 
-/// The command that enables torque and motion, as in both examples.
+/// The command that enables torque and motion in both examples.
 const ENABLED: DriveCommand = DriveCommand::new().with_torque_enable(true).with_motion_enable(true);
 
-/// The sequence, for a client of any bus that has the items.
+/// Configures, homes and positions the drive. The client can use any bus that has these items.
 macro_rules! configure_home_position {
     ($client:expr) => {{
         let client = $client;
@@ -44,7 +44,7 @@ macro_rules! configure_home_position {
     }};
 }
 
-/// A simulated drive on Modbus. It records the data of write requests (function 16) without CRC.
+/// A simulated drive on Modbus. It records write requests (function 16) without the CRC.
 #[derive(Default)]
 struct Serial {
     frames: Vec<String>,
@@ -57,7 +57,7 @@ impl Client for Serial {
 
     fn read(&mut self, register: Register, buffer: &mut [u8]) -> Outcome<usize> {
         let value: u32 = match register.address {
-            // Homing isn't done at the first read.
+            // At the first read, homing is not yet completed.
             0x8005 => {
                 self.looked += 1;
                 if self.looked > 2 {
@@ -116,7 +116,7 @@ fn on_modbus() -> Outcome<()> {
     Ok(())
 }
 
-/// Saves with registers. The torque must be off.
+/// Saves by writing registers. The torque must be disabled.
 macro_rules! save {
     ($client:expr) => {{
         let client = $client;
@@ -127,8 +127,8 @@ macro_rules! save {
     }};
 }
 
-/// "Primo metodo di salvataggio". The first step turns the torque off, as "Salvataggio su flash di parametri e
-/// registri" requires.
+/// Section "Primo metodo di salvataggio". The first step disables the torque, as the section "Salvataggio su flash di
+/// parametri e registri" requires.
 #[test]
 fn saving_by_registers_on_modbus() -> Outcome<()> {
     let mut drive = Serial::default();
@@ -139,7 +139,8 @@ fn saving_by_registers_on_modbus() -> Outcome<()> {
     Ok(())
 }
 
-/// "Secondo metodo di salvataggio", with 16-bit and 32-bit access. The address accepts only the printed value.
+/// Section "Secondo metodo di salvataggio", with 16-bit and 32-bit access. The address must accept only the printed
+/// value.
 #[test]
 fn saving_by_an_address_on_modbus() -> Outcome<()> {
     let mut drive = Serial::default();
@@ -149,28 +150,28 @@ fn saving_by_an_address_on_modbus() -> Outcome<()> {
     let refused = Err(Error::OutOfRange(OutOfRange));
     assert_eq!(objects::SAVE_TO_FLASH.at(&mut drive).write(0x0012), refused);
     assert_eq!(objects::SAVE_TO_FLASH_32.at(&mut drive).write(0), refused);
-    // The frame with one register uses function 16; `frames` tests function 6.
+    // A write of one register also uses function 16 here. `frames` tests function 6.
     let printed =
         ["01 10 80 00 00 02 04 00 00 00 00", "01 10 38 02 00 01 02 00 11", "01 10 38 02 00 02 04 00 00 00 11"];
     assert_eq!(drive.frames, printed);
     Ok(())
 }
 
-/// A simulated drive on PROFINET. It records changed fields: byte offset and content.
+/// A simulated drive on PROFINET. It records the byte offset and the content of each changed field.
 struct Cyclically {
     before: [u8; 32],
     changes: Vec<(usize, String)>,
-    /// The number and value written to the window, for each cycle that changed one of them.
+    /// The number and the value in the window, for each cycle in which one of them changed.
     pairs: Vec<String>,
 }
 
-/// Returns the positions of the 32 bytes and their status, which are the same in both directions.
+/// Returns the positions of the 32 data bytes and their status. The positions are the same in both directions.
 fn place() -> SubmoduleIo {
     let span = Some(IoSpan { offset: 0, length: 33 });
     SubmoduleIo { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None }
 }
 
-/// Offset and length in bytes of each output field ("Mappatura memoria condivisa").
+/// Offset and length in bytes of each output field (section "Mappatura memoria condivisa").
 const FIELDS: [(usize, usize); 10] =
     [(0, 2), (2, 1), (3, 4), (8, 4), (12, 4), (16, 4), (20, 4), (24, 2), (26, 2), (28, 4)];
 
@@ -188,7 +189,7 @@ impl ImageClient for Cyclically {
             self.pairs.push(hex(&outputs[26..32]));
         }
         self.before.copy_from_slice(&outputs[..32]);
-        // Statusword: homing is done some cycles later. Then the position.
+        // The statusword reports a completed homing a few cycles later. The position follows the statusword.
         let done = if self.before[1] == 0x43 || self.before[2] == 1 { 0x40 } else { 0 };
         inputs[..2].copy_from_slice(&[0, done]);
         inputs[3..7].copy_from_slice(&6000_i32.to_be_bytes());
@@ -201,7 +202,7 @@ impl ImageClient for Cyclically {
     }
 }
 
-/// Returns a client for a drive that hasn't received any output yet.
+/// Returns a client of a drive that has not yet received any outputs.
 fn cyclically() -> Cyclic<Cyclically, [u8; 33], [u8; 33]> {
     let drive = Cyclically { before: [0; 32], changes: Vec::new(), pairs: Vec::new() };
     let mut outputs = [0; 33];
@@ -209,7 +210,8 @@ fn cyclically() -> Cyclic<Cyclically, [u8; 33], [u8; 33]> {
     Cyclic::new(drive, place(), outputs, [0; 33])
 }
 
-/// The process image can also save with registers: "Registri" lists the mode for all buses, without an example.
+/// Saves by writing registers through the process image. The section "Registri" lists the mode for all buses, but the
+/// manual has no example.
 #[test]
 fn saving_by_registers_on_profinet() -> Outcome<()> {
     let mut drive = cyclically();
@@ -227,7 +229,7 @@ fn on_profinet() -> Outcome<()> {
     let mut drive = cyclically();
     let position = configure_home_position!(&mut drive);
     assert_eq!(position, 6000);
-    // Items without a field in the image are written through its window.
+    // The window of the image is used for items that have no field.
     let expected = [
         (26, "80 02"),
         (28, "00 00 00 3C"),
@@ -255,7 +257,7 @@ fn on_profinet() -> Outcome<()> {
     ];
     let changes = &drive.image().changes;
     assert_eq!(changes.iter().map(|(at, field)| (*at, field.as_str())).collect::<Vec<_>>(), expected);
-    // Number and value change in the same cycle: no variable gets the value of another.
+    // The number and the value must change in the same cycle. Otherwise, a variable would get the value of another one.
     let pairs = [
         "80 02 00 00 00 3C",
         "80 1B 00 00 00 00",
@@ -268,8 +270,8 @@ fn on_profinet() -> Outcome<()> {
     Ok(())
 }
 
-/// Reads parameter d1 through the window of the image ("Accesso asincrono a registri e parametri"), and a register
-/// without a field.
+/// Reads parameter d1 and a register without a field through the window of the image (section "Accesso asincrono a
+/// registri e parametri").
 #[test]
 fn what_the_image_lacks_is_read_through_its_window() -> Outcome<()> {
     struct Window;

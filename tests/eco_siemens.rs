@@ -1,5 +1,6 @@
-//! The Eco's second Modbus address map, for Siemens controllers: an option of its table. The manual prints the fields
-//! of the requests ("Esempi di utilizzo dei codici funzione"), not their bytes.
+//! Tests the Eco's second Modbus address map. This address map is for Siemens controllers and is an option of the
+//! register table. The manual prints the fields of the requests ("Esempi di utilizzo dei codici funzione"), but not
+//! their bytes.
 
 use std::convert::Infallible;
 
@@ -7,19 +8,19 @@ use lexibus::modbus::{Limits, RegisterClient};
 use lexibus::{Client, Error, Modbus, Register};
 
 lexibus::dictionary! {
-    /// Wire addresses with E3 = 9, for a controller that subtracts 1 from an address.
+    /// The Eco with wire addresses for E3 = 9. The controller subtracts 1 from an address.
     #[allow(deprecated)]
     pub mod siemens = "dictionaries/eco.toml" { option: "register_base=siemens_plc", option: "parameter_base=siemens_plc" };
 }
 
 use siemens::{objects, types};
 
-/// Records the requests: address, number of registers, written words.
+/// A client that records requests: address, number of registers, and written words.
 #[derive(Default)]
 struct Probe {
     asked: Vec<(u16, u16)>,
     words: Vec<u16>,
-    /// The words returned by reads.
+    /// The words that reads return.
     registers: Vec<u16>,
 }
 
@@ -58,17 +59,17 @@ fn the_second_map() -> Result<(), Error<Infallible>> {
     assert_eq!(drive.client().words, [0x0000, 0x03E8]);
     let asked = [(0x9C42, 1), (0xAC41, 2), (0xAC42, 2), (0x9C44, 1), (0xAC4A, 2)];
     assert_eq!(drive.client().asked, asked);
-    // The address that saves is the same in both maps.
+    // Saving uses the same address in both maps.
     drive.save_to_flash().write(0x0011)?;
     assert_eq!(drive.client().asked.last(), Some(&(0x3802, 1)));
     Ok(())
 }
 
-/// The two examples of "Codice 0x03": three registers from 0x9C42 on, and four from 0xAC41 on with the high word
-/// first.
+/// Tests both examples of section "Codice 0x03": three registers from address 0x9C42, and four registers from address
+/// 0xAC41 with the high word first.
 #[test]
 fn blocks_of_the_second_map() -> Result<(), Error<Infallible>> {
-    // The response printed for the first map.
+    // The manual prints this response for the first map.
     let mut drive = Probe { registers: vec![0x0014, 0x0032, 0x0032], ..Probe::default() };
     assert_eq!(drive.read_block((objects::D1, objects::D2, objects::D3))?, (20, 50, 50));
     drive.registers = vec![0x0000, 0x0023, 0xFFFF, 0xFFFE];

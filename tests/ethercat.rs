@@ -1,6 +1,6 @@
-//! EtherCAT from device description to bytes. Process images and start-up commands were computed by hand. The
-//! bindings are those of `data/coupler.esi.xml`, a modular coupler and a servo drive, and of `data/gateway.esi.xml`,
-//! which has slot groups.
+//! Tests EtherCAT from the device description to the bytes. The process images and start-up commands were calculated by
+//! hand. The bindings are generated from `data/coupler.esi.xml` (a modular coupler and a servo drive) and
+//! `data/gateway.esi.xml` (slot groups).
 
 #![cfg(feature = "macros")]
 
@@ -8,19 +8,19 @@ use lexibus::ethercat::{Assignment, AssignmentError, PlanError, SlotPlan, Transi
 use lexibus::{Client, CoE, Object, Pdo, SdoWrite};
 
 lexibus::dictionary! {
-    /// All devices of the file. Its warnings are about objects that only PDOs mention.
+    /// All devices of the file. Its warnings concern objects that only PDOs mention.
     #[allow(deprecated)]
     pub mod io = "tests/data/coupler.esi.xml";
 }
 
 lexibus::dictionary! {
-    /// The drive only, with its objects from 0x6000 on.
+    /// Only the drive, with its objects from 0x6000.
     #[allow(deprecated)]
     pub mod drive = "tests/data/coupler.esi.xml" { device: "sv-*@latest", objects: "0x6000..0xFFFF" }
 }
 
 lexibus::dictionary! {
-    /// Slot groups, and PDOs of any length in bits.
+    /// A device with slot groups and PDOs of any length in bits.
     #[allow(deprecated)]
     pub mod bits = "tests/data/gateway.esi.xml";
 }
@@ -28,7 +28,8 @@ lexibus::dictionary! {
 use bits::{bs_175, gw_4};
 use io::{cp_32, modules, sv_1};
 
-/// Slot 0: digital inputs; slot 1: analog inputs; slot 2: outputs; slot 4: digital inputs.
+/// Returns a plan with digital inputs in slot 0, analog inputs in slot 1, outputs in slot 2, and digital inputs in slot
+/// 4.
 fn plan() -> SlotPlan<32> {
     let mut plan = SlotPlan::new(&cp_32::DEVICE).unwrap();
     plan.plug(0, &modules::di_16::MODULE).unwrap();
@@ -42,7 +43,8 @@ fn plan() -> SlotPlan<32> {
 #[test]
 fn modules_follow_each_other_in_the_image() {
     let plan = plan();
-    // Byte 0: the coupler's status. Bytes 1 and 2: 16 inputs. Bytes 3 to 7: 2 × 16 + 2 + 2 + 4 bits. Then 16 inputs.
+    // Byte 0 contains the coupler's status. Bytes 1 and 2 contain 16 inputs. Bytes 3 to 7 contain 2 × 16 + 2 + 2 + 4
+    // bits. 16 inputs follow.
     assert_eq!((plan.bytes(2), plan.bytes(3)), (1, 10));
     let at = |slot, index| plan.pdo(slot, index).map(|place| (place.index, place.sync_manager, place.bit));
     assert_eq!(at(0, 0x1A00), Some((0x1A00, 3, 8)));
@@ -61,7 +63,7 @@ fn inputs_are_read_where_they_stand() {
     assert!(inputs.input_1() && !inputs.input_2() && inputs.input_3() && !inputs.input_15() && inputs.input_16());
     let channels = modules::ai_2::view::Channels::new(of(1)).unwrap();
     assert_eq!((channels.channel_1(), channels.channel_2()), (-2, 0x1234));
-    // 0x0B is 0b10_11: the second state, then the first.
+    // 0x0B is 0b10_11. The first state is in the lower two bits, and the second state is in the upper two.
     assert_eq!((channels.state_1().get(), channels.state_2().get()), (3, 2));
     let last = modules::di_16::pdo::Inputs::unpack(of(4)).unwrap();
     assert!(last.input_9 && !last.input_1);
@@ -82,13 +84,13 @@ fn what_does_not_fit_is_refused() {
     let mut plan = plan();
     assert_eq!(plan.plug(4, &modules::do_8::MODULE), Err(PlanError::Taken(4)));
     assert_eq!(plan.plug(32, &modules::do_8::MODULE), Err(PlanError::NoSuchSlot(32)));
-    // The plan has ten bytes of inputs, the sync manager at most twelve.
+    // The plan has ten bytes of inputs, and this module adds five. The sync manager can have at most twelve.
     plan.plug(5, &modules::ai_2::MODULE).unwrap();
     assert_eq!(plan.check(), Err(PlanError::TooLong { sync_manager: 3, bytes: 15, max: 12 }));
     assert_eq!(SlotPlan::<32>::new(&cp_32::DEVICE).unwrap().check(), Err(PlanError::Empty(0)));
 }
 
-/// Returns the commands of a plan for a transition: index, sub-index, bytes.
+/// Returns the commands of a plan for a transition: index, sub-index and bytes.
 fn commands<const N: usize>(plan: &SlotPlan<N>, transition: Transition) -> Vec<(u16, u8, Vec<u8>)> {
     let mut commands = Vec::new();
     let collected = plan.try_for_each_command(transition, |command| {
@@ -128,7 +130,7 @@ fn the_start_up_list_of_a_plan() {
     assert_eq!(commands(&plan(), Transition::IP), []);
 }
 
-/// Slots 0 and 1 belong to group 1, slots 2 and 3 to group 2. Their modules have 2, 4, 4 and 2 bits.
+/// Returns a plan with slots 0 and 1 in group 1, and slots 2 and 3 in group 2. The modules have 2, 4, 4 and 2 bits.
 fn groups() -> SlotPlan<4> {
     let mut plan = SlotPlan::new(&gw_4::DEVICE).unwrap();
     plan.plug(0, &bits::modules::bit_2::MODULE).unwrap();
@@ -141,15 +143,16 @@ fn groups() -> SlotPlan<4> {
 
 #[test]
 fn indices_grow_with_slot_and_slot_group() {
-    // PDO increments: 1 per slot; 0x20 per group, 0x30 in group 2. Object increments: 0x10 per slot in group 1, 0x20
-    // in group 2; 0x800 per group.
+    // PDO indices increase by 1 per slot and by 0x20 per group (0x30 in group 2). Object indices increase by 0x10 per
+    // slot in group 1, by 0x20 per slot in group 2, and by 0x800 per group.
     let list = [
         (0x8800, 1, &[1][..]),
         (0x9000, 1, &[1]),
         (0x1C12, 0, &[0]),
         (0x1C13, 0, &[0]),
-        // Outputs. The PDO of a 2-bit module depends on the slot, its object on slot and group. The PDO of a 4-bit
-        // module depends on the group; it maps a group-dependent object and an object of the device.
+        // Outputs. The PDO index of a 2-bit module depends on the slot, and its object index on slot and group. The PDO
+        // index of a 4-bit module depends on the group. This PDO maps an object that depends on the group, and an
+        // object of the device.
         (0x1600, 0, &[0]),
         (0x1600, 1, &[0x02, 1, 0x00, 0x78]),
         (0x1600, 0, &[1]),
@@ -164,8 +167,8 @@ fn indices_grow_with_slot_and_slot_group() {
         (0x1603, 0, &[0]),
         (0x1603, 1, &[0x02, 1, 0x60, 0x80]),
         (0x1603, 0, &[1]),
-        // Inputs. The PDO of a 2-bit module depends on slot and group, its objects on the slot. The PDO of a 4-bit
-        // module depends on the slot, its object on slot and group.
+        // Inputs. The PDO index of a 2-bit module depends on slot and group, and its object indices depend on the slot.
+        // The PDO index of a 4-bit module depends on the slot, and its object index on slot and group.
         (0x1A20, 0, &[0]),
         (0x1A20, 1, &[0x01, 1, 0x00, 0x60]),
         (0x1A20, 2, &[0x01, 2, 0x00, 0x60]),
@@ -194,7 +197,7 @@ fn indices_grow_with_slot_and_slot_group() {
     let plan = groups();
     assert_eq!(commands(&plan, Transition::PS), expected(&list));
     let offsets = |index| [0, 1, 2, 3].map(|slot| plan.index_offset(slot, index).unwrap());
-    // Offsets of objects in slots 1 and 2: dependent on slot and group, on the group only, on neither.
+    // Offsets of objects in slots 1 and 2. The objects depend on slot and group, only on the group, or on neither.
     assert_eq!(offsets(0x8000)[1..3], [0x810, 0x1040]);
     assert_eq!(offsets(0x9000)[1..3], [0x800, 0x1000]);
     assert_eq!(offsets(0xF210), [0; 4]);
@@ -220,7 +223,7 @@ fn modules_of_a_few_bits_are_read_and_written_where_the_plan_puts_them() {
     let plan = groups();
     let bit = |slot, index| plan.pdo(slot, index).unwrap().bit as usize;
     assert_eq!([0, 1, 2, 3].map(|slot| bit(slot, 0x1A00)), [0, 2, 6, 10]);
-    // Values from the last module to the first: 10, 0110, 1010, 01.
+    // The values of the modules, from last to first, are 10, 0110, 1010 and 01.
     let image = [0b1010_1001, 0b0000_1001];
     let two = |slot| bits::modules::bit_2::view::Inputs::at(image, bit(slot, 0x1A00)).unwrap();
     let four = |slot| bits::modules::bit_4::view::Inputs::at(image, bit(slot, 0x1A00)).unwrap().state().get();
@@ -242,13 +245,13 @@ fn modules_of_a_few_bits_are_read_and_written_where_the_plan_puts_them() {
     two(0, 0b00);
     assert_eq!(image, [0b1011_1100, 0b1111_0100]);
 
-    // The image ends after bit 15.
+    // The image has no bits after bit 15.
     assert!(bits::modules::bit_4::view::Inputs::at(image, 12).is_ok());
     assert!(bits::modules::bit_4::view::Inputs::at(image, 13).is_err());
     assert!(bits::modules::bit_4::view::Inputs::at(image, usize::MAX).is_err());
 }
 
-/// Strings of 3 and 100 bits, then of 70 and 2 bits.
+/// Tests bit strings of 3 and 100 bits, then of 70 and 2 bits.
 #[test]
 fn strings_of_bits_of_any_length() {
     let mut flags = [0; 13];
@@ -266,7 +269,7 @@ fn strings_of_bits_of_any_length() {
     bytes[21] = 0b0101_1111;
     assert_eq!(image.pack(), bytes);
     assert_eq!(bs_175::image::Inputs::unpack(&bytes).unwrap(), image);
-    // Bits beyond the length of a field are discarded.
+    // Bits that exceed the length of a field are discarded.
     let data = bs_175::pdo::Data { flags: [0xFF; 13], ..image.data };
     assert_eq!(data.pack()[12], 0b0111_1111);
     assert_eq!(bs_175::pdo::Data::unpack(&[0xFF; 13]).unwrap().flags[12], 0x0F);
@@ -316,7 +319,7 @@ fn objects_of_a_module_are_found_at_its_slot() {
 
 #[test]
 fn the_image_of_the_drive() {
-    // Ready and mode in bits 0 to 3 of byte 0, four bits of padding, then fields of 16 and 32 bits.
+    // Byte 0 contains ready and mode in bits 0 to 3, and four bits of padding. Fields of 16 and 32 bits follow.
     let inputs = sv_1::image::Inputs {
         inputs: sv_1::pdo::Inputs { ready: true, mode: lexibus::Uint::new(5).unwrap() },
         position: sv_1::pdo::Position {
@@ -385,7 +388,7 @@ fn items_have_the_types_of_the_dictionary() {
     assert_eq!(*objects::motor::CURRENT_LIMIT.range(), lexibus::Range::Between(1, 500));
     assert_eq!(*objects::motor::CURRENT_LIMIT.initial(), lexibus::Initial::Value(100));
     assert!(objects::CONTROLWORD.flags().contains(lexibus::Flags::RPDO));
-    // An object that only a PDO mentions has bindings, too.
+    // An object that only a PDO mentions must also have bindings.
     assert_eq!(objects::object_2100::MODE.location().coe, Object { index: 0x2100, sub_index: 2 });
     let mut drive = sv_1::Sv1::new(Recorder::default());
     assert!(drive.motor().current_limit().write(501).is_err());

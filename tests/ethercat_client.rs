@@ -1,5 +1,5 @@
-//! Generated accessors and PDOs of an EtherCAT drive through `ethercrab`. The SubDevices are simulated in this
-//! process, without network or interface.
+//! Tests generated accessors and PDOs of an EtherCAT drive with `ethercrab`. The SubDevices are simulated in this
+//! process; no network interface is used.
 
 use std::cell::RefCell;
 use std::future::Future;
@@ -24,7 +24,7 @@ use ethercat::objects::Dictionary;
 use ethercat::{Segment, Servo, SubDevice};
 
 lexibus::dictionary! {
-    /// The demo servo.
+    /// The bindings of the demo servo.
     pub mod servo = "examples/support/servo.esi.xml" { table: true, strict: true }
 }
 
@@ -61,7 +61,7 @@ fn with_segment<F: Future>(
     })
 }
 
-/// Returns a SubDevice, and its servo for inspection.
+/// Returns a SubDevice and its servo. The test can inspect the servo.
 fn servo() -> (SubDevice, Rc<RefCell<Servo>>) {
     let servo = Rc::new(RefCell::new(Servo::new()));
     (SubDevice::new(&servo::DEVICE, servo.clone()), servo)
@@ -100,7 +100,7 @@ fn objects_of_every_length() {
         assert_eq!(drive.target_position().read_async().await, Ok(-100_000));
         assert_eq!(device.borrow().device.get(objects::TARGET_POSITION), Ok(-100_000));
 
-        // Normal transfers: the value fits into one mailbox message.
+        // Normal transfers: the value fits in one mailbox message.
         assert_eq!(drive.operating_time().read_async().await, Ok(5_000_000_123));
         drive.encoder_offset().write_async(i64::MIN + 5).await.unwrap();
         assert_eq!(drive.encoder_offset().read_async().await, Ok(i64::MIN + 5));
@@ -109,8 +109,8 @@ fn objects_of_every_length() {
         drive.axis_label().write_async("turntable").await.unwrap();
         assert_eq!(drive.axis_label().read_into_async(&mut buffer).await, Ok("turntable"));
 
-        // Segmented transfers: with a mailbox of 128 bytes, the first message has 112 bytes of data, each segment
-        // 119.
+        // Segmented transfers: if the mailbox has 128 bytes, the first message contains 112 bytes of data, and each
+        // segment contains 119.
         let text: String = ('a'..='z').cycle().take(300).collect();
         for length in [112, 113, 117, 119, 230, 231, 232, 235, 300] {
             drive.axis_label().write_async(&text[..length]).await.unwrap();
@@ -148,7 +148,7 @@ fn what_the_device_refuses() {
     with_segment(vec![subdevice], |maindevice| async move {
         let group = pre_op(maindevice).await;
         let mut drive = drive(maindevice, &group, 0);
-        // The accessor rejects values that are out of range, and so does the device.
+        // Both the accessor and the device reject values outside the range.
         let refused = drive.profile_velocity().write_async(1_000_001).await;
         assert_eq!(refused, Err(Error::OutOfRange(OutOfRange)));
         let client = drive.client();
@@ -162,7 +162,8 @@ fn what_the_device_refuses() {
         let message = read(client, 0x5FFF, 0).await.unwrap_err().to_string();
         assert_eq!(message, "the device refused: 0x06020000: the object doesn't exist in the dictionary");
 
-        // The value exceeds the buffer, in one message and in several. The next transfer works.
+        // The value exceeds the buffer in a transfer with one message and in a transfer with several. The next transfer
+        // must work.
         let label = Object { index: 0x2011, sub_index: 0 };
         for length in [20, 200] {
             client.write(label, &vec![b'x'; length]).await.unwrap();
@@ -185,7 +186,7 @@ fn process_data_by_default() {
         let mut drive = drive(maindevice, &group, 0);
         let assignment = Assignment::<8>::by_default(&servo::DEVICE).unwrap();
         drive.client().configure(assignment.startup()).await.unwrap();
-        // The initialization command of the device description has been sent.
+        // The master must have sent the initialization command in the device description.
         assert_eq!(
             device.borrow().device.get(objects::MODES_OF_OPERATION),
             Ok(ModesOfOperation::CyclicSynchronousPosition)
@@ -214,7 +215,7 @@ fn process_data_by_default() {
         assert_eq!(device.borrow().device.get(objects::TARGET_POSITION), Ok(4711));
         assert_eq!(drive.position_actual_value().read_async().await, Ok(4711));
 
-        // A single field, written in place.
+        // Write a single field within the process data.
         let mut outputs = subdevice.outputs_raw_mut();
         image::OutputsView::new(&mut outputs[..]).unwrap().position_mode_mut().set_target_position(-2);
         drop(outputs);
@@ -266,7 +267,7 @@ fn a_mapping_is_written_in_its_order_and_in_pre_operational() {
         let group = pre_op(maindevice).await;
         let mut drive = drive(maindevice, &group, 0);
         let client = drive.client();
-        // The device rejects entries before the count is 0, writes to a fixed mapping, and unknown objects.
+        // The device rejects writes of entries before the count is 0, writes to a fixed mapping, and unknown objects.
         let entry = 0x6064_0020_u32.to_le_bytes();
         assert_eq!(write(client, 0x1A02, 1, &entry).await, Err(Error::Abort(AbortCode(0x0601_0003))));
         assert_eq!(write(client, 0x1A00, 0, &[0]).await, Err(Error::Abort(AbortCode::READ_ONLY)));
@@ -275,7 +276,7 @@ fn a_mapping_is_written_in_its_order_and_in_pre_operational() {
         assert_eq!(missing, Err(Error::Abort(AbortCode::NOT_MAPPABLE)));
         SdoWrite::new_u32(0x1A02, 1, u32::from_le_bytes(entry)).send_async(client).await.unwrap();
         SdoWrite::new_u8(0x1A02, 0, 1).send_async(client).await.unwrap();
-        // PDOs that exclude each other.
+        // Assign PDOs that exclude each other.
         SdoWrite::new_u8(0x1C12, 0, 0).send_async(client).await.unwrap();
         SdoWrite::new_u16(0x1C12, 1, 0x1600).send_async(client).await.unwrap();
         SdoWrite::new_u16(0x1C12, 2, 0x1601).send_async(client).await.unwrap();
@@ -331,13 +332,13 @@ fn an_emergency_in_front_of_an_answer_is_kept() {
             subdevice.outputs_raw_mut().copy_from_slice(&packed);
             group.tx_rx(maindevice).await.unwrap();
         }
-        // The write causes a fault, and the emergency message precedes the response.
+        // The write causes a fault. The device sends the emergency message before the response.
         drive.encoder_offset().write_async(7).await.unwrap();
         let emergency = Emergency { code: 0x7300, register: 0x21, vendor: [0; 5] };
         assert_eq!(drive.client().take_emergency(), Some(emergency));
         assert_eq!(drive.client().take_emergency(), None);
         assert_eq!(drive.encoder_offset().read_async().await, Ok(7));
-        // An emergency message that was pending before the request.
+        // The emergency message is pending before the request is sent.
         device.borrow_mut().trip(0x3210).unwrap();
         assert_eq!(drive.statusword().read_async().await.unwrap().state(), Some(State::Fault));
         assert_eq!(drive.client().take_emergency().map(|emergency| emergency.code), Some(0x3210));
@@ -375,7 +376,7 @@ fn several_subdevices_in_a_row() {
     });
 }
 
-/// The same drive without a mailbox.
+/// The drive without a mailbox.
 static MUTE: Device = Device { mailbox: Mailbox::NONE, sync_managers: &[], ..servo::DEVICE };
 
 #[test]
@@ -388,7 +389,7 @@ fn what_goes_wrong_on_the_bus() {
         }
 
         fn write(&mut self, _: u16, _: u8, _: &[u8]) -> Result<(), u32> {
-            // Not a standard abort code.
+            // The value is not a standard abort code.
             Err(0x1234_5678)
         }
     }

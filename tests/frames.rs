@@ -1,5 +1,6 @@
-//! Frames printed in the manual of the Eco drive, byte by byte: the output of the CANopen and Modbus RTU clients.
-//! Quotation marks enclose titles of its sections. The CRC is computed where the manual prints a placeholder.
+//! Tests the CANopen and Modbus RTU clients with frames in the manual of the Eco drive, byte by byte. Quotation marks
+//! enclose titles of the manual's sections. If the manual prints a placeholder for the CRC, the test calculates the
+//! CRC.
 
 #[path = "support/can_script.rs"]
 mod can_script;
@@ -26,7 +27,7 @@ use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
 type Device = ModbusClient<Context>;
 
-/// Returns the result of `exchange` with a node that expects `request` and responds with `reply`.
+/// Runs `exchange` with a node that expects `request` and responds with `reply`. Returns the result.
 fn exchanged<T>(
     (node, request, reply): (u8, &[u8], &[u8]),
     exchange: impl for<'d> FnOnce(&'d mut Device) -> Pin<Box<dyn Future<Output = T> + 'd>>,
@@ -45,15 +46,15 @@ fn exchanged<T>(
     })
 }
 
-/// Returns the CRC-16 of a frame in little-endian order (MODBUS over Serial Line V1.02, 6.2.2).
+/// Returns the CRC-16 of a frame as little-endian bytes (MODBUS over Serial Line V1.02, 6.2.2).
 fn check(frame: &[u8]) -> [u8; 2] {
     let shift = |crc: u16| if crc & 1 == 1 { crc >> 1 ^ 0xA001 } else { crc >> 1 };
     let crc = frame.iter().fold(0xFFFF, |crc, byte| (0..8).fold(crc ^ u16::from(*byte), |crc, _| shift(crc)));
     crc.to_le_bytes()
 }
 
-/// Checks the request that a write with function 16 sends to node 1: address, 32-bit value and CRC as printed in the
-/// manual.
+/// Checks the request that a write with function 16 sends to node 1. The manual prints the address, the 32-bit value
+/// and the CRC.
 fn written<V, A, L>(line: u32, item: Item<V, A, L>, value: V::Native, (address, raw, crc): (u16, i32, [u8; 2]))
 where
     V: Fixed + 'static,
@@ -70,7 +71,7 @@ where
     });
 }
 
-/// "Esempio di configurazione dell'asse" and "Primo metodo di salvataggio".
+/// Tests the frames of the sections "Esempio di configurazione dell'asse" and "Primo metodo di salvataggio".
 #[test]
 fn modbus_writes_of_two_registers() {
     let off = DriveCommand::new();
@@ -96,15 +97,15 @@ fn modbus_writes_of_two_registers() {
     written(1464, objects::TARGET_POSITION, 6000, (0x8009, 6000, [0x5C, 0x17]));
     written(1466, objects::CONTROL_WORD, enabled, (0x8000, 0x03, [0xD2, 0x68]));
     written(1471, objects::CONTROL_WORD, start, (0x8000, 0x23, [0xD3, 0xB0]));
-    // The value is sign-extended over both registers.
+    // The value is sign-extended to both registers.
     written(1492, objects::MODES_OF_OPERATION, Mode::SaveAndLoad, (0x8001, -50, [0x93, 0xE5]));
     written(1495, objects::CONTROL_WORD, save, (0x8000, 0x20, [0x93, 0xB1]));
 }
 
 #[test]
 fn modbus_of_registers_with_an_address_each() {
-    // "Codice 0x03: lettura dei parametri e dei registri". The text contradicts its tables; these are the bytes of
-    // the tables. Each address has 32 bits.
+    // Section "Codice 0x03: lettura dei parametri e dei registri". The text of the section contradicts its tables. The
+    // test uses the bytes of the tables. Each address has 32 bits.
     let request = [0x05, 0x03, 0x80, 0x00, 0x00, 0x04, 0x6C, 0x4D];
     let reply = [[5, 3, 8].as_slice(), &[0, 0, 0, 0x23, 0xFF, 0xFF, 0xFF, 0xFE]].concat();
     let reply = [reply.as_slice(), &check(&reply)].concat();
@@ -124,7 +125,8 @@ fn modbus_of_registers_with_an_address_each() {
 
 #[test]
 fn modbus_exceptions() {
-    // "Eccezioni": the function code with bit 7 set, and exception code 02, the only one of the drive.
+    // Section "Eccezioni": the function code with bit 7 set, and exception code 02, which is the drive's only
+    // exception.
     let reply = [[0x05, 0x86, 0x02].as_slice(), &check(&[0x05, 0x86, 0x02])].concat();
     let request = [0x05, 0x06, 0x00, 0x03, 0x00, 0x0A, 0xF8, 0x49];
     let refused = exchanged((5, &request, &reply), |device| {
@@ -136,20 +138,20 @@ fn modbus_exceptions() {
 
 #[test]
 fn modbus_of_node_5() {
-    // "Codice 0x10: scrittura di un registro".
+    // Section "Codice 0x10: scrittura di un registro".
     let request = [0x05, 0x10, 0x80, 0x09, 0x00, 0x02, 0x04, 0x00, 0x00, 0x03, 0xE8, 0x47, 0x8D];
     let reply = [0x05, 0x10, 0x80, 0x09, 0x00, 0x02, 0xB9, 0x8E];
     exchanged((5, &request, &reply), |device| {
         Box::pin(async move { objects::TARGET_POSITION.at(device).write_async(1000).await.expect("written") })
     });
-    // "Secondo metodo di salvataggio con accesso a 32 bit".
+    // Section "Secondo metodo di salvataggio con accesso a 32 bit".
     let request = [0x05, 0x10, 0x38, 0x02, 0x00, 0x02, 0x04, 0x00, 0x00, 0x00, 0x11, 0x94, 0x8B];
     let reply = [0x05, 0x10, 0x38, 0x02, 0x00, 0x02, 0xEC, 0xEC];
     exchanged((5, &request, &reply), |device| {
         Box::pin(async move { objects::SAVE_TO_FLASH_32.at(device).write_async(0x11).await.expect("written") })
     });
-    // "Codice 0x06: scrittura di un parametro" and "Secondo metodo di salvataggio con accesso a 16 bit". The response
-    // to function 6 repeats the request.
+    // Sections "Codice 0x06: scrittura di un parametro" and "Secondo metodo di salvataggio con accesso a 16 bit". A
+    // response to function 6 repeats the request.
     let request = [0x05, 0x06, 0x00, 0x03, 0x00, 0x0A, 0xF8, 0x49];
     exchanged((5, &request, &request), |device| {
         Box::pin(async move { objects::D3.at(device).write_async(10).await.expect("written") })
@@ -158,7 +160,7 @@ fn modbus_of_node_5() {
     exchanged((5, &request, &request), |device| {
         Box::pin(async move { objects::SAVE_TO_FLASH.at(device).write_async(0x11).await.expect("written") })
     });
-    // "Codice 0x03: lettura dei parametri e dei registri": three registers in one request.
+    // Section "Codice 0x03: lettura dei parametri e dei registri": three registers in one request.
     let request = [0x05, 0x03, 0x00, 0x01, 0x00, 0x03, 0x55, 0x8F];
     let reply = [0x05, 0x03, 0x06, 0x00, 0x14, 0x00, 0x32, 0x00, 0x32, 0x03, 0xAC];
     let values = exchanged((5, &request, &reply), |device| {
@@ -172,10 +174,10 @@ fn modbus_of_node_5() {
 fn sdo_expedited() -> Result<(), Error<Infallible>> {
     const HEARTBEAT: Item<u16, Rw, OnCanOpen> = Item::object(0x1017, 0, "Producer heartbeat time");
     const VENDOR: Item<u32, Ro, OnCanOpen> = Item::object(0x1018, 1, "Vendor-ID");
-    // "Device Configuration via SDOs": heartbeat time.
+    // Section "Device Configuration via SDOs": heartbeat time.
     let mut own = node(&[([0x2B, 0x17, 0x10, 0, 0xA0, 0x0F, 0, 0], [0x60, 0x17, 0x10, 0, 0, 0, 0, 0])]);
     HEARTBEAT.at(&mut own).write(4000)?;
-    // "Device Configuration via SDOs": vendor ID.
+    // Section "Device Configuration via SDOs": vendor ID.
     let mut own = node(&[([0x40, 0x18, 0x10, 1, 0, 0, 0, 0], [0x43, 0x18, 0x10, 1, 6, 0, 0, 0])]);
     assert_eq!(VENDOR.at(&mut own).read()?, 6);
     Ok(())
@@ -185,7 +187,7 @@ fn sdo_expedited() -> Result<(), Error<Infallible>> {
 fn sdo_segmented() -> Result<(), Error<Infallible>> {
     const NAME: Item<VisibleString, Ro, OnCanOpen> =
         Item::new(OnCanOpen::canopen(0x1008, 0), "Device name", Range::Full, Initial::Unknown, "", Flags::NONE);
-    // "Device Configuration via SDOs": segmented transfer.
+    // Section "Device Configuration via SDOs": segmented transfer.
     let mut own = node(&[
         ([0x40, 0x08, 0x10, 0, 0, 0, 0, 0], [0x41, 0x08, 0x10, 0, 0x1A, 0, 0, 0]),
         ([0x60, 0, 0, 0, 0, 0, 0, 0], [0x00, 0x54, 0x69, 0x6E, 0x79, 0x20, 0x4E, 0x6F]),
@@ -201,18 +203,18 @@ fn sdo_segmented() -> Result<(), Error<Infallible>> {
 #[test]
 fn numbers_of_canopen() {
     let node = NodeId::new(1).expect("a node-ID");
-    // "Process data exchange with PDOs": the COB-ID of a disabled TPDO of node 25. "Modo interpolatore": that of an
-    // RPDO of node 1.
+    // Section "Process data exchange with PDOs": COB-ID of a disabled TPDO of node 25. Section "Modo interpolatore":
+    // COB-ID of an RPDO of node 1.
     assert_eq!(CobId::from_node(0x8000_0180).resolve(NodeId::new(25).expect("a node-ID")), 0x8000_0199);
     assert_eq!(CobId::from_node(0x200).resolve(node), 513);
-    // "Node Monitoring via Node-Guarding or Heartbeat".
+    // Section "Node Monitoring via Node-Guarding or Heartbeat".
     let states =
         [(NmtState::BootUp, 0), (NmtState::Stopped, 4), (NmtState::Operational, 5), (NmtState::PreOperational, 0x7F)];
     for (state, number) in states {
         let frame = state.heartbeat(node);
         assert_eq!((frame.id(), frame.data()), (1792 + 1, [number].as_slice()));
     }
-    // "Modo interpolatore" and "Esempio completo di asse gestito con interpolatore": mapping entries.
+    // Sections "Modo interpolatore" and "Esempio completo di asse gestito con interpolatore": mapping entries.
     for (index, sub_index, bits, word) in [
         (0x60C1, 1, 32, 0x60C1_0120),
         (0x6040, 0, 16, 0x6040_0010),
@@ -221,15 +223,15 @@ fn numbers_of_canopen() {
     ] {
         assert_eq!(MappedEntry::new(index, sub_index, bits).word(), word);
     }
-    // "Modo interpolatore": SYNC.
+    // Section "Modo interpolatore": SYNC.
     assert_eq!(lexibus::clients::canopen::sync().id(), 0x80);
-    // "Salvataggio su flash": the key that stores parameters.
+    // Section "Salvataggio su flash": key for storing parameters.
     assert_eq!(StoreParameters::Save.raw().to_le_bytes(), *b"save");
 }
 
 #[test]
 fn control_words_of_cia_402() {
-    // "Modo Homing": from a fault to Operation enabled.
+    // Section "Modo Homing": from a fault to Operation enabled.
     let mut sent = vec![Controlword::from_raw(0).with_command(Command::FaultReset).raw(), 0];
     for state in [State::SwitchOnDisabled, State::ReadyToSwitchOn, State::SwitchedOn] {
         let Step::Command(command) = state.toward(State::OperationEnabled) else { panic!("{state:?}") };
@@ -240,7 +242,7 @@ fn control_words_of_cia_402() {
 
 #[test]
 fn profinet_is_big_endian() {
-    // "Esempio interfaccia con Master Profinet Hilscher": statusword 0x8640.
+    // Section "Esempio interfaccia con Master Profinet Hilscher": statusword 0x8640.
     let mut image = [0; 2];
     lexibus::profinet::be::put_number(&mut image, 0, 0, 16, 0x8640);
     assert_eq!(image, [0x86, 0x40]);

@@ -1,16 +1,16 @@
-//! Framing of byte streams: delimiters, escapes and errors.
+//! Tests how byte streams are split into frames: delimiters, escapes and errors.
 
 use lexibus::framing::{Check, Delimited, FrameError, Framing};
 use lexibus::LengthError;
 
-/// STX, data, checksum, ETX. Bytes 0x02, 0x03 and 0x1B are sent as 0x1B and their complement. A real drive on RS-485
-/// uses it.
+/// The framing of a real drive on RS-485. A frame consists of STX, data, checksum and ETX. The bytes 0x02, 0x03 and
+/// 0x1B are replaced with 0x1B and their complement.
 const DRIVE: Delimited = Delimited::new(Some(0x02), 0x03)
     .with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B])
     .with_check(Check::Xor(0xFF))
     .with_max_data(68);
 
-/// Decodes a stream into frames and errors.
+/// Decodes a stream. Returns the frames and errors.
 fn decoded(framing: &Delimited, stream: &[u8]) -> Vec<Result<Vec<u8>, FrameError>> {
     let (mut decoder, mut data, mut found) = (framing.decoder(), [0; 80], Vec::new());
     for byte in stream {
@@ -29,7 +29,7 @@ fn encoded(framing: &Delimited, data: &[u8]) -> Vec<u8> {
     frame[..length].to_vec()
 }
 
-/// Messages and their frames. The checksums were computed by hand.
+/// Messages with their frames. The checksums were calculated by hand.
 const FRAMES: [(&[u8], &[u8]); 7] = [
     (&[0x05, 0x08, 0x9C, 0, 0, 0], &[0x02, 0x05, 0x08, 0x9C, 0, 0, 0, 0x6E, 0x03]),
     (&[0x01, 0x02, 0x6F, 0x9E, 0x00, 0x1B], &[0x02, 0x01, 0x1B, 0xFD, 0x6F, 0x9E, 0x00, 0x1B, 0xE4, 0x16, 0x03]),
@@ -51,11 +51,11 @@ fn byte_by_byte() {
     assert_eq!(decoded(&DRIVE, &stream), all);
 }
 
-/// Framings of all kinds that can carry any data.
+/// Returns framings of all kinds that can transfer any data.
 fn framings() -> Vec<Delimited> {
     let mut all = Vec::new();
     for check in [Check::None, Check::Xor(0), Check::Sum(7), Check::Lrc(0), Check::Crc16(0xFFFF)] {
-        // Escaped bytes unchanged, combined with a number, and with the same byte as start and end.
+        // The escaped byte is unchanged or combined with a number. One framing uses the same byte as start and end.
         let framings = [
             Delimited::new(Some(0x02), 0x03).with_escape(0x10, 0x00, &[0x02, 0x03, 0x10]),
             Delimited::new(Some(0x02), 0x03).with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B]),
@@ -91,7 +91,8 @@ fn special_bytes_at_every_position() {
 
 #[test]
 fn checks_that_have_to_be_escaped() {
-    // The checksum of a single byte is its complement: here it equals start, end and escape.
+    // The checksum of a single byte is its complement. The checksums of these bytes equal the start, end and escape
+    // bytes.
     for (byte, escaped) in [(0xFD, 0xFD), (0xFC, 0xFC), (0xE4, 0xE4)] {
         assert_eq!(encoded(&DRIVE, &[byte]), [0x02, byte, 0x1B, escaped, 0x03]);
         assert_eq!(decoded(&DRIVE, &encoded(&DRIVE, &[byte])), [Ok(vec![byte])]);
@@ -102,11 +103,11 @@ fn checks_that_have_to_be_escaped() {
 fn noise_in_front_and_what_is_cut_off() {
     for (data, frame) in FRAMES {
         for cut in 1..frame.len() {
-            // The rest of a frame as noise, then a complete frame.
+            // The end of a frame is noise; a complete frame follows.
             let late = [&frame[cut..], frame].concat();
             let found = decoded(&DRIVE, &late);
             assert_eq!(found.last(), Some(&Ok(data.to_vec())), "{late:02X?}");
-            // The start of a frame, then a complete frame.
+            // The start of a frame is followed by a complete frame.
             let early = [&frame[..cut], frame].concat();
             let lost = if frame[cut - 1] == 0x1B { FrameError::Escape } else { FrameError::Interrupted };
             assert_eq!(decoded(&DRIVE, &early), [Err(lost), Ok(data.to_vec())], "{early:02X?}");
@@ -133,7 +134,7 @@ fn every_bit_that_flips_is_noticed_and_the_next_frame_found() {
             }
         }
     }
-    // Every kind of error occurs except `TooLong`, which has its own test.
+    // All kinds of errors must occur except `TooLong`, which another test covers.
     assert!(kinds.iter().enumerate().all(|(kind, count)| (kind == FrameError::TooLong as usize) == (*count == 0)));
 }
 
@@ -151,14 +152,14 @@ fn lengths() {
     let long = encoded(&any, &[0x41; 69]);
     let stream = [&long[..], &encoded(&DRIVE, &[1])].concat();
     assert_eq!(decoded(&DRIVE, &stream), [Err(FrameError::TooLong), Ok(vec![1])]);
-    // The buffer is too short.
+    // The buffer is too short for the frame.
     let (mut decoder, mut data) = (DRIVE.decoder(), [0; 2]);
     let frame = encoded(&DRIVE, &[5, 6, 7]);
     let errors: Vec<_> = frame.iter().filter_map(|byte| DRIVE.decode(&mut decoder, *byte, &mut data).err()).collect();
     assert_eq!(errors, [FrameError::TooLong]);
     for (frame, found) in [
         (&[0x02, 0x03][..], vec![Err(FrameError::TooShort)]),
-        // A frame without data.
+        // This frame contains no data.
         (&[0x02, 0xFF, 0x03], vec![Ok(vec![])]),
         (&[0x02, 0x41, 0x1B, 0x03], vec![Err(FrameError::Escape)]),
         (&[0x02, 0x41, 0x1B, 0x41, 0x03], vec![Err(FrameError::Escape)]),
@@ -186,7 +187,7 @@ fn frames_that_share_a_byte() {
 #[test]
 fn checks_that_are_not_escaped() {
     let raw = Delimited { is_check_escaped: false, ..DRIVE };
-    // The checksums of 0xFD, 0xFC and 0xE4 equal start, end and escape.
+    // The checksums of 0xFD, 0xFC and 0xE4 equal the start, end and escape bytes.
     for (byte, check) in [(0xFD, 0x02), (0xFC, 0x03), (0xE4, 0x1B), (0x41, 0xBE)] {
         assert_eq!(encoded(&raw, &[byte]), [0x02, byte, check, 0x03]);
     }
@@ -226,7 +227,7 @@ fn a_borrowed_framing_frames() {
     assert_eq!(there_and_back(borrowed, &[1, 2, 3]), Some(Ok(3)));
 }
 
-/// Returns pseudo-random bytes from a seed.
+/// Returns the next pseudo-random byte and updates the seed.
 fn noise(seed: &mut u32) -> u8 {
     *seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
     (*seed >> 24) as u8
@@ -245,7 +246,7 @@ fn whatever_comes_a_frame_behind_it_is_found() {
                     byte => byte,
                 })
                 .collect();
-            // An escape at the end of the noise would consume the first byte of the frame.
+            // Append a byte, because an escape at the end of the noise would consume the first byte of the frame.
             stream.push(0x41);
             let data = vec![0x02, noise(&mut seed), 0x1B];
             stream.extend(encoded(&framing, &data));

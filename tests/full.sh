@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# The full lane: all tests, with the whole corpus. Continues after a failure and prints a table of results and times at the end.
+# Runs the full lane: all tests with the whole corpus. Continues after a failure. At the end, prints a table of results and times.
 #
 #     tests/full.sh                   # all parts
 #     tests/full.sh clippy browser    # these parts
 #     tests/full.sh --list            # their names
 #     tests/full.sh coverage          # only on request: takes an hour
 #
-# Logs are in target/full. Parts that need the corpus are skipped with a message if ../shared is absent.
+# Logs are written to target/full. Parts that need the corpus are skipped with a message if ../shared is absent.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 export CARGO_TERM_COLOR=never CARGO_INCREMENTAL=0 LEXIBUS_LANE=full
@@ -16,7 +16,8 @@ logs=$target/full
 parts=(programs format clippy features outside packages rustdoc build sample bindings units doctests ui corpus generated packing \
     differential arbitrary mutations nested site browser book pages rest examples)
 
-# Names of test programs for `cargo test --test`. Each program of the workspace belongs to one part; `rest` runs the unlisted ones.
+# Names of test programs for `cargo test --test`. Each test program of the workspace belongs to one part. The part `rest` runs the
+# programs that are not listed.
 ui=(ui)
 corpus=(corpus_exports corpus_fixes corpus_esi corpus_gsdml corpus_lexer corpus_values frozen profinet_corpus rust_format)
 generated=(generated_code rustdoc table_code)
@@ -39,14 +40,15 @@ tests() {
 part_programs() { tests/programs.sh; }
 part_format() { cargo fmt --all --check; }
 part_clippy() { cargo clippy --quiet --workspace --all-targets --all-features -- -D warnings; }
-# Each feature of the runtime must compile alone.
+# Each feature of the runtime must compile without the others.
 part_features() {
     local features failed=0
     for features in "" std canopen socketcan socketcan-tokio ethercat modbus serial macros serde,defmt; do
         echo "features: $features"
         cargo check --quiet -p lexibus --no-default-features --features "$features" || failed=1
     done
-    # Each front end of the compiler must compile alone. The test checks the error for formats without a front end.
+    # Each front end of the compiler must compile without the others. The test checks the error for formats whose front end is
+    # missing.
     for features in "" eds xdd esi gsdml table messages eds,table; do
         echo "front ends: $features"
         cargo check --quiet -p lexibus-codegen --no-default-features --features "$features" || failed=1
@@ -54,7 +56,7 @@ part_features() {
     done
     return $failed
 }
-# Crates outside the workspace: they need a C++ compiler or the newest Rust.
+# Checks crates outside the workspace, which need a C++ compiler or the newest Rust.
 part_outside() {
     local crate failed=0
     for crate in codegen/fuzz benches/packing benches/peers; do
@@ -64,18 +66,18 @@ part_outside() {
             continue
         fi
         cargo check --quiet --all-targets --manifest-path "$crate/Cargo.toml" --target-dir "$target/apart" || failed=1
-        # Cargo rewrites a lock file that is out of date.
+        # Detect outdated lock files, which Cargo rewrites.
         git diff --exit-code -- "$crate/Cargo.lock" || failed=1
     done
     return $failed
 }
-# Packages all crates as for crates.io and builds against the packages.
+# Packages all crates as for crates.io, and builds crates that use the packages.
 part_packages() { CARGO_TARGET_DIR=$(realpath "$target") tests/packages.sh; }
 part_rustdoc() {
     RUSTDOCFLAGS='-D warnings' cargo doc --quiet --workspace --all-features --no-deps --lib --bins --examples
 }
 part_sample() { tests/corpus-sample.py "$target/debug/lexibus" --check; }
-# The compiler must be compiled only once, for macros, tests and programs together.
+# The compiler must be compiled only once for macros, tests and programs.
 part_build() {
     local builds
     builds=$(cargo test --all-features --no-run --message-format json | grep -c '"reason":"compiler-artifact".*"name":"lexibus_codegen".*"test":false')
@@ -96,9 +98,9 @@ part_nested() { tests "${nested[@]}"; }
 part_site() { tests "${site[@]}"; }
 part_browser() { tests "${browser[@]}"; }
 part_book() { tests "${book[@]}"; }
-# Checks the book as built by mdBook.
+# Checks the book after building it with mdBook.
 part_pages() { cargo test --no-fail-fast -p lexibus-book-pages; }
-# All test programs that no other part lists.
+# Runs all test programs that are not listed in another part.
 part_rest() {
     local named=" ${ui[*]} ${corpus[*]} ${generated[*]} ${packing[*]} ${differential[*]} ${arbitrary[*]} ${mutations[*]} ${nested[*]} ${site[*]} ${browser[*]} ${book[*]} ${pages[*]} "
     local all rest=() name
@@ -107,7 +109,7 @@ part_rest() {
     for name in $all; do [[ $named == *" $name "* ]] || rest+=("$name"); done
     tests "${rest[@]}"
 }
-# Runs an example for each bus, with a simulated device.
+# Runs an example with a simulated device for each bus.
 part_examples() {
     local example failed=0
     cargo build --quiet --all-features --examples || return 1

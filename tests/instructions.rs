@@ -1,9 +1,9 @@
-//! Generated code for packing, unpacking and accessing values executes no more instructions than handwritten code,
-//! except for [`TOLERATED`].
+//! Tests that generated code executes no more instructions than handwritten code when it packs, unpacks and accesses
+//! values. [`TOLERATED`] lists the exceptions.
 //!
 //! `valgrind --tool=callgrind` counts the instructions of the function pairs in `benches/instructions`, in a release
 //! build. The counts are exact and reproducible. `LEXIBUS_LANE=full cargo test --test instructions -- --nocapture`
-//! prints them, and the code size of each function if `nm` reports it.
+//! prints the counts. It also prints the code size of each function if `nm` reports it.
 
 #[path = "support/lane.rs"]
 mod lane;
@@ -12,31 +12,32 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Pairs that may differ: the number of instructions per call, and the reason.
+/// Pairs whose counts may differ: the value and operation, and the allowed number of additional instructions per call.
 const TOLERATED: [(&str, &str, f64); 3] = [
-    // Bytes 4 and 5 of the first PDO are stored separately, and LLVM extracts them from a word instead of a field.
+    // Bytes 4 and 5 of the first PDO are stored separately, and LLVM extracts them from a word, not from a field.
     ("several_pdos", "pack", 1.0),
-    // The buffer has 8 bytes for all types. The result is in the same place as the errors, which costs a jump.
+    // The buffer has 8 bytes for all types. Results and errors have the same location, which costs a jump.
     ("objects", "read", 2.0),
-    // The value passes through an enumeration that names most of its values.
+    // The value is converted to an enumeration that names most of its values.
     ("objects", "write_mode", 4.0),
 ];
 
-/// Per function: the number of calls, and the instructions of these calls, including called functions.
+/// For each function: the number of calls, and the instructions of all calls. The instructions of called functions are
+/// included.
 type Costs = HashMap<String, (u64, u64)>;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Builds the binary that calls all pairs.
+/// Builds the binary that calls all function pairs.
 fn build() -> PathBuf {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("instructions");
     let output = Command::new(env!("CARGO"))
         .args(["build", "--quiet", "--release", "-p", "lexibus-instructions"])
         .current_dir(root())
         .env("CARGO_TARGET_DIR", &target)
-        // Functions in separate codegen units aren't inlined into each other.
+        // Do not use separate codegen units, because functions are not inlined across them.
         .env("CARGO_INCREMENTAL", "0")
         .env_remove("RUSTFLAGS")
         .output()
@@ -60,8 +61,8 @@ fn count(binary: &Path) -> (Vec<(String, String)>, Costs) {
     (pairs, costs(&std::fs::read_to_string(profile).expect("a profile")))
 }
 
-/// Parses the calls of a profile. `cfn=` names the function, `calls=` is the number of calls from this place. The
-/// following line ends with their cost.
+/// Parses the function calls in a profile. `cfn=` names the called function, and `calls=` is the number of calls from
+/// one position. The next line ends with their cost.
 fn costs(profile: &str) -> Costs {
     let mut costs = Costs::new();
     let (mut function, mut lines) = ("", profile.lines());
@@ -70,7 +71,7 @@ fn costs(profile: &str) -> Costs {
             function = name;
         } else if let Some(calls) = line.strip_prefix("calls=") {
             let number = |text: Option<&str>| text.and_then(|text| text.parse::<u64>().ok()).expect("a number");
-            let (calls, _) = calls.split_once(' ').expect("a count and a place");
+            let (calls, _) = calls.split_once(' ').expect("a count and a position");
             let cost = costs.entry(function.to_owned()).or_default();
             cost.0 += number(Some(calls));
             cost.1 += number(lines.next().and_then(|line| line.split_once(' ')).map(|(_, cost)| cost));
@@ -79,7 +80,8 @@ fn costs(profile: &str) -> Costs {
     costs
 }
 
-/// Returns the instructions per call of a function. Mangled names contain module names, each preceded by its length.
+/// Returns the number of instructions per call of a function. Mangled names contain the names of the modules, each
+/// preceded by its length.
 fn cost(costs: &Costs, case: &str, action: &str, side: &str) -> f64 {
     let path: String = [case, action, side].iter().map(|name| format!("{}{name}", name.len())).collect();
     let found: Vec<_> = costs.iter().filter(|(name, _)| name.contains(&path)).collect();
@@ -88,7 +90,7 @@ fn cost(costs: &Costs, case: &str, action: &str, side: &str) -> f64 {
     *instructions as f64 / *calls as f64
 }
 
-/// Returns the code size of each function in bytes, by mangled name.
+/// Returns the code sizes of all functions in bytes, by mangled name.
 fn sizes(binary: &Path) -> HashMap<String, u64> {
     let Ok(output) = Command::new("nm").arg("--print-size").arg(binary).output() else { return HashMap::new() };
     let row = |line: &str| {
@@ -98,7 +100,7 @@ fn sizes(binary: &Path) -> HashMap<String, u64> {
     String::from_utf8_lossy(&output.stdout).lines().filter_map(row).collect()
 }
 
-/// Returns the code size of one function of a pair in bytes.
+/// Returns the code size in bytes of one function in a pair.
 fn size(sizes: &HashMap<String, u64>, case: &str, action: &str, side: &str) -> u64 {
     let path: String = [case, action, side].iter().map(|name| format!("{}{name}", name.len())).collect();
     sizes.iter().filter(|(name, _)| name.contains(&path)).map(|(_, size)| size).sum()
@@ -129,7 +131,7 @@ fn generated_code_costs_what_a_person_would_write() {
             worse.push(format!("{case} {action}: {ours} instead of {hand}"));
         }
     }
-    assert!(worse.is_empty(), "instructions a call: {worse:#?}");
+    assert!(worse.is_empty(), "instructions per call: {worse:#?}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Messages of a serial protocol in generated code, from a program to the bytes on the line and back. The device is a
+//! Tests generated messages of a serial protocol, from the program to the bytes on the line and back. The device is a
 //! simulated hoist.
 
 mod bindings {
@@ -22,7 +22,7 @@ use now::now;
 
 const NODE: u32 = 5;
 
-/// A simulated hoist that stores its parameters. It refuses heights above 100 m.
+/// A simulated hoist. It stores its parameters and refuses heights above 100 m.
 #[derive(Default)]
 struct Simulated {
     parameters: BTreeMap<u32, Setting>,
@@ -58,7 +58,7 @@ impl Simulated {
                 self.shows_load = false;
                 SelectHeightReply.write(request, to)
             }
-            // Both polls have the same data.
+            // Both polls have the same request data.
             Request::PollLoad(_) if self.shows_load => PollLoadReply { status, load: 0x7FFF }.write(request, to),
             Request::PollLoad(_) => PollHeightReply { status, height: self.height }.write(request, to),
             Request::Write(write) => {
@@ -91,7 +91,7 @@ impl Simulated {
             }
             Request::Name(_) => NameReply { rest: b"Winde" }.write(request, to),
         };
-        written.expect("room for the reply");
+        written.expect("a buffer for the reply");
     }
 }
 
@@ -121,7 +121,7 @@ fn hoist() -> Hoist<lexibus::Parameters<Simulated, Protocol, { messages::MAX_DAT
 fn orders_and_refusals() {
     let mut hoist = hoist();
     let reply = hoist.go(1798046, 600, -2).send().unwrap_err();
-    assert!(matches!(reply, Failure::Error(Error::OutOfRange(OutOfRange))), "beyond its range: {reply:?}");
+    assert!(matches!(reply, Failure::Error(Error::OutOfRange(OutOfRange))), "outside its range: {reply:?}");
     let reply = hoist.go(66_100, 600, -2).send().unwrap();
     assert!(!reply.is_complete());
     let expected = [5, 0x02, 0x02, 0x34, 0x00, 0x01, 0x25, 0x8E];
@@ -170,7 +170,7 @@ fn several_parameters_in_one_frame() -> Result<(), OutOfRange> {
     assert_eq!(hoist.client().exchange().sent[0], expected);
     let read = hoist.read(Parameter(0x010C)).send().unwrap();
     assert_eq!((read.setting.value_of(&objects::HEIGHT), read.setting.value_of(&objects::GAIN)), (Some(-5), None));
-    // More settings than the message allows, then more than its length allows.
+    // The first request has more settings than the message allows. The second one exceeds the maximum length.
     let many = [settings[0]; 9];
     assert_eq!(hoist.write(&many).send(), Err(Error::OutOfRange(OutOfRange).into()));
     let long = [settings[1]; 7];
@@ -187,7 +187,7 @@ fn what_a_request_means_is_a_type() {
     {
         let mut shows_load = hoist.select_load().select().unwrap();
         assert_eq!(PollLoadReply::LOAD.physical(shows_load.poll_load().send().unwrap().load), None);
-        // Requests that are independent of the selection remain available.
+        // Requests that do not depend on the selection must remain available.
         shows_load.store().send().unwrap();
         assert!(shows_load.poll_load().send().unwrap().is_complete());
     }
@@ -213,7 +213,7 @@ fn what_is_repeated_and_what_goes_on_to_the_end() {
     assert_eq!(hoist.play(List::from(&too_high)).send(), Err(Error::OutOfRange(OutOfRange).into()));
 }
 
-/// A reply with any changed byte isn't accepted, except for the two bytes without meaning.
+/// A reply with a changed byte must be rejected. Two bytes that have no meaning are exceptions.
 #[test]
 fn every_byte_of_a_reply_counts() {
     let request = [5, 0x02, 0x02, 0x34, 0x00, 0x01, 0x25, 0x8E];

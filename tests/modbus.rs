@@ -1,5 +1,5 @@
-//! Generated accessors with a simulated Modbus server (`tokio-modbus`), over TCP and with RTU frames. The tests check
-//! values and requests.
+//! Tests generated accessors with a simulated Modbus server (`tokio-modbus`), over TCP and with RTU frames. The tests
+//! check both values and requests.
 
 #[path = "support/modbus_server.rs"]
 mod server;
@@ -22,7 +22,7 @@ use inverter::{objects, Inverter};
 
 type Client = ModbusClient<sync::Context>;
 
-/// Returns the registers of the inverter, all with a value.
+/// Returns the registers of the inverter. Each register has a value.
 fn registers() -> Map {
     Map::default()
         .with(Holding, 0, &[1500, 25, 0x0001, 0x86A0, 0xFFFD, 0x6400, 0x5678, 0x1234, 0x2211, 0x4433])
@@ -44,7 +44,7 @@ fn connected() -> (Device<Map>, Server, Inverter<Client>) {
     (device, server, inverter)
 }
 
-/// Returns words of the device.
+/// Returns words in a table of the device.
 fn words(device: &Device<Map>, table: lexibus::RegisterTable, address: u16, count: u16) -> Vec<u16> {
     device.with(|map| map.read_words(table, address, count)).expect("registers")
 }
@@ -53,7 +53,7 @@ fn words(device: &Device<Map>, table: lexibus::RegisterTable, address: u16, coun
 fn values_in_registers() {
     let (device, _server, mut inverter) = connected();
     assert_eq!(inverter.speed_setpoint().read().unwrap(), 1500);
-    // High word first, low word first, and swapped bytes.
+    // The items use the high word first, the low word first, and swapped bytes.
     assert_eq!(inverter.distance().read_scaled().unwrap(), 1000.0);
     assert_eq!(inverter.energy().read().unwrap(), 0x1234_5678);
     assert_eq!(inverter.serial_number().read().unwrap(), 0x1122_3344);
@@ -99,7 +99,7 @@ fn blocks_are_as_few_requests_as_the_device_allows() {
     assert_eq!((position, speed, objects::CURRENT.physical(current)), (-100_000, -1480, 7.3));
     assert_eq!(device.requests(), ["ReadInputRegisters(0, 4)"]);
 
-    // The password is write-only, registers 30006 to 30008 don't exist, and a request may read 16 registers.
+    // The password is write-only, registers 30006 to 30008 do not exist, and a request can read at most 16 registers.
     let values = client.read_block((
         objects::CURRENT_LIMIT,
         objects::HOURS,
@@ -152,7 +152,7 @@ fn what_the_device_does_not_take_is_not_sent() {
     assert!(matches!(refused, Err(Error::Client(ModbusError::TooLong { count: 5, max: 4 }))));
     assert!(matches!(inverter.speed_setpoint().write(3001), Err(Error::OutOfRange(_))));
     assert_eq!(device.requests(), ["ReadHoldingRegisters(19, 5)"]);
-    // A device that supports no function for several registers, and allows values to be split.
+    // The device supports no function for several registers and allows reading the registers of a value separately.
     let context = inverter.into_client().into_context();
     let holding = TableLimits { functions: &[3, 6], max_read: 3, split: true, ..TableLimits::HOLDING };
     let mut inverter = Inverter::new(ModbusClient::new(context).with_limits(Limits { holding, ..Limits::STANDARD }));
@@ -173,7 +173,7 @@ fn runtime() -> tokio::runtime::Runtime {
     tokio::runtime::Builder::new_current_thread().enable_io().build().expect("a runtime")
 }
 
-/// The same requests through asynchronous clients.
+/// Tests the same requests with asynchronous clients.
 async fn without_blocking(mut inverter: Inverter<ModbusClient<tokio_modbus::client::Context>>, device: &Device<Map>) {
     inverter.distance().write_async(123_456).await.unwrap();
     inverter.mode().write_async(Mode::Position).await.unwrap();
@@ -209,7 +209,7 @@ fn frames_of_rtu_without_blocking() {
     });
 }
 
-/// Registers R00, R01 and R06 of the Eco drive, whose addresses have 32 bits each.
+/// Items for the registers R00, R01 and R06 of the Eco drive. Each of their addresses contains 32 bits.
 type Wide<V> = Item<V, Rw, OnModbus>;
 const R00: Wide<u32> = Wide::register(Register::high_first(0x8000, 2).words_per_address(2), "R00", Flags::NONE);
 const R01: Wide<i32> = Wide::register(Register::high_first(0x8001, 2).words_per_address(2), "R01", Flags::NONE);
@@ -218,14 +218,14 @@ const LOW_R06: Wide<i16> = Wide::register(Register::holding(0x8006).words_per_ad
 
 #[test]
 fn addresses_of_32_bits() {
-    // The example in "Codice 0x03: lettura dei parametri e dei registri" of the manual: R00 and R01 of node 5 are
-    // four registers from 0x8000 on. The printed response has only one of them.
+    // The example in section "Codice 0x03: lettura dei parametri e dei registri" of the manual. R00 and R01 of node 5
+    // are four registers from address 0x8000. The printed response contains only one of the two values.
     let frames: [(&[u8], &[u8]); 2] = [
         (
             &[0x05, 0x03, 0x80, 0x00, 0x00, 0x04, 0x6C, 0x4D],
             &[0x05, 0x03, 0x08, 0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88, 0x61, 0xAC],
         ),
-        // A request for a single register returns the low half.
+        // A request for a single register must return the low half of the value.
         (&[0x05, 0x03, 0x80, 0x06, 0x00, 0x01, 0x4C, 0x4F], &[0x05, 0x03, 0x02, 0xFF, 0xFE, 0x89, 0xF4]),
     ];
     runtime().block_on(async {
@@ -240,7 +240,7 @@ fn addresses_of_32_bits() {
             }
         };
         let (values, ()) = tokio::join!(drive.read_block_async((LOW_R06, LOW_R01, R01, R00)), answers);
-        // The low half of R01 is its second word.
+        // The low half of R01 is the second word of the value.
         assert_eq!(values.unwrap(), (-2, 0x7788, 0x5566_7788, 0x1122_3344));
     });
 }

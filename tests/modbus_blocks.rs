@@ -1,5 +1,5 @@
-//! Blocks of random items: they return the same values as single reads, with the fewest requests. No request exceeds
-//! the limit or includes an undescribed address.
+//! Tests reading blocks of random items. Blocks must return the same values as single reads with the fewest requests.
+//! No request may exceed the limit or include an undescribed address.
 
 use std::collections::HashMap;
 
@@ -20,14 +20,14 @@ const LIMITS: Limits = Limits {
     discrete: TableLimits { readable: &[Span::new(5, 30)], ..TableLimits::DISCRETE },
 };
 
-/// A simulated device that records its requests. Its input registers have 32 bits, high half first. A request for one
-/// word returns the low half.
+/// A simulated device that records its requests. The input registers of the device have 32 bits, with the high half
+/// first. A request for one word returns the low half.
 #[derive(Default)]
 struct Device {
     requests: Vec<Register>,
 }
 
-/// Returns the content of an address.
+/// Returns the content of a word at an address.
 fn word(table: RegisterTable, address: u16, half: u16) -> u16 {
     (address.wrapping_mul(0x3D4F) ^ half.wrapping_mul(0x5A5B)).wrapping_add(table as u16 * 0x1357).rotate_left(3)
 }
@@ -73,7 +73,7 @@ fn item<V: Value>(register: Register) -> RegisterItem<V> {
     RegisterItem::register(register, "", Flags::NONE)
 }
 
-/// Generates registers in a table of words. An input register has two words per address.
+/// Generates registers in a table of words. In the table of input registers, an address has two words.
 fn words(count: u16) -> impl Strategy<Value = Register> {
     let place = (0..24_u16, any::<bool>(), any::<bool>(), any::<bool>());
     place.prop_map(move |(address, is_input, is_low_first, is_swapped)| {
@@ -101,7 +101,7 @@ fn part() -> impl Strategy<Value = Register> {
     (words(1), 0..8_u8).prop_map(|(register, first)| register.part(first, 8))
 }
 
-/// Returns the addresses of a register, with their table.
+/// Returns all addresses of a register with their table.
 fn addresses(own: &Register) -> impl Iterator<Item = (RegisterTable, u16)> {
     let (table, first) = (own.table, own.address);
     (0..own.addresses()).map(move |at| (table, first + at))
@@ -115,7 +115,7 @@ fn is_described(items: &[Register], (table, address): (RegisterTable, u16)) -> b
         || items.iter().flat_map(addresses).any(|own| own == (table, address))
 }
 
-/// Returns the minimum number of requests that read all items of a table, found by exhaustive search.
+/// Returns the minimum number of requests that read all items of a table. Uses an exhaustive search.
 fn fewest(items: &[Register], table: RegisterTable) -> usize {
     let own: Vec<Register> = items.iter().copied().filter(|item| item.table == table).collect();
     let all = (1_u32 << own.len()) - 1;
@@ -130,7 +130,7 @@ fn fewest(items: &[Register], table: RegisterTable) -> usize {
     reached[&all]
 }
 
-/// Returns the set of items that the longest request from an address reads.
+/// Returns the set of items that the longest allowed request from an address reads.
 fn window(own: &[Register], items: &[Register], (table, first): (RegisterTable, u16)) -> u32 {
     let step = if table == RegisterTable::Input { 2 } else { 1 };
     let longest = first + LIMITS.max_read(table) / step;

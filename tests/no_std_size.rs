@@ -1,4 +1,4 @@
-//! Unused code leaves no trace in a binary, and the default build has no dependencies. Uses the programs of
+//! Tests that unused code is not part of a binary, and that the default build has no dependencies. Uses the programs in
 //! `examples/no_std`.
 
 #[path = "support/lane.rs"]
@@ -15,7 +15,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Builds the programs and returns the folder of their binaries; `None` if they can't be linked.
+/// Builds the programs. Returns the folder of their binaries, or `None` if the programs cannot be linked.
 fn build() -> Option<PathBuf> {
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         println!("skipped: the programs of examples/no_std are for Linux on x86-64");
@@ -33,7 +33,7 @@ fn build() -> Option<PathBuf> {
     Some(target.join("release"))
 }
 
-/// The loaded sections of a program, and the names of its functions.
+/// The loaded sections of a program and the names of its functions.
 struct Program {
     code: usize,
     data: usize,
@@ -46,7 +46,7 @@ fn read(binary: &Path) -> Program {
     let file = object::File::parse(&*bytes).expect("an object file");
     let mut program = Program { code: 0, data: 0, loaded: Vec::new(), symbols: Vec::new() };
     for section in file.sections() {
-        // Unwinding tables, which a linker script for a microcontroller discards.
+        // Ignore unwinding tables, which a linker script for a microcontroller discards.
         if section.name().is_ok_and(|name| name.starts_with(".eh_frame")) {
             continue;
         }
@@ -66,13 +66,13 @@ fn read(binary: &Path) -> Program {
     program
 }
 
-/// Returns all texts of at least five letters in the bindings: names of registers, units, texts of codes.
+/// Returns all texts in the bindings that have at least five letters: names of registers, units, and texts of codes.
 fn texts(bindings: &str) -> BTreeSet<&str> {
     let code = bindings.lines().filter(|line| !line.trim_start().starts_with("//"));
     code.flat_map(|line| line.split('"').skip(1).step_by(2)).filter(|text| text.len() >= 5).collect()
 }
 
-/// Runs a program with the replies of a drive, and returns its exit code and output.
+/// Runs a program with the replies of a drive. Returns its exit code and output.
 fn run(binary: &Path, replies: &[u8]) -> (Option<i32>, Vec<u8>) {
     let mut child =
         Command::new(binary).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("the program starts");
@@ -99,11 +99,11 @@ fn what_is_not_used_leaves_nothing() {
         let found = generated.loaded.windows(text.len()).any(|window| window == text.as_bytes());
         assert!(!found, "`{text}` is in the binary");
     }
-    // A table of 585 registers would need thousands of bytes.
+    // A table of the 585 registers would need thousands of bytes.
     assert!(generated.code + generated.data < 1024, "{} + {} bytes", generated.code, generated.data);
     assert!(generated.data <= by_hand.data, "{} bytes of data", generated.data);
     for name in &generated.symbols {
-        assert!(!name.contains("5alloc"), "{name} is of the allocator");
+        assert!(!name.contains("5alloc"), "{name} belongs to the allocator");
         assert!(!name.contains("core3fmt"), "{name} formats texts");
     }
     let functions = generated.symbols.iter().filter(|name| name.contains("lexibus_drives"));
@@ -127,7 +127,7 @@ fn both_programs_send_the_same_frames() {
     .concat();
     for name in ["generated", "by_hand"] {
         assert_eq!(run(&folder.join(name), &replies), (Some(0), frames.clone()), "{name}");
-        // The program ends after a refusal.
+        // The program must end after a refusal.
         let refused = [0x80, 0x60, 0x60, 0, 0, 0, 2, 6];
         assert_eq!(run(&folder.join(name), &refused), (Some(2), frames[..8].to_vec()), "{name}");
     }

@@ -1,4 +1,4 @@
-//! Arrays of more than 32 bytes: `serde` doesn't implement its traits for them.
+//! Tests arrays of more than 32 bytes, for which `serde` does not implement its traits.
 
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 struct Frame {

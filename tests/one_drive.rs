@@ -1,4 +1,4 @@
-//! One device on all buses: the accessors of `data/one-drive.toml` use objects, windows, registers and a process
+//! Tests a device on all buses. The accessors of `data/one-drive.toml` use objects, windows, registers and a process
 //! image.
 
 #![cfg(all(feature = "macros", feature = "std"))]
@@ -25,7 +25,7 @@ lexibus::dictionary! {
 use one::types::Modes;
 use one::{objects, OneDrive, ENTRIES};
 
-/// Returns the result of a future that is ready at once.
+/// Returns the result of a future that must be ready immediately.
 fn now<F: Future>(future: F) -> F::Output {
     struct Silent;
     impl std::task::Wake for Silent {
@@ -34,11 +34,11 @@ fn now<F: Future>(future: F) -> F::Output {
     let waker = Waker::from(std::sync::Arc::new(Silent));
     match pin!(future).poll(&mut Context::from_waker(&waker)) {
         Poll::Ready(output) => output,
-        Poll::Pending => panic!("the future waits"),
+        Poll::Pending => panic!("the future is not ready"),
     }
 }
 
-/// The drive on CANopen. Its window accesses the registers.
+/// Returns the drive on CANopen. The window of the drive gives access to the registers.
 fn node() -> Device {
     let mut device = Device::new(ENTRIES);
     device
@@ -76,9 +76,9 @@ fn windows_are_as_addresses() {
     assert_eq!(drive.master_speed().read(), Ok(-5));
     now(drive.gain().write_async(70_001)).unwrap();
     assert_eq!(now(drive.gain().read_async()), Ok(70_001));
-    // The accessor checks the item's range, too.
+    // The accessor also checks the range of the item.
     assert_eq!(drive.gain().write(100_001), Err(Error::OutOfRange(OutOfRange)));
-    // An item with its own object doesn't use the window.
+    // An item that has its own object must not use the window.
     drive.target_position().write(60_000).unwrap();
     assert_eq!(device.bytes(Object::new(0x607A, 0)), Ok(60_000_i32.to_le_bytes().as_slice()));
     assert_eq!(device.bytes(Object::new(0x2006, 2)), Ok(70_001_i32.to_le_bytes().as_slice()));
@@ -89,7 +89,7 @@ fn what_the_device_refuses_comes_through_a_window() {
     let mut device = node();
     device.fail_next(AbortCode::HARDWARE);
     assert_eq!(OneDrive::new(device.client::<CanOpen>()).gain().read(), Err(Error::Abort(AbortCode::HARDWARE)));
-    // This device never clears the number.
+    // The device never clears the number in the window.
     let mut dead = Device::new(ENTRIES);
     assert_eq!(OneDrive::new(dead.client::<CanOpen>()).gain().read(), Err(Error::Timeout));
     assert_eq!(now(OneDrive::new(dead.client::<CanOpen>()).gain().read_async()), Err(Error::Timeout));
@@ -215,33 +215,33 @@ fn time_has_to_come_from_somewhere() {
 
 #[test]
 fn each_bus_has_its_own_width() {
-    // 16 bits on EtherCAT.
+    // The item has 16 bits on EtherCAT.
     let mut drive = OneDrive::new(Slave::default());
     drive.mode().write(Modes::SaveParameters).unwrap();
     assert_eq!(drive.client().log, ["write 0x6060:00 [CE, FF]"]);
     assert_eq!(drive.mode().read(), Ok(Modes::SaveParameters));
-    // 8 bits on CANopen. There the mode that saves doesn't exist, and reads use the window.
+    // The item has 8 bits on CANopen. The mode for saving does not exist there, and reads use the window.
     let mut device = node();
     let mut drive = OneDrive::new(device.client::<CanOpen>());
     assert_eq!(drive.mode().write(Modes::SaveParameters), Err(Error::OutOfRange(OutOfRange)));
     drive.mode().write(Modes::Torque).unwrap();
     assert_eq!(drive.mode().read(), Ok(Modes::Torque));
     assert_eq!(device.bytes(Object::new(0x6060, 0)), Ok([0xFF].as_slice()));
-    // 32 bits on Modbus.
+    // The item has 32 bits on Modbus.
     let mut drive = OneDrive::new(device.client::<Modbus>());
     drive.mode().write(Modes::SaveParameters).unwrap();
     assert_eq!(drive.mode().read(), Ok(Modes::SaveParameters));
     assert_eq!(device.bytes(objects::MODE.location().modbus), Ok((-50_i32).to_le_bytes().as_slice()));
 }
 
-/// A simulated drive with a process image of 16 bytes in each direction. It answers its parameter channel in the
-/// second cycle after a request.
+/// A simulated drive with a process image of 16 bytes in each direction. Its parameter channel answers in the second
+/// cycle after a request.
 #[derive(Default)]
 struct Controller {
     cycles: usize,
     asked: Option<u16>,
     gain: i32,
-    /// All values written to the gain.
+    /// All values that were written to the gain.
     gains: Vec<i32>,
     is_bad: bool,
 }
@@ -314,12 +314,13 @@ fn the_image_is_a_bus() {
     assert_eq!((drive.ready().read(), drive.alarm().read()), (Ok(true), Ok(0)));
     drive.mode().write(Modes::SaveParameters).unwrap();
     assert_eq!(drive.client().outputs()[0], 0xCE);
-    // Output-only fields are read through the parameter channel. Items without a field use it for reads and writes.
+    // Fields that are only outputs are read through the parameter channel. Items without a field use the channel for
+    // reading and writing.
     assert_eq!(drive.mode().read(), Ok(Modes::SaveParameters));
     drive.gain().write(70_000).unwrap();
     assert_eq!(drive.gain().read(), Ok(70_000));
     assert_eq!(now(drive.gain().read_async()), Ok(70_000));
-    // No cycle combined the number with the value of another item.
+    // No cycle may combine the number of one item with the value of another item.
     assert!(drive.client().image().gains.iter().all(|gain| *gain == 70_000));
     now(drive.gain().write_async(70_001)).unwrap();
     assert_eq!(drive.client().image().gain, 70_001);
@@ -334,7 +335,7 @@ fn fields_of_one_cycle_go_out_together() {
     assert_eq!(drive.client().image().cycles, 0);
     drive.client().cycle().unwrap();
     assert_eq!((drive.actual_position().read(), drive.client().image().cycles), (Ok(5), 1));
-    // A window access takes time, during which cycles continue.
+    // A window access takes time. Cycles must continue meanwhile.
     drive.gain().write(9).unwrap();
     assert_eq!((drive.gain().read(), drive.client().image().cycles), (Ok(9), 9));
 }
@@ -347,7 +348,7 @@ fn data_that_are_not_valid_are_no_data() {
     drive.target_position().write(1).unwrap();
 }
 
-/// The memory of a slave controller.
+/// The memory of a simulated slave controller.
 struct Memory([u8; 0x200]);
 
 impl Client for Memory {

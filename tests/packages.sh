@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Packages all crates as for crates.io, then builds against the packages: the drive crate in tests/drive-crate, and the command line
-# with `cargo install lexibus-cli`. Both builds use a local folder that contains all crates, including external ones.
+# Packages all crates as for crates.io, then builds two crates with these packages: the drive crate in tests/drive-crate, and the
+# command line with `cargo install lexibus-cli`. Both builds use a local folder that contains all crates, including external ones.
 #
 #     tests/packages.sh
 #
-# The output is in target/packages.
+# The packages are written to target/packages.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=${CARGO_TARGET_DIR:-$PWD/target}/packages
@@ -15,7 +15,7 @@ crates=(lexibus lexibus-codegen lexibus-macros lexibus-site lexibus-export lexib
 rm -rf "$source" "$scratch" "$folder/installed"
 mkdir -p "$source" "$scratch"
 
-# --no-verify: the build against the packages replaces cargo's own check, which would compile everything again.
+# Use --no-verify, because the builds below replace the verification by Cargo, which would compile everything again.
 cargo package --quiet --allow-dirty --no-verify --target-dir "$folder" "${crates[@]/#/-p}" 2> >(grep -v "^warning: ignoring" >&2)
 
 cargo vendor --quiet --locked "$source" >/dev/null
@@ -29,7 +29,7 @@ for crate in "${crates[@]}"; do
     printf '{"files":{},"package":"%s"}' "$(sha256sum "$package" | cut -d' ' -f1)" >"$unpacked/.cargo-checksum.json"
 done
 
-# `cargo install` ignores the configuration in the current folder, so both commands get it as arguments.
+# `cargo install` ignores the configuration in the current folder. Both commands therefore get it as arguments.
 packages=(--offline --config 'source.crates-io.replace-with = "packages"' --config "source.packages.directory = \"$source\"")
 
 cp -r tests/drive-crate/{build.rs,pump.eds,src} "$scratch"

@@ -1,10 +1,10 @@
-//! Custom mappings: packing, unpacking and configuration of `lexibus::pdo!` structs.
+//! Tests custom mappings: packing, unpacking and configuring `lexibus::pdo!` structs.
 
 use lexibus::{CobId, Int, LengthError, MappedEntry, NodeId, Pdo, SdoWrite, Uint};
 use lexibus_drives::{demo_drive, vector_step};
 use proptest::prelude::*;
 
-/// Generated code for a device with odd lengths and a granularity of one bit.
+/// Generated code for a device whose objects have unusual lengths. Its mapping granularity is one bit.
 #[allow(missing_docs)]
 pub mod odd {
     pub mod types {
@@ -69,7 +69,7 @@ pub mod odd {
             const TIMING: &'static [rt::SdoWrite] = &[rt::SdoWrite::new_u8(0x1400, 2, 255)];
         }
 
-        /// A PDO on EtherCAT with a fixed entry.
+        /// A PDO on EtherCAT that has a fixed entry.
         pub enum Inputs {}
 
         impl rt::Remappable for Inputs {
@@ -81,7 +81,7 @@ pub mod odd {
             const KEPT: &'static [rt::MappedEntry] = &[rt::MappedEntry::new(0x2000, 0, 3)];
         }
 
-        /// A PDO without default COB-ID, which is read-only.
+        /// A PDO without a default COB-ID. Its COB-ID is read-only.
         pub enum TxPdo2 {}
 
         impl rt::Remappable for TxPdo2 {
@@ -96,7 +96,7 @@ pub mod odd {
 use odd::types::Mode;
 
 lexibus::pdo! {
-    /// Setpoints of odd lengths.
+    /// Setpoints with unusual lengths.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct SetPoints: odd::pdo::RxPdo1 {
         mode,
@@ -137,10 +137,10 @@ fn fields_stand_bit_by_bit() {
         left: Uint::from_raw(0xABC),
     };
     assert_eq!((SetPoints::BITS, SetPoints::LEN), (49, 7));
-    // 3 bits, 1 bit, a gap of 8 bits, 24 bits, 12 bits, a gap of 1 bit: 0xABC_FFFFFE_00_E.
+    // The PDO contains 3 bits, 1 bit, a gap of 8 bits, 24 bits, 12 bits, and a gap of 1 bit: 0xABC_FFFFFE_00_E.
     assert_eq!(points.pack(), [0x0E, 0xE0, 0xFF, 0xFF, 0xCF, 0xAB, 0x00]);
     assert_eq!(SetPoints::unpack(&points.pack()), Ok(points));
-    // Bits in gaps and after the mapped ones are ignored.
+    // Bits in gaps and after the mapped entries must be ignored.
     assert_eq!(SetPoints::unpack(&[0xFE, 0xEF, 0xFF, 0xFF, 0xCF, 0xAB, 0xFF, 0xFF]), Ok(points));
     assert_eq!(SetPoints::unpack(&[0; 6]), Err(LengthError { expected: 7, actual: 6 }));
 }
@@ -156,7 +156,8 @@ fn values_are_cut_to_their_bits() {
 fn a_pdo_may_be_longer_than_a_word() {
     let long = Long { left: Uint::from_raw(0x123), real: 1.0, mode: Mode::On, text: *b"Hello" };
     assert_eq!((Long::BITS, Long::LEN), (97, 13));
-    // 12 bits, 32 bits of 0x3F800000, 3 bits from bit 44 on, a gap of 10 bits, 40 bits from bit 57 on.
+    // The PDO contains 12 bits, 32 bits with the value 0x3F800000, 3 bits from bit 44, a gap of 10 bits, and 40 bits
+    // from bit 57.
     assert_eq!(long.pack(), [0x23, 0x01, 0x00, 0x00, 0xF8, 0x13, 0x00, 0x90, 0xCA, 0xD8, 0xD8, 0xDE, 0x00]);
     assert_eq!(Long::unpack(&long.pack()), Ok(long));
     assert_eq!(Long::unpack(&[0; 12]), Err(LengthError { expected: 13, actual: 12 }));
@@ -169,7 +170,7 @@ fn configuration_is_disable_clear_map_count_timing_enable() {
         SdoWrite::new_u8(0x1600, 0, 0),
         SdoWrite::new_u32(0x1600, 1, 0x2000_0003),
         SdoWrite::new_u32(0x1600, 2, 0x2001_0001),
-        // The dummy entries of 8 bits and 1 bit.
+        // These are the dummy entries of 8 bits and 1 bit.
         SdoWrite::new_u32(0x1600, 3, 0x0005_0008),
         SdoWrite::new_u32(0x1600, 4, 0x2002_0018),
         SdoWrite::new_u32(0x1600, 5, 0x2010_010C),
@@ -202,13 +203,13 @@ fn a_gap_on_ethercat_needs_no_object() {
 }
 
 lexibus::pdo! {
-    /// The default mapping.
+    /// A PDO with the default mapping.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct SameAsDefault: demo_drive::pdo::RxPdo2 { controlword, target_position }
 }
 
 lexibus::pdo! {
-    /// An array entry with a custom field name.
+    /// A PDO with an array entry. The field has a custom name.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Feedback: ::lexibus_drives::demo_drive::pdo::TxPdo2 {
         mode: modes_of_operation_display,
@@ -242,7 +243,7 @@ fn enumerations_and_entries_of_arrays() {
 }
 
 lexibus::pdo! {
-    /// A mapping for a PDO that has none by default.
+    /// A mapping for a PDO that has no default mapping.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Fast: vector_step::pdo::RxPdo3 { controlword, profile_velocity }
 }
@@ -273,7 +274,7 @@ proptest! {
     #[test]
     fn short_frames_come_back(frame: [u8; 7]) {
         let mut expected = frame;
-        // The gaps: bits 4 to 11, and everything from bit 48 on.
+        // The gaps are bits 4 to 11, and all bits from bit 48.
         (expected[0], expected[1], expected[6]) = (frame[0] & 0x0F, frame[1] & 0xF0, 0);
         prop_assert_eq!(SetPoints::unpack(&frame).unwrap().pack(), expected);
     }
@@ -281,7 +282,7 @@ proptest! {
     #[test]
     fn long_frames_come_back(frame: [u8; 13]) {
         let mut expected = frame;
-        // The gaps: bits 47 to 56, and everything from bit 97 on.
+        // The gaps are bits 47 to 56, and all bits from bit 97.
         (expected[5], expected[6], expected[7], expected[12]) = (frame[5] & 0x7F, 0, frame[7] & 0xFE, frame[12] & 1);
         prop_assert_eq!(Long::unpack(&frame).unwrap().pack(), expected);
     }
@@ -290,12 +291,12 @@ proptest! {
     fn frames_of_a_drive_are_read_alike(frame: [u8; 8]) {
         let (own, default) = (SameAsDefault::unpack(&frame).unwrap(), demo_drive::pdo::RxPdo2::unpack(&frame).unwrap());
         prop_assert_eq!((own.controlword, own.target_position), (default.controlword, default.target_position));
-        // Reserved bits keep their value.
+        // Reserved bits must keep their values.
         prop_assert_eq!(own.pack(), default.pack());
     }
 }
 
-/// PDOs of an EtherCAT device description.
+/// PDOs from an EtherCAT device description.
 #[cfg(feature = "macros")]
 mod ethercat {
     use super::*;
@@ -310,7 +311,7 @@ mod ethercat {
     }
 
     lexibus::pdo! {
-        /// Controlword, a gap and the target position.
+        /// A PDO with the controlword, a gap and the target position.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Position: drive::pdo::PositionMode { controlword, _: 3, target_position }
     }
@@ -325,7 +326,7 @@ mod ethercat {
         let commands: Vec<SdoWrite> = assignment.commands().collect();
         let at = commands.iter().position(|write| write.object().index == 0x1600).unwrap();
         assert_eq!(commands[at..at + 5], Position::mapping_writes());
-        // The assignment is cleared before the mapping is written, and written after it.
+        // The assignment is cleared before the mapping is written, and is written after the mapping.
         assert_eq!(commands[0], SdoWrite::new_u8(0x1C12, 0, 0));
         assert!(commands[at + 5..].contains(&SdoWrite::new_u16(0x1C12, 1, 0x1600)));
         let other = Assignment::<8>::new(&drive::DEVICE, &[0x1601, 0x1A01]).unwrap();
@@ -339,7 +340,7 @@ mod ethercat {
     }
 
     lexibus::pdo! {
-        /// The fixed entry for the state, and all other entries.
+        /// A PDO with the fixed entry for the state and all other entries.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Everything: sensor::pdo::Measurement { _: 5, label, state, trend, alarm }
     }
@@ -349,7 +350,7 @@ mod ethercat {
         use sensor::pdo::Measurement;
         use sensor::types::{State, Trend};
 
-        // State 1, the alarm, trend -1. The bits above the state belong to other fields.
+        // The state is 1, the alarm is set, and the trend is -1. The bits above the state belong to other fields.
         let measurement = Measurement { state: State::Measuring, alarm: true, trend: Trend::Falling };
         assert_eq!(measurement.pack(), [0xFD, 0x07]);
         assert_eq!(Measurement::unpack(&[0xFD, 0xFF]), Ok(measurement));
@@ -361,7 +362,8 @@ mod ethercat {
     fn the_limits_are_those_of_the_description() {
         use sensor::remappable::Measurement;
 
-        // At most 14 bytes, a fixed entry for the state. Objects of the default mapping can be mapped.
+        // The PDO has at most 14 bytes and a fixed entry for the state. Objects of the default mapping can also be
+        // mapped.
         assert_eq!(
             (Measurement::MAX_BITS, Measurement::KEPT, Measurement::ENTRIES),
             (112, &[MappedEntry::new(0x6000, 0, 2)][..], 254)
@@ -373,7 +375,8 @@ mod ethercat {
             alarm: true,
         };
         assert_eq!((Everything::BITS, Everything::LEN), (96, 12));
-        // From bit 80 on: five bits of the text, two of the state, eight of the trend, the alarm.
+        // From bit 80, the PDO contains five bits of the text, two bits of the state, eight bits of the trend, and the
+        // alarm.
         assert_eq!(everything.pack()[10..], [0x80 | 0x20 | 0x07, 0x80]);
         assert_eq!(Everything::unpack(&everything.pack()), Ok(everything));
     }

@@ -1,5 +1,5 @@
-//! PROFINET from device description to bytes: bindings of the files in `data`, with images and records computed by
-//! hand.
+//! Tests PROFINET from the device description to the bytes. The bindings are generated from the files in `data`. The
+//! images and records were calculated by hand.
 #![cfg(feature = "macros")]
 
 lexibus::dictionary! {
@@ -28,7 +28,8 @@ mod profisafe {
         UserStructure, WithStatus,
     };
 
-    /// Emergency stops A (bit 0) and B (bit 3) of byte 0, speed −2, status byte 0x20, CRC 0xA1B2C3, provider status.
+    /// Emergency stops A (bit 0) and B (bit 3) in byte 0, speed −2, status byte 0x20, CRC 0xA1B2C3, and provider
+    /// status.
     const OBJECT: [u8; 8] = [0x09, 0xFF, 0xFE, 0x20, 0xA1, 0xB2, 0xC3, 0x80];
 
     #[test]
@@ -60,13 +61,13 @@ mod profisafe {
 
     #[test]
     fn parameters_start_from_their_defaults() {
-        // Constants 5A 01 and EE. Mode 2 in bits 1 to 3 is 0x04, inversion in bit 7 is 0x80. 1.5 is 3F C0 00 00.
-        // Layout 7.
+        // The constants are 5A 01 and EE. Mode 2 in bits 1 to 3 is 0x04, and inversion in bit 7 is 0x80. 1.5 is 3F C0
+        // 00 00. The layout is 7.
         let default = [0x5A, 0x01, 0x84, 0x3F, 0xC0, 0x00, 0x00, 0xEE, 0x07];
         assert_eq!(InputFilterRecord::DEFAULT_BYTES, default);
         assert_eq!(InputFilterRecord::default().encode(), Ok(default));
         assert_eq!(InputFilterRecord::LAYOUT, 7);
-        // Mode 3 is 0x06; 10.0 is 41 20 00 00.
+        // Mode 3 is 0x06, and 10.0 is 41 20 00 00.
         let changed = InputFilterRecord { mode: VMode::Long, invert: false, gain: 10.0 };
         let bytes = [0x5A, 0x01, 0x06, 0x41, 0x20, 0x00, 0x00, 0xEE, 0x07];
         assert_eq!(changed.encode(), Ok(bytes));
@@ -84,15 +85,15 @@ mod profisafe {
         assert_eq!(InputFilterRecord { gain: f32::NAN, ..record }.encode(), refused("Gain"));
         assert_eq!(InputFilterRecord { mode: VMode::Unknown(1), ..record }.encode(), refused("Mode"));
         assert_eq!(InputFilterRecord { mode: VMode::Off, ..record }.check(), Ok(()));
-        // A newer device may return values unknown to the file: here 5 in bits 1 to 3.
+        // A newer device may return values that the file does not define, such as 5 in bits 1 to 3.
         let read = InputFilterRecord::decode(&[0, 0, 0x0A, 0, 0, 0, 0, 0, 0]).unwrap();
         assert_eq!((read.mode, read.mode.raw()), (VMode::Unknown(5), 5));
     }
 
     #[test]
     fn f_parameters_get_their_checksum() {
-        // SIL 2 is 01 in bits 2 and 3. Version 1 is in bits 6 and 7. Host 1, device 1, 100 ms. The file has the CRC
-        // 49406 = 0xC0FE.
+        // SIL 2 is 01 in bits 2 and 3. Version 1 is in bits 6 and 7. The host and device addresses are 1, and the time
+        // is 100 ms. The CRC in the file is 49406 = 0xC0FE.
         assert_eq!(F_PARAMETERS.default_bytes(), [0x04, 0x40, 0x00, 0x01, 0x00, 0x01, 0x00, 0x64, 0xC0, 0xFE]);
         let mut parameters = F_PARAMETERS.default;
         parameters.destination_address = 12;
@@ -119,15 +120,15 @@ mod profisafe {
         let second = records.next().unwrap();
         assert_eq!((second.index, second.data), (0x100, &F_PARAMETERS.default_bytes()[..]));
         assert_eq!(records.next(), None);
-        // Inputs: 3 + 4 bytes and a provider status, a consumer status for the outputs, and a status each for head,
-        // interface and port.
+        // The inputs consist of 3 + 4 bytes with a provider status, a consumer status for the outputs, and one status
+        // each for head, interface and port.
         assert_eq!(plan.lengths(), (8 + 1 + 3, 6 + 1 + 3));
         assert_eq!(safe_inputs::SUBMODULE.input_len, Some(7));
     }
 
     #[test]
     fn diagnosis_has_the_texts_of_the_file() {
-        // Channel 3 appears (0x0800): error type 256, extended error type 7, value 5.
+        // An error of channel 3 appears (0x0800): error type 256, extended error type 7, and value 5.
         let block = [0x00, 0x03, 0x08, 0x00, 0x01, 0x00, 0x00, 0x07, 0x00, 0x00, 0x00, 0x05];
         let structure = UserStructure::from_identifier(0x8002);
         let found = ChannelDiagnosis::decode(structure, &block).next().unwrap();
@@ -137,11 +138,11 @@ mod profisafe {
         let precise = error.extended(extended.error_type).unwrap();
         assert_eq!((precise.name, extended.add_value), ("Between A and B", 5));
         assert_eq!(diagnosis::channel_error(0, 1), None);
-        // Two profiles define the same type differently. Types without a profile are valid for every API.
+        // Two profiles define the same error type differently. Error types without a profile are valid for all APIs.
         let name = |api| diagnosis::channel_error(api, 0x9000).map(|error| error.name);
         assert_eq!((name(0x3A00), name(0x5B00), name(0)), (Some("Alpha"), Some("Beta"), None));
         assert_eq!(diagnosis::channel_error(0x3A00, found.error_type), Some(error));
-        // Count 0x0102, state 2 in bits 4 and 5.
+        // The count is 0x0102, and the state in bits 4 and 5 is 2.
         let report = diagnosis::ReportDiagnosis::decode(&[0x01, 0x02, 0x20]).unwrap();
         assert_eq!((report.count, report.state), (0x0102, 2));
         assert_eq!(diagnosis::ReportDiagnosis::IDENTIFIER, 0x1000);
@@ -156,7 +157,7 @@ mod profidrive {
 
     #[test]
     fn telegram_words_are_big_endian() {
-        // STW1 0x047F: bits 0 to 6 and 10. NSOLL_B 0x20000000 is half the reference speed. STW2 and G1_STW are 0.
+        // STW1 is 0x047F: bits 0 to 6 and 10. NSOLL_B is 0x20000000, half the reference speed. STW2 and G1_STW are 0.
         let outputs = Outputs {
             on: true,
             no_coast_stop: true,
@@ -174,7 +175,7 @@ mod profidrive {
         assert_eq!(outputs.pack(), image);
         assert_eq!(Outputs::unpack(&image), Ok(outputs));
 
-        // ZSW1 0x0205: bits 0, 2 and 9. NIST_B −1. Then the encoder position.
+        // ZSW1 is 0x0205: bits 0, 2 and 9. NIST_B is −1. The encoder position follows.
         let mut image = [0x02, 0x05, 0xFF, 0xFF, 0xFF, 0xFF, 0x12, 0x34, 0x56, 0x78, 0, 0, 0, 0, 0, 0, 0, 0, 0x80];
         image[10..14].copy_from_slice(&[0xDE, 0xAD, 0xBE, 0xEF]);
         let read = WithStatus::<Inputs>::read(&image).unwrap();
@@ -233,13 +234,13 @@ mod multi_dap {
         basic.plug(1, &modules::input_module::MODULE).unwrap();
         assert_eq!(basic.plug(2, &modules::frame::MODULE), Err(PlanError::ModuleNotAllowed));
         assert_eq!(basic.plug(3, &modules::input_module::MODULE), Err(PlanError::NoSuchSlot));
-        // A status each for head, interface and port, and 2 bytes of inputs with a status: 3 + 3 bytes. Another 3
-        // exceed the maximum of 8.
+        // Head, interface and port have one status each, and 2 bytes of inputs have another one: 3 + 3 bytes. 3 more
+        // bytes exceed the maximum of 8.
         assert_eq!(basic.lengths().0, 6);
         assert_eq!(basic.plug(2, &modules::input_module::MODULE), Err(PlanError::InputsTooLong));
 
         let mut plus = Plan::<16>::new(&plus_head::DAP).unwrap();
-        assert_eq!(places(&plus)[3..], [(1, 1, 0x102)], "the power module is always there");
+        assert_eq!(places(&plus)[3..], [(1, 1, 0x102)], "the power module is always present");
         assert_eq!(plus.plug(1, &modules::input_module::MODULE), Err(PlanError::FixedModule));
         plus.plug(3, &modules::frame::MODULE).unwrap();
         assert_eq!(plus.plug_submodule(3, 5, &submodules::valve_output::SUBMODULE), Err(PlanError::NoSuchSubslot));
@@ -255,7 +256,7 @@ mod multi_dap {
         let mut plan = Plan::<16>::new(&plus_head::DAP).unwrap();
         plan.plug(4, &modules::input_module::MODULE).unwrap();
         plan.plug(2, &modules::input_module::MODULE).unwrap();
-        // 500 = 0x01F4.
+        // The value 500 is 0x01F4.
         let records: Vec<_> = plan.records().map(|record| (record.slot, record.index, record.data.to_vec())).collect();
         assert_eq!(records, [(2, 16, vec![0x01, 0xF4]), (4, 16, vec![0x01, 0xF4])]);
         assert_eq!(SetupRecord { delay_ms: 1000 }.encode(), Ok([0x03, 0xE8]));

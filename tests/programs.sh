@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the programs that tests use in addition to cargo: Python with canopen, pymodbus, jsonschema and lxml; valgrind; Chromium with
-# playwright-core. Writes the environment variables for them to target/programs.env, and reports programs that cannot be installed.
+# Installs the programs that tests use in addition to Cargo: Python with canopen, pymodbus, jsonschema and lxml; valgrind; Chromium with
+# playwright-core. Writes environment variables for them to target/programs.env. Reports the programs that cannot be installed.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 mkdir -p target
@@ -20,7 +20,7 @@ if tests/interop/setup.sh >/dev/null; then
 else
     echo "no Python with canopen, pymodbus, jsonschema and lxml: the tests against them are skipped, and nothing is validated by schema"
 fi
-# With a browser, tests of the site must not be skipped.
+# If a browser is available, tests of the site must not be skipped.
 if cli/tests/browser/setup.sh >/dev/null; then
     echo "export LEXIBUS_BROWSER=required" >>target/programs.env
 else

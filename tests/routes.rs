@@ -1,4 +1,5 @@
-//! Routes to values other than a plain address: blocking and asynchronous access do the same on the bus.
+//! Tests routes to values other than a plain address. Blocking and asynchronous access must have the same effect on the
+//! bus.
 
 use std::collections::BTreeMap;
 use std::convert::Infallible;
@@ -20,7 +21,7 @@ type Failure = Error<Infallible>;
 struct Node {
     memory: BTreeMap<Object, Vec<u8>>,
     journal: Vec<String>,
-    /// Number of reads until the number of a window is cleared.
+    /// Number of reads until the node clears the number in a window.
     busy: u16,
     has_clock: bool,
 }
@@ -92,7 +93,7 @@ impl AsyncClient for Node {
 const NUMBER: Object = Object::new(0x2005, 1);
 const VALUE: Object = Object::new(0x2005, 2);
 
-/// Reads through `route`, blocking and asynchronously. Returns the result and the node afterwards.
+/// Reads through `route`, both blocking and asynchronously. Returns the result and the state of the node after reading.
 fn read(route: &impl ReadRoute<CanOpen>, node: &Node, length: usize) -> (Result<Vec<u8>, Failure>, Node) {
     let (mut one, mut other) = (node.clone(), node.clone());
     let (mut value, mut value_async) = (vec![0xAA; length], vec![0xAA; length]);
@@ -102,7 +103,8 @@ fn read(route: &impl ReadRoute<CanOpen>, node: &Node, length: usize) -> (Result<
     (blocking, one)
 }
 
-/// Writes through `route`, blocking and asynchronously.
+/// Writes through `route`, both blocking and asynchronously. Returns the result and the state of the node after
+/// writing.
 fn write(route: &impl WriteRoute<CanOpen>, node: &Node, data: &[u8]) -> (Result<(), Failure>, Node) {
     let (mut one, mut other) = (node.clone(), node.clone());
     let blocking = route.write(&mut one, data);
@@ -135,7 +137,7 @@ fn fewer_values_on_the_bus() {
     let route = Limited::new(place, true, &[(-2, -1), (1, 7)]);
     assert_eq!(write(&route, &Node::default(), &[0xFF]).1.memory[&place], [0xFF]);
     assert_eq!(write(&route, &Node::default(), &[0]), (Err(OutOfRange.into()), Node::default()));
-    assert_eq!(read(&route, &with(place, &[0]), 1).0, Ok(vec![0]), "what comes isn't checked");
+    assert_eq!(read(&route, &with(place, &[0]), 1).0, Ok(vec![0]), "received values are not checked");
 }
 
 #[test]
@@ -179,7 +181,11 @@ fn through_a_window_that_is_cleared() {
     for has_clock in [true, false] {
         let node = |busy| Node { busy, has_clock, ..with(VALUE, &[1, 0, 0, 0]) };
         let (value, after) = read(&Through::unsigned(2, &READ), &node(3), 2);
-        assert_eq!(value, Ok(vec![1, 0]), "a third look finds it cleared; without a clock the looks are the time");
+        assert_eq!(
+            value,
+            Ok(vec![1, 0]),
+            "the third poll finds the number cleared; without a clock, the number of polls is the timeout"
+        );
         assert_eq!(after.journal.iter().filter(|line| line.starts_with("wait 1ms")).count(), 2);
         assert_eq!(read(&Through::unsigned(2, &READ), &node(4), 2).0, Err(Error::Timeout));
         assert_eq!(write(&Through::unsigned(2, &WRITE), &node(1), &[1]).0, Ok(()));

@@ -1,4 +1,4 @@
-//! Messages and numbered parameters over `embedded-io` streams, with a simulated drive.
+//! Tests messages and numbered parameters over `embedded-io` streams with a simulated drive.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::io::ErrorKind;
@@ -26,14 +26,14 @@ fn framed(data: &[u8]) -> Vec<u8> {
     frame[..length].to_vec()
 }
 
-/// A line with a drive at its end, or with fixed replies.
+/// A line that ends at a drive or returns fixed replies.
 #[derive(Default)]
 struct Line {
     received: Vec<u8>,
     replies: VecDeque<u8>,
-    /// What follows the replies: a timeout, or the end of the stream.
+    /// Whether a timeout follows the replies. If not, the end of the stream follows.
     is_late: bool,
-    /// Whether each write accepts only one byte.
+    /// Whether each write accepts only a single byte.
     slow: bool,
     drive: Option<Drive>,
 }
@@ -105,7 +105,7 @@ impl embedded_io::Write for Line {
     }
 }
 
-/// The asynchronous line.
+/// The line as an asynchronous stream.
 struct AsyncLine(Line);
 
 impl embedded_io::ErrorType for AsyncLine {
@@ -128,8 +128,8 @@ impl embedded_io_async::Write for AsyncLine {
     }
 }
 
-/// A protocol with requests `r` number and `w` number value, and replies `r` number value, `w` number and `!` number.
-/// Values are big-endian.
+/// A protocol. The requests are `r` with a number, and `w` with a number and a value. The replies are `r` with a number
+/// and a value, `w` with a number, and `!` with a number. Values are big-endian.
 struct Messages;
 
 impl ParameterMessages for Messages {
@@ -167,7 +167,7 @@ fn reply_to<E>(kind: u8, parameter: Parameter, reply: &[u8]) -> Result<&[u8], Er
     }
 }
 
-/// A simulated drive with parameters, except number 9.
+/// A simulated drive that has all parameters except number 9.
 #[derive(Default)]
 struct Drive {
     decoder: Option<<Delimited as Framing>::Decoder>,
@@ -193,7 +193,7 @@ impl Drive {
 
 type Answer = Result<Vec<u8>, Error<SerialError<Late>>>;
 
-/// Returns the result of an exchange with these replies. Checks that the asynchronous result is the same.
+/// Returns the result of an exchange with these replies. Checks that the asynchronous result is equal.
 fn exchanged(replies: &[u8]) -> Answer {
     let answer = |result: Result<usize, _>, reply: &[u8]| result.map(|length| reply[..length].to_vec());
     let mut reply = [0; 20];
@@ -262,7 +262,7 @@ fn streams_that_end_and_requests_that_are_too_long() {
     assert_eq!((closed, closed.to_string()), (Error::Client(SerialError::Closed), "the serial line was closed".into()));
     assert_eq!(line.exchange(&[2; 3], &mut [0; 8]), Err(Error::Length(LengthError::new(9, 8))));
     assert_eq!(line.exchange(&[0; 21], &mut [0; 8]), Err(Error::Length(LengthError::new(20, 21))));
-    assert_eq!(line.stream().received, framed(&[1]), "what is too long isn't sent");
+    assert_eq!(line.stream().received, framed(&[1]), "data that are too long are not sent");
 }
 
 const fn item<V: lexibus::Value>(number: u32) -> Item<V, Rw, OnSerial> {
@@ -294,7 +294,7 @@ fn parameters_are_items() {
         assert_eq!(POSITION.at(&mut drive).read_async().await, Ok(-7));
         assert_eq!(GAIN.at(&mut drive).read_async().await, Ok(-2));
     });
-    // A reply to another request.
+    // The reply belongs to another request.
     let line = SerialLine::<_, _, 64>::new(Line::replying(framed(b"w\x04")), FRAMING);
     let mut drive = Parameters::<_, _, 20>::new(line, Messages);
     assert_eq!(GAIN.at(&mut drive).write(1), Err(Error::UnexpectedReply));

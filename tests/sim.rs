@@ -1,4 +1,4 @@
-//! Drivers with simulated devices: the bindings of two drives on each of their buses.
+//! Tests drivers with simulated devices: the bindings of two drives on each of their buses.
 
 use std::sync::Arc;
 
@@ -37,7 +37,7 @@ fn exception<T>(exception: Exception) -> Result<T, Error<Fault>> {
     Err(Error::Client(Fault::Exception(exception)))
 }
 
-/// Returns the state after a controlword (CiA 402-2 6.2).
+/// Returns the state of the drive after it receives a controlword (CiA 402-2 6.2).
 fn after(state: State, controlword: u16) -> State {
     let is = |command: Command| controlword & command.mask() == command.value();
     match state {
@@ -61,7 +61,8 @@ fn status(state: State) -> Statusword {
     })
 }
 
-/// A simulated drive whose statusword follows its controlword. Its actual position equals the target position.
+/// Returns a simulated drive. The statusword follows the controlword, and the actual position equals the target
+/// position.
 fn moving_drive() -> Device {
     let mut device = demo();
     device.set_initial(objects::STATUSWORD, status(State::SwitchOnDisabled)).unwrap();
@@ -108,14 +109,14 @@ fn process_data_go_both_ways() {
         write.send(&mut device.client::<CanOpen>()).unwrap();
     }
     device.set(objects::STATUSWORD, status(State::OperationEnabled)).unwrap();
-    // The target follows the controlword in the PDO. It is stored before the device reacts to the controlword.
+    // The target position follows the controlword in the PDO. The device stores it before it reacts to the controlword.
     let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0x1F), target_position: 250_000 };
     assert_eq!(device.receive_pdo(pdo::RxPdo2::INDEX, &frame.pack()), Ok(()));
     let answer = pdo::TxPdo2::unpack(&device.transmit_pdo(pdo::TxPdo2::INDEX).unwrap()).unwrap();
     assert_eq!(answer.position_actual_value, 250_000);
     assert_eq!(answer.statusword.state(), Some(State::OperationEnabled));
     assert_eq!(device.receive_pdo(pdo::RxPdo2::INDEX, &[0; 5]), Err(AbortCode::TOO_SHORT));
-    // The target exceeds its limit. The controlword is accepted.
+    // The target exceeds its limit, but the controlword is accepted.
     let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0), target_position: 1_000_001 };
     assert_eq!(device.receive_pdo(pdo::RxPdo2::INDEX, &frame.pack()), Err(AbortCode::TOO_HIGH));
     assert_eq!(device.get(objects::TARGET_POSITION), Ok(250_000));
@@ -131,7 +132,7 @@ fn a_mapping_of_ones_own() {
     let unused = SdoWrite::new_u32(0x1800, 1, 0x8000_0185);
     let clear = SdoWrite::new_u8(0x1A00, 0, 0);
     let word = |sub, word| SdoWrite::new_u32(0x1A00, sub, word);
-    // The mapping can't be changed while the PDO is enabled or the number of entries isn't 0.
+    // The mapping cannot be changed while the PDO is enabled or its number of entries is not 0.
     assert_eq!(send(&[clear]), abort(AbortCode::INVALID_VALUE));
     assert_eq!(send(&[unused, word(1, 0x6064_0020)]), abort(AbortCode::INVALID_VALUE));
     assert_eq!(send(&[clear, word(1, 0x6064_0020)]), Ok(()));
@@ -141,7 +142,7 @@ fn a_mapping_of_ones_own() {
     assert_eq!(send(&[word(1, 0x6064_0120)]), abort(AbortCode::NO_SUB_INDEX));
     assert_eq!(send(&[SdoWrite::new_u8(0x1A00, 0, 2)]), abort(AbortCode::INVALID_VALUE));
     assert_eq!(send(&[word(1, 0), SdoWrite::new_u8(0x1A00, 0, 1)]), abort(AbortCode::INVALID_VALUE));
-    // COB-IDs of other services are rejected, and so is a change of the COB-ID of an enabled PDO.
+    // The device rejects COB-IDs of other services, and changes to the COB-ID of an enabled PDO.
     assert_eq!(send(&[SdoWrite::new_u32(0x1800, 1, 0x605)]), abort(AbortCode::INVALID_VALUE));
     assert_eq!(send(&[word(1, 0x6064_0020), SdoWrite::new_u8(0x1A00, 0, 1)]), Ok(()));
     assert_eq!(send(&[SdoWrite::new_u32(0x1800, 1, 0x1B5)]), Ok(()));
@@ -155,7 +156,7 @@ fn a_mapping_of_ones_own() {
 fn a_frame_has_64_bits_on_can_only() {
     let entries: Vec<Entry> = vector_step::ENTRIES.to_vec();
     let mapping = entries.iter().find(|entry| entry.object == Some(Object::new(0x1600, 3)));
-    assert!(mapping.is_some(), "the first mapping has three entries at least");
+    assert!(mapping.is_some(), "the first mapping has at least three entries");
     let clear = [SdoWrite::new_u32(0x1400, 1, 0x8000_0205), SdoWrite::new_u8(0x1600, 0, 0)];
     let map: Vec<SdoWrite> = (1..=3).map(|sub| SdoWrite::new_u32(0x1600, sub, 0x607A_0020)).collect();
     let count = SdoWrite::new_u8(0x1600, 0, 3);
@@ -163,7 +164,7 @@ fn a_frame_has_64_bits_on_can_only() {
     let mut client = device.client::<CanOpen>();
     clear.iter().chain(&map).try_for_each(|write| write.send(&mut client)).unwrap();
     assert_eq!(count.send(&mut client), abort(AbortCode::PDO_LENGTH));
-    // EtherCAT has no COB-IDs. Its abort code for entries written before sub-index 0 differs.
+    // EtherCAT has no COB-IDs. Its abort code for writing entries before sub-index 0 differs from CANopen.
     let mut device = vector();
     let mut client = device.client::<CoE>();
     assert_eq!(map[0].send(&mut client), abort(AbortCode(0x0601_0003)));
@@ -172,7 +173,7 @@ fn a_frame_has_64_bits_on_can_only() {
     assert_eq!(device.transmit_pdo(0x1600).map(|data| data.len()), Ok(12));
 }
 
-/// Returns an allowed value of the entry that differs from the current one, if there is one.
+/// Returns an allowed value of the entry that differs from the current value, if there is one.
 fn another(entry: &Entry) -> Vec<u8> {
     let Some(bits) = entry.data_type.bits() else { return b"ab".to_vec() };
     let bytes = match (entry.high, entry.low) {
@@ -183,7 +184,7 @@ fn another(entry: &Entry) -> Vec<u8> {
     bytes[..bits.div_ceil(8) as usize].to_vec()
 }
 
-/// Returns whether an object executes commands, or accepts other values only at certain times.
+/// Returns whether writing the object executes a command, or is only possible at certain times.
 fn is_special(object: Object) -> bool {
     matches!(object.index, 0x1003 | 0x1010 | 0x1011 | 0x1400..=0x1BFF)
 }
@@ -232,7 +233,7 @@ fn every_register_is_read_and_written() {
     let mut device = vector();
     let mut written = 0;
     for entry in vector_step::ENTRIES {
-        // Program registers need several requests.
+        // Skip program registers, because they need several requests.
         let Some(register) = entry.register.filter(|register| register.count < 100) else { continue };
         let length = entry.data_type.bits().map_or(2 * usize::from(register.count), |bits| bits.div_ceil(8) as usize);
         let (mut buffer, value) = (vec![0; length], another(entry));
@@ -251,7 +252,7 @@ fn every_register_is_read_and_written() {
         }
         assert_eq!(client.read(register, &mut buffer), Ok(length));
         assert_eq!(buffer[..value.len()], value, "{entry:?}");
-        // The object has the same value as the register.
+        // The object must have the same value as the register.
         if let Some(object) = entry.object {
             assert_eq!(device.bytes(object).map(|bytes| bytes[0]), Ok(value[0]), "{entry:?}");
         }
@@ -295,7 +296,7 @@ fn values_of_every_kind() {
     assert_eq!(drive.motor_temperature().read(), Ok(36.5));
     assert_eq!(drive.position_actual_value().read(), Ok(i32::MIN));
     assert_eq!(drive.cob_id_emcy().read().map(|own| own.raw()), Ok(0x85));
-    // Bindings of another device.
+    // These are the bindings of another device.
     let device = drive.client().device();
     assert_eq!(device.get(vector_step::objects::RPOSTARG), Err(AbortCode::NO_OBJECT));
     assert_eq!(device.set_bytes(objects::ENCODER_COUNTS, &[0; 4]), Err(AbortCode::TOO_LONG));
@@ -363,11 +364,11 @@ fn parameters_are_stored() {
     drive.client().device().power_cycle();
     assert_eq!(drive.profile_velocity().read(), Ok(7));
     assert_eq!(drive.profile_acceleration().read(), Ok(10_000));
-    // The signature isn't stored. The object returns the storage capabilities of the device.
+    // The object does not store the signature. Reading the object returns the storage capabilities of the device.
     assert_eq!(drive.client().device().bytes(Object::new(0x1010, 1)), Ok([1, 0, 0, 0].as_slice()));
 }
 
-/// An entry of a device without description.
+/// An entry of a device that has no description.
 const BLANK: Entry = Entry {
     object: None,
     register: None,
@@ -392,7 +393,7 @@ fn parameters_are_restored_by_groups() {
     for command in [0x1010, 0x1011] {
         entries.extend((1..=4).map(|group| object(command, group, DataType::Unsigned32)));
     }
-    // Sub-index, and the objects that it restores (CiA 301 7.5.2.14).
+    // Each sub-index is listed with the objects that it restores (CiA 301 7.5.2.14).
     for (group, restored) in [(1, &ALL[..]), (2, &ALL[..1]), (3, &ALL[2..]), (4, &ALL[1..2])] {
         let mut device = Device::new(&entries);
         ALL.iter().for_each(|index| device.set_bytes(Object::new(*index, 0), &[7]).unwrap());
@@ -401,7 +402,7 @@ fn parameters_are_restored_by_groups() {
         assert_eq!(client.write(Object::new(0x1011, group), b"LOAD"), abort(AbortCode::CANNOT_STORE));
         client.write(Object::new(0x1011, group), b"load").unwrap();
         let before = ALL.map(|index| device.bytes(Object::new(index, 0)).unwrap()[0]);
-        assert_eq!(before, [7; 3], "values come back at the next power-on");
+        assert_eq!(before, [7; 3], "values are restored at the next power-on");
         device.power_cycle();
         for index in ALL {
             let expected = if restored.contains(&index) { 0 } else { 7 };
@@ -416,7 +417,11 @@ fn errors_are_forgotten_by_a_zero() {
     entries[0].initial = lexibus::RawInitial::Bytes(&[1]);
     let mut device = Device::new(&entries);
     let count = Object::new(0x1003, 0);
-    assert_eq!(device.bytes(count), Ok([0].as_slice()), "what a description gives is the room");
+    assert_eq!(
+        device.bytes(count),
+        Ok([0].as_slice()),
+        "the description states the capacity, not the number of errors"
+    );
     device.emit_emergency(0x8110, 0x11, [0; 5]);
     assert_eq!(device.bytes(count), Ok([1].as_slice()));
     let mut client = device.client::<CanOpen>();
@@ -439,7 +444,7 @@ fn process_images_of_ethercat() {
     }
     let mut device = Device::new(&entries);
     let mut set = |index, sub_index, bytes: &[u8]| device.set_bytes(Object::new(index, sub_index), bytes).unwrap();
-    // A word, a gap of 8 bits and a byte, in two PDOs.
+    // Each of two PDOs contains a word, a gap of 8 bits and a byte.
     for (index, mapped) in [(0x1600, [0x2000_0010_u32, 0x0000_0008]), (0x1601, [0x2001_0008, 0])] {
         set(index, 0, &[if index == 0x1600 { 2 } else { 1 }]);
         set(index, 1, &mapped[0].to_le_bytes());
@@ -456,7 +461,7 @@ fn process_images_of_ethercat() {
     assert_eq!(device.transmit_image(0x1C13), Ok(vec![0x34, 0x12, 0, 0x56]));
     assert_eq!(device.receive_image(0x1C12, &[0; 3]), Err(AbortCode::TOO_SHORT));
     assert_eq!(device.transmit_image(0x1C14), Err(AbortCode::NO_OBJECT));
-    // A refused value is unchanged; the other one is written.
+    // The refused value must be unchanged, and the other value must be written.
     device.on_any_write(|_, entry| match entry.object {
         Some(Object { index: 0x2000, .. }) => Err(AbortCode::INVALID_VALUE),
         _ => Ok(()),
@@ -464,7 +469,7 @@ fn process_images_of_ethercat() {
     assert_eq!(device.receive_image(0x1C12, &[1, 1, 1, 1]), Err(AbortCode::INVALID_VALUE));
     assert_eq!(device.transmit_image(0x1C13), Ok(vec![0x34, 0x12, 0, 1]));
     device.set_bytes(Object::new(0x1601, 1), &0x2002_0008_u32.to_le_bytes()).unwrap();
-    assert_eq!(device.transmit_image(0x1C13), Err(AbortCode::NO_OBJECT), "an object that is mapped and doesn't exist");
+    assert_eq!(device.transmit_image(0x1C13), Err(AbortCode::NO_OBJECT), "a mapped object that does not exist");
 }
 
 #[test]
@@ -547,7 +552,7 @@ fn an_axis_is_enabled_step_by_step() {
         steps += 1;
     }
     assert_eq!((steps, axis.statusword().read().unwrap().state()), (3, Some(State::OperationEnabled)));
-    // The state of the first axis is unchanged.
+    // The state of the first axis must be unchanged.
     assert_ne!(drive.statusword().read().unwrap().raw(), 0x27);
 }
 
@@ -612,12 +617,12 @@ fn a_device_that_is_only_on_modbus() {
         entry(LIMIT, DataType::Boolean, AccessRights::ReadOnly),
     ];
     let mut device = Device::new(&entries);
-    // Items with the same bits have consistent values.
+    // Items with the same bits must have consistent values.
     device.set_bytes(STATUS, &[0x0B, 0x80]).unwrap();
     assert_eq!((device.bytes(FAULT), device.bytes(READY)), (Ok([1].as_slice()), Ok([3].as_slice())));
     device.set_bytes(READY, &[1]).unwrap();
     assert_eq!(device.bytes(STATUS), Ok([0x09, 0x80].as_slice()));
-    // Only the writable bits of a register change.
+    // A write must change only the writable bits of a register.
     device.write_words(RegisterTable::Holding, 5, &[0]).unwrap();
     assert_eq!(device.read_words(RegisterTable::Holding, 5, 1), Ok(vec![0x8001]));
     let mut client = device.client::<Modbus>();
@@ -626,7 +631,7 @@ fn a_device_that_is_only_on_modbus() {
     client.write(SPEED, &70_000_i32.to_le_bytes()).unwrap();
     assert_eq!(client.write(SPEED, &70_001_i32.to_le_bytes()), exception(Exception::IllegalDataValue));
     assert_eq!(device.read_words(RegisterTable::Holding, 5, 3), Ok(vec![0x8001, 1, 0x1170]));
-    // A write to half of a value changes only that half.
+    // A write to half of a value must change only that half.
     device.write_words(RegisterTable::Holding, 7, &[9]).unwrap();
     assert_eq!(device.bytes(SPEED), Ok(0x0001_0009_i32.to_le_bytes().as_slice()));
     let mut client = device.client::<Modbus>();
@@ -654,7 +659,7 @@ fn without_blocking() {
     assert_eq!(now(drive.profile_velocity().read_async()), Ok(1000));
 }
 
-/// The same drivers with the real SDO client, frame by frame.
+/// Tests the same drivers with the real SDO client, frame by frame.
 #[cfg(feature = "canopen")]
 mod frames {
     use std::time::Duration;
@@ -686,7 +691,7 @@ mod frames {
         }
         let node = drive.client();
         node.nmt(NmtCommand::Start).unwrap();
-        // TPDO 1 is event-driven and sent when the node starts.
+        // TPDO 1 is event-driven. The node sends it when it starts.
         let first = receive(node.port(), 0x185);
         assert_eq!(pdo::TxPdo1::unpack(first.data()).unwrap().statusword.state(), Some(State::OperationEnabled));
         let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0x1F), target_position: -70_000 };
@@ -733,7 +738,7 @@ mod frames {
         let emergency = drive.client().emergency(PATIENCE).unwrap().unwrap();
         assert_eq!(emergency.alarm::<DriveErrors>(), DriveErrors::FollowingError);
         assert_eq!(drive.error_register().read().map(|own| own.raw()), Ok(0x21));
-        // Waiting without frames only advances the clock of the node.
+        // If no frames arrive, waiting only advances the clock of the node.
         drive.client().port().set_connected(false);
         assert_eq!(drive.client().heartbeat(Duration::from_secs(3600)), Ok(None));
         assert_eq!(drive.statusword().read().map(|_| ()), Err(Error::Timeout));

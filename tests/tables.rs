@@ -1,5 +1,5 @@
-//! Register tables from description to device: the bindings of `data/press.toml`, with a simulated client for each
-//! bus.
+//! Tests register tables from the description to the device. The bindings are generated from `data/press.toml`, and
+//! each bus has a simulated client.
 
 #![cfg(feature = "macros")]
 
@@ -19,7 +19,7 @@ lexibus::dictionary! {
 use press::types::{Command, Control, ControlDirection, ControlRamp, Mode, State, Status};
 use press::{objects, Press};
 
-/// A client for objects, on CANopen or EtherCAT.
+/// A client for objects on CANopen or EtherCAT.
 struct Objects<B> {
     entries: HashMap<Object, Vec<u8>>,
     bus: std::marker::PhantomData<B>,
@@ -45,7 +45,7 @@ fn objects_on<B>() -> Objects<B> {
     Objects { entries: HashMap::new(), bus: std::marker::PhantomData }
 }
 
-/// A client for registers: words and bits by address.
+/// A client for registers, which are words and bits with addresses.
 #[derive(Default)]
 struct Registers {
     words: HashMap<(RegisterTable, u16), u16>,
@@ -155,11 +155,11 @@ fn places_of_modbus() {
 fn texts_in_registers() {
     let mut press = Press::new(Registers::default());
     let mut buffer = [0; 16];
-    // Each 16-bit character is a number in a separate register.
+    // Each 16-bit character is a number in its own register.
     press.title().write("Äb", &mut buffer).unwrap();
     assert_eq!((press.client().words[&(HOLDING, 129)], press.client().words[&(HOLDING, 130)]), (0xC4, 0x62));
     assert_eq!(press.title().read_into(&mut buffer).unwrap(), "Äb");
-    // The type has no length; it follows from the register addresses.
+    // The type has no length. The register addresses determine the length.
     press.note().write("ABCDEFG").unwrap();
     assert_eq!(press.client().words[&(HOLDING, 141)], 0x4546);
     assert_eq!(press.note().read_into(&mut buffer), Ok("ABCDEFG"));
@@ -206,7 +206,7 @@ fn scaled_values() {
     assert_eq!(press.velocity().read(), Ok(123));
     assert_eq!(press.velocity().read_scaled(), Ok(Some(12.3)));
     assert_eq!(press.velocity().write_scaled(500.1), Err(Error::OutOfRange(OutOfRange)));
-    // 0 means that the ram is off. It isn't a velocity.
+    // The value 0 means that the ram is off, so it is not a valid velocity.
     assert_eq!(press.velocity().write_scaled(0.0), Err(Error::OutOfRange(OutOfRange)));
     press.velocity().write(0).unwrap();
     assert_eq!(press.velocity().read_scaled(), Ok(None));
@@ -237,7 +237,7 @@ fn bit_fields() {
     assert_eq!(ENABLED.with_stop(false).raw(), 0x2203);
     assert_eq!((ENABLED.with_tool(5).tool(), ENABLED.with_tool(9).raw()), (5, 0x2221));
     assert_eq!(Control::from_raw(0x0C00).ramp(), ControlRamp::Unknown(3));
-    // All four values of the two bits have names, so the match is exhaustive.
+    // The match is exhaustive because all four values of the two bits have names.
     let name = match Control::from_raw(0x0300).direction() {
         ControlDirection::None => "none",
         ControlDirection::Down => "down",

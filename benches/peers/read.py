@@ -88,7 +88,7 @@ def seconds(read, path, repetitions):
         made = read(path)
         total += time.perf_counter() - start
         del made
-        # Garbage of this reading must not be collected during the next measurement.
+        # Collect garbage now, so that it does not affect the next measurement.
         gc.collect()
     return total
 

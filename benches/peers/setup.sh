@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the measured Python and the libraries of requirements.txt into target/python of this folder.
+# Installs Python and the libraries in requirements.txt to target/python of this folder. The benchmark measures these
+# libraries.
 set -euo pipefail
 cd "$(dirname "$0")"
 mkdir -p target

@@ -52,7 +52,7 @@ fn last_class(shown: Shown) -> Class {
     }
 }
 
-/// Compiles a description. Returns `None` if it has errors, after reporting them.
+/// Compiles a description. If the description has errors, reports the errors and returns `None`.
 fn read(path: &Path, options: &Options) -> Result<Option<Compilation>, Failure> {
     let source =
         Source::read(path).map_err(|error| Failure::Usage(format!("can't read {}: {error}", path.display())))?;

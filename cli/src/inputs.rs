@@ -57,7 +57,7 @@ fn compile_all(
             pool.scope(|scope| {
                 for (position, path) in files.iter().enumerate() {
                     let sender = sender.clone();
-                    // Ignore a failure to send. It means that the receiver was dropped after an error.
+                    // Ignore a failure to send. Sending fails only if the receiver was dropped after an error.
                     scope.spawn(move |_| drop(sender.send((position, compile_file(path, options)))));
                 }
             });
@@ -108,7 +108,7 @@ fn compile_file(path: &Path, options: &Options) -> Compilation {
     }
 }
 
-/// Returns a progress bar. It is hidden if the output is a pipe or there is only one file.
+/// Returns a progress bar. The bar is hidden if the output is a pipe or there is only one file.
 fn progress(files: usize) -> ProgressBar {
     if files < 2 || !std::io::stderr().is_terminal() || !std::io::stdout().is_terminal() {
         return ProgressBar::hidden();
@@ -170,8 +170,8 @@ fn search(
     Ok(())
 }
 
-/// Returns whether a file is a device description. Its extension decides. For XML and TOML files, the content must also
-/// match.
+/// Returns whether a file is a device description. The file must have a known extension. An XML or TOML file must also
+/// have matching content.
 fn is_description(path: &Path) -> bool {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if extension.eq_ignore_ascii_case("xml") {

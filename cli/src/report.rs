@@ -38,7 +38,7 @@ pub(super) struct Reporter {
     errors: usize,
     warnings: usize,
     files: usize,
-    /// Diagnostics of all inputs. They are collected for SARIF because the output is a single document.
+    /// Diagnostics of all inputs. SARIF output needs all diagnostics because it is a single document.
     kept: Vec<Diagnostic>,
     sources: Vec<Source>,
 }
@@ -140,8 +140,8 @@ impl Reporter {
         Ok(self.errors == 0)
     }
 
-    /// Prints machine-readable diagnostics. They go to standard output for `check`, and to standard error for other
-    /// commands.
+    /// Prints machine-readable diagnostics. The destination is standard output for `check`, and standard error for
+    /// other commands.
     fn print(&self, text: &str) -> Result<(), Failure> {
         if self.is_result {
             std::io::stdout().lock().write_all(text.as_bytes())?;

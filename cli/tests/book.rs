@@ -26,7 +26,8 @@ fn chapters() -> Vec<String> {
     names
 }
 
-/// Creates the working folder of a chapter. It contains the book's examples, some test data, and the dictionaries.
+/// Creates the working folder of a chapter. The folder contains the book's examples, some test data, and the
+/// dictionaries.
 fn folder(name: &str) -> PathBuf {
     let root = docs().join("..");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("book").join(name);

@@ -1,7 +1,7 @@
 //! Measures all stages from the bytes of an EDS to Rust code.
 //!
-//! The module `inputs` creates the files. They consist of records with nine entries each; the smallest file has 10 records.
-//! `benches/README.md` contains the results and explains how to run the benchmark.
+//! The module `inputs` creates the files. Each file consists of records with nine entries. The smallest file has 10
+//! records. `benches/README.md` contains the results and explains how to run the benchmark.
 
 #[path = "inputs/eds.rs"]
 mod inputs;

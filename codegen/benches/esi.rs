@@ -1,8 +1,8 @@
 //! Measures all stages from the bytes of an ESI file to Rust code. Also compares the time to checked IR with a loop over
 //! the XML events.
 //!
-//! The module `inputs` creates the files. Their devices have dictionaries, PDOs and sync managers in the proportions of
-//! real files.
+//! The module `inputs` creates the files. The devices in these files have dictionaries, PDOs and sync managers in the
+//! proportions of real files.
 
 mod bare;
 #[path = "inputs/esi.rs"]

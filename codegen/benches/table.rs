@@ -1,6 +1,6 @@
 //! Measures all stages from the bytes of a register table to Rust code.
 //!
-//! The module `inputs` creates the files. They contain 32-bit registers with six bit fields each.
+//! The module `inputs` creates the files. Each file contains 32-bit registers with six bit fields each.
 
 #[path = "inputs/table.rs"]
 mod inputs;

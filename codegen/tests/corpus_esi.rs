@@ -63,9 +63,9 @@ fn files_are_read_without_errors() {
     }
 }
 
-/// The script's parser rejects three files that the compiler repairs. They contain text after the root element, a `&` that
-/// does not start a reference, or a byte that the declared encoding does not have. The compiler must report the same lines as
-/// the parser.
+/// The script's parser rejects three files that the compiler repairs. The files contain text after the root element, a
+/// `&` that does not start a reference, or a byte that the declared encoding does not have. The compiler must report
+/// the same lines as the parser.
 #[test]
 fn what_is_not_well_formed_is_reported_at_its_line() {
     let Some(cases) = cases() else { return };
@@ -82,7 +82,7 @@ fn what_is_not_well_formed_is_reported_at_its_line() {
     assert_eq!(found, ["XML004", "XML003", "XML002"]);
 }
 
-/// A truncated file must cause an error with a position. The compiler must return no catalog for it.
+/// A truncated file must cause an error with a position. The compiler must not return a catalog for a truncated file.
 #[test]
 fn files_that_are_cut_off_are_errors() {
     let Some(cases) = cases() else { return };

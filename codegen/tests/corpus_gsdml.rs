@@ -371,7 +371,7 @@ fn counts_of_data(catalog: &Catalog) -> Vec<(&'static str, usize)> {
     ]
 }
 
-/// Counts ProfileChannelDiagItem elements, because the oracle does not count them. They are the only codes that have an API.
+/// Counts ProfileChannelDiagItem elements, because the oracle does not count them. No other codes have an API.
 fn channel_errors(catalog: &Catalog) -> usize {
     let tables = catalog.code_tables.iter().filter(|table| table.name == "channel_diagnosis");
     tables.flat_map(|table| &table.rows).filter(|row| row.cells[1] == ir::Value::Int(0)).count()

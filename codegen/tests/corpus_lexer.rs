@@ -54,7 +54,7 @@ fn e31_line_ends(text: &str) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
 }
 
-/// E32: a Ctrl-Z ends the text if only whitespace and Ctrl-Z characters follow. Returns the text before it.
+/// E32: a Ctrl-Z ends the text if only whitespace and Ctrl-Z characters follow. Returns the text before the Ctrl-Z.
 fn e32_ctrl_z(text: &str) -> &str {
     text.trim_end_matches([' ', '\t', '\r', '\n', '\u{1a}', '\0'])
 }

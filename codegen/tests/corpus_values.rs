@@ -186,7 +186,7 @@ impl Comparison<'_> {
             facts == ("NrOfObjects", Type::Unsigned(8), Access::ReadOnly, Some(&count))
         };
         if !group.sub(0).is_some_and(as_expected) {
-            self.lose(section.headers[0], "sub-index 0 doesn't follow from CompactSubObj");
+            self.lose(section.headers[0], "CompactSubObj does not imply this sub-index 0");
         }
     }
 
@@ -220,13 +220,13 @@ impl Comparison<'_> {
     fn refinement(&mut self, index: u16, part: Part, section: &Section) {
         let device = self.device;
         let Some(group) = device.object(index) else {
-            return self.reported_or_lost(section.headers[0], &["EDS056"], "refines an object that isn't there");
+            return self.reported_or_lost(section.headers[0], &["EDS056"], "the section refines a missing object");
         };
         for fact in section.facts.values().filter_map(|facts| facts.last()) {
             let item = fact.key.parse().ok().and_then(|sub| group.sub(sub));
             let Some(item) = item else {
                 if !fact.key.eq_ignore_ascii_case("NrOfEntries") {
-                    self.reported_or_lost(fact.line, &["EDS056"], "refines a sub-index that isn't there");
+                    self.reported_or_lost(fact.line, &["EDS056"], "the entry refines a missing sub-index");
                 }
                 continue;
             };
@@ -385,7 +385,7 @@ impl Comparison<'_> {
         if number::plain(text) == Some(described as i128) || target.compact && number::plain(text) == Some(0) {
             *self.tally.same.entry("subnumber".into()).or_default() += 1;
         } else {
-            self.reported_or_lost(fact.line, &ABOUT_THE_COUNT, "SubNumber isn't the number of sub-indices");
+            self.reported_or_lost(fact.line, &ABOUT_THE_COUNT, "SubNumber is not the number of sub-indices");
         }
     }
 
@@ -414,7 +414,7 @@ impl Comparison<'_> {
         } else if says_nothing && number::plain(cut(&fact.value).0) == Some(0) {
             self.tally.empty += 1;
         } else {
-            self.lose(fact.line, format!("{}={} isn't kept", fact.key, fact.value));
+            self.lose(fact.line, format!("{}={} is not kept", fact.key, fact.value));
         }
     }
 
@@ -434,7 +434,7 @@ impl Comparison<'_> {
         if target.extensions.iter().chain(extensions).chain(&target.group.extensions).any(kept) {
             *self.tally.kept.entry("comment".into()).or_default() += 1;
         } else {
-            self.lose(fact.line, format!("the comment {comment:?} isn't kept"));
+            self.lose(fact.line, format!("the comment {comment:?} is not kept"));
         }
     }
 
@@ -673,7 +673,7 @@ fn every_spelling_of_every_type_is_read_or_reported() {
     );
 }
 
-/// Tests the comparison itself. It must detect a difference if the compiler gets a changed text.
+/// Tests the comparison itself. The comparison must detect a difference if the compiler gets a changed text.
 #[test]
 fn whatever_is_lost_or_changed_is_seen() {
     let text = "[DeviceInfo]\nProductName=x\n[2000]\nParameterName=Speed\nObjectType=7\nDataType=0x0004\n\

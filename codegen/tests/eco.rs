@@ -21,7 +21,7 @@ struct Printed {
     /// First and last register number of the row.
     numbers: (u16, u16),
     is_saved: bool,
-    /// Printed limits. They do not show the sign.
+    /// Printed limits, which do not show the sign.
     limits: Vec<u64>,
     /// First and last address of the row.
     addresses: (u16, u16),
@@ -81,8 +81,8 @@ fn register(line: usize, text: &str) -> Printed {
     }
 }
 
-/// Returns the printed limits of a value with this size. They are treated as signed if the lower limit would otherwise exceed
-/// the upper limit.
+/// Returns the printed limits of a value with this size. The limits are treated as signed if the lower limit would
+/// otherwise exceed the upper limit.
 fn signed(limits: &[u64], bits: u32) -> (i128, i128) {
     // A limit of nine hexadecimal digits has one digit too many.
     let limit = |value: u64| i128::from(if value > 0xFFFF_FFFF { value >> 4 } else { value });
@@ -336,8 +336,8 @@ fn the_command_that_saves_has_an_address_of_its_own() {
     assert_eq!(item(device, "save_to_flash").access, Access::WriteOnly);
 }
 
-/// Compares the list of objects that 0x1010 saves (section "Salvataggio su flash"). It has 36 cells, including 0x3701 for the
-/// inputs 9, 10 and 11.
+/// Compares the list of objects that 0x1010 saves (section "Salvataggio su flash"). The list has 36 cells, including
+/// 0x3701 for the inputs 9, 10 and 11.
 #[test]
 fn what_canopen_saves_is_saved() {
     let Some(manual) = manual() else { return };

@@ -66,7 +66,8 @@ fn alarms_are_the_printed_ones() {
     assert_eq!((buses("ethercat_alarms"), buses("profinet_alarms")), (vec!["ethercat"], vec!["profinet"]));
 }
 
-/// Returns the reaction to a general alarm. It is the first line after the alarm's title that names an action.
+/// Returns the reaction to a general alarm. The reaction is the first line after the alarm's title that names an
+/// action.
 fn reaction(manual: &[String], line: usize) -> &'static str {
     let found = lines(manual, line, line + 8)
         .map(|(_, text)| text)

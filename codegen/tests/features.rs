@@ -77,7 +77,7 @@ mod eds {
         assert_eq!(compilation.is_usable(), cfg!(feature = "table"));
     }
 
-    /// Profiles must work without a feature. They add names of bits and values, units, state machines and codes.
+    /// Profiles must work without a feature. Profiles add names of bits and values, units, state machines and codes.
     #[test]
     fn profiles_apply_to_every_format() {
         let compilation = compiled(EDS, &Options::default());

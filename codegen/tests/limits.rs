@@ -152,7 +152,7 @@ fn files_that_are_too_large() {
     let _ = std::fs::remove_file(path);
 }
 
-/// Returns an EDS with these lines. Its size is the maximum file size.
+/// Returns an EDS with these lines. The size of the EDS is the maximum file size.
 fn eds(lines: &str) -> Compilation {
     checked("a.eds", format!("[FileInfo]\nFileName=a\n{lines}"))
 }

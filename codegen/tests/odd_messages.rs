@@ -1,5 +1,5 @@
-//! Tests unusual messages. Their code must compile without warnings, and messages for which no code is generated must
-//! be reported.
+//! Tests unusual messages. The code for such messages must compile without warnings. Messages without generated code
+//! must be reported.
 
 mod compile_support;
 
@@ -72,7 +72,7 @@ fn names_of_fields_that_mislead() {
          [[messages]]\nname = \"Write\"\nrequest = [{ bytes = [4] }, { code = \"9\", type = \"u8\" }, { value_of = \"9\" }]\n\
          reply = [{ field = \"setting\", type = \"u8\" }, { field = \"parameter\", type = \"u8\" }, { code = \"9\", type = \"u8\" }, { value_of = \"9\" }]\n",
     );
-    // The reply repeats the parameter number. It has one byte, as in the request.
+    // The reply repeats the parameter number. The parameter number has one byte, as in the request.
     assert!(text.contains("from.clone().echo(request, 1, 1)?;"));
     assert!(text.contains("code_bits: 8,"));
 }

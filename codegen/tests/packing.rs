@@ -63,7 +63,8 @@ impl Bindings {
     }
 }
 
-/// A program that checks several bindings. It contains their modules and a function for each type.
+/// A program that checks several bindings. The program contains the modules of these bindings and a function for each
+/// type.
 #[derive(Default)]
 struct Program {
     text: String,

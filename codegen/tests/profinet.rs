@@ -9,7 +9,8 @@ use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 
-/// Builds a GSDML file with one device access point. It has `modules` in its slots 1 to 9, and additional lists.
+/// Builds a GSDML file with one device access point. The access point has `modules` in its slots 1 to 9. The file also
+/// contains additional lists.
 struct Gsdml {
     modules: Vec<String>,
     lists: String,
@@ -28,7 +29,8 @@ impl Gsdml {
         id
     }
 
-    /// Adds a module with one submodule. Both have the given name, and the submodule has the given content.
+    /// Adds a module with one submodule. The module and the submodule have the given name, and the submodule has the
+    /// given content.
     fn module(mut self, name: &str, content: &str) -> Self {
         let (text, number) = (self.text(name), self.modules.len() + 1);
         let info = format!("<ModuleInfo><Name TextId=\"{text}\"/><InfoText TextId=\"Info\"/></ModuleInfo>");

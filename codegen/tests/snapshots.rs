@@ -1,4 +1,4 @@
-//! Snapshots of diagnostics and of the output for small descriptions. They make changes visible in a review.
+//! Snapshots of diagnostics and of the output for small descriptions. Snapshots make changes visible in a review.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::diagnostics::render;

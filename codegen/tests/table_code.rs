@@ -1,5 +1,5 @@
-//! Tests the Rust code for register tables. It must compile without warnings with all options and have the format of
-//! `prettyplease`.
+//! Tests the Rust code for register tables. The code must compile without warnings with all options and have the format
+//! of `prettyplease`.
 
 mod compile_support;
 mod form_support;

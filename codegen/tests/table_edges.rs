@@ -4,7 +4,7 @@ use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Binding, Item, Scale, Shape, Value};
 use lexibus_codegen::source::Source;
 
-/// Compiles a table with these chapters. `head` is inserted before them.
+/// Compiles a table with these chapters. `head` is inserted before the chapters.
 fn read(head: &str, chapters: &str) -> Compilation {
     let text = format!(
         "lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"canopen\", \"modbus\"]\n{head}[[chapters]]\n{chapters}"

@@ -32,7 +32,7 @@ fn registers(device: &Device) -> impl Iterator<Item = &Item> {
     chapters(device).flat_map(|group| &group.items)
 }
 
-/// Returns the manual line of an item. It is the first line that the item cites.
+/// Returns the manual line of an item. This is the first line that the item cites.
 fn line(item: &Item) -> Option<usize> {
     let cite = item.documentation.as_ref()?.cite.as_deref()?;
     cite.split([',', '-']).next()?.trim().parse().ok()

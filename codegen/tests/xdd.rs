@@ -1,5 +1,5 @@
-//! Tests XDD and XDC files. They must give the same IR as an EDS of the same device, real files must be read completely,
-//! and no file may cause a panic.
+//! Tests XDD and XDC files. The files must give the same IR as an EDS of the same device, real files must be read
+//! completely, and no file may cause a panic.
 
 mod corpus_support;
 

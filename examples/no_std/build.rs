@@ -1,4 +1,4 @@
-//! Links without start files and C library: the binary contains only what the sources need.
+//! Links the programs without start files and C library. The binaries contain only the code of the sources.
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");

@@ -1,4 +1,4 @@
-//! The worked examples of the manual. Comments name its sections.
+//! Tests the worked examples of the manual. The comments name its sections.
 
 use lexibus::codes::CodeTable;
 use lexibus::message::{Message, Reader, Reply, Writer};
@@ -7,7 +7,7 @@ use lexibus_drives::hsd::machine::Machine;
 use lexibus_drives::hsd::messages::*;
 use lexibus_drives::hsd::{codes, models, objects, types};
 
-/// The machine of the examples. The examples for positioning have 500 counts per turn.
+/// The machine in the examples. In the positioning examples, it has 500 counts per turn.
 const MACHINE: Machine = Machine { screw_pitch: 0.32, counts_per_turn: 800.0 };
 
 fn sent(message: &impl Message) -> Vec<u8> {
@@ -22,14 +22,15 @@ const ANSWER: [u8; 6] = [0x01, 0x02, 0x10, 0xAB, 0x09, 0xC1];
 
 #[test]
 fn positions() {
-    // Section 3.6. The text has 6766.8176 mm, the formula 6780.8465 mm; the printed bytes follow from the formula.
+    // Section 3.6. The text prints 6766.8176 mm, and the formula prints 6780.8465 mm. The printed bytes agree with the
+    // formula.
     let position = MACHINE.mm_to_count(6780.8465) as i32;
     assert_eq!((position, sent(&CmdMazz { position })), (16_952_116, vec![1, 0x01, 0xAB, 0x34, 0x01, 0x02]));
-    // Sections 3.9 and 3.10: 1798046 counts. The manual prints 0x01 for Q3, but the value is 0x001B6F9E.
+    // Sections 3.9 and 3.10: 1798046 counts. The manual prints 0x01 for Q3, but the correct value is 0x001B6F9E.
     let machine = Machine { counts_per_turn: 500.0, ..MACHINE };
     let target = machine.mm_to_count(1150.75) as i32;
     assert_eq!((target, sent(&CmdTraj { target })), (1_798_046, vec![1, 0x02, 0x6F, 0x9E, 0x00, 0x1B]));
-    // Section 3.10: the same target, and 468.75 rpm truncated.
+    // Section 3.10: the same target, and a speed of 468.75 rpm, which is truncated.
     let speed = machine.mm_per_min_to_rpm(150.0) as u16;
     let data = sent(&CmdTrajVel { target, speed });
     assert_eq!((speed, data), (0x01D4, vec![1, 0x00, 0xC8, 0x00, 0x6F, 0x9E, 0x00, 0x1B, 0x01, 0xD4]));
@@ -40,8 +41,8 @@ fn positions() {
     assert!((MACHINE.count_to_mm(reply.theoretical_position.into()) - 65_459.063_6).abs() < 1e-4);
 }
 
-/// Sections 3.9 and 3.10: from position 1000, targets from -67107863 to 67109863 are allowed. Only the motor knows
-/// its position, so both messages accept any target. The alarm for a target out of range has a name.
+/// Sections 3.9 and 3.10. At position 1000, targets from -67107863 to 67109863 are allowed. Only the motor knows its
+/// position, so both messages accept all targets. The alarm for an invalid target has a name.
 #[test]
 fn the_limit_of_a_way_is_the_motors() {
     let ends = [1000 - 0x03FF_FFFF, 1000 + 0x03FF_FFFF];
@@ -64,7 +65,8 @@ fn the_limit_of_a_way_is_the_motors() {
 
 #[test]
 fn acceleration_in_steps() {
-    // "Quantizzazione SM137": 430 mm/s² are 1343.75 turns/s². That is 17 steps of 78.125, which are 425 mm/s².
+    // Section "Quantizzazione SM137": 430 mm/s² are 1343.75 turns/s². This contains 17 steps of 78.125 turns/s², that
+    // is, 425 mm/s².
     let wanted = MACHINE.mm_per_s2_to_rev_per_s2(430.0);
     let steps = (wanted / 78.125).trunc();
     assert!((wanted - 1343.75).abs() < 1e-9);
@@ -74,12 +76,12 @@ fn acceleration_in_steps() {
 
 #[test]
 fn speeds() {
-    // Section 3.8: -185 mm/min are -578.125 rpm, truncated. The text lacks the sign.
+    // Section 3.8: -185 mm/min are -578.125 rpm, which is truncated. The text lacks the sign.
     let speed = MACHINE.mm_per_min_to_rpm(-185.0) as i16;
     assert_eq!((speed, sent(&CmdJogN { speed })), (-578, vec![1, 0x08, 0xE0, 0x00, 0xFD, 0xBE]));
     // Section 5.3: the same speed as a fraction of 8000 rpm.
     let base = models::sm137_rev_c::SPEED_BASE;
-    let speed = CmdJog::SPEED.raw_by(MACHINE.mm_per_min_to_rpm(-185.0), base).expect("within the base");
+    let speed = CmdJog::SPEED.raw_by(MACHINE.mm_per_min_to_rpm(-185.0), base).expect("within the base value");
     assert_eq!((speed, sent(&CmdJog { speed })), (-2368, vec![1, 0x08, 0x40, 0x00, 0xF6, 0xC0]));
     // Section 3.11, example 2: both speeds in mm/min.
     let poll = sent(&PollSpeeds);
@@ -101,7 +103,7 @@ fn override_version_and_status() {
     assert!(reply.is_some_and(|reply| reply.status == types::BitStato::new().with_command_complete(true)));
 }
 
-/// A motor that returns the last written value for all parameters.
+/// A motor that returns the value of the last write for all parameters.
 struct Last(Vec<u8>);
 
 impl Client for Last {
@@ -121,20 +123,21 @@ impl Client for Last {
 
 #[test]
 fn fractions() {
-    // Section 6.1.2, step 1: 200 / 32768 of 8000 rpm is 48.8 rpm.
+    // Section 6.1.2, step 1: 200 / 32768 of 8000 rpm are 48.8 rpm.
     let rpm = objects::RESERVED1.physical_by(200, models::sm137_rev_b::SPEED_BASE);
     assert!((rpm - 48.8).abs() < 0.05, "{rpm}");
-    // Appendix A, notation Q15: 5 A are 14482 for the current base of 11.313 A. The table of bases has 11.3137 A.
+    // Appendix A, notation Q15: 5 A are 14482 if the base current is 11.313 A. The table of base values prints 11.3137
+    // A.
     let mut client = Last(Vec::new());
     let base = models::sm137_rev_b::CURRENT_BASE;
-    objects::MAXTORQUE.at(&mut client).write_scaled_by(5.0, base).expect("within the base");
+    objects::MAXTORQUE.at(&mut client).write_scaled_by(5.0, base).expect("within the base value");
     assert_eq!(client.0, 14_482_i16.to_le_bytes());
     assert!((objects::MAXTORQUE.physical_by(14_482, base) - 5.0).abs() < 1e-3);
 }
 
 #[test]
 fn mantissa_and_exponent() {
-    // Appendix A: the default gain of the position controller, 20480 and 3, is 5.
+    // Appendix A: the default gain of the position controller is 5. The parameters for this gain are 20480 and 3.
     assert_eq!(objects::KPOSPIMANT.physical_by(20_480, 3.0), 5.0);
     assert_eq!(objects::KPOSPIMANT.mantissa_and_exponent(5.0, 0..=6), Ok((20_480, 3)));
     assert_eq!(objects::KPOSPIMANT.mantissa_and_exponent(64.0, 0..=6), Err(OutOfRange));
@@ -152,7 +155,7 @@ fn mantissa_and_exponent() {
 
 #[test]
 fn gains_of_a_controller() {
-    // Appendix A, gains of PI controllers: Kp 0.5, Ki 0.08, 15 %. The other two controllers use the same notation.
+    // Appendix A, gains of PI controllers: Kp 0.5, Ki 0.08 and 15 %. The other two controllers use the same notation.
     let (sum, correction) = (0.5 + 0.08, 0.08 / (0.5 + 0.08));
     for mantissa in [objects::KIQDPIMANT, objects::KVELPIMANT, objects::KPOSPIMANT] {
         assert_eq!(mantissa.mantissa_and_exponent(sum, 0..=6), Ok((19_005, 0)), "{}", mantissa.name());

@@ -1,4 +1,4 @@
-//! A serial client and a simulated motor on a pseudo-terminal.
+//! Tests a serial client with a simulated motor on a pseudo-terminal.
 
 use std::io::{Read, Write};
 use std::thread;
@@ -17,7 +17,7 @@ use super::motor::Motor;
 
 type Line = SerialLine<FromStd<TTYPort>, lexibus::framing::Delimited, 140>;
 
-/// Answers requests until the other end is closed. Noise precedes each reply.
+/// Answers requests until the other end is closed. Sends noise before each reply.
 fn serve(mut port: TTYPort) {
     let (mut motor, mut decoder, mut data) = (Motor::default(), FRAMING.decoder(), [0; MAX_DATA]);
     let mut byte = [0];
@@ -25,16 +25,16 @@ fn serve(mut port: TTYPort) {
         let Ok(Some(length)) = FRAMING.decode(&mut decoder, byte[0], &mut data) else { continue };
         let (mut reply, mut frame) = ([0; MAX_DATA], [0; 160]);
         let mut to = Writer::new(&mut reply);
-        motor.answer(&data[..length], &mut to).expect("room for the reply");
+        motor.answer(&data[..length], &mut to).expect("a buffer for the reply");
         if to.is_empty() {
             continue;
         }
-        let length = FRAMING.encode(to.written(), &mut frame).expect("room for the frame");
+        let length = FRAMING.encode(to.written(), &mut frame).expect("a buffer for the frame");
         port.write_all(&[0x55, 0xFF, 0x03]).and_then(|()| port.write_all(&frame[..length])).expect("an open line");
     }
 }
 
-/// Connects a motor to a serial line whose client has the timeout `patience`.
+/// Connects a motor to a serial line. The client waits for at most `patience`.
 fn served(patience: Duration) -> TTYPort {
     let (mut near, mut far) = TTYPort::pair().expect("a pseudo-terminal");
     near.set_timeout(patience).expect("a time limit");
@@ -48,7 +48,7 @@ fn motor(node: u32) -> HsdMotor<Parameters<Line, Protocol, MAX_DATA>> {
     HsdMotor::on(SerialLine::new(FromStd::new(near), messages::FRAMING), node)
 }
 
-/// The sample in docs/src/serial.md. The test compares the text of this function with it.
+/// The sample code in docs/src/serial.md. The test compares the text of this function with the page.
 #[test]
 fn the_sample_of_the_documentation() -> Result<(), Box<dyn std::error::Error>> {
     let port = served(Duration::from_secs(5));
@@ -99,7 +99,7 @@ fn parameters_one_by_one_and_together() {
 fn refusals_and_silence() {
     let mut refusing = motor(5);
     assert!(matches!(refusing.cmd_reg().send(), Err(Failure::Refused(CmdNack { node: 5, .. }))));
-    // No motor has this number.
+    // There is no motor with this number.
     let reply = motor(6).cmd_get_ver().send().map(|reply| reply.version);
     assert!(matches!(reply, Err(Failure::Error(Error::Client(_)))), "{reply:?}");
 }

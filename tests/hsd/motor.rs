@@ -1,4 +1,4 @@
-//! A simulated motor that answers the requests of the tests.
+//! A simulated motor for the tests.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ pub struct Motor {
     polls: u32,
 }
 
-/// The content of the reply to the null request.
+/// The value that the reply to the null request contains.
 #[derive(Clone, Copy, Default, PartialEq)]
 enum Selected {
     #[default]
@@ -30,7 +30,7 @@ impl Motor {
         BitStato::new().with_command_complete(self.position == self.target)
     }
 
-    /// Executes a request to node 5 and writes the reply. Writes nothing for other nodes or invalid requests.
+    /// Executes a request to node 5 and writes the reply. Ignores requests to other nodes and invalid requests.
     pub fn answer(&mut self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError> {
         let Some((5, own)) = Request::parse(request) else { return Ok(()) };
         match own {

@@ -1,4 +1,4 @@
-//! Encoding and decoding of all requests and replies, intact and damaged.
+//! Tests the encoding and decoding of all requests and replies, both intact and damaged.
 
 use std::collections::BTreeSet;
 use std::convert::Infallible;
@@ -19,7 +19,7 @@ use super::{found, found_in_pieces, framed};
 
 const NODE: u32 = 5;
 
-/// Returns the data of a request.
+/// Returns the encoded data of a request.
 fn sent(message: &impl Message) -> Vec<u8> {
     let mut data = [0; MAX_DATA];
     let mut to = Writer::new(&mut data);
@@ -34,8 +34,8 @@ fn answered<'r>(reply: &impl Reply<'r>, request: &[u8]) -> Vec<u8> {
     to.written().to_vec()
 }
 
-/// Checks that a packet can be decoded: in two pieces, after noise, and with bytes that need an escape at any
-/// position.
+/// Checks that a packet is decoded in three cases: in two pieces, after noise, and with bytes that need an escape at
+/// any position.
 fn framing_holds(data: &[u8]) {
     let frame = framed(data);
     let whole = [Ok(data.to_vec())];
@@ -43,7 +43,7 @@ fn framing_holds(data: &[u8]) {
         let (first, second) = frame.split_at(at);
         assert_eq!(found_in_pieces(&[first, second]), whole, "broken at {at}");
         assert_eq!(answer_in_pieces(first, second), data, "broken at {at}");
-        // The rest of a previous packet whose start is missing.
+        // The noise is the end of a packet whose start is missing.
         assert_eq!(found(&[second, &frame].concat()).last(), Some(&Ok(data.to_vec())), "from {at} on");
     }
     for (place, special) in (0..data.len()).flat_map(|place| SPECIAL.map(|special| (place, special))) {
@@ -53,10 +53,10 @@ fn framing_holds(data: &[u8]) {
     }
 }
 
-/// Escaped bytes and their replacements.
+/// Bytes that need an escape, and their replacements.
 const SPECIAL: [u8; 6] = [0x02, 0x03, 0x1B, 0xFD, 0xFC, 0xE4];
 
-/// A line that receives the reply in two pieces, with a wait in between.
+/// A line on which the reply arrives in two pieces. The reader must wait between them.
 struct Pieces<'a> {
     now: &'a [u8],
     later: Option<&'a [u8]>,
@@ -69,7 +69,7 @@ impl embedded_io_async::ErrorType for Pieces<'_> {
 impl embedded_io_async::Read for Pieces<'_> {
     async fn read(&mut self, buffer: &mut [u8]) -> Result<usize, Infallible> {
         if self.now.is_empty() {
-            // The task waits once.
+            // The task waits once before the second piece.
             poll_fn(|_| match self.later.take() {
                 Some(later) => {
                     self.now = later;
@@ -93,14 +93,14 @@ impl embedded_io_async::Write for Pieces<'_> {
     }
 }
 
-/// Does nothing: the test itself polls twice.
+/// A waker that does nothing, because the test polls twice.
 struct Silent;
 
 impl Wake for Silent {
     fn wake(self: Arc<Self>) {}
 }
 
-/// Returns the reply that a client receives in two pieces.
+/// Returns the reply that a client decodes if it arrives in two pieces.
 fn answer_in_pieces(first: &[u8], second: &[u8]) -> Vec<u8> {
     let pieces = Pieces { now: first, later: Some(second) };
     let mut line = SerialLine::<_, _, 140>::new(pieces, FRAMING);
@@ -118,7 +118,8 @@ fn answer_in_pieces(first: &[u8], second: &[u8]) -> Vec<u8> {
     reply[..length].to_vec()
 }
 
-/// Checks all single-bit errors: the packet is lost or unchanged, never another one, and the next packet is decoded.
+/// Checks all single-bit errors. The packet must be lost or unchanged, but never become another one. The next packet
+/// must be decoded.
 fn damage_is_found(data: &[u8]) {
     let (frame, next) = (framed(data), framed(&[9, 8, 0]));
     for bit in 0..8 * frame.len() {
@@ -131,8 +132,8 @@ fn damage_is_found(data: &[u8]) {
     }
 }
 
-/// Encodes and decodes a request and its reply, intact and damaged, and returns the name of the request. `length` is
-/// the packet length of the reply in the manual: with start, checksum and end, without escapes.
+/// Encodes and decodes a request and its reply, both intact and damaged. Returns the name of the request. `length` is
+/// the manual's packet length of the reply: with start, checksum and end, but without escapes.
 fn exchanged<'r, M, R>(request: M, reply: R, length: usize) -> &'static str
 where
     M: for<'q> Received<'q> + Debug + PartialEq,
@@ -148,7 +149,7 @@ where
         framing_holds(data);
         damage_is_found(data);
     }
-    assert!(Request::parse(&data).is_some_and(|(node, _)| node == NODE), "a simulated motor knows it");
+    assert!(Request::parse(&data).is_some_and(|(node, _)| node == NODE), "a simulated motor recognizes the request");
     M::NAME
 }
 
@@ -157,10 +158,10 @@ fn done() -> BitStato {
 }
 
 fn setting(parameter: u32, value: &[u8]) -> Setting {
-    Setting::of(Parameter(parameter), value).expect("eight bytes at most")
+    Setting::of(Parameter(parameter), value).expect("at most eight bytes")
 }
 
-/// The 36 named requests, and the null request with its four meanings.
+/// Tests the 36 named requests, and the null request with its four meanings.
 #[test]
 #[rustfmt::skip]
 fn every_packet_goes_there_and_comes_back() {
@@ -204,7 +205,7 @@ fn every_packet_goes_there_and_comes_back() {
     seen.insert(exchanged(CmdJog { speed: -2368 }, CmdJogReply { status: done() }, 9));
     seen.insert(exchanged(CmdAzzElWait { method: 0 }, CmdAzzElWaitReply { status: done() }, 9));
     seen.insert(exchanged(CmdSample { variable_1: 1, variable_2: 4 }, CmdSampleReply { status: done() }, 9));
-    // Messages that borrow from the packet.
+    // These messages borrow from the packet.
     let settings = [setting(0x0105, &[150, 0]), setting(0x011C, &[1, 2, 3, 0x1B])];
     let request = CmdChgParN { settings: Settings::sent(&settings, PARAMETER) };
     let data = sent(&request);
@@ -226,7 +227,8 @@ fn every_packet_goes_there_and_comes_back() {
     assert_eq!(seen.len(), 36 + 4, "{seen:?}");
 }
 
-/// A refusal can replace every reply except those to the null request. It isn't decoded as such a reply.
+/// Any reply can be replaced with a refusal, except replies to the null request. The refusal must not be decoded as the
+/// expected reply.
 #[test]
 fn refusals() {
     let jog = sent(&CmdJogN { speed: -578 });
@@ -236,7 +238,8 @@ fn refusals() {
     framing_holds(&data);
     assert_eq!(CmdNack::read(&jog, &mut Reader::new(&data)), Some(refusal));
     assert_eq!(CmdJogNReply::read(&jog, &mut Reader::new(&data)), None);
-    // A position with the same byte isn't a refusal: a motor can't refuse the null request.
+    // A position can contain the same byte as a refusal. Such a position is not a refusal, because a motor cannot
+    // refuse the null request.
     let poll = sent(&PollPosition);
     let position = PollPositionReply { status: done(), real_position: 0x0000_B000 };
     let data = answered(&position, &poll);
@@ -246,7 +249,7 @@ fn refusals() {
     never(PollSpeeds);
 }
 
-/// Packets of all lengths with a byte to escape at every position.
+/// Tests packets of all lengths with a byte that needs an escape at each position.
 #[test]
 fn special_bytes_anywhere() {
     for length in 1..=MAX_DATA {
@@ -261,7 +264,8 @@ fn special_bytes_anywhere() {
     }
 }
 
-/// 68 bytes of data (section 2.3) hold 16 parameters of 16 bits, 10 parameters of 32 bits, or 15 samples.
+/// The maximum of 68 data bytes (section 2.3) is enough for 16 parameters of 16 bits, 10 parameters of 32 bits, or 15
+/// samples.
 #[test]
 fn the_longest_packets() {
     let (short, long) = (setting(0x0105, &[2, 3]), setting(0x011C, &[0x1B, 2, 3, 0x1B]));
@@ -291,12 +295,12 @@ fn the_longest_packets() {
     let reply = CmdGetSampReply { status: done(), entries: List::from(&entries) };
     let refused = reply.write(&request, &mut Writer::new(&mut [0; 2 * MAX_DATA]));
     assert_eq!(refused, Err(too_many));
-    // Only escaped bytes: twice the data and checksum, plus start and end.
+    // If all bytes are escaped, the frame contains twice the data and the checksum, plus start and end.
     assert_eq!(framed(&[0x1B; MAX_DATA]).len(), 1 + 2 * MAX_DATA + 1 + 1);
     assert_eq!(framed(&[[0x1B; MAX_DATA - 1].as_slice(), &[0xFF]].concat()).len(), 139);
 }
 
-/// Frames according to sections 2.1 to 2.3. The manual prints none with its checksum.
+/// Tests frames according to sections 2.1 to 2.3. The manual prints no frame with its checksum.
 #[test]
 fn frames_on_the_wire() {
     fn holds(data: &[u8], frame: &[u8]) {

@@ -1,4 +1,4 @@
-//! Reactions to commands in each state, as constants.
+//! Tests the constants for the effects of commands in each state.
 
 use lexibus::message::Outcome;
 use lexibus_drives::hsd::messages::*;
@@ -8,13 +8,13 @@ use lexibus_drives::hsd::types::State;
 fn commands_in_each_state() {
     assert_eq!(CmdJogN::OUTCOMES.of(State::Stopped), [Outcome::States(&[State::Jogging])]);
     assert_eq!(CmdJogN::OUTCOMES.accepts(State::Alarm), Some(false));
-    // The cell of the manual lists a sequence of states; the motor stays in the last one.
+    // The cell in the manual lists a sequence of states. The motor stays in the last one.
     assert_eq!(
         CmdAzz::OUTCOMES.of(State::Stopped),
         [Outcome::Refused, Outcome::States(&[State::Homing, State::Stopping, State::Stopped])]
     );
     assert_eq!(CmdAzz::OUTCOMES.accepts(State::Stopped), None);
-    // The cell is empty.
+    // This cell is empty in the manual.
     assert!(CmdNoReg::OUTCOMES.of(State::ElectricalHoming).is_empty());
     assert_eq!(CmdChgPar::OUTCOMES.accepts(State::Released), Some(true));
 }

@@ -77,7 +77,7 @@ class Node:
         self.node.nmt.state = "INITIALISING"
         self.node.nmt.state = "PRE-OPERATIONAL"
 
-    # Checks that the library leaves to the device. They refuse writes according to CiA 301.
+    # Checks that the library does not perform. These checks refuse writes according to CiA 301.
 
     def check_limits(self, od, data, **_):
         """Checks limits. The library reads those of 8, 16, 32 and 64-bit integers from the EDS."""
@@ -143,7 +143,7 @@ class Node:
         """Returns the value of an object as a number."""
         return self.variable(index, subindex).decode_raw(self.node.get_data(index, subindex))
 
-    # Commands.
+    # Commands that the test can send.
 
     def get(self, index, sub=0):
         """Returns the value of an object."""

@@ -1,4 +1,4 @@
-//! Generated accessors and PDOs against independent implementations: a node of the Python library `canopen` and
+//! Tests generated accessors and PDOs with independent implementations: a node of the Python library `canopen`, and
 //! servers of `pymodbus`. `README.md` explains the tests.
 #![cfg(unix)]
 
@@ -11,7 +11,7 @@ mod slcan;
 use std::future::Future;
 use std::time::Duration;
 
-/// Runs `work` for at most a minute.
+/// Runs `work` to its end. Fails after a minute.
 fn block_on<T>(work: impl Future<Output = T>) -> T {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
     runtime.block_on(async { tokio::time::timeout(Duration::from_secs(60), work).await.expect("in time") })

@@ -1,6 +1,6 @@
-//! Servers of `pymodbus`, over TCP and RTU, with blocking and asynchronous clients.
+//! Tests with servers of `pymodbus`, over TCP and RTU, with blocking and asynchronous clients.
 //!
-//! Each scenario is a macro, which is used for all four combinations.
+//! Each scenario is a macro. The tests use it for all four combinations.
 
 use std::net::SocketAddr;
 use std::time::Duration;
@@ -24,29 +24,29 @@ use registers::objects::{COILS, HIGH_I16, HIGH_U16, HIGH_U32, INPUT_U32, LOW_F32
 use registers::types::{Mode, Status, StatusDirection as Direction};
 use registers::Registers;
 
-/// Timeout of a request. Python is slow on a busy machine.
+/// Maximum time to wait for a response. Python is slow on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// The server's unit ID.
 const DEVICE: Slave = Slave(1);
 
-/// Bit rate. RTU derives the silence between frames from it.
+/// Bit rate of the serial line. RTU derives the silence between frames from it.
 const BAUD: u32 = 115_200;
 
 type Error = lexibus::Error<ModbusError>;
 
 impl Script {
-    /// Returns a value of the server, decoded by the library.
+    /// Returns a value of the server. The library decodes it.
     fn at(&mut self, name: &str) -> Value {
         self.ask(json!({ "do": "get", "name": name }))
     }
 
-    /// Sets a value of the server, encoded by the library.
+    /// Sets a value of the server. The library encodes it.
     fn put(&mut self, name: &str, value: Value) {
         self.ask(json!({ "do": "set", "name": name, "value": value }));
     }
 
-    /// Returns the function codes of the requests since the last call.
+    /// Returns the function codes of all requests since the last call.
     fn functions(&mut self) -> Value {
         self.ask(json!({ "do": "functions" }))
     }
@@ -67,7 +67,7 @@ fn over_rtu() -> Option<(Script, Cable)> {
     Some((script, cable))
 }
 
-/// Calls a method of an accessor; `$way` is a macro that waits for the result.
+/// Calls a blocking method of an accessor. The scenarios get this macro, or its asynchronous counterpart, as `$way`.
 macro_rules! blocking {
     ($client:expr, read_block $block:expr) => {
         $client.read_block($block)
@@ -110,7 +110,7 @@ macro_rules! awaited {
     };
 }
 
-/// Checks both directions: writes a value and looks at the server, sets a value on the server and reads it.
+/// Checks both directions: writes a value and compares it on the server, then sets a value on the server and reads it.
 macro_rules! exchange {
     ($way:ident, $script:ident, $device:ident, $($place:ident: [$($value:expr),*];)*) => {$(
         $(
@@ -195,7 +195,7 @@ macro_rules! parts_and_meanings {
         $script.put("status", json!(0b0110));
         let status = $way!($device.status(), read)?;
         assert_eq!((status.running(), status.fault(), status.direction()), (false, true, Direction::Forward));
-        // Data after the three words must not change.
+        // The data after the three words must not change.
         $script.put("words_305", json!(0x1111_2222_3333_4444_u64));
         assert_eq!($way!($device.three_words(), read)?, 0x1111_2222_3333);
         $way!($device.three_words(), write 0xFEDC_BA98_7654)?;
@@ -232,7 +232,7 @@ macro_rules! other_tables {
     };
 }
 
-/// Checks that refusals arrive as exceptions.
+/// Checks that refusals of the server become exceptions.
 macro_rules! refusals {
     ($way:ident, $script:ident, $device:ident) => {
         let refused: [Result<(), Error>; 5] = [
@@ -249,12 +249,12 @@ macro_rules! refusals {
             );
             assert!(is_exception, "{refused:?}");
         }
-        // The next request still works.
+        // The next request must work.
         assert_eq!($way!($device.protected(), read)?, 0);
     };
 }
 
-/// Checks the function code of each access.
+/// Checks the function codes of all kinds of access.
 macro_rules! functions {
     ($way:ident, $script:ident, $device:ident) => {
         $script.functions();
@@ -271,7 +271,7 @@ macro_rules! functions {
     };
 }
 
-/// Checks that adjacent items are read with one request per table.
+/// Checks that one request per table reads adjacent items.
 macro_rules! blocks {
     ($way:ident, $script:ident, $device:ident) => {
         $script.put("high_u16", json!(0xA55A));
@@ -347,7 +347,7 @@ fn rtu_not_blocking() -> Result<(), Error> {
     })
 }
 
-/// A device that supports only function 16.
+/// Tests a device that supports only function 16 for writing.
 #[test]
 fn single_registers_by_function_16() -> Result<(), Error> {
     let Some((mut script, address)) = over_tcp() else { return Ok(()) };

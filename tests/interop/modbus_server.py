@@ -22,13 +22,13 @@ DEVICE = 1
 
 TYPES = ModbusClientMixin.DATATYPE
 
-# Function codes that read and write each table.
+# Function codes for reading and writing each table.
 HOLDING = (3, 16)
 INPUT = (4, 4)
 COIL = (1, 15)
 DISCRETE = (2, 2)
 
-# Name: table, wire address, type, number of registers or bits, word order, whether bytes are swapped.
+# For each name: table, wire address, type, number of registers or bits, word order, and whether bytes are swapped.
 PLACES = {
     "high_u16": (HOLDING, 0, TYPES.UINT16, 1, "big", False),
     "high_i16": (HOLDING, 1, TYPES.INT16, 1, "big", False),
@@ -47,7 +47,7 @@ PLACES = {
     "low_u64": (HOLDING, 108, TYPES.UINT64, 4, "little", False),
     "low_i64": (HOLDING, 112, TYPES.INT64, 4, "little", False),
     "low_f64": (HOLDING, 116, TYPES.FLOAT64, 4, "little", False),
-    # The word order applies to numbers only: a text always begins in its first register.
+    # The word order applies only to numbers. A text always starts in its first register.
     "low_text": (HOLDING, 120, TYPES.STRING, 10, "big", False),
     "swapped_u16": (HOLDING, 200, TYPES.UINT16, 1, "big", True),
     "swapped_u32": (HOLDING, 202, TYPES.UINT32, 2, "big", True),
@@ -59,7 +59,7 @@ PLACES = {
     "mode": (HOLDING, 302, TYPES.UINT16, 1, "big", False),
     "status": (HOLDING, 303, TYPES.UINT16, 1, "big", False),
     "temperature": (HOLDING, 304, TYPES.INT16, 1, "big", False),
-    # The accessor writes only the first three of these words. The test checks that the last one is unchanged.
+    # The accessor writes only the first three of these words. The test checks that the last word is unchanged.
     "words_305": (HOLDING, 305, TYPES.UINT64, 4, "big", False),
     "input_i16": (INPUT, 0, TYPES.INT16, 1, "big", False),
     "input_u32": (INPUT, 1, TYPES.UINT32, 2, "big", False),
@@ -69,7 +69,7 @@ PLACES = {
     "discretes": (DISCRETE, 0, None, 40, None, False),
 }
 
-# The existing registers. Register 349 is read-only, and 398 is the last one before a gap.
+# The registers that exist. Register 349 is read-only, and register 398 is the last one before a gap.
 MEMORY = (
     [SimData(0, values=[False] * 64, datatype=DataType.BITS)],
     [SimData(0, values=[False] * 64, datatype=DataType.BITS)],
@@ -116,7 +116,7 @@ class Server:
             self.requests.append(pdu.function_code)
         return pdu
 
-    # Commands.
+    # Commands that the test can send.
 
     def get(self, name):
         """Returns a value; for coils and discrete inputs, a list of the bits that are set."""

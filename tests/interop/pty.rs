@@ -1,4 +1,4 @@
-//! Pseudo-terminals as serial lines between processes.
+//! Pseudo-terminals that serve as serial lines between processes.
 
 use std::fs::File;
 use std::io::{Read, Write};
@@ -12,16 +12,16 @@ use nix::pty::openpty;
 use nix::sys::termios::{cfmakeraw, tcgetattr, tcsetattr, SetArg};
 use nix::unistd::ttyname;
 
-/// One end of a serial line. Another process can open the other end by its path.
+/// One end of a serial line. Another process can open the other end through its path.
 pub struct Pty {
     near: File,
-    /// Kept open: the line breaks if no process has its far end open.
+    /// The other end of the line. This end stays open because the line breaks if no process has it open.
     far: OwnedFd,
     path: PathBuf,
 }
 
 impl Pty {
-    /// Opens a raw line, which transfers bytes unchanged.
+    /// Opens a raw line. It transfers bytes unchanged.
     pub fn open() -> Self {
         let ends = openpty(None, None).expect("a pseudo-terminal");
         let mut settings = tcgetattr(&ends.slave).expect("settings");
@@ -31,12 +31,12 @@ impl Pty {
         Self { near: ends.master.into(), far: ends.slave, path }
     }
 
-    /// Returns the path of the far end.
+    /// Returns the path of the other end.
     pub fn path(&self) -> &str {
         self.path.to_str().expect("UTF-8")
     }
 
-    /// Reads available bytes, or those that arrive within `patience`. Returns their number.
+    /// Reads the available bytes. If there are none, waits for at most `patience`. Returns the number of bytes.
     pub fn read(&mut self, buffer: &mut [u8], patience: Duration) -> std::io::Result<usize> {
         match self.is(PollFlags::POLLIN, patience)? {
             true => self.near.read(buffer),
@@ -44,7 +44,7 @@ impl Pty {
         }
     }
 
-    /// Writes all data. Returns `false` if the line is full for longer than `patience`.
+    /// Writes all data. Returns `false` if the line stays full for longer than `patience`.
     pub fn write(&mut self, data: &[u8], patience: Duration) -> std::io::Result<bool> {
         let is_free = self.is(PollFlags::POLLOUT, patience)?;
         if is_free {
@@ -59,15 +59,15 @@ impl Pty {
     }
 }
 
-/// A serial line with terminals at both ends, like a cable between two computers.
+/// A serial line with a terminal at each end, like a cable between two computers.
 pub struct Cable {
     ends: [PathBuf; 2],
-    /// Closing these ends the threads that copy the bytes.
+    /// The other ends of both terminals. Closing them ends the threads that copy the bytes.
     _far: [OwnedFd; 2],
 }
 
 impl Cable {
-    /// Opens a raw line, which transfers bytes unchanged.
+    /// Opens a raw line. It transfers bytes unchanged.
     pub fn open() -> Self {
         let (left, right) = (Pty::open(), Pty::open());
         let both = |pty: &Pty| (pty.near.try_clone().expect("a handle"), pty.near.try_clone().expect("a handle"));
@@ -77,7 +77,7 @@ impl Cable {
         Self { ends: [left.path, right.path], _far: [left.far, right.far] }
     }
 
-    /// Returns the paths of the two terminals.
+    /// Returns the paths of both terminals.
     pub fn ends(&self) -> [&str; 2] {
         [&self.ends[0], &self.ends[1]].map(|path| path.to_str().expect("UTF-8"))
     }

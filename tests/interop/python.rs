@@ -13,19 +13,19 @@ use serde_json::Value;
 #[path = "../support/python.rs"]
 mod finder;
 
-/// Timeout of an answer. Python starts slowly on a busy machine.
+/// Maximum time to wait for an answer. Python starts slowly on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// The folder of these tests.
+/// The folder that contains these tests.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/interop");
 
-/// Returns a Python with the libraries of the scripts. Searches for it once.
+/// Returns a Python that has the libraries of the scripts. Searches for it only once.
 pub fn python() -> Option<&'static Path> {
     static PYTHON: OnceLock<Option<PathBuf>> = OnceLock::new();
     PYTHON.get_or_init(|| finder::with(&["canopen", "pymodbus", "serial"])).as_deref()
 }
 
-/// A running script that answers commands. Dropping it stops the script.
+/// A running script that answers commands. The script stops when this value is dropped.
 pub struct Script {
     child: Child,
     commands: ChildStdin,
@@ -34,7 +34,7 @@ pub struct Script {
 }
 
 impl Script {
-    /// Starts `script` and waits until it is ready. Also returns the script's first message.
+    /// Starts `script` and waits until it is ready. Returns the script and its first message.
     pub fn start(python: &Path, script: &str, arguments: &[&str]) -> (Self, Value) {
         let mut child = Command::new(python)
             .arg(Path::new(FOLDER).join(script))

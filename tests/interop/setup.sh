@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Creates a virtual environment for the Python scripts of these tests in target/python, with the libraries and versions in
-# requirements.txt. Does nothing if they are already installed.
+# Creates a virtual environment in target/python for the Python scripts of these tests. The environment has the
+# libraries and versions in requirements.txt. Does nothing if they are already installed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 python=target/python/bin/python

@@ -1,4 +1,5 @@
-//! A CAN interface with the Lawicel `slcan` protocol on a serial line: a frame is `t6058…` and a carriage return.
+//! A CAN interface on a serial line with the Lawicel `slcan` protocol. A frame is sent as `t6058…` and a carriage
+//! return.
 
 use std::collections::VecDeque;
 use std::fmt::Write as _;
@@ -12,13 +13,14 @@ use tokio_serial::SerialStream;
 
 use crate::pty::Pty;
 
-/// The CAN adapter and its serial line. A [`Pty`] blocks, a [`SerialStream`] doesn't.
+/// The CAN adapter with its serial line. The line is blocking if it is a [`Pty`], and asynchronous if it is a
+/// [`SerialStream`].
 pub struct Slcan<L> {
     line: L,
     received: Received,
 }
 
-/// Received but unprocessed data: an incomplete line, and frames.
+/// Received data that have not been processed: an incomplete line and complete frames.
 #[derive(Default)]
 struct Received {
     bytes: Vec<u8>,
@@ -46,7 +48,7 @@ impl Received {
     }
 }
 
-/// Parses a line as a frame; returns `None` for a setup command of the adapter.
+/// Parses a line as a frame. Returns `None` if the line is a setup command of the adapter.
 fn frame(line: &[u8]) -> io::Result<Option<CanFrame>> {
     let wrong = || io::Error::new(io::ErrorKind::InvalidData, format!("no frame: {}", line.escape_ascii()));
     let digits = match line {

@@ -9,7 +9,7 @@ use lexibus::Error;
 pub const INVALID_INDEX: PnioStatus = PnioStatus(0xDE80_B000);
 pub const STATE_CONFLICT: PnioStatus = PnioStatus(0xDE80_B500);
 
-/// A device with records in memory and a drive behind its parameter records.
+/// A device with records in memory and a drive that answers its parameter records.
 #[derive(Default)]
 pub struct Device {
     pub records: HashMap<RecordAddress, Vec<u8>>,
@@ -18,14 +18,14 @@ pub struct Device {
     pub pauses: u32,
 }
 
-/// Parameters by axis, number and subindex, with format and bytes. Parameter 100 has a maximum of 3000.
+/// Parameters by axis, number and subindex, each with its format and bytes. Parameter 100 has a maximum of 3000.
 #[derive(Default)]
 pub struct Drive {
     pub values: HashMap<(u8, u16, u16), (Format, Vec<u8>)>,
     pub response: Vec<u8>,
-    /// Number of reads until the response is available.
+    /// Number of reads before the response is available.
     pub delay: u32,
-    /// Whether the record is empty until then. Otherwise reads return an error.
+    /// Whether the record is empty until the response is available. If not, reads return an error until then.
     pub is_empty: bool,
 }
 
@@ -110,7 +110,7 @@ impl RecordClient for Device {
             LOCAL | GLOBAL => &self.drive.response,
             _ => self.records.get(&address).ok_or(Error::Client(INVALID_INDEX))?,
         };
-        // A record that exceeds the buffer is truncated; the returned length reveals it.
+        // A record that exceeds the buffer is truncated. The returned length shows this.
         buffer.iter_mut().zip(data).for_each(|(to, from)| *to = *from);
         Ok(data.len())
     }
@@ -133,7 +133,7 @@ impl RecordClient for Device {
     }
 }
 
-/// The asynchronous client.
+/// The device as an asynchronous client.
 pub struct Async(pub Device);
 
 impl AsyncRecordClient for Async {

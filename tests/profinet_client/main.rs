@@ -1,4 +1,4 @@
-//! The controller side of PROFINET with a simulated device: typed records, items in records, process images and
+//! Tests the controller side of PROFINET with a simulated device: typed records, items in records, process images and
 //! PROFIdrive parameters.
 #![cfg(feature = "macros")]
 
@@ -44,9 +44,9 @@ fn records_as_structs() {
     let refused = records.write(INPUTS, &InputFilterRecord { gain: 0.25, ..FILTER });
     assert_eq!(refused, Err(Error::NotAllowed(NotAllowed { field: "Gain" })));
     let address = INPUTS.record(InputFilterRecord::INDEX);
-    assert_eq!(device.writes, [(address, FILTER_BYTES.to_vec())], "what isn't allowed isn't sent");
+    assert_eq!(device.writes, [(address, FILTER_BYTES.to_vec())], "the invalid record was not sent");
 
-    // A record that is too short, and one that exceeds the buffer.
+    // Test a record that is too short, and a record that exceeds the buffer.
     for (length, expected) in [(8, 9), (17, 16)] {
         device.records.insert(address, vec![0; length]);
         let read = RecordAccess::<_, 16>::new(&mut device).read::<InputFilterRecord>(INPUTS);
@@ -118,7 +118,7 @@ fn start_up_records_have_their_addresses() {
 fn places_in_the_frames() {
     let mut plan = Plan::<8>::new(&safe::DAP).unwrap();
     plan.plug(2, &safe::modules::safe_inputs::MODULE).unwrap();
-    // Head, interface and port have a provider status and a consumer status each.
+    // Head, interface and port each have a provider status and a consumer status.
     let span = |offset, length| Some(IoSpan { offset, length });
     let module = plan.submodule_io(2, 1).unwrap();
     let place = SubmoduleIo {
@@ -146,7 +146,7 @@ fn places_in_the_frames() {
     let trailer = IoObject::of::<Inputs>(&inputs[3..]).unwrap().trailer;
     assert_eq!(FTrailer::from_bytes(trailer).map(|trailer| trailer.status), Ok(0x20));
 
-    // Frames that are too short, data of another submodule, and a submodule without outputs.
+    // Test frames that are too short, data of another submodule, and a submodule without outputs.
     assert_eq!(module.read::<Inputs>(&inputs[..10]), Err(LengthError::new(11, 10)));
     assert_eq!(module.consumer(&inputs[..11]), IoStatus::BAD);
     assert_eq!(module.set_consumer(&mut outputs[..3], IoStatus::GOOD), Err(LengthError::new(4, 3)));
@@ -175,7 +175,7 @@ fn layouts_are_as_long_as_a_plan_says() {
     }
 }
 
-/// A device that returns its outputs as inputs.
+/// A device whose inputs equal its outputs.
 struct Mirror;
 
 impl ImageClient for Mirror {

@@ -1,4 +1,4 @@
-//! Access to PROFIdrive parameters.
+//! Tests the access to PROFIdrive parameters.
 
 use lexibus::profinet::parameter_access::{
     change_request, read_request, Answer, Change, ErrorNumber, Format, ParameterAccess, ParameterAddress,
@@ -126,7 +126,7 @@ fn responses_that_take_their_time() {
         parameters.client().drive.delay = 4;
         let late = if is_empty { Error::Timeout } else { Error::Client(STATE_CONFLICT) };
         assert_eq!(parameters.read::<u8>(1, 7, 0), Err(late));
-        assert_eq!(parameters.client().pauses, 6, "no pause behind the last attempt");
+        assert_eq!(parameters.client().pauses, 6, "no pause after the last attempt");
 
         device.drive.delay = 2;
         let mut parameters = ParameterAccess::new(Async(device), 1, 1).with_polls(3);
@@ -136,7 +136,7 @@ fn responses_that_take_their_time() {
     }
 }
 
-/// A client that never reports a busy device.
+/// A client that never treats an error as a busy device.
 struct Strict(Device);
 
 impl RecordClient for Strict {

@@ -10,7 +10,7 @@ use lexibus::NodeId;
 /// The remaining requests with their responses.
 pub struct Script {
     left: VecDeque<([u8; 8], [u8; 8])>,
-    /// Whether the next request has been sent and awaits its response.
+    /// Whether the next request has been sent and its response has not been read.
     is_asked: bool,
 }
 
@@ -38,7 +38,7 @@ impl CanPort for Script {
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, Infallible> {
         if !std::mem::take(&mut self.is_asked) {
-            assert!(self.left.is_empty() || patience.is_zero(), "nothing was asked");
+            assert!(self.left.is_empty() || patience.is_zero(), "no request was sent");
             return Ok(None);
         }
         let answer = self.left.pop_front().and_then(|(_, answer)| CanFrame::new(0x585, &answer));
@@ -47,7 +47,7 @@ impl CanPort for Script {
     }
 }
 
-/// Returns a client of node 5, which expects these requests.
+/// Returns a client of a simulated node 5 that expects these requests.
 pub fn node(script: &[([u8; 8], [u8; 8])]) -> Node<Script> {
     let script = Script { left: script.iter().copied().collect(), is_asked: false };
     Node::new(script, NodeId::new(5).expect("a node-ID"))

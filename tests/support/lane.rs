@@ -1,15 +1,15 @@
-//! The fast and the full lane of tests. The fast lane runs for every change and only samples slow tests. The full
-//! lane (`tests/full.sh`) runs everything.
+//! The fast lane and the full lane of the tests. The fast lane runs for each change and only runs a sample of slow
+//! tests. The full lane (`tests/full.sh`) runs all tests.
 
-// Each test program uses a part of this module.
+// Each test program uses only a part of this module.
 #![allow(dead_code)]
 
-/// Returns whether the full lane runs: `LEXIBUS_LANE=full`.
+/// Returns whether the full lane runs, that is, whether `LEXIBUS_LANE=full` is set.
 pub fn is_full() -> bool {
     std::env::var_os("LEXIBUS_LANE").is_some_and(|lane| lane == "full")
 }
 
-/// Returns whether to skip a test of the full lane, and prints a message if so.
+/// Returns whether to skip a test because only the full lane runs it. Prints a message if so.
 pub fn skips(test: &str) -> bool {
     if !is_full() {
         println!("skipped: {test} is part of the full lane (tests/full.sh)");
@@ -17,8 +17,8 @@ pub fn skips(test: &str) -> bool {
     !is_full()
 }
 
-/// Returns the minimum number of results for a test that has `full` results for the whole corpus. The sample has an
-/// eighth of the files, and smaller ones.
+/// Returns the minimum number of results that a test must have. `full` is the number for the whole corpus. The sample
+/// has an eighth of the files, and they are smaller.
 pub fn at_least(full: usize) -> usize {
     if is_full() {
         full

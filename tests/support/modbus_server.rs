@@ -1,4 +1,5 @@
-//! A simulated Modbus device for tests and examples: registers behind a `tokio-modbus` server on 127.0.0.1.
+//! A simulated Modbus device for tests and examples. A `tokio-modbus` server on 127.0.0.1 gives access to its
+//! registers.
 
 use std::collections::BTreeMap;
 use std::future::{ready, Ready};
@@ -13,29 +14,29 @@ use tokio::sync::oneshot;
 use tokio_modbus::server::{rtu_over_tcp, tcp, Service};
 use tokio_modbus::{ExceptionCode, Request, Response};
 
-/// The registers of a device. Bits are words of value 0 or 1.
+/// The registers of a device. A bit is a word with the value 0 or 1.
 pub trait Registers: Send + 'static {
-    /// Reads words or bits from an address on.
+    /// Reads words or bits, starting at an address.
     ///
     /// # Errors
     ///
-    /// The exception that the device returns.
+    /// Returns the exception of the device.
     fn read_words(&mut self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<u16>, ExceptionCode>;
 
-    /// Writes words or bits from an address on.
+    /// Writes words or bits, starting at an address.
     ///
     /// # Errors
     ///
-    /// The exception that the device returns.
+    /// Returns the exception of the device.
     fn write_words(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), ExceptionCode>;
 }
 
-/// Registers in memory. Only registers with a value exist.
+/// Registers in memory. Registers without a value do not exist.
 #[derive(Debug, Default)]
 pub struct Map(BTreeMap<(RegisterTable, u16), u16>);
 
 impl Map {
-    /// Adds registers or bits with these words from an address on.
+    /// Adds registers or bits with these values, starting at an address.
     #[must_use]
     pub fn with(mut self, table: RegisterTable, address: u16, words: &[u16]) -> Self {
         self.0.extend((address..).map(|address| (table, address)).zip(words.iter().copied()));
@@ -76,7 +77,7 @@ impl<S: Registers> Device<S> {
         Self { shared: Arc::new(Mutex::new((registers, Vec::new()))) }
     }
 
-    /// Returns the requests since the last call.
+    /// Returns all requests since the last call.
     pub fn requests(&self) -> Vec<String> {
         std::mem::take(&mut self.lock().1)
     }
@@ -145,7 +146,7 @@ impl<S: Registers> Service for Device<S> {
     }
 }
 
-/// The framing of the connection.
+/// The framing that the connection uses.
 #[derive(Clone, Copy, Debug)]
 pub enum Framing {
     /// Modbus TCP.
@@ -154,7 +155,7 @@ pub enum Framing {
     Rtu,
 }
 
-/// A server on a free port of 127.0.0.1. It stops when it is dropped.
+/// A server on an unused port of 127.0.0.1. The server stops when this value is dropped.
 #[derive(Debug)]
 pub struct Server {
     address: SocketAddr,
@@ -167,7 +168,7 @@ impl Server {
     ///
     /// # Errors
     ///
-    /// The error of the port or of the runtime.
+    /// Returns the error of the port or the runtime.
     pub fn start<S: Registers>(device: &Device<S>, framing: Framing) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build()?;
         let listener = runtime.block_on(TcpListener::bind("127.0.0.1:0"))?;
@@ -200,7 +201,7 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // Both calls fail only if the thread has already ended.
+        // Ignore errors. Both calls fail only if the thread has already ended.
         if let Some(stop) = self.stop.take() {
             let _ = stop.send(());
         }

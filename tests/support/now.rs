@@ -1,11 +1,11 @@
-//! Futures that are ready at once, polled without a runtime.
+//! Polls futures that must be ready immediately, without a runtime.
 
 use std::future::Future;
 use std::pin::pin;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake};
 
-/// Returns the result of a future that is ready at once.
+/// Returns the result of a future that must be ready immediately.
 pub fn now<F: Future>(future: F) -> F::Output {
     struct Silent;
     impl Wake for Silent {
@@ -13,6 +13,6 @@ pub fn now<F: Future>(future: F) -> F::Output {
     }
     match pin!(future).poll(&mut Context::from_waker(&Arc::new(Silent).into())) {
         Poll::Ready(output) => output,
-        Poll::Pending => panic!("the future waits"),
+        Poll::Pending => panic!("the future is not ready"),
     }
 }

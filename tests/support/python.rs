@@ -1,16 +1,16 @@
-//! Python, for tests against independent programs.
+//! Finds a Python for tests with independent programs.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Returns a Python that can import `modules`; `None`, with a message, if there is none.
+/// Returns the path of a Python that can import `modules`. If there is none, prints a message and returns `None`.
 ///
-/// The first that exists is used: the one named by `LEXIBUS_PYTHON`, the one installed by `tests/interop/setup.sh`,
-/// `python3`.
+/// The first Python that exists is used: the one that `LEXIBUS_PYTHON` names, the one that `tests/interop/setup.sh`
+/// installs, or `python3`.
 ///
 /// # Panics
 ///
-/// Panics if the Python named by `LEXIBUS_PYTHON` lacks a module.
+/// Panics if the Python that `LEXIBUS_PYTHON` names lacks a module.
 pub fn with(modules: &[&str]) -> Option<PathBuf> {
     let named = std::env::var_os("LEXIBUS_PYTHON").map(PathBuf::from);
     let installed = || {

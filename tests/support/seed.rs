@@ -1,6 +1,6 @@
-//! Reproducible pseudo-random bytes, independent of crate versions.
+//! Reproducible pseudo-random bytes that do not depend on the versions of crates.
 
-/// Returns `count` bytes from a seed (xorshift64*).
+/// Returns `count` pseudo-random bytes for a seed (xorshift64*).
 pub fn bytes(seed: u64, count: usize) -> Vec<u8> {
     let mut state = (seed + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let mut next = || {

@@ -1,4 +1,4 @@
-//! Bits of a word, and named values.
+//! Pairs of functions for bits of a word and for named values.
 
 use lexibus_drives::demo_drive::types::{Controlword, ModesOfOperation, Statusword};
 

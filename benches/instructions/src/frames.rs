@@ -1,13 +1,14 @@
-//! Structs packed to the bytes of a frame and unpacked.
+//! Pairs of functions that pack structs to the bytes of a frame and unpack them.
 
 use lexibus::LengthError;
 use lexibus_drives::{demo_drive as demo, vector_step};
 use lexibus_instructions::{axis, hand, station};
 
-/// Declares the pairs `pack` and `unpack` of structs with the same name, one module each. `same` compares the structs.
+/// Declares pairs of functions `pack` and `unpack` for structs with the same name. Each struct has a module. `same`
+/// compares the structs.
 macro_rules! frames {
     ($($name:ident: $length:literal, $ours:ty, $hand:ty, same |$left:ident, $right:ident| $same:expr;)*) => {$(
-        /// Packing and unpacking.
+        /// Pairs of functions that pack and unpack the struct.
         mod $name {
             #[allow(unused_imports)]
             use super::*;

@@ -1,4 +1,4 @@
-//! Values that are written to objects of the dictionary, or read from them.
+//! Pairs of functions that write values to objects of the dictionary, or read them.
 
 use core::hint::black_box;
 
@@ -7,7 +7,7 @@ use lexibus_drives::demo_drive::types::ModesOfOperation;
 use lexibus_drives::demo_drive::DemoDrive;
 use lexibus_instructions::hand::part;
 
-/// A value that is encoded and decoded without a client.
+/// Pairs for a value that is encoded and decoded without a client.
 mod integer {
     use super::*;
 
@@ -35,7 +35,7 @@ mod integer {
         same (left, right) left == right);
 }
 
-/// An integer width that Rust does not have.
+/// Pairs for an integer with a width that Rust does not have.
 mod integer_24 {
     use super::*;
 
@@ -66,7 +66,7 @@ mod integer_24 {
         same (left, right) left == right);
 }
 
-/// A drive on a bus. Its methods are not inlined, like those of a bus library.
+/// A simulated drive on a bus. The methods of this struct are not inlined, like the methods of a bus library.
 pub struct Wire {
     data: [u8; 8],
     object: Object,
@@ -102,10 +102,10 @@ impl Client for Wire {
     }
 }
 
-/// Arguments of a function that writes: a drive and a value.
+/// Arguments of a function that writes an object: the drive and the value.
 struct Writing<D>(D, i32);
 
-/// Access to objects of the dictionary through a client.
+/// Pairs that access objects of the dictionary through a client.
 mod objects {
     use super::*;
 
@@ -153,7 +153,7 @@ mod objects {
         same (left, right) left == right);
 }
 
-/// A number with invalid values.
+/// Returns a number from a frame. The number can be an invalid value.
 fn value(frame: &[u8]) -> i32 {
     i32::from_le_bytes(part(frame, 0)) >> 10
 }

@@ -1,15 +1,15 @@
-//! Packing, unpacking and accessing values: generated code, and equivalent code that is written by hand.
+//! Generated code and equivalent handwritten code for packing, unpacking and accessing values.
 //!
 //! The binary of this crate contains pairs of equivalent functions. `valgrind` counts their instructions, and the test
-//! `instructions` of `lexibus` compares the counts. The bench in `benches/packing` compares the same structs with other
-//! libraries.
+//! `instructions` of the crate `lexibus` compares the counts. The benchmark in `benches/packing` compares the same
+//! structs with other libraries.
 
 pub mod hand;
 
-/// A slave with process data of every shape (`axis.esi.xml`).
+/// A slave whose process data contain fields of all kinds (`axis.esi.xml`).
 #[rustfmt::skip]
 pub mod axis;
 
-/// A servo drive that follows PROFIdrive (`tests/data/drive.gsdml.xml`).
+/// A servo drive with the PROFIdrive profile (`tests/data/drive.gsdml.xml`).
 #[rustfmt::skip]
 pub mod station;

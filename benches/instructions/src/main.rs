@@ -1,4 +1,4 @@
-//! Calls all pairs of functions under `valgrind`, which counts their instructions, and prints the names of the pairs.
+//! Calls all pairs of functions while `valgrind` counts their instructions. Prints the names of the pairs.
 
 #[macro_use]
 mod twins;
@@ -10,10 +10,10 @@ mod views;
 
 use twins::Frame;
 
-/// Number of calls of each function, each with different bytes.
+/// Number of calls of each function. Each call gets different bytes.
 const CALLS: u64 = 100;
 
-/// Returns pseudo-random bytes that are the same in each run.
+/// Returns pseudo-random bytes. All runs use the same bytes.
 fn noise(seed: u64) -> Frame {
     let mut state = seed.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     core::array::from_fn(|_| {
@@ -39,14 +39,14 @@ fn main() {
 mod tests {
     use super::*;
 
-    /// Each call panics if the results of both functions differ.
+    /// Calls all pairs. A call panics if the results of both functions differ.
     #[test]
     fn generated_code_does_what_a_person_would_write() {
         all().for_each(|twins| (0..CALLS).for_each(|seed| (twins.call)(&noise(seed))));
         assert!(all().count() >= 40);
     }
 
-    /// Numbers without a name have no more bits than the field.
+    /// Packing an unnamed enumeration value must not change the bits next to its field.
     #[test]
     fn enumerations_leave_their_neighbours_alone() {
         use lexibus_instructions::axis::{pdo::Encoder, types::Mode};

@@ -1,19 +1,19 @@
-//! Declares and calls pairs of equivalent functions.
+//! Declares pairs of equivalent functions and calls them.
 
-/// Input of the functions: pseudo-random bytes.
+/// Input of the functions. A frame consists of pseudo-random bytes.
 pub type Frame = [u8; 32];
 
-/// A pair of functions.
+/// A pair of equivalent functions.
 pub struct Twins {
-    /// Value that is packed, unpacked or accessed.
+    /// Name of the value that is packed, unpacked or accessed.
     pub case: &'static str,
-    /// Operation.
+    /// Name of the operation.
     pub action: &'static str,
-    /// Calls both functions with the contents of a frame, and panics if the results differ.
+    /// Calls both functions with the content of a frame. Panics if the results differ.
     pub call: fn(&Frame),
 }
 
-/// Returns a number for a name (FNV-1a).
+/// Returns a number that is calculated from a name (FNV-1a hash).
 pub const fn number(name: &str) -> u32 {
     let (bytes, mut at, mut hash) = (name.as_bytes(), 0, 0x811C_9DC5_u32);
     while at < bytes.len() {
@@ -23,18 +23,18 @@ pub const fn number(name: &str) -> u32 {
     hash
 }
 
-/// Declares a module with the equivalent functions `ours` and `hand`, whose argument is made from a [`Frame`]. `call` calls
-/// both and compares the results.
+/// Declares a module with the equivalent functions `ours` and `hand`. The argument of both functions is created from a
+/// [`Frame`]. The function `call` calls both and compares their results.
 ///
-/// The functions are not inlined, so that their instructions can be counted separately. Each begins with a unique number,
-/// because LLVM would merge equal functions. Both are called through a pointer, so that they are not specialized for these
-/// arguments. The overhead is the same for both.
+/// The functions are not inlined, so their instructions can be counted separately. Each function starts with a unique
+/// number, because LLVM would merge equal functions. Both are called through a pointer, so the compiler cannot specialize
+/// them for their arguments. The overhead is the same for both.
 macro_rules! pair {
     ($name:ident, $frame:ident,
      ours ($ours:ident: $ours_in:ty = $ours_make:expr) -> $ours_out:ty $ours_body:block
      hand ($hand:ident: $hand_in:ty = $hand_make:expr) -> $hand_out:ty $hand_body:block
      same ($left:ident, $right:ident) $same:expr) => {
-        /// Both functions.
+        /// A pair of equivalent functions.
         pub mod $name {
             #[allow(unused_imports)]
             use super::*;
@@ -72,10 +72,10 @@ macro_rules! pair {
     };
 }
 
-/// Lists the pairs of several modules.
+/// Declares a list of the pairs in several modules.
 macro_rules! list {
     ($($case:ident: $($action:ident),*;)*) => {
-        /// Returns all pairs.
+        /// All pairs of these modules.
         pub const ALL: &[$crate::twins::Twins] = &[$($(
             $crate::twins::Twins { case: stringify!($case), action: stringify!($action), call: $case::$action::call },
         )*)*];

@@ -1,4 +1,4 @@
-//! Single fields of a process image, read and written in place.
+//! Pairs of functions that read and write single fields within a process image.
 
 use lexibus::LengthError;
 use lexibus_instructions::hand::{self, frame_mut, part};
@@ -7,7 +7,7 @@ use lexibus_instructions::{axis, station};
 use axis::image;
 use station::submodules::standard_telegram_3 as telegram;
 
-/// A byte-aligned number.
+/// Pairs for a byte-aligned number.
 mod whole_bytes {
     use super::*;
 
@@ -33,7 +33,7 @@ mod whole_bytes {
         same (left, right) left == right);
 }
 
-/// A number that is not byte-aligned, in the second PDO of an image.
+/// Pairs for a number that is not byte-aligned, in the second PDO of an image.
 mod odd_bits {
     use super::*;
 
@@ -61,7 +61,7 @@ mod odd_bits {
         same (left, right) left == right);
 }
 
-/// One bit.
+/// Pairs for a single bit.
 mod one_bit {
     use super::*;
 
@@ -87,7 +87,7 @@ mod one_bit {
         same (left, right) left == right);
 }
 
-/// Big-endian fields of a submodule.
+/// Pairs for big-endian fields of a submodule.
 mod profinet {
     use super::*;
 

@@ -1,4 +1,4 @@
-//! Measures packing and unpacking of 256 frames with Lexibus, handwritten code and other libraries.
+//! Measures packing and unpacking 256 frames with Lexibus, handwritten code and other libraries.
 
 use bilge::prelude::*;
 use deku::prelude::*;
@@ -12,7 +12,7 @@ fn main() {
     divan::main();
 }
 
-/// Pseudo-random frames.
+/// Returns pseudo-random frames.
 fn frames() -> Vec<Frame> {
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut next = || {
@@ -24,7 +24,7 @@ fn frames() -> Vec<Frame> {
     (0..256).map(|_| *next().first_chunk().unwrap()).collect()
 }
 
-/// Measures `unpack`, and `pack` of its results, and checks that the frames are the same.
+/// Measures `unpack`, then `pack` with the unpacked values. Checks that packing gives the same frames.
 fn unpacked<T>(bencher: Bencher<'_, '_>, unpack: impl Fn(&Frame) -> T, pack: impl Fn(&T) -> Frame) {
     let frames = frames();
     frames.iter().for_each(|frame| assert_eq!(pack(&unpack(frame)), *frame));
@@ -44,7 +44,7 @@ fn packed<T>(bencher: Bencher<'_, '_>, unpack: impl Fn(&Frame) -> T, pack: impl 
     });
 }
 
-/// Runs both benches of a struct.
+/// Runs both benchmarks of a struct.
 macro_rules! both {
     ($($name:ident: $unpack:expr, $pack:expr;)*) => {
         mod unpack {
@@ -58,14 +58,14 @@ macro_rules! both {
     };
 }
 
-/// Returns the bytes that `deku` writes.
+/// Returns a frame with the bytes that `deku` writes.
 fn deku_bytes(value: &impl DekuContainerWrite) -> Frame {
     let mut frame = [0; 6];
     value.to_slice(&mut frame).unwrap();
     frame
 }
 
-/// Returns the word of a frame.
+/// Returns the content of a frame as a single word.
 fn word(frame: &Frame) -> u48 {
     u48::from_le_bytes(*frame)
 }
@@ -82,7 +82,7 @@ mod whole_bytes {
         ethercrab_wire: |frame| EtherCrab::unpack_from_slice(frame).unwrap(), |value| value.pack();
         deku: |frame| Deku::from_bytes((frame, 0)).unwrap().1, deku_bytes;
         packed_struct: |frame| Packed::unpack(frame).unwrap(), |value| value.pack().unwrap();
-        // The struct is only the word, so its fields are read as well, as in the other candidates.
+        // The struct only stores the word. Read all fields, because the other candidates also decode them.
         bilge: |frame| {
             let bits = Bilge::from(word(frame));
             WordAndLong { word: bits.word(), long: bits.long() as i32 }
@@ -96,7 +96,7 @@ mod odd_bits {
     use lexibus_instructions::hand;
     use lexibus_packing::odd_bits::{Bilge, Mode};
 
-    /// Returns the fields of a word of `bilge`.
+    /// Returns all fields of a word that `bilge` represents.
     fn fields(bits: Bilge) -> hand::Encoder {
         hand::Encoder {
             ready: bits.ready(),

@@ -1,8 +1,8 @@
-//! The same two frames in the notation of other libraries. Most of them do not support the second one: in `ethercrab-wire`,
-//! fields of more than a byte must be byte-aligned, and `deku` (with `bit_order = "lsb"`) does not write back a 24-bit number
-//! at bit 5 as it read it.
+//! Two frames in the notation of other libraries. Most libraries do not support the second frame: `ethercrab-wire` requires
+//! byte-aligned fields if they are longer than a byte, and `deku` (with `bit_order = "lsb"`) does not restore a 24-bit number
+//! at bit 5.
 
-/// A word and a 32-bit number.
+/// A frame with a word and a 32-bit number.
 pub mod whole_bytes {
     use bilge::prelude::*;
     use deku::prelude::*;
@@ -40,7 +40,7 @@ pub mod whole_bytes {
     }
 
     impl Bilge {
-        /// Creates the struct, whose constructor is private.
+        /// Creates the struct. This function is necessary because the constructor is private.
         #[inline]
         pub fn of(word: u16, long: u32) -> Self {
             Self::new(word, long)
@@ -48,7 +48,7 @@ pub mod whole_bytes {
     }
 }
 
-/// Single bits, three named bits, and a signed 24-bit number at bit 5.
+/// A frame with single bits, three named bits, and a signed 24-bit number at bit 5.
 pub mod odd_bits {
     use bilge::prelude::*;
 
@@ -57,7 +57,7 @@ pub mod odd_bits {
     pub enum Mode {
         Off,
         Position,
-        /// The fallback of `bilge` does not allow user-defined numbers.
+        /// Placeholder for an unnamed value. `bilge` does not allow explicit numbers in an enumeration with a fallback.
         Two,
         Velocity,
         Torque,
@@ -78,7 +78,7 @@ pub mod odd_bits {
     }
 
     impl Bilge {
-        /// Creates the struct, whose constructor is private.
+        /// Creates the struct. This function is necessary because the constructor is private.
         #[inline]
         pub fn of(
             ready: bool,

@@ -1,4 +1,4 @@
-//! Measures `cargo check` of generated crates, without their dependencies.
+//! Measures `cargo check` of crates with generated code. The times do not include compiling the dependencies.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,11 +10,11 @@ use crate::measure::{in_turns, Contestant};
 use crate::registers::registers;
 use crate::report::{Line, Table};
 
-/// A crate of generated code.
+/// A crate with generated code.
 struct Crate {
     name: &'static str,
     label: &'static str,
-    /// Text of its `[dependencies]`.
+    /// Content of the manifest section `[dependencies]`.
     dependencies: String,
     code: Result<String, String>,
     target: Option<f64>,
@@ -58,7 +58,7 @@ fn crates() -> Vec<Crate> {
             label: "svd2rust 0.37",
             dependencies: "vcell = \"0.1.3\"".to_owned(),
             code: svd2rust(&input),
-            // 3.6 s instead of the goal of 1.5 s.
+            // The required ratio is 2.4, because the goal for Lexibus is 1.5 s and this generator needs 3.6 s.
             target: Some(2.4),
         },
         Crate {
@@ -84,7 +84,7 @@ fn write(folder: &Path, one: &Crate) -> PathBuf {
     path
 }
 
-/// Measures this number of checks of the crate without its dependencies.
+/// Measures `times` checks of the crate. The time does not include compiling the dependencies.
 fn checks(path: &Path, times: u32) -> Result<Duration, String> {
     (0..times).map(|_| check(path)).sum()
 }

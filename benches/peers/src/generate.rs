@@ -1,4 +1,4 @@
-//! Measures the generation of formatted Rust from registers, by Lexibus and other generators.
+//! Measures how fast Lexibus and other generators write formatted Rust code for registers.
 
 use device_driver_core::{CodegenTarget, CompileOptions, GeneralOptions, MirOptions};
 use lexibus_codegen::backend::rust;
@@ -13,12 +13,12 @@ use crate::report::{Line, Table};
 
 pub const REGISTERS: usize = 1_000;
 
-/// Returns the tables of this stage.
+/// Returns the result tables of code generation.
 pub fn compare() -> Vec<Table> {
     vec![generators(), alone()]
 }
 
-/// Measures bytes to text, for each generator.
+/// Measures all generators from bytes of the description to Rust text.
 fn generators() -> Table {
     let input = registers(REGISTERS);
     let mut contestants = [
@@ -34,9 +34,9 @@ fn generators() -> Table {
     Table { title: format!("Generation: {REGISTERS} registers of 6 fields, bytes to Rust"), bytes: None, lines }
 }
 
-/// Measures IR to text, for an EDS of 10,000 entries.
+/// Measures Lexibus from IR to Rust text, for an EDS with 10,000 entries.
 fn alone() -> Table {
-    // 111 times ten records of nine entries.
+    // The EDS has 111 times ten records with nine entries each.
     let bytes = growing(InputFormat::Eds, 111);
     let compilation = check("bench.eds".to_owned(), bytes);
     let catalog = compilation.catalog.as_ref().expect("a catalogue");
@@ -58,7 +58,7 @@ pub fn svd2rust(input: &Registers) -> Result<String, String> {
     svd2rust::generate(&input.svd, &config).map(|made| made.lib_rs).map_err(|error| format!("{error:#}"))
 }
 
-/// Returns formatted text, as users of svd2rust see it.
+/// Formats code as users of svd2rust do.
 pub fn formatted(code: &str) -> Result<String, String> {
     syn::parse_file(code).map(|file| prettyplease::unparse(&file)).map_err(|error| error.to_string())
 }

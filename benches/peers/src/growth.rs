@@ -1,4 +1,4 @@
-//! Measures time and memory for inputs of 1 to 1,000 times the size.
+//! Measures the time and memory for inputs whose size grows by a factor of 1 to 1,000.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -14,7 +14,7 @@ use crate::read::check;
 
 const SIZES: [usize; 4] = [1, 10, 100, 1_000];
 
-/// Growing inputs: title, file name, and generator.
+/// A kind of growing input: its title, its file name, and the function that creates it.
 type Way = (&'static str, &'static str, fn(usize) -> Vec<u8>);
 
 const WAYS: [Way; 5] = [
@@ -25,7 +25,7 @@ const WAYS: [Way; 5] = [
     ("table, registers", "bench.toml", |size| growing(InputFormat::Table, size)),
 ];
 
-/// Nanoseconds per byte of input, and bytes of memory per byte of input.
+/// Cost of an input: nanoseconds and bytes of memory, each per input byte.
 struct Cost {
     bytes: usize,
     read: f64,
@@ -35,7 +35,7 @@ struct Cost {
     left: f64,
 }
 
-/// Prints a table for each growing input, and returns the results as JSON.
+/// Measures each growing input. Returns the results as JSON; if `print` is set, also prints a table.
 pub fn report(print: bool) -> Vec<Value> {
     WAYS.iter().map(|way| one(way, print)).collect()
 }
@@ -48,7 +48,7 @@ fn one(&(title, name, make): &Way, print: bool) -> Value {
         println!("| size | MB | read, ns per byte | check | emit | peak memory, times the input | retained memory |");
         println!("|---|---|---|---|---|---|---|");
     }
-    // The smallest input shows the fixed cost of every file.
+    // Compare with the second size, because the fixed cost per file dominates the smallest input.
     let usual = &costs[1];
     let mut rows = Vec::new();
     for (size, cost) in SIZES.iter().zip(&costs) {
@@ -75,7 +75,7 @@ fn one(&(title, name, make): &Way, print: bool) -> Value {
     json!({ "title": title, "sizes": rows })
 }
 
-/// Prints unexpected values in bold.
+/// Returns the Markdown mark that prints unexpected values in bold.
 fn mark(bad: bool) -> &'static str {
     if bad {
         " **!**"
@@ -84,12 +84,12 @@ fn mark(bad: bool) -> &'static str {
     }
 }
 
-/// Measures all sizes in turns.
+/// Measures the inputs of all sizes in turn.
 fn costs(name: &str, inputs: &[Vec<u8>]) -> Vec<Cost> {
     let options = Options::default();
     let read = |bytes: Vec<u8>| compile::read(Source::new(name, bytes), &options);
     let whole = |bytes: Vec<u8>| check(name.to_owned(), bytes);
-    // The first run reads the profiles, which later runs reuse.
+    // The first run reads the profiles, and later runs reuse them.
     drop(whole(inputs[0].clone()));
     let mut best = vec![[Duration::MAX; 2]; inputs.len()];
     for _ in 0..ROUNDS {
@@ -104,7 +104,7 @@ fn costs(name: &str, inputs: &[Vec<u8>]) -> Vec<Cost> {
 
 const ROUNDS: usize = 4;
 
-/// Short inputs are measured for as long as long ones, within limits.
+/// Returns the number of repetitions. Short inputs are measured for about as long as long inputs, within limits.
 fn repetitions(bytes: usize) -> usize {
     (2_000_000 / bytes).clamp(1, 50)
 }
@@ -131,7 +131,7 @@ fn time(bytes: &[u8], work: impl Fn(Vec<u8>) -> Compilation) -> Duration {
     elapsed
 }
 
-/// Measures IR to Rust if there are no errors, as the minimum of three runs.
+/// Measures the time from IR to Rust, as the minimum of three runs. Returns `None` if there are errors.
 fn emit(compilation: &Compilation) -> Option<Duration> {
     let once = || {
         let start = Instant::now();

@@ -1,4 +1,4 @@
-//! Inputs: created by the generators of the compiler's benches, or files of the user.
+//! Inputs of the measurements: generated files, or files from the user.
 
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ pub enum InputFormat {
     Table,
 }
 
-/// A description in memory, and in a file for readers that need one.
+/// A description in memory. The description is also saved as a file, because some readers require a file.
 pub struct Input {
     pub title: String,
     pub kind: InputFormat,
@@ -43,7 +43,7 @@ impl Input {
         Input { title: title.to_owned(), kind, bytes, path }
     }
 
-    /// Returns a file of the user, if its format is compared.
+    /// Returns a file of the user. Returns `None` if its format is not part of the comparison.
     pub fn of_file(path: &Path) -> Option<Self> {
         let bytes = std::fs::read(path).ok()?;
         let name = path.file_name()?.to_string_lossy().into_owned();
@@ -61,7 +61,8 @@ impl Input {
     }
 }
 
-/// Returns small, typical and very large inputs: about 36 and 1,000 entries, 15 MB of EDS, and 30 MB of ESI and GSDML.
+/// Returns a small, a typical and a very large input: about 36 entries, 1,000 entries, and 15 MB (EDS) or 30 MB (ESI
+/// and GSDML).
 pub fn of_three_sizes(folder: &Path) -> Vec<Input> {
     let eds = |title: &str, records| Input::new(folder, title, InputFormat::Eds, eds::eds(records).into_bytes());
     let esi = |title: &str, devices, shape| {
@@ -83,7 +84,7 @@ pub fn of_three_sizes(folder: &Path) -> Vec<Input> {
     ]
 }
 
-/// Returns a description of 1, 10, 100 and 1,000 times the size, for each way to grow.
+/// Returns a description in this format. `size` is a multiple of the smallest size: 1, 10, 100 or 1,000.
 pub fn growing(kind: InputFormat, size: usize) -> Vec<u8> {
     match kind {
         InputFormat::Eds => eds::growing(size),
@@ -93,7 +94,7 @@ pub fn growing(kind: InputFormat, size: usize) -> Vec<u8> {
     }
 }
 
-/// Returns an ESI of one device with a growing dictionary.
+/// Returns an ESI with one device. The size of the dictionary is proportional to `size`.
 pub fn growing_device(size: usize) -> Vec<u8> {
     esi::esi(1, esi::Shape { records: 8 * size, single: 8 * size }).into_bytes()
 }

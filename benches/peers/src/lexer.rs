@@ -1,8 +1,8 @@
-//! The minimum work of reading an EDS: the spans of sections, keys and values, without any conversion.
+//! The minimum work for reading an EDS: finding the spans of sections, keys and values without converting them.
 
 use memchr::{memchr, memchr_iter};
 
-/// A piece of the text without surrounding blanks.
+/// A piece of text without surrounding whitespace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span {
     pub start: u32,
@@ -16,7 +16,7 @@ pub struct Section {
     pub first_entry: u32,
 }
 
-/// Returns all spans of a file in order.
+/// The spans of a file in order.
 #[derive(Default)]
 pub struct Spans {
     pub sections: Vec<Section>,
@@ -25,7 +25,7 @@ pub struct Spans {
 
 pub fn lex(text: &str) -> Spans {
     let bytes = text.as_bytes();
-    // Approximate size of a line and a section in real files.
+    // Estimate the number of spans from the size of lines and sections in real files.
     let mut spans =
         Spans { sections: Vec::with_capacity(bytes.len() / 160), entries: Vec::with_capacity(bytes.len() / 20) };
     let mut start = 0;

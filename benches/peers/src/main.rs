@@ -24,7 +24,7 @@ Without a stage, all of them. With files, these are read instead of the inputs t
 
 const STAGES: [&str; 4] = ["read", "generate", "compile", "growth"];
 
-/// Arguments of the command line.
+/// Command-line arguments.
 #[derive(Default)]
 struct Arguments {
     stages: Vec<String>,
@@ -89,7 +89,7 @@ fn read(files: &[PathBuf], folder: &Path, tables: &mut Tables) {
     }
 }
 
-/// Prints tables immediately, or collects them.
+/// Prints tables immediately or collects them, depending on the output format.
 struct Tables {
     json: bool,
     made: Vec<Value>,

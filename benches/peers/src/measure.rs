@@ -1,15 +1,15 @@
-//! Measures several programs with the same work in turns.
+//! Measures several programs that do the same work. The programs run in turn.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-/// A candidate, which returns the time of a number of repetitions.
+/// A program to measure. The program returns the time for a number of repetitions.
 pub struct Contestant<'a> {
     pub name: String,
     run: Box<dyn FnMut(u32) -> Result<Duration, String> + 'a>,
 }
 
-/// Times of a run, as means of rounds.
+/// Times of a program. Each is the mean of a round.
 #[derive(Clone, Debug)]
 pub struct Sample {
     pub least: Duration,
@@ -17,20 +17,21 @@ pub struct Sample {
     pub rounds: usize,
 }
 
-/// Number of rounds if there is enough time.
+/// Number of rounds unless they exceed the time limit.
 const ROUNDS: usize = 15;
 
 /// Minimum number of rounds.
 const FEWEST: usize = 3;
 
-/// Time limit of a candidate for one input, after the minimum number of rounds.
+/// Time limit for a program with one input. The limit applies after the minimum number of rounds.
 const PATIENCE: Duration = Duration::from_secs(4);
 
-/// Minimum duration of a round, reached by repetition.
+/// Minimum duration of a round. Short work is repeated until it takes this long.
 const ROUND: Duration = Duration::from_millis(10);
 
 impl<'a> Contestant<'a> {
-    /// Creates a candidate. `run` gets new input from `input`. Creating the input and dropping the result are not measured.
+    /// Creates a program to measure. For each call of `run`, the program calls `input` to create an input. Creating the
+    /// input and dropping the result are not measured.
     pub fn new<I, T>(
         name: impl Into<String>,
         mut input: impl FnMut() -> I + 'a,
@@ -50,20 +51,20 @@ impl<'a> Contestant<'a> {
         Contestant { name: name.into(), run: Box::new(run) }
     }
 
-    /// Creates a candidate that measures its own time.
+    /// Creates a program that measures its own time.
     pub fn with_clock(name: impl Into<String>, run: impl FnMut(u32) -> Result<Duration, String> + 'a) -> Self {
         Contestant { name: name.into(), run: Box::new(run) }
     }
 }
 
-/// Results of one candidate so far.
+/// Results of a program so far.
 struct Progress {
     repetitions: u32,
     times: Vec<Duration>,
     spent: Duration,
 }
 
-/// Runs the candidates in turns, so that other load on the machine affects all of them.
+/// Runs the programs in turn, so that other load on the machine affects all of them.
 pub fn in_turns(contestants: &mut [Contestant<'_>]) -> Vec<Result<Sample, String>> {
     let mut progress: Vec<_> = contestants.iter_mut().map(first_run).collect();
     for round in 0..ROUNDS {
@@ -84,8 +85,8 @@ pub fn in_turns(contestants: &mut [Contestant<'_>]) -> Vec<Result<Sample, String
     progress.into_iter().map(|progress| progress.map(|progress| sample(progress.times))).collect()
 }
 
-/// Returns the number of repetitions per round, from a run that is not counted. An earlier run does one-time work such as
-/// reading profiles.
+/// Determines the number of repetitions per round with a run that is not counted. Another run before that does one-time
+/// work such as reading the profiles.
 fn first_run(contestant: &mut Contestant<'_>) -> Result<Progress, String> {
     (contestant.run)(1)?;
     let time = (contestant.run)(1)?.max(Duration::from_nanos(100));

@@ -1,9 +1,9 @@
-//! Measures peak memory: the sizes of allocated blocks, without the overhead of the allocator.
+//! Measures peak memory. Peak memory is the sum of allocated block sizes, without the overhead of the allocator.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicBool, AtomicIsize, Ordering::Relaxed};
 
-/// The system's allocator with optional counting.
+/// The system allocator with counting that can be enabled.
 pub struct Counting;
 
 #[global_allocator]
@@ -20,7 +20,7 @@ fn count(change: isize) {
     }
 }
 
-// SAFETY: every call is forwarded unchanged.
+// SAFETY: all calls are forwarded to the system allocator unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count(layout.size() as isize);
@@ -43,7 +43,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// Returns the peak memory of `work`, and the memory that its result retains.
+/// Returns the peak memory of `work` and the memory that its result occupies.
 pub fn peak<T>(work: impl FnOnce() -> T) -> (usize, usize) {
     NOW.store(0, Relaxed);
     MOST.store(0, Relaxed);

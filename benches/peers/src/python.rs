@@ -1,4 +1,4 @@
-//! Runs Python readers in one process, which reads files on demand and measures the time.
+//! Runs the Python readers. A single process reads files on demand and measures the time.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -12,7 +12,7 @@ pub struct Python {
 }
 
 impl Python {
-    /// Starts the process; `None` if `setup.sh` was not run.
+    /// Starts the process. Returns `None` if `setup.sh` has not been run.
     pub fn start() -> Option<Self> {
         let here = Path::new(env!("CARGO_MANIFEST_DIR"));
         let python = here.join("target/python/bin/python");
@@ -28,7 +28,7 @@ impl Python {
         Some(Python { child, requests, replies })
     }
 
-    /// Returns the time that `reader`, a function of `read.py`, takes to read `path` this number of times.
+    /// Returns the time for reading `path` this number of times with `reader`, a function in `read.py`.
     pub fn time(&mut self, reader: &str, path: &Path, repetitions: u32) -> Result<Duration, String> {
         let broken = |error: std::io::Error| format!("Python is gone: {error}");
         writeln!(self.requests, "{reader}\t{repetitions}\t{}", path.display()).map_err(broken)?;
@@ -40,7 +40,7 @@ impl Python {
 
 impl Drop for Python {
     fn drop(&mut self) {
-        // The process ends when its input is closed. An error means that it has already ended.
+        // The process ends when its input is closed. Ignore an error, which means that it has already ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

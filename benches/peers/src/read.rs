@@ -1,4 +1,4 @@
-//! Measures reading a description, by Lexibus and other readers.
+//! Measures how fast Lexibus and other readers read a description.
 
 use std::cell::RefCell;
 use std::hint::black_box;
@@ -15,7 +15,7 @@ use crate::measure::{in_turns, Contestant};
 use crate::python::Python;
 use crate::report::{Line, Table};
 
-/// Returns the table of all readers of `input`.
+/// Measures all readers of `input` and returns a table.
 pub fn compare(input: &Input, python: &RefCell<Option<Python>>) -> Table {
     let mut field = vec![(lexibus(input), None)];
     let bytes = &input.bytes;
@@ -56,7 +56,7 @@ fn lexibus(input: &Input) -> Contestant<'_> {
     Contestant::new("Lexibus, checked IR", copy, |(name, bytes)| Ok(check(name, bytes)))
 }
 
-/// Creates a reader of text. Checking the bytes for valid text is measured, too.
+/// Creates a reader that needs text. The measured time includes checking that the bytes are valid text.
 fn text<'a, T: 'a>(name: &str, bytes: &'a [u8], read: impl Fn(&'a str) -> Result<T, String> + 'a) -> Contestant<'a> {
     let run = move |bytes: &'a [u8]| read(from_utf8(bytes).map_err(|error| error.to_string())?);
     Contestant::new(name, move || bytes, run)
@@ -89,7 +89,7 @@ fn ethercat_esi(text: &str) -> Result<ethercat_esi::EtherCatInfo, String> {
     ethercat_esi::EtherCatInfo::from_xml_str(text).map_err(|error| error.to_string())
 }
 
-/// Reads all events and their positions.
+/// Reads all XML events with their positions.
 fn events(text: &str) -> Result<u64, String> {
     let mut reader = Reader::from_str(text);
     let mut sum = 0;
@@ -104,7 +104,7 @@ fn events(text: &str) -> Result<u64, String> {
     }
 }
 
-/// Like the function above, and splits the attributes of every tag, which contain most facts of a GSDML.
+/// Reads all XML events and splits the attributes of each tag. The attributes contain most facts of a GSDML.
 fn attributes(text: &str) -> Result<u64, String> {
     let mut reader = Reader::from_str(text);
     let mut sum = 0;

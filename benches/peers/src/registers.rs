@@ -1,4 +1,5 @@
-//! The same registers in the formats of three generators: 32 bits each, with the six bit fields of `FIELDS`.
+//! The same registers in the input formats of three generators. Each register has 32 bits with the six bit fields of
+//! `FIELDS`.
 
 use std::fmt::Write;
 
@@ -14,7 +15,7 @@ pub fn registers(count: usize) -> Registers {
     Registers { table: table::table(count), svd: svd(count), ddsl: ddsl(count) }
 }
 
-/// Returns one peripheral for svd2rust.
+/// Returns an SVD file with one peripheral for svd2rust.
 fn svd(count: usize) -> String {
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<device schemaVersion=\"1.3\">\n");
     text += "<name>BENCH</name><version>1.0</version><description>Bench</description>\n";
@@ -37,7 +38,7 @@ fn svd(count: usize) -> String {
     text + "</registers></peripheral></peripherals></device>\n"
 }
 
-/// Returns one device for device-driver.
+/// Returns a device in the language of device-driver.
 fn ddsl(count: usize) -> String {
     let mut text = String::from("device Bench {\n    default-byte-order: LE,\n    register-address-type: u16,\n");
     text += "    default-access: RW,\n";

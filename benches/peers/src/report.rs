@@ -1,27 +1,27 @@
-//! Prints one table per input, or all results as JSON.
+//! Prints a table for each input, or all results as JSON.
 
 use serde_json::{json, Value};
 
 use crate::measure::Sample;
 
-/// Times of one candidate for one input.
+/// Result of a program for one input.
 pub struct Line {
     pub name: String,
     pub outcome: Result<Sample, String>,
-    /// Required speed of Lexibus as a multiple of this candidate's.
+    /// Required ratio: how many times as fast as this program Lexibus should be.
     pub target: Option<f64>,
 }
 
-/// All candidates for one input. The first one is Lexibus.
+/// Results of all programs for one input. Lexibus is the first one.
 pub struct Table {
     pub title: String,
-    /// Number of input bytes, for a speed; `None` for times.
+    /// Number of input bytes, used to print the speed. `None` means that the table shows only times.
     pub bytes: Option<usize>,
     pub lines: Vec<Line>,
 }
 
 impl Table {
-    /// Returns how many times as fast as `line` the first line is.
+    /// Returns how many times as fast as `line` the first line of the table is.
     fn ratio(&self, line: &Line) -> Option<f64> {
         let lexibus = self.lines[0].outcome.as_ref().ok()?.least.as_secs_f64();
         Some(line.outcome.as_ref().ok()?.least.as_secs_f64() / lexibus)
@@ -86,7 +86,7 @@ impl Table {
     }
 }
 
-/// Returns the first line of a message, cut to the width of a table.
+/// Returns the first line of a message, shortened to fit in a table.
 fn shortened(message: &str) -> String {
     let line = message.lines().next().unwrap_or_default();
     line.chars().take(100).collect::<String>().replace('|', "/")

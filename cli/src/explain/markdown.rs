@@ -21,7 +21,8 @@ const FAMILIES: [(&str, &str); 11] = [
     ("CSV", "Register lists (CSV)"),
 ];
 
-/// Returns the catalog. It has one chapter per family and one section per code; the code is the anchor of the section.
+/// Returns the catalog. The catalog has one chapter per family and one section per code. The code is the anchor of the
+/// section.
 pub fn catalogue() -> String {
     let mut text = String::from(
         "# The catalogue of codes\n\nThis page is the output of `lexibus explain --format markdown`. \

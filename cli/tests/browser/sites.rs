@@ -66,7 +66,8 @@ pub fn large() -> PathBuf {
     site
 }
 
-/// Returns a site for descriptions that contain markup. Its file `diff.html` compares two versions of a description.
+/// Returns a site for descriptions that contain markup. The file `diff.html` of the site compares two versions of a
+/// description.
 pub fn hostile() -> PathBuf {
     let root = folder("hostile");
     let (mut site, mut pages) = (Site::default(), Vec::new());

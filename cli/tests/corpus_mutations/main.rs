@@ -532,7 +532,7 @@ fn texts_of_the_words_of_an_xdd() {
     });
 }
 
-/// The output must not depend on hash seeds or memory addresses. These differ between threads.
+/// The output must not depend on hash seeds or memory addresses, which differ between threads.
 #[test]
 fn two_runs_give_the_same_bytes() {
     let Some(files) = all_files() else { return };

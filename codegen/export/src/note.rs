@@ -90,9 +90,9 @@ kinds! {
     Value = "value", "value left out: its type cannot hold it";
     /// A limit of an integer that is not an integer.
     RoundedLimit = "rounded-limit", "fractional minimum or maximum of an integer rounded";
-    /// `$NODEID` minus a number.
+    /// A formula that subtracts a number from `$NODEID`.
     NegativeFormula = "negative-formula", "formula with a negative number written, although CiA 306 does not define it";
-    /// Directions of PDO mapping that don't follow from the access type.
+    /// PDO mapping directions that differ from those of the access type.
     Mapping = "pdo-mapping", "direction of PDO mapping written as access type rwr or rww";
     /// PDO mapping directions that no access type can express.
     LostMapping = "lost-mapping", "direction of PDO mapping left out: no access type expresses it";
@@ -116,11 +116,11 @@ kinds! {
     Category = "category", "category of an object left out";
     /// An address on another bus.
     Binding = "binding", "address on another bus left out";
-    /// An object that exists on EtherCAT only.
+    /// An object that exists only on EtherCAT.
     CoeOnly = "coe-only", "EtherCAT-only object left out";
-    /// An item outside of the object dictionary.
+    /// An item outside the object dictionary.
     NotAnObject = "not-an-object", "item outside of the object dictionary left out";
-    /// A sub-index 0 that an object made of registers requires.
+    /// A sub-index 0 that was added to an object made of registers.
     Completed = "completed", "sub-index 0 added to an object that consists of registers";
     /// A second object or entry at the same address.
     Duplicate = "duplicate", "object or entry left out: another one has the same address";
@@ -132,7 +132,7 @@ kinds! {
     Slot = "slot", "slot left out";
     /// A setting of another bus.
     OtherBus = "other-bus", "settings of another bus left out";
-    /// A further axis, whose objects follow from those of the first axis.
+    /// An additional axis. The objects of this axis are derived from those of the first axis.
     Axis = "axis", "additional axis left out: the file contains only the objects of the first axis";
     /// A PROFINET submodule, message, code table, state machine, procedure or variant.
     OtherPart = "other-part", "message, code table, state machine, procedure, variant or submodule left out";
@@ -142,7 +142,7 @@ kinds! {
     FileInfo = "file-info", "date, time, version or comment of the file converted or left out";
     /// A text with a line break.
     LineBreak = "line-break", "line break in a text written as a space";
-    /// A text that isn't ASCII.
+    /// A text that is not ASCII.
     NotAscii = "not-ascii", "line with characters other than ASCII: the file is encoded in UTF-8";
     /// A line longer than 255 characters.
     LongLine = "long-line", "line longer than 255 characters";
@@ -158,9 +158,9 @@ kinds! {
     CanObject = "can-object", "CANopen-only object, or object for CAN services (COB-ID, SYNC, heartbeat), left out";
     /// An object without entries.
     EmptyObject = "empty-object", "object without entries left out";
-    /// An incomplete group of facts.
+    /// Facts that the format accepts only together with others that are missing.
     Incomplete = "incomplete", "facts left out: the format requires further facts that are missing";
-    /// A spelling that the schema does not allow.
+    /// A word or number whose form the schema does not allow.
     Spelling = "spelling", "word or number left out: the schema does not allow its notation";
     /// A device of another vendor.
     OtherVendor = "other-vendor", "device or module of another vendor left out: a file contains only one vendor";
@@ -168,7 +168,7 @@ kinds! {
     Control = "control-character", "control character removed from a text";
     /// A missing text of an element in a format with a text list.
     MissingText = "missing-text", "missing text of an element replaced by its name";
-    /// A field of a process image that overlaps another field or isn't byte-aligned.
+    /// A field of a process image that overlaps another field or is not byte-aligned.
     Layout = "layout", "overlapping or unaligned field of cyclic data written as octets or bits";
     /// An item that is in no process image.
     NotInData = "not-in-data", "item outside of the cyclic data left out";

@@ -1,4 +1,4 @@
-//! Options of an export. They supply facts that a format requires and a source may not have.
+//! Options of an export, which supply facts that a format requires and a source may not have.
 
 use std::fmt;
 

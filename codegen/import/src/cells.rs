@@ -125,7 +125,7 @@ pub(super) fn range(text: &str, unit: &str, comma: bool) -> Option<(Number, Numb
     Some((quantity(low, unit, comma)?, quantity(high, unit, comma)?))
 }
 
-/// A scale factor. It is ambiguous if the inverse could also be meant.
+/// A scale factor. A factor is ambiguous if the inverse could also be meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Factor {
     pub value: f64,

@@ -226,7 +226,7 @@ impl Reader<'_, '_> {
         number.int().filter(|&value| ty.fits(value, is_hex)).map(|value| int(value, is_hex))
     }
 
-    /// Returns the name of a row. It is derived from the name cell, the description or the address.
+    /// Returns the name of a row. The name comes from the name cell, the description or the address.
     pub fn name(&mut self, record: &Record, address: Option<&RowAddress>) -> String {
         let written = row_name(self.text(record, Field::Name));
         let is_list = |text: &str| values::read(text).is_some_and(|list| list.entries.len() > 1);
@@ -350,7 +350,7 @@ fn truth(text: &str) -> Option<Number> {
     Some(Number::Int { value, is_hex: false })
 }
 
-/// Creates a valid row name without braces and control characters. Its maximum length is 60 characters.
+/// Creates a valid row name without braces and control characters. The maximum length is 60 characters.
 pub(super) fn row_name(text: &str) -> String {
     let text = unbraced(&tidy(text));
     let text: String = text.chars().filter(|letter| !letter.is_control()).collect();

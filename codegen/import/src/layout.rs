@@ -176,7 +176,8 @@ fn space(table: Table, rows: &[Row], from_one: bool, diagnostics: &mut Diagnosti
     }
 }
 
-/// Returns the printed address that corresponds to wire address 0. It is calculated from the column of wire addresses.
+/// Returns the printed address that corresponds to wire address 0. The address is calculated from the column of wire
+/// addresses.
 fn wire<'r>(rows: impl Iterator<Item = &'r Row>, diagnostics: &mut Diagnostics) -> Option<i64> {
     let mut found: Option<(i64, Span)> = None;
     for row in rows {
@@ -196,7 +197,7 @@ fn wire<'r>(rows: impl Iterator<Item = &'r Row>, diagnostics: &mut Diagnostics) 
     found.map(|(difference, _)| difference)
 }
 
-/// Reports object indices whose distance from the register address is unusual. They are probably misprints.
+/// Reports object indices whose distance from the register address is unusual. Such indices are probably misprints.
 fn objects_agree(rows: &[Row], diagnostics: &mut Diagnostics) {
     let both = |row: &Row| match row.address {
         Ok(RowAddress::Register { printed, object: Some((index, _)), .. }) => Some((printed.first, index)),

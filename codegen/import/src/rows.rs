@@ -88,7 +88,7 @@ pub(super) struct Reference {
 pub(super) struct Row {
     pub name: String,
     pub span: Span,
-    /// Text of the original line. It becomes a comment if the line cannot become a row.
+    /// Text of the original line. The text becomes a comment if the line cannot become a row.
     pub text: String,
     pub chapter: Rc<str>,
     /// Address of the row, or the reason why the line cannot become a row.

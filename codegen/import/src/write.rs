@@ -85,7 +85,7 @@ pub(super) fn table(list: &Listing, name: &str, source: &str) -> String {
     let mut addresses = list.chapters.iter().flat_map(|chapter| &chapter.rows).map(|row| row.address);
     let is_object =
         |address| matches!(address, Ok(RowAddress::Object { .. } | RowAddress::Register { object: Some(_), .. }));
-    // The list does not name the bus of the objects. The user must add it.
+    // The list does not name the bus of the objects, so the user must add the bus.
     if !list.spaces.is_empty() && !addresses.any(is_object) {
         out += "buses = [\"modbus\"]\n";
     }
@@ -218,7 +218,7 @@ fn definitions(out: &mut String, list: &Listing) {
     }
 }
 
-/// Writes definitions of the unknown units. The user must complete them.
+/// Writes definitions of the unknown units, which the user must complete.
 fn units(out: &mut String, list: &Listing) {
     let rows = list.chapters.iter().flat_map(|chapter| &chapter.rows).filter(|row| row.address.is_ok());
     let units = rows.flat_map(|row| &row.facts).filter(|(key, _)| *key == "unit").map(|(_, unit)| unit.as_str());

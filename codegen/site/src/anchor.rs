@@ -21,7 +21,7 @@ impl Names {
         Names { prefix: format!("{anchor}."), ..Names::default() }
     }
 
-    /// Returns a file name for `text`. It consists of lowercase letters, digits and `-`.
+    /// Returns a file name for `text`. The name consists of lowercase letters, digits and `-`.
     pub fn file(&mut self, text: &str) -> String {
         let mut name = String::new();
         for letter in text.chars().flat_map(char::to_lowercase) {
@@ -36,7 +36,8 @@ impl Names {
         self.once(if name.is_empty() { "device" } else { name }, '-')
     }
 
-    /// Returns an anchor for an element called `text`. It contains only characters that need no escaping in a link.
+    /// Returns an anchor for an element called `text`. The anchor contains only characters that need no escaping in a
+    /// link.
     pub fn anchor(&mut self, text: &str) -> String {
         let is_plain = |letter: &char| letter.is_alphanumeric() || matches!(letter, '_' | '-' | '.' | ':');
         let name: String = text.trim().chars().map(|letter| if is_plain(&letter) { letter } else { '_' }).collect();

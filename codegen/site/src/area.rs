@@ -45,14 +45,14 @@ pub(super) struct Section {
     pub rows: Vec<Row>,
 }
 
-/// A part of a device. Its groups share pages.
+/// A part of a device whose groups share pages.
 struct Part<'g> {
     title: String,
     /// The groups of the part, with their positions in the device.
     groups: Vec<(u32, &'g Group)>,
 }
 
-/// Returns the pages for these groups. Their file names begin with `prefix`.
+/// Returns the pages for these groups. The file names of the pages begin with `prefix`.
 pub(super) fn areas(
     groups: &[Group],
     types: &[TypeDef],

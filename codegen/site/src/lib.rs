@@ -99,7 +99,7 @@ impl Site {
         Site { format, ..Site::default() }
     }
 
-    /// Returns the pages of a catalog. They are in a folder whose name is created from `name`.
+    /// Returns the pages of a catalog. The pages are in a folder whose name is created from `name`.
     pub fn add(&mut self, name: &str, catalog: &Catalog) -> Vec<Page> {
         self.folder(name, catalog, ShownDiagnostics::default())
     }

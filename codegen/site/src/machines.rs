@@ -214,7 +214,7 @@ fn outcome(outcome: &Outcome) -> String {
 /// Returns the diagram, or `None` if there is no transition between states.
 fn diagram(machine: &StateMachine) -> Option<Diagram> {
     let position = |name: &str| machine.states.iter().position(|state| state.name == name);
-    // An additional box represents any state. Its position follows the positions of the states.
+    // An additional box represents any state. The position of this box follows the positions of the states.
     let any = machine.states.len();
     let from = |transition: &Transition| transition.from.as_ref().map_or(Some(any), |name| position(name));
     // One arrow represents all transitions between the same two states.

@@ -60,7 +60,7 @@ pub(super) fn modules(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<
     all
 }
 
-/// Returns the items of a module in sections. Their anchors begin with the module's anchor.
+/// Returns the items of a module in sections. The anchors of the items begin with the module's anchor.
 fn sections<'g>(
     groups: impl Iterator<Item = &'g Group>,
     types: &[TypeDef],

@@ -1,4 +1,4 @@
-//! The interface that each documentation format implements. It writes the text of each kind of page.
+//! The interface that each documentation format implements. A format writes the text of each kind of page.
 
 use std::rc::Rc;
 

@@ -1,6 +1,6 @@
-//! Creates the search index. It is a script that a page loads when the reader starts a search. In a site with many
-//! devices, many entries have the same number or text. The index stores each number and text once, so a search also
-//! checks it once.
+//! Creates the search index. The index is a script that a page loads when the reader starts a search. In a site with
+//! many devices, many entries have the same number or text. The index stores each number and text once, so a search
+//! also checks it once.
 
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -16,7 +16,8 @@ pub(super) struct Index {
     /// Pages, each with the title of its device and its entries.
     pages: Vec<Page>,
     numbers: Texts,
-    /// Searchable texts: name, names in other languages, unit, and the start of the description. Tabs separate them.
+    /// Searchable texts: name, names in other languages, unit, and the start of the description. Tabs separate these
+    /// texts.
     texts: Texts,
 }
 

@@ -46,7 +46,7 @@ fn compile_with(command: Command, edition: &str, name: &str, bindings: &str) -> 
     for path in [&module, &root, &stem.with_extension("rmeta")] {
         let _ = std::fs::remove_file(path);
     }
-    result.map_err(|text| format!("{name} doesn't compile:\n{}", start(&text)))
+    result.map_err(|text| format!("{name} does not compile:\n{}", start(&text)))
 }
 
 /// Compiles named modules as one crate, which is faster than one crate per module. The modules' `cfg` attributes may name the
@@ -180,7 +180,7 @@ fn documented<T>(name: &str, bindings: &[&str], read: impl FnOnce(&Path) -> T) -
     }
     let _ = std::fs::remove_dir_all(&folder);
     let text = String::from_utf8_lossy(&output.stderr);
-    result.ok_or_else(|| format!("{name} can't be documented:\n{}", start(&text)))
+    result.ok_or_else(|| format!("{name} cannot be documented:\n{}", start(&text)))
 }
 
 /// Compiles `text` as a program that uses the runtime, and runs the program.

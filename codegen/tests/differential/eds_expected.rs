@@ -92,7 +92,8 @@ pub fn of_device(text: &str, fact: &str) -> Option<String> {
     }
 }
 
-/// Returns the facts of a sub-index that CompactSubObj implies (E43). Its name and value may be listed separately (E44).
+/// Returns the facts of a sub-index that CompactSubObj implies (E43). The name and value of the sub-index may be listed
+/// separately (E44).
 pub fn compact(reading: &Reading, index: u16, sub: u8, node_id: u8) -> Option<Facts> {
     let object = reading.get(index, Part::Object)?;
     let mut facts = Facts::new();
@@ -100,7 +101,7 @@ pub fn compact(reading: &Reading, index: u16, sub: u8, node_id: u8) -> Option<Fa
         put(&mut facts, "name", "NrOfObjects");
         put(&mut facts, "type", "5");
         put(&mut facts, "access", "ro");
-        // Sub-index 255 describes the structure of the object. It is not an element (E77).
+        // Sub-index 255 describes the structure of the object. Sub-index 255 is not an element (E77).
         put_some(&mut facts, "default", object.number("compactsubobj").map(|count| count.min(254)));
         return Some(facts);
     }

@@ -1,5 +1,5 @@
-//! Reasons for differences between `canopen` and Lexibus. Each reason checks the original text of the file. It also checks
-//! that Lexibus has the value that the table of quirks requires.
+//! Reasons for differences between `canopen` and Lexibus. Each reason checks the original text of the file. The reason
+//! also checks that Lexibus has the value that the table of quirks requires.
 
 use super::corpus_support::number::{hex_digits, number, Number};
 use super::corpus_support::reading::{Part, Reading, Section};

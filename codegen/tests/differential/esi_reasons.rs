@@ -149,8 +149,8 @@ fn is_as_mapped(case: &Case<'_>, element: &str, entries: &[&Facts]) -> bool {
     entries.iter().any(|entry| ["name", "type"].iter().all(|fact| ours.get(*fact) == entry.get(*fact)))
 }
 
-/// Returns the purpose of a sync manager. It follows from the PDOs that name the sync manager if all of them have the same
-/// direction.
+/// Returns the purpose of a sync manager. The direction of the PDOs that name the sync manager determines the purpose,
+/// if all these PDOs have the same direction.
 fn purpose_of_pdos(case: &Case<'_>, element: &str) -> Option<&'static str> {
     let (owner, number) = element.split_once(" Sm ")?;
     let is_named_by = |kind: &str| {

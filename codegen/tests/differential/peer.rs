@@ -1,4 +1,4 @@
-//! Runs the independent readers. They are Python scripts.
+//! Runs the independent readers, which are Python scripts.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,4 +1,4 @@
-//! Helpers for the tests of the Eco's table. They return the table, the manual's text, and single facts.
+//! Helpers for the tests of the Eco's table. The helpers return the table, the manual's text, and single facts.
 
 #![allow(dead_code)]
 

@@ -81,7 +81,7 @@ pub fn code(item: &Item) -> u32 {
     item.bindings.iter().find_map(number).expect("a parameter")
 }
 
-/// Returns the line of the manual that describes a row. It is the first cited line.
+/// Returns the line of the manual that describes a row. This is the first line that the row cites.
 pub fn line(cite: Option<&str>) -> usize {
     let first = cite.and_then(|cite| cite.split([',', '-']).next());
     first.and_then(|line| line.trim().parse().ok()).expect("a line")

@@ -19,7 +19,7 @@ impl Random {
         (0..self.next() & 3).map(|_| one(self)).collect::<Vec<_>>().leak()
     }
 
-    /// Returns up to three parameters with values that the rule allows. They exist until the program ends.
+    /// Returns up to three parameters with values that the rule allows. The parameters exist until the program ends.
     fn settings(&mut self, rule: SettingsRule) -> &'static [Setting] {
         self.several(|random| {
             let (first, last, length) = rule.lengths[random.next() as usize % rule.lengths.len()];
@@ -427,7 +427,7 @@ macro_rules! overheard_reply {
     }};
 }
 
-/// Returns up to 48 random bytes. They begin with `from` and contain `constant` near the start.
+/// Returns up to 48 random bytes. The bytes begin with `from` and contain `constant` near the start.
 fn likely(random: &mut Random, from: &[u8], constant: &[u8]) -> Vec<u8> {
     let mut data = vec![0; random.next() as usize % 49];
     random.fill(&mut data);

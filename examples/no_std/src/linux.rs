@@ -1,4 +1,4 @@
-//! Three system calls of Linux on x86-64.
+//! The three system calls that the programs use on Linux x86-64.
 
 use core::arch::asm;
 
@@ -6,7 +6,7 @@ const READ: usize = 0;
 const WRITE: usize = 1;
 const EXIT: usize = 60;
 
-/// Sends a frame and returns the reply; zeros if there is none.
+/// Sends a frame and returns the reply. Returns zeros if there is no reply.
 #[inline(never)]
 pub fn exchange(request: &[u8; 8]) -> [u8; 8] {
     let mut reply = [0; 8];
@@ -23,8 +23,7 @@ pub fn exit(code: u8) -> ! {
 }
 
 fn call(number: usize, first: usize, second: usize, third: usize) {
-    // SAFETY: the kernel changes only these three registers, and the memory of the passed buffers within their
-    // length.
+    // SAFETY: the kernel changes only these three registers and the contents of the passed buffers.
     unsafe {
         asm!(
             "syscall",

@@ -1,10 +1,11 @@
-//! The SDO server of the mailbox (ETG.1000.6 5.6.2): expedited, normal and segmented transfers, complete access.
+//! The SDO server behind the mailbox (ETG.1000.6 5.6.2): expedited, normal and segmented transfers, and complete
+//! access.
 
 use lexibus::{AbortCode, Emergency};
 
 use super::objects::Dictionary;
 
-/// Lengths in bytes: the headers of mailbox and CoE, and the start of a transfer.
+/// Lengths in bytes: the mailbox and CoE headers together, and the start of a transfer.
 const HEADERS: usize = 8;
 const INITIATE: usize = 16;
 
@@ -14,7 +15,7 @@ enum Transfer {
     Down { index: u16, sub_index: u8, complete: bool, size: usize, data: Vec<u8>, toggle: bool },
 }
 
-/// State of the server between two messages.
+/// The state of the server between two messages.
 #[derive(Default)]
 pub struct Server {
     transfer: Option<Transfer>,
@@ -22,7 +23,8 @@ pub struct Server {
 }
 
 impl Server {
-    /// Returns the response to a message, with a length of at most `room` bytes; `None` if it isn't an SDO request.
+    /// Returns the response to a message. The response has at most `room` bytes. Returns `None` if the message is not
+    /// an SDO request.
     pub fn answer(&mut self, message: &[u8], room: usize, objects: &mut dyn Dictionary) -> Option<Vec<u8>> {
         let length = usize::from(u16::from_le_bytes([*message.first()?, *message.get(1)?]));
         let body = message.get(6..6 + length)?;
@@ -155,7 +157,7 @@ fn store(objects: &mut dyn Dictionary, index: u16, sub_index: u8, complete: bool
     }
 }
 
-/// Reads the entries from `from` on for complete access. Sub-index 0 takes two bytes.
+/// Reads all entries from sub-index `from` for complete access. Sub-index 0 occupies two bytes.
 fn read_all(objects: &mut dyn Dictionary, index: u16, from: u8) -> Result<Vec<u8>, u32> {
     let last = *objects.read(index, 0)?.first().ok_or(AbortCode::GENERAL.0)?;
     let mut all = Vec::new();
@@ -168,8 +170,8 @@ fn read_all(objects: &mut dyn Dictionary, index: u16, from: u8) -> Result<Vec<u8
     Ok(all)
 }
 
-/// Writes the entries of a list for complete access. The count in sub-index 0 is set to 0 first and to its value
-/// last.
+/// Writes all entries of a list for complete access. First sets the count in sub-index 0 to 0, and finally to its
+/// value.
 fn write_all(objects: &mut dyn Dictionary, index: u16, from: u8, data: &[u8]) -> Result<(), u32> {
     if from != 0 {
         return Err(AbortCode::UNSUPPORTED_ACCESS.0);

@@ -1,4 +1,4 @@
-//! The slave controller: 64 KiB of memory, including 4 KiB of registers (ETG.1000.4 6).
+//! The slave controller: 64 KiB of memory, of which 4 KiB are registers (ETG.1000.4 6).
 
 use std::ops::Range;
 
@@ -16,10 +16,10 @@ const PORT_TIMES: usize = 0x0900;
 const SYSTEM_TIME: usize = 0x0910;
 const RECEIVE_TIME: usize = 0x0918;
 
-/// Bit in the status of a mailbox sync manager: the mailbox is full.
+/// Status bit of a mailbox sync manager. The bit is set if the mailbox is full.
 const FULL: u8 = 0x08;
 
-/// Time in ns that a frame needs in this segment, and from one SubDevice to the next.
+/// Times in ns that a frame needs for the whole segment, and from one SubDevice to the next.
 const FRAME: u64 = 10_000;
 const HOP: u64 = 500;
 
@@ -39,22 +39,22 @@ pub struct Controller {
     time: u64,
     position: u64,
     count: u64,
-    /// The last write to AL control that the firmware hasn't processed yet.
+    /// The last value written to AL control if the firmware has not yet processed it.
     pub request: Option<u8>,
-    /// Whether process data have been exchanged since the firmware last ran.
+    /// Whether process data have been exchanged since the last run of the firmware.
     pub exchanged: bool,
 }
 
 impl Controller {
     pub fn new(eeprom: Vec<u8>) -> Self {
         let mut memory = vec![0; 0x1_0000];
-        // Type, revision, build; 8 FMMUs, 8 sync managers, 8 KiB; two Ethernet ports; 64-bit clocks.
+        // Type, revision and build; 8 FMMUs, 8 sync managers and 8 KiB of memory; two Ethernet ports; 64-bit clocks.
         memory[..10].copy_from_slice(&[0x11, 0, 1, 0, 8, 8, 8, 0x0F, 0x0C, 0]);
         memory[AL_STATUS] = 1;
         Self { memory, eeprom, time: 0, position: 0, count: 1, request: None, exchanged: false }
     }
 
-    /// Sets the position in the segment, which determines the ports with a link.
+    /// Sets the position in the segment. The position determines which ports have a link.
     pub fn connect(&mut self, position: usize, count: usize) {
         (self.position, self.count) = (position as u64, count as u64);
         let is_last = position + 1 == count;
@@ -65,7 +65,7 @@ impl Controller {
         self.word(STATION)
     }
 
-    /// Sets AL status, with the error flag and the AL status code.
+    /// Sets AL status to the state, its error flag, and the AL status code.
     pub fn show_state(&mut self, state: u8, code: u16) {
         self.memory[AL_STATUS] = if code == 0 { state } else { state | 0x10 };
         self.memory[AL_CODE..][..2].copy_from_slice(&code.to_le_bytes());
@@ -88,14 +88,14 @@ impl Controller {
         }
     }
 
-    /// Returns the mailbox that contains the address.
+    /// Returns the mailbox sync manager that contains the address.
     fn mailbox(&self, address: usize) -> Option<Manager> {
         (0..8)
             .map(|number| self.manager(number))
             .find(|own| own.enabled && own.is_mailbox && own.range.contains(&address))
     }
 
-    /// Handles a read of the master; returns `None` without a working counter increment.
+    /// Handles a read by the master. Returns `None` if the working counter is not incremented.
     pub fn read(&mut self, address: u16, length: usize) -> Option<Vec<u8>> {
         let range = usize::from(address)..usize::from(address) + length;
         if range.contains(&SYSTEM_TIME) {
@@ -113,7 +113,7 @@ impl Controller {
         self.memory.get(range).map(<[u8]>::to_vec)
     }
 
-    /// Handles a write of the master; returns `false` without a working counter increment.
+    /// Handles a write by the master. Returns `false` if the working counter is not incremented.
     pub fn write(&mut self, address: u16, data: &[u8]) -> bool {
         let range = usize::from(address)..usize::from(address) + data.len();
         if range.end > self.memory.len() {
@@ -150,7 +150,7 @@ impl Controller {
         for number in 0..8 {
             let own = self.manager(number);
             if range.contains(&(own.state + 1)) {
-                // Reconfiguring a sync manager empties it.
+                // Reconfiguring a sync manager clears its buffer.
                 self.memory[own.state] = 0;
             }
         }
@@ -160,14 +160,14 @@ impl Controller {
     fn run_eeprom(&mut self) {
         let at = 2 * usize::from(self.word(EEPROM_ADDRESS));
         if self.memory[EEPROM_CONTROL + 1] & 0x01 != 0 {
-            // Beyond its end, the EEPROM reads as ones.
+            // Words beyond the end of the EEPROM read as ones.
             let bytes = (at..at + 4).map(|at| self.eeprom.get(at).copied().unwrap_or(0xFF));
             self.memory[EEPROM_DATA..][..4].iter_mut().zip(bytes).for_each(|(to, from)| *to = from);
         }
         self.memory[EEPROM_CONTROL..][..2].fill(0);
     }
 
-    /// Latches the receive times of the ports, for both directions of a frame.
+    /// Latches the receive times of the ports for both directions of a frame.
     fn latch(&mut self) {
         let out = self.time + self.position * HOP;
         let back = self.time + (2 * self.count - self.position) * HOP;
@@ -177,7 +177,8 @@ impl Controller {
         self.memory[RECEIVE_TIME..][..8].copy_from_slice(&out.to_le_bytes());
     }
 
-    /// Handles data with a logical address, which FMMUs map to memory. Returns the increment of the working counter.
+    /// Handles data with a logical address. FMMUs map such data to memory. Returns the increment of the working
+    /// counter.
     pub fn logical(&mut self, address: u32, data: &mut [u8], reads: bool, writes: bool) -> u16 {
         let (mut read, mut written) = (false, false);
         let sent = data.to_vec();
@@ -200,7 +201,7 @@ impl Controller {
         u16::from(read) + u16::from(written) * if counts_twice { 2 } else { 1 }
     }
 
-    /// Takes a message of the master from a mailbox.
+    /// Removes a message of the master from a mailbox and returns it.
     pub fn take(&mut self, manager: &Manager) -> Option<Vec<u8>> {
         let full = manager.enabled && self.memory[manager.state] & FULL != 0;
         full.then(|| {
@@ -209,7 +210,7 @@ impl Controller {
         })
     }
 
-    /// Puts a message into a mailbox; returns `false` if the mailbox is full.
+    /// Writes a message to a mailbox. Returns `false` if the mailbox is full.
     pub fn put(&mut self, manager: &Manager, message: &[u8]) -> bool {
         let free = manager.enabled && self.memory[manager.state] & FULL == 0;
         if free {
@@ -219,7 +220,7 @@ impl Controller {
         free
     }
 
-    /// Returns the data of a sync manager.
+    /// Returns the data in the memory of a sync manager.
     pub fn load(&self, manager: &Manager) -> Vec<u8> {
         self.memory[manager.range.clone()].to_vec()
     }
@@ -242,7 +243,7 @@ fn is_writable(at: usize) -> bool {
     !matches!(at, 0..=0x0F | 0x0110..=0x011F | 0x0130..=0x013F | 0x0900..=0x091F) && !is_state
 }
 
-/// A fieldbus memory management unit (FMMU), for whole bytes only.
+/// A fieldbus memory management unit (FMMU). This FMMU supports only whole bytes.
 struct Fmmu {
     logical: u32,
     length: u32,

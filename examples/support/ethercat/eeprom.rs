@@ -1,4 +1,4 @@
-//! Content of the EEPROM (ETG.1000.6 5.4, ETG.2010).
+//! Creates the content of the EEPROM (ETG.1000.6 5.4, ETG.2010).
 
 use lexibus::ethercat::{Device, SyncManagerPurpose};
 
@@ -8,7 +8,7 @@ const CATEGORIES: usize = 0x40;
 /// Size of the EEPROM in bytes.
 const SIZE: usize = 2048;
 
-/// Returns the EEPROM of a device.
+/// Returns the EEPROM content of a device.
 pub fn of(device: &Device) -> Vec<u8> {
     let mut words = vec![0_u16; CATEGORIES];
     let mut double = |at: usize, value: Option<u32>| {
@@ -57,7 +57,7 @@ fn strings(texts: &[&str]) -> Vec<u8> {
     bytes
 }
 
-/// Returns the category "General". The order code is string 1, the name string 2.
+/// Returns the category "General". The order code is string 1, and the name is string 2.
 fn general(device: &Device) -> Vec<u8> {
     let mut bytes = vec![0; 32];
     (bytes[2], bytes[3]) = (1, 2);
@@ -68,7 +68,7 @@ fn general(device: &Device) -> Vec<u8> {
     bytes
 }
 
-/// Returns the category "FMMU": one FMMU for outputs, one for inputs.
+/// Returns the category "FMMU". The category contains one FMMU for outputs and one for inputs.
 fn fmmus(device: &Device) -> Vec<u8> {
     let of = |purpose| device.sync_managers.iter().any(|own| own.purpose == purpose);
     let outputs = of(SyncManagerPurpose::Outputs).then_some(1);
@@ -91,7 +91,7 @@ fn managers(device: &Device) -> Vec<u8> {
     bytes
 }
 
-/// Returns the CRC of the configuration area, with the polynomial x⁸ + x² + x + 1.
+/// Returns the CRC of the configuration area. The polynomial is x⁸ + x² + x + 1.
 fn checksum(bytes: &[u8]) -> u8 {
     bytes.iter().fold(0xFF, |remainder, byte| {
         (0..8).fold(remainder ^ byte, |bits: u8, _| if bits & 0x80 != 0 { bits << 1 ^ 0x07 } else { bits << 1 })

@@ -1,9 +1,9 @@
-//! A simulated EtherCAT segment. SubDevices are created from generated descriptions and answer frames of `ethercrab`
-//! without a network.
+//! A simulated EtherCAT segment. Its SubDevices are created from generated descriptions and answer frames of
+//! `ethercrab` without a network.
 //!
 //! | module | content |
 //! |---|---|
-//! | `segment` | frames, and the path of their datagrams through the SubDevices |
+//! | `segment` | frames and the path of their datagrams through the SubDevices |
 //! | `controller` | memory and registers of a slave controller: sync managers, FMMUs, EEPROM interface, clock |
 //! | `eeprom` | content of the EEPROM |
 //! | `subdevice` | firmware: state machine, mailbox, process data |

@@ -1,4 +1,4 @@
-//! Access to the objects of a device.
+//! The interface to the objects of an application.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -6,7 +6,7 @@ use std::rc::Rc;
 use lexibus::sim::{Device, Fault};
 use lexibus::{AbortCode, Client, CoE, Emergency, Error, Object};
 
-/// The objects of an application. Values are little-endian bytes; errors are SDO abort codes.
+/// The objects of an application. Values are little-endian bytes, and errors are SDO abort codes.
 pub trait Dictionary {
     /// Returns the value of an entry.
     fn read(&mut self, index: u16, sub_index: u8) -> Result<Vec<u8>, u32>;
@@ -14,7 +14,8 @@ pub trait Dictionary {
     /// Sets the value of an entry.
     fn write(&mut self, index: u16, sub_index: u8, data: &[u8]) -> Result<(), u32>;
 
-    /// Runs the application once, between outputs and inputs. The outputs are valid only if `operational` is true.
+    /// Runs the application once, after receiving outputs and before sending inputs. The outputs are only valid if
+    /// `operational` is true.
     fn cycle(&mut self, _operational: bool) {}
 
     /// Returns the pending emergency messages.
@@ -23,7 +24,7 @@ pub trait Dictionary {
     }
 }
 
-/// A device that a test can inspect while the segment runs.
+/// Allows a test to inspect the device while the segment runs.
 impl<D: Dictionary> Dictionary for Rc<RefCell<D>> {
     fn read(&mut self, index: u16, sub_index: u8) -> Result<Vec<u8>, u32> {
         self.borrow_mut().read(index, sub_index)
@@ -42,7 +43,7 @@ impl<D: Dictionary> Dictionary for Rc<RefCell<D>> {
     }
 }
 
-/// A simulated device, accessed like over its mailbox.
+/// Gives access to a simulated device like its mailbox does.
 impl Dictionary for Device {
     fn read(&mut self, index: u16, sub_index: u8) -> Result<Vec<u8>, u32> {
         let object = Object::new(index, sub_index);

@@ -1,5 +1,5 @@
-//! PDO configuration objects, 0x1600 to 0x1BFF and 0x1C10 onwards (ETG.1000.6 5.6.7.4), and the copy between mapped
-//! objects and process data.
+//! The PDO configuration objects (0x1600 to 0x1BFF, and from 0x1C10; ETG.1000.6 5.6.7.4), and the copying of data
+//! between mapped objects and process data.
 
 use std::collections::BTreeMap;
 
@@ -8,10 +8,10 @@ use lexibus::{AbortCode, MappedEntry};
 
 use super::objects::Dictionary;
 
-/// Abort code for a sub-index that is writable only while sub-index 0 is 0 (ETG.1000.6 table 41).
+/// Abort code for a sub-index that is only writable if sub-index 0 is 0 (ETG.1000.6 table 41).
 const COUNT_IS_NOT_ZERO: u32 = 0x0601_0003;
 
-/// A list object: its entries and the value of sub-index 0.
+/// A list object: the value of sub-index 0, and the entries.
 struct List {
     count: usize,
     entries: Vec<u32>,
@@ -37,7 +37,7 @@ pub struct Pdos {
 }
 
 impl Pdos {
-    /// Creates the configuration after power-on.
+    /// Creates the PDO configuration after power-on.
     pub fn new(device: &'static Device) -> Self {
         let coe = device.mailbox.coe;
         let (assigns, configures) = (coe.is_some_and(|coe| coe.pdo_assign), coe.is_some_and(|coe| coe.pdo_config));
@@ -70,7 +70,7 @@ impl Pdos {
         }
     }
 
-    /// Writes an entry. `is_mappable` returns whether an object exists.
+    /// Writes an entry of a PDO configuration object. `is_mappable` returns whether an object exists.
     pub fn write(
         &mut self,
         index: u16,
@@ -104,7 +104,7 @@ impl Pdos {
         Ok(())
     }
 
-    /// Sets the count of a list (sub-index 0).
+    /// Sets sub-index 0 of a list, which is the number of entries.
     fn count(&mut self, index: u16, count: usize) -> Result<(), u32> {
         let device = self.device;
         let list = self.lists.get_mut(&index).ok_or(AbortCode::NO_OBJECT.0)?;
@@ -120,7 +120,7 @@ impl Pdos {
         Ok(())
     }
 
-    /// Returns the entries mapped into a sync manager, in the order of its data.
+    /// Returns the entries that are mapped into a sync manager, in the order of its process data.
     fn mapped(&self, manager: u8) -> impl Iterator<Item = (Option<Direction>, MappedEntry)> + '_ {
         let valid = |index: u16| self.lists.get(&index).map_or(&[][..], List::valid);
         let assigned = valid(0x1C10 + u16::from(manager)).iter();
@@ -130,7 +130,7 @@ impl Pdos {
         })
     }
 
-    /// Returns the length of a sync manager's process data in bytes.
+    /// Returns the length in bytes of a sync manager's process data.
     pub fn bytes(&self, manager: u8) -> usize {
         self.mapped(manager).map(|(_, entry)| entry.bits as usize).sum::<usize>().div_ceil(8)
     }
@@ -149,7 +149,7 @@ impl Pdos {
         data
     }
 
-    /// Copies the process data of a sync manager to objects. Ignores values that are out of range.
+    /// Copies the process data of a sync manager to objects. Ignores values outside their allowed range.
     pub fn scatter(&self, manager: u8, data: &[u8], objects: &mut dyn Dictionary) {
         let mut at = 0;
         for (direction, entry) in self.mapped(manager) {

@@ -1,4 +1,4 @@
-//! Frames and their datagrams (ETG.1000.4 5.3, 5.4).
+//! Frames with their datagrams (ETG.1000.4 5.3, 5.4).
 
 use std::future::poll_fn;
 use std::task::Poll;
@@ -9,11 +9,11 @@ use ethercrab::{PduRx, PduTx};
 use super::controller::Controller;
 use super::subdevice::SubDevice;
 
-/// Lengths of headers in bytes: Ethernet, EtherCAT.
+/// Lengths in bytes of the Ethernet header and the EtherCAT header.
 const ETHERNET: usize = 14;
 const HEADERS: usize = ETHERNET + 2;
 
-/// Bytes of a datagram before and after its data.
+/// Lengths in bytes of a datagram before its data and after its data.
 const DATAGRAM: usize = 10;
 const COUNTER: usize = 2;
 
@@ -23,7 +23,7 @@ pub struct Segment {
 }
 
 impl Segment {
-    /// Creates a segment of SubDevices, in the order in which frames reach them.
+    /// Creates a segment. The SubDevices have the order in which frames reach them.
     pub fn new(mut subdevices: Vec<SubDevice>) -> Self {
         let count = subdevices.len();
         for (position, subdevice) in subdevices.iter_mut().enumerate() {
@@ -32,8 +32,8 @@ impl Segment {
         Self { subdevices }
     }
 
-    /// Transfers frames between the master and the SubDevices until the master drops its storage. Run it concurrently
-    /// with the master.
+    /// Transfers frames between the master and the SubDevices until the master drops its frame storage. Run this
+    /// function concurrently with the master.
     pub async fn run(&mut self, mut tx: PduTx<'_>, mut rx: PduRx<'_>) -> Result<(), Error> {
         poll_fn(|context| {
             tx.replace_waker(context.waker());
@@ -57,7 +57,8 @@ impl Segment {
 
     /// Passes a frame through all SubDevices.
     fn pass(&mut self, frame: &mut [u8]) {
-        // The first SubDevice sets this bit of the source address; the master recognizes returning frames by it.
+        // The first SubDevice sets this bit of the source address. The bit tells the master that the frame has
+        // returned.
         frame[6] |= 0x02;
         let mut datagrams = frame.get_mut(HEADERS..).unwrap_or_default();
         while datagrams.len() >= DATAGRAM + COUNTER {
@@ -92,8 +93,8 @@ fn address32(head: &[u8]) -> u32 {
     u32::from_le_bytes([head[2], head[3], head[4], head[5]])
 }
 
-/// Handles a datagram with a position address, a station address or a broadcast. Returns the increment of the working
-/// counter.
+/// Handles a datagram with a position address, a station address, or a broadcast address. Returns the increment of the
+/// working counter.
 fn physical(controller: &mut Controller, command: u8, head: &mut [u8], data: &mut [u8]) -> u16 {
     let device = u16::from_le_bytes([head[2], head[3]]);
     let register = u16::from_le_bytes([head[4], head[5]]);
@@ -112,7 +113,7 @@ fn physical(controller: &mut Controller, command: u8, head: &mut [u8], data: &mu
             let sent = data.to_vec();
             read_or(controller, register, data) + 2 * write(controller, register, &sent)
         }
-        // Read by the addressed SubDevice, written by all others.
+        // The addressed SubDevice reads; all others write.
         13 | 14 if is_meant => read(controller, register, data),
         13 | 14 => write(controller, register, data),
         _ => 0,
@@ -125,7 +126,7 @@ fn read(controller: &mut Controller, register: u16, data: &mut [u8]) -> u16 {
     1
 }
 
-/// Handles a broadcast read: combines the data of all SubDevices with OR.
+/// Handles a broadcast read. The data of all SubDevices are combined with OR.
 fn read_or(controller: &mut Controller, register: u16, data: &mut [u8]) -> u16 {
     let Some(bytes) = controller.read(register, data.len()) else { return 0 };
     data.iter_mut().zip(bytes).for_each(|(to, from)| *to |= from);

@@ -1,17 +1,17 @@
-//! Application of the demo servo: the CiA 402 state machine, and a position that follows its target immediately.
+//! The application of the demo servo: the CiA 402 state machine. The position reaches its target immediately.
 
 use lexibus::sim::{Device, ItemAddress};
 use lexibus::{AbortCode, Emergency, Object};
 
 use super::objects::Dictionary;
-// The bindings of the program that simulates the servo.
+// These are the bindings in the program that simulates the servo.
 use crate::servo::types::{Controlword, Statusword};
 use crate::servo::{objects, ENTRIES};
 
 /// Error code of a sensor fault (IEC 61800-7-201).
 const SENSOR_FAULT: u16 = 0x7300;
 
-/// The CiA 402 states of this drive.
+/// The CiA 402 states that this drive can have.
 #[derive(Clone, Copy, PartialEq)]
 enum State {
     SwitchOnDisabled,
@@ -23,7 +23,7 @@ enum State {
 
 /// The demo servo.
 pub struct Servo {
-    /// Objects of the servo.
+    /// The objects of the servo.
     pub device: Device,
     state: State,
     last_controlword: Controlword,
@@ -93,7 +93,7 @@ impl Dictionary for Servo {
         self.device.write(index, sub_index, data)?;
         let is_encoder_offset = objects::ENCODER_OFFSET.object() == Some(Object::new(index, sub_index));
         if is_encoder_offset && self.state == State::OperationEnabled {
-            // The write makes the actual position jump.
+            // The write changes the actual position suddenly, like a faulty sensor.
             self.trip(SENSOR_FAULT).map_err(|code| code.0)?;
         }
         Ok(())

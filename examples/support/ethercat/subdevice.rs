@@ -1,4 +1,4 @@
-//! Firmware of a SubDevice: its state machine (ETG.1000.6 6.4), mailbox and process data.
+//! The firmware of a SubDevice: state machine (ETG.1000.6 6.4), mailbox and process data.
 
 use std::collections::VecDeque;
 
@@ -31,13 +31,13 @@ pub struct SubDevice {
     objects: Box<dyn Dictionary>,
     pdos: Pdos,
     server: Server,
-    /// Messages waiting for the mailbox to the master.
+    /// Messages to the master that wait for an empty mailbox.
     messages: VecDeque<Vec<u8>>,
     state: u8,
 }
 
 impl SubDevice {
-    /// Creates a device after power-on. `objects` are its objects without those for PDO configuration.
+    /// Creates a device after power-on. `objects` contains its objects except the PDO configuration objects.
     pub fn new(device: &'static Device, objects: impl Dictionary + 'static) -> Self {
         Self {
             controller: Controller::new(eeprom::of(device)),
@@ -50,7 +50,7 @@ impl SubDevice {
         }
     }
 
-    /// Runs the firmware once, between two frames.
+    /// Runs the firmware once between two frames.
     pub(super) fn run(&mut self) {
         self.controller.tick();
         if let Some(request) = self.controller.request.take() {
@@ -82,7 +82,7 @@ impl SubDevice {
         }
     }
 
-    /// Checks that the mailboxes have the settings of the device description.
+    /// Checks the settings of the mailboxes against the device description. Returns an AL status code.
     fn check_mailbox(&self) -> u16 {
         let purposes = [SyncManagerPurpose::MailboxOut, SyncManagerPurpose::MailboxIn];
         let mut mailboxes = self.device.sync_managers.iter().filter(|own| purposes.contains(&own.purpose));
@@ -100,7 +100,7 @@ impl SubDevice {
         }
     }
 
-    /// Checks that the sync managers have the lengths of the assigned PDOs.
+    /// Checks the lengths of the sync managers against the assigned PDOs. Returns an AL status code.
     fn check_process_data(&self) -> u16 {
         let wrong = self.device.sync_managers.iter().filter(|own| own.carries_data()).find(|own| {
             let set = self.controller.manager(own.number);
@@ -137,7 +137,7 @@ impl SubDevice {
         }
     }
 
-    /// Passes outputs to the application and fetches its inputs.
+    /// Passes outputs to the application and gets its inputs.
     fn exchange(&mut self) {
         if !matches!(self.state, SAFE_OP | OP) {
             return;
@@ -158,7 +158,7 @@ impl SubDevice {
     }
 }
 
-/// All objects of a device, including those for PDO configuration.
+/// All objects of a device, including the PDO configuration objects.
 struct Objects<'d> {
     pdos: &'d mut Pdos,
     own: &'d mut dyn Dictionary,
@@ -181,7 +181,7 @@ impl Dictionary for Objects<'_> {
         if !self.is_pre_op {
             return Err(AbortCode::DEVICE_STATE.0);
         }
-        // Index 0 is a gap.
+        // An index of 0 means a gap.
         let exists = |entry: MappedEntry| entry.index == 0 || self.own.read(entry.index, entry.sub_index).is_ok();
         self.pdos.write(index, sub_index, data, exists)
     }

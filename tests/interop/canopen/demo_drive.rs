@@ -1,4 +1,4 @@
-//! The demo drive's checked-in bindings, against a node created from its exported EDS.
+//! Tests the demo drive's checked-in bindings with a node that is created from its exported EDS.
 
 use lexibus::{AbortCode, Item, OnCanOpen, Rw, Step};
 use lexibus_drives::demo_drive::codes::DriveErrors;
@@ -55,8 +55,8 @@ fn limits_of_the_drive() -> Result<(), Error> {
     Ok(())
 }
 
-/// Goes from a fault to each state and back. Lexibus selects the commands; the library's own tables determine the
-/// resulting states.
+/// Goes from a fault to each state and back. Lexibus selects the commands. The library determines the resulting states
+/// with its own tables.
 #[test]
 fn the_state_machine() -> Result<(), Error> {
     let Some((mut script, node)) = start("demo-states", FILE) else { return Ok(()) };
@@ -104,7 +104,7 @@ fn pdos_of_the_drive() -> Result<(), Error> {
 
     script.ask(json!({ "do": "load", "number": 1, "values": [0x0250] }));
     script.ask(json!({ "do": "load", "number": 2, "values": [0x1637, -123_456] }));
-    // The second PDO is sent after SYNC.
+    // The node sends the second PDO after SYNC.
     node.sync()?;
     let received = receive(&mut node, 0x280 + id);
     let statusword = Statusword::from_raw(0x1637);

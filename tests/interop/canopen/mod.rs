@@ -1,4 +1,5 @@
-//! A node of the library `canopen` on a CAN bus over a pseudo-terminal. The node uses an EDS exported by Lexibus.
+//! Tests with a node of the library `canopen`. The CAN bus of the node is a pseudo-terminal, and Lexibus exports the
+//! EDS of the node.
 
 mod demo_drive;
 mod network;
@@ -23,30 +24,30 @@ use crate::python::{python, Script};
 use crate::slcan::Slcan;
 
 lexibus::dictionary! {
-    /// A node with an object of each data type.
+    /// The bindings of a node with an object of each data type.
     mod all_types = "tests/interop/all-types.toml";
 }
 
-/// Timeout of a frame. Python is slow on a busy machine.
+/// Maximum time to wait for a frame. Python is slow on a busy machine.
 pub const PATIENCE: Duration = Duration::from_secs(10);
 
 /// The node-ID.
 pub const NODE: u8 = 5;
 
-/// The client of the node. It buffers other frames that arrive while it waits for a response.
+/// The blocking client of the node. While it waits for a response, it buffers other frames that arrive.
 pub type Node = canopen::Node<Buffered<Slcan<Pty>, 64>>;
 
 /// The asynchronous client of the node.
 pub type AsyncNode = canopen::Node<Buffered<Slcan<SerialStream>, 64>>;
 
-/// Error of the client.
+/// Error type of the client.
 pub type Error = lexibus::Error<std::io::Error>;
 
 pub fn node_id() -> NodeId {
     NodeId::new(NODE).expect("a node-ID")
 }
 
-/// Starts a node with the EDS of the description in `file`, and returns its client. `test` is the name of the test.
+/// Starts a node with the EDS of the description in `file` and returns its client. `test` is the name of the test.
 /// Returns `None` if Python is missing.
 pub fn start(test: &str, file: &str) -> Option<(Script, Node)> {
     let line = Pty::open();
@@ -54,7 +55,7 @@ pub fn start(test: &str, file: &str) -> Option<(Script, Node)> {
     Some((script, client(line)))
 }
 
-/// Starts a node with an asynchronous client. The cable must outlive the client. Requires a `tokio` runtime.
+/// Starts a node with an asynchronous client. The cable must exist as long as the client. Requires a `tokio` runtime.
 pub fn start_async(test: &str, file: &str) -> Option<(Script, AsyncNode, Cable)> {
     let cable = Cable::open();
     let [near, far] = cable.ends();
@@ -86,12 +87,12 @@ fn exported(test: &str, file: &str) -> PathBuf {
 }
 
 impl Script {
-    /// Returns the value of an object, decoded by the library.
+    /// Returns the value of an object. The library decodes it.
     pub fn get(&mut self, index: u16, sub: u8) -> Value {
         self.ask(json!({ "do": "get", "index": index, "sub": sub }))
     }
 
-    /// Sets the value of an object, encoded by the library.
+    /// Sets the value of an object. The library encodes it.
     pub fn set(&mut self, index: u16, sub: u8, value: Value) {
         self.ask(json!({ "do": "set", "index": index, "sub": sub, "value": value }));
     }

@@ -1,4 +1,4 @@
-//! Services other than SDO transfers: NMT states, heartbeat and emergency messages.
+//! Tests the services other than SDO transfers: NMT states, heartbeat and emergency messages.
 
 use lexibus::clients::canopen::{NmtCommand, NmtState};
 use lexibus::Emergency;
@@ -25,14 +25,14 @@ fn states_and_heartbeat() -> Result<(), Error> {
         (NmtCommand::Stop, NmtState::Stopped, "STOPPED"),
         (NmtCommand::EnterPreOperational, NmtState::PreOperational, "PRE-OPERATIONAL"),
     ] {
-        // The node ignores commands for other nodes.
+        // The node must ignore commands for other nodes.
         device.client().send(&NmtCommand::Start.frame(NodeId::new(NODE + 1)))?;
         device.client().nmt(command)?;
-        // An SDO response proves that the node has processed the command. This library also answers while it is
-        // stopped.
+        // An SDO response proves that the node has processed the command. The node of this library also answers when it
+        // is stopped.
         assert_eq!(device.heartbeat_time().read()?, 20);
         assert_eq!(script.ask(json!({ "do": "state" })), name);
-        // Discard older heartbeats.
+        // Discard heartbeats that have already arrived.
         device.client().port().clear();
         device.client().wait_for(state, PATIENCE)?;
     }
@@ -41,7 +41,7 @@ fn states_and_heartbeat() -> Result<(), Error> {
     Ok(())
 }
 
-/// Emergency messages that arrive during a transfer are available after it.
+/// Emergency messages that arrive during a transfer must be available after it.
 #[test]
 fn emergencies() -> Result<(), Error> {
     let Some((mut script, node)) = start("emergency", FILE) else { return Ok(()) };

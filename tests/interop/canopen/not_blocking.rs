@@ -1,4 +1,4 @@
-//! The same node through asynchronous accessors: all kinds of transfers, NMT states, PDOs.
+//! Tests the node with asynchronous accessors: all kinds of transfers, NMT states and PDOs.
 
 use lexibus::clients::canopen::{AsyncCanPort, NmtCommand, NmtState};
 use lexibus::{AbortCode, Int};

@@ -1,4 +1,5 @@
-//! Generated PDO structs: the node accepts their configuration, and both sides decode the same values from a frame.
+//! Tests generated PDO structs. The node must accept their configuration, and both sides must decode the same values
+//! from a frame.
 
 use lexibus::clients::canopen::{CanFrame, CanPort};
 use lexibus::{AbortCode, Int, Pdo, SdoWrite, Uint};
@@ -11,12 +12,12 @@ use crate::python::Script;
 
 const FILE: &str = "tests/interop/all-types.toml";
 
-/// Returns the PDO parameters that the library has read from the node's objects.
+/// Returns the PDO parameters that the library reads from the node's objects.
 pub fn used(script: &mut Script, direction: &str, number: u32) -> Value {
     script.ask(json!({ "do": "pdo", "direction": direction, "number": number }))
 }
 
-/// Returns the PDO parameters of a struct.
+/// Returns the PDO parameters that the library should read for a struct.
 pub fn expected<P: Pdo>(cob_id: u32, transmission_type: u8) -> Value {
     let entry = |entry: &lexibus::MappedEntry| json!([entry.index, entry.sub_index, entry.bits]);
     let bits: u32 = P::MAPPING.iter().map(|entry| entry.bits).sum();
@@ -24,12 +25,12 @@ pub fn expected<P: Pdo>(cob_id: u32, transmission_type: u8) -> Value {
     json!({ "cob_id": cob_id, "enabled": true, "type": transmission_type, "bits": bits, "entries": entries })
 }
 
-/// Sends the writes of a configuration.
+/// Sends the SDO writes of a configuration.
 pub fn configure(node: &mut Node, steps: impl IntoIterator<Item = SdoWrite>) -> Result<(), Error> {
     steps.into_iter().try_for_each(|step| step.send(node))
 }
 
-/// Creates a frame with the CAN-ID `id`.
+/// Creates a CAN frame. `id` is its CAN-ID.
 pub fn frame(id: u32, data: &[u8]) -> CanFrame {
     CanFrame::new(id as u16, data).expect("a frame")
 }
@@ -39,7 +40,7 @@ pub fn receive(node: &mut Node, id: u32) -> CanFrame {
     received.unwrap_or_else(|| panic!("no frame with the identifier {id:#x}"))
 }
 
-/// Configures an RPDO, sends it, and checks the values decoded by the library.
+/// Configures an RPDO and sends it. Checks the values that the library decodes.
 macro_rules! received {
     ($script:ident, $node:ident, $number:literal by $configuration:expr, at $id:expr, $pdo:ident $fields:tt, $values:tt) => {
         configure(&mut $node, $configuration)?;
@@ -50,7 +51,7 @@ macro_rules! received {
     };
 }
 
-/// Configures a TPDO, lets the library send it, and checks the decoded values.
+/// Configures a TPDO and lets the library send it. Checks the decoded values.
 macro_rules! transmitted {
     ($script:ident, $node:ident, $number:literal by $configuration:expr, at $id:expr, $pdo:ident $fields:tt, $values:tt) => {
         configure(&mut $node, $configuration)?;
@@ -176,7 +177,7 @@ fn transmitted_pdos() -> Result<(), Error> {
     Ok(())
 }
 
-/// The node checks the order of the writes and the mapped objects. It rejects a configuration with missing or
+/// The node checks the order of the writes and the mapped objects. The node must reject a configuration with missing or
 /// reordered writes.
 #[test]
 fn another_order_is_refused() -> Result<(), Error> {
@@ -195,7 +196,7 @@ fn another_order_is_refused() -> Result<(), Error> {
     SdoWrite::new_u32(0x1603, 2, 0x2005_0008).send(&mut node)?;
     assert_aborted(SdoWrite::new_u8(0x1603, 0, 2).send(&mut node), AbortCode::PDO_LENGTH);
     configure(&mut node, RxPdo4::configuration(node_id()))?;
-    // The COB-ID of an enabled PDO can't be changed.
+    // The node does not allow changing the COB-ID of an enabled PDO.
     let moved = SdoWrite::new_u32(0x1403, 1, 0x321);
     assert_aborted(moved.send(&mut node), AbortCode::DEVICE_STATE);
     drop(script);

@@ -1,7 +1,7 @@
-//! Refusals of the node arrive as its abort codes. Values refused by the accessor are not sent.
+//! Tests refusals. The accessor must report the node's abort codes, and must not send values that it refuses itself.
 //!
-//! The library checks access rights, lengths and the existence of objects. The script checks limits, which the
-//! library has read from the exported EDS.
+//! The library checks access rights, lengths, and whether objects exist. The script checks limits, which the library
+//! reads from the exported EDS.
 
 use lexibus::{AbortCode, Fixed, Item, OnCanOpen, Rw};
 use serde_json::json;
@@ -11,7 +11,7 @@ use super::{start, Error, Node};
 
 const FILE: &str = "tests/interop/all-types.toml";
 
-/// An item without the access rights and limits of its object.
+/// An item that lacks the access rights and limits of its object.
 pub type Naive<V> = Item<V, Rw, OnCanOpen>;
 
 pub const fn naive<V: Fixed>(index: u16, sub_index: u8) -> Naive<V> {
@@ -48,7 +48,7 @@ fn values_out_of_range() -> Result<(), Error> {
     assert_aborted(signed.at(device.client()).write(201), AbortCode::TOO_HIGH);
     assert_aborted(unsigned.at(device.client()).write(9), AbortCode::TOO_LOW);
     assert_aborted(unsigned.at(device.client()).write(u32::MAX), AbortCode::TOO_HIGH);
-    // The values are unchanged.
+    // The values must be unchanged.
     assert_eq!(device.limited_signed().read()?, 200);
     assert_eq!(device.limited_unsigned().read()?, 0xFFFF_FFF0);
     Ok(())
@@ -62,11 +62,11 @@ fn rights() -> Result<(), Error> {
     assert_eq!(device.measured().read()?, -5);
     device.password().write(0xC0DE_CAFE)?;
     assert_eq!(script.get(0x2202, 0), 0xC0DE_CAFE_u32);
-    // The accessors of these items have no such methods.
+    // Accessors with the correct access rights have no such methods.
     assert_aborted(naive::<u16>(0x2200, 0).at(device.client()).write(1), AbortCode::READ_ONLY);
     assert_aborted(naive::<i32>(0x2201, 0).at(device.client()).write(1), AbortCode::READ_ONLY);
     assert_aborted(naive::<u32>(0x2202, 0).at(device.client()).read(), AbortCode::WRITE_ONLY);
-    // The abort follows the last segment, because this library checks access rights at the end.
+    // The node aborts after the last segment, because this library checks access rights at the end of a transfer.
     let text = lexibus::Object { index: 0x1008, sub_index: 0 };
     let written = lexibus::Client::write(device.client(), text, b"something longer than a frame");
     assert_aborted(written, AbortCode::READ_ONLY);
@@ -97,7 +97,7 @@ fn lengths() -> Result<(), Error> {
     script.set(0x2007, 0, json!(0x1234_5678));
     let short = naive::<u16>(0x2007, 0).at(device.client()).read();
     assert!(matches!(short, Err(Error::Length(error)) if (error.expected, error.actual) == (2, 4)), "{short:?}");
-    // A text that exceeds the buffer. The next transfer works.
+    // The text exceeds the buffer. The next transfer must work.
     script.set(0x2009, 0, json!("a text of thirty letters, say."));
     let long = device.visible_string().read_into(&mut [0; 10]).map(str::len);
     assert!(matches!(long, Err(Error::Length(error)) if (error.expected, error.actual) == (10, 30)), "{long:?}");

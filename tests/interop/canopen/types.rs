@@ -1,4 +1,4 @@
-//! Values of every data type in both directions: through an accessor, and decoded or encoded by the library.
+//! Tests values of all data types in both directions. The accessor is on one side, and the library is on the other.
 
 use lexibus::{TimeDifference, TimeOfDay};
 use serde_json::{json, Value};
@@ -8,7 +8,7 @@ use super::{start, Error};
 
 const FILE: &str = "tests/interop/all-types.toml";
 
-/// Checks that `$json` on the node is `$value` for the accessor, in both directions.
+/// Checks both directions: `$json` on the node must be equal to `$value` of the accessor.
 macro_rules! exchange {
     ($script:ident, $device:ident, $($accessor:ident at $index:literal: [$($value:expr => $json:expr),* $(,)?];)*) => {$(
         $(
@@ -108,7 +108,8 @@ fn letters(length: usize) -> String {
     ('!'..='~').cycle().take(length).collect()
 }
 
-/// Lengths around changes of the number of segments, and the first length without an expedited transfer.
+/// Lengths of texts. The list includes the first length that is too long for an expedited transfer, and lengths around
+/// changes of the number of segments.
 const LENGTHS: [usize; 11] = [1, 3, 4, 5, 7, 8, 14, 15, 127, 300, 399];
 
 #[test]
@@ -144,7 +145,7 @@ fn unicode_strings_in_segments() -> Result<(), Error> {
     Ok(())
 }
 
-/// Formats `data` like the script.
+/// Formats `data` in the notation of the script.
 fn hex(data: &[u8]) -> Value {
     data.iter().map(|byte| format!("{byte:02x}")).collect::<String>().into()
 }
@@ -155,7 +156,7 @@ fn bytes_in_segments() -> Result<(), Error> {
     let mut device = AllTypes::new(node);
     let mut buffer = [0; 512];
     for length in LENGTHS {
-        // All bytes count, including zeros at the end.
+        // All bytes are significant, including zeros at the end.
         let data: Vec<u8> = (0..length).rev().map(|at| at as u8).collect();
         let back: Vec<u8> = data.iter().map(|byte| !byte).collect();
         device.octet_string().write(&data)?;

@@ -1,11 +1,12 @@
-//! Choices from a string of bytes. After its end, each choice is the minimum, and lists get no more elements.
+//! Random choices from a sequence of bytes. After the last byte, each choice returns the minimum, and lists get no more
+//! elements.
 
 use std::ops::RangeInclusive;
 
 use arbitrary::unstructured::Int;
 use arbitrary::{Arbitrary, Unstructured};
 
-/// The unused bytes.
+/// The bytes that have not been used.
 pub struct Bytes<'b>(Unstructured<'b>);
 
 impl<'b> Bytes<'b> {
@@ -13,7 +14,7 @@ impl<'b> Bytes<'b> {
         Bytes(Unstructured::new(bytes))
     }
 
-    /// Returns any value of a type.
+    /// Returns an arbitrary value of a type.
     pub fn any<T: Arbitrary<'b> + Default>(&mut self) -> T {
         self.0.arbitrary().unwrap_or_default()
     }
@@ -39,13 +40,13 @@ impl<'b> Bytes<'b> {
         self.one_in(times).then(|| make(self))
     }
 
-    /// Returns up to `most` values.
+    /// Returns a list of up to `most` values.
     pub fn list<T>(&mut self, most: usize, mut make: impl FnMut(&mut Self) -> T) -> Vec<T> {
         let count = self.within(0..=most);
         (0..count).map(|_| make(self)).collect()
     }
 
-    /// Returns up to `most` values once in `times` calls, on average; otherwise none.
+    /// Returns a list of up to `most` values once in `times` calls, on average. Otherwise, the list is empty.
     pub fn few<T>(&mut self, times: u8, most: usize, make: impl FnMut(&mut Self) -> T) -> Vec<T> {
         if self.one_in(times) {
             self.list(most, make)

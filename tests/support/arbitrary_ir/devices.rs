@@ -1,4 +1,4 @@
-//! Devices with an object dictionary, registers or messages, and their modules.
+//! Random devices with an object dictionary, registers or messages, and their modules.
 
 use lexibus_codegen::ir::{
     Binding, Catalog, CompactString, Device, Format, Graphic, Group, ModbusTable, Module, ModuleId, ModuleUse,
@@ -15,7 +15,7 @@ use super::profinet::identity;
 use super::settings;
 use super::types;
 
-/// Returns the devices of an EDS, an XDD, an ESI or a register table, and their modules.
+/// Returns the devices of an EDS, XDD, ESI or register table, with their modules.
 pub fn catalog(b: &mut Bytes<'_>, format: Format) -> Catalog {
     let is_ethercat = format == Format::Esi;
     let modules = if format == Format::Table { Vec::new() } else { b.few(2, 3, |b| module(b, is_ethercat)) };
@@ -39,10 +39,10 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
         _ => &[ObjectBuses::CANOPEN],
     };
     let around = Around { types: &types, given: &given_names, images: &images, spaces: &spaces, buses, is_table };
-    // Chapters have no index and precede the groups that have one.
+    // Chapters have no index and come before the groups that have one.
     let mut groups = if is_table { b.list(3, |b| items::chapter(b, &around)) } else { Vec::new() };
     groups.extend(items::objects(b, &around, 12));
-    // The PDOs of an EDS follow from its objects; it doesn't declare any.
+    // An EDS declares no PDOs, because its objects determine the PDOs.
     let has_declared = is_table || is_ethercat;
     if !has_declared {
         let objects = items::pdo_objects(b, &groups);
@@ -121,7 +121,7 @@ fn modbus(b: &mut Bytes<'_>) -> ModbusTable {
     }
 }
 
-/// Returns a module of a modular EtherCAT slave or of a CANopen bus coupler.
+/// Returns a module of a modular EtherCAT slave or CANopen bus coupler.
 fn module(b: &mut Bytes<'_>, is_ethercat: bool) -> Module {
     let types = types::definitions(b, 5);
     let buses: &[ObjectBuses] = if is_ethercat { &[ObjectBuses::COE] } else { &[ObjectBuses::CANOPEN] };
@@ -151,12 +151,12 @@ fn module(b: &mut Bytes<'_>, is_ethercat: bool) -> Module {
         init_commands: b.few(3, 2, settings::init_command),
         profiles: b.few(4, 2, |b| b.pick(&[402, 0])),
         extensions: names::extensions(b),
-        // `profinet` creates modules for PROFINET.
+        // PROFINET modules are created in `profinet`.
         ..Module::default()
     }
 }
 
-/// Returns entries that each module adds to an object.
+/// Returns entries that a module adds to an object.
 fn sub_extension(b: &mut Bytes<'_>, around: &Around<'_>) -> SubExtension {
     let index = b.within(0x2000..=0x2020);
     let binding = Binding::Object { buses: b.pick(around.buses), index, sub_index: 1 };

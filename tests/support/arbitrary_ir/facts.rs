@@ -1,4 +1,5 @@
-//! Facts of items, bits and messages other than their type: quantities, conditions, availability, behavior, variants.
+//! Random facts of items, bits and messages except their type: quantities, conditions, availability, behavior,
+//! variants.
 
 use lexibus_codegen::ir::{
     Access, Availability, Behaviour, Condition, Conversion, ItemVariant, MachineUnit, Quantity, Srdo, Storage, Type,
@@ -11,7 +12,7 @@ use super::names;
 use super::types;
 use super::values;
 
-/// Returns any access rights.
+/// Returns arbitrary access rights.
 pub fn access(b: &mut Bytes<'_>) -> Access {
     b.pick(&[
         Access::ReadWrite,
@@ -43,7 +44,7 @@ pub fn availability(b: &mut Bytes<'_>) -> Availability {
     }
 }
 
-/// Returns a unit and a scale. The scale may depend on the numbers named in `given`.
+/// Returns a unit and a scale. The scale may depend on one of the machine properties in `given`.
 pub fn quantity(b: &mut Bytes<'_>, given: &[lexibus_codegen::ir::CompactString]) -> Quantity {
     Quantity {
         unit: names::unit(b),
@@ -97,7 +98,7 @@ pub fn behaviour(b: &mut Bytes<'_>) -> Behaviour {
     }
 }
 
-/// Returns the differences of an item of this type on some models or buses.
+/// Returns how an item of this type differs on some models or buses.
 pub fn variant(b: &mut Bytes<'_>, ty: Type) -> ItemVariant {
     ItemVariant {
         models: b.list(1, names::model),

@@ -1,4 +1,4 @@
-//! Items and their groups: objects, chapters and images.
+//! Random items and their groups: objects, chapters and process images.
 
 use lexibus_codegen::ir::{
     Binding, Category, CompactString, Configured, Group, GroupKind, ImageBinding, IndirectBinding, Item, Mappable,
@@ -11,10 +11,10 @@ use super::names;
 use super::types;
 use super::values;
 
-/// Elements of a device that its items can refer to.
+/// Elements of a device to which its items can refer.
 pub struct Around<'d> {
     pub types: &'d [TypeDef],
-    /// Names of the given numbers that scales may depend on.
+    /// Names of machine properties on which scales may depend.
     pub given: &'d [CompactString],
     /// Names of process images.
     pub images: &'d [CompactString],
@@ -26,7 +26,7 @@ pub struct Around<'d> {
     pub is_table: bool,
 }
 
-/// CANopen and EtherCAT.
+/// The buses CANopen and EtherCAT.
 pub const BOTH: ObjectBuses = ObjectBuses { canopen: true, coe: true };
 
 const NOWHERE: ObjectBuses = ObjectBuses { canopen: false, coe: false };
@@ -74,7 +74,7 @@ pub fn item(b: &mut Bytes<'_>, around: &Around<'_>, binding: Binding) -> Item {
     }
 }
 
-/// Returns the objects of a dictionary, in ascending order.
+/// Returns the objects of a dictionary in ascending order of their indices.
 pub fn objects(b: &mut Bytes<'_>, around: &Around<'_>, most: usize) -> Vec<Group> {
     const KNOWN: [u16; 9] = [0x1000, 0x1018, 0x1600, 0x1A00, 0x6040, 0x6041, 0x6060, 0x607A, 0x20];
     let mut indices = b.list(most, |b| if b.one_in(3) { b.pick(&KNOWN) } else { b.within(0x2000..=0x2020) });
@@ -126,7 +126,8 @@ fn object(b: &mut Bytes<'_>, around: &Around<'_>, index: u16) -> Group {
     }
 }
 
-/// Returns the communication parameters and mappings of PDOs. The passes make PDOs of them.
+/// Returns objects with the communication parameters and mappings of PDOs. The compiler passes create PDOs from these
+/// objects.
 pub fn pdo_objects(b: &mut Bytes<'_>, dictionary: &[Group]) -> Vec<Group> {
     let mut numbers = b.list(4, |b| b.pick(&[0x1400, 0x1401, 0x1402, 0x15FF, 0x1800, 0x1801]));
     numbers.sort_unstable();
@@ -158,7 +159,7 @@ fn communication(b: &mut Bytes<'_>, sub: u8) -> (u8, Value) {
     }
 }
 
-/// Returns a mapping entry of an existing object, usually with the correct length.
+/// Returns an entry that maps an existing object, usually with the correct length.
 fn mapping(b: &mut Bytes<'_>, sub: u8, dictionary: &[Group]) -> (u8, Value) {
     let items: Vec<&Item> = dictionary.iter().flat_map(|group| &group.items).collect();
     if items.is_empty() || b.one_in(6) {
@@ -170,7 +171,7 @@ fn mapping(b: &mut Bytes<'_>, sub: u8, dictionary: &[Group]) -> (u8, Value) {
     (32, Value::Int(i128::from(index) << 16 | i128::from(sub) << 8 | i128::from(bits)))
 }
 
-/// Returns a chapter of a manual or the fields of an image. Their items may be on any bus.
+/// Returns a chapter of a manual or the fields of a process image. The items may be on any bus.
 pub fn chapter(b: &mut Bytes<'_>, around: &Around<'_>) -> Group {
     let kind = if b.one_in(4) { GroupKind::Image { length: b.within(0..=40) } } else { GroupKind::Chapter };
     let items = b.list(9, |b| {
@@ -258,7 +259,7 @@ fn window_side(b: &mut Bytes<'_>) -> WindowSide {
     }
 }
 
-/// Returns an item that exists only as a value of a message.
+/// Returns an item that exists only as a value in a message.
 pub fn unbound(b: &mut Bytes<'_>, around: &Around<'_>) -> Item {
     let mut item = item(b, around, Binding::canopen(0, 0));
     item.bindings.clear();

@@ -1,4 +1,4 @@
-//! State machines, procedures, code tables and other facts that involve several items.
+//! Random state machines, procedures, code tables and other facts that concern several items.
 
 use lexibus_codegen::ir::{
     AxisRange, AxisRule, AxisStep, CodeRow, CodeTable, CommandOutcomes, CompactString, Composite, Direction,
@@ -65,7 +65,7 @@ fn outcomes(b: &mut Bytes<'_>, states: &[CompactString]) -> CommandOutcomes {
 
 /// Returns a procedure that uses some of these items and messages.
 pub fn procedure(b: &mut Bytes<'_>, items: &[CompactString], messages: &[CompactString]) -> Procedure {
-    // A procedure that consists only of writes becomes a constant.
+    // A procedure becomes a constant if it consists only of writes.
     let writes = b.one_in(2);
     let steps = b.list(5, |b| {
         let item = names::of(b, items).into();

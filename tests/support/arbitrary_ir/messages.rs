@@ -1,4 +1,4 @@
-//! Serial protocols: requests and replies, parameter spaces and framing.
+//! Random serial protocols: requests and replies, parameter spaces and framing.
 
 use lexibus_codegen::ir::{
     CompactString, Completion, Framing, Message, MessageExample, MessageField, MessageValue, ParameterSpace, Value,
@@ -62,7 +62,7 @@ pub fn example(b: &mut Bytes<'_>) -> MessageExample {
     MessageExample { request, reply, documentation: names::documentation(b), ..MessageExample::default() }
 }
 
-/// Returns the names of the values in a frame.
+/// Returns the names of all values in a frame.
 fn fields(frame: &[MessageField]) -> Vec<CompactString> {
     let name = |field: &MessageField| match field {
         MessageField::Value(value) => Some(value.item.name.clone()),
@@ -71,7 +71,7 @@ fn fields(frame: &[MessageField]) -> Vec<CompactString> {
     frame.iter().filter_map(name).collect()
 }
 
-/// Returns the fields of a request, or of the reply to `request`.
+/// Returns the fields of a request. If `request` is `Some`, returns the fields of the reply to it.
 fn frame(b: &mut Bytes<'_>, around: &Around<'_>, request: Option<&[MessageField]>) -> Vec<MessageField> {
     let asked = request.map(fields).unwrap_or_default();
     let mut frame: Vec<MessageField> = Vec::new();
@@ -96,7 +96,7 @@ fn frame(b: &mut Bytes<'_>, around: &Around<'_>, request: Option<&[MessageField]
     frame
 }
 
-/// Returns bit fields that usually add up to a byte.
+/// Returns two bit fields that usually have eight bits in total.
 fn bits(b: &mut Bytes<'_>) -> [MessageField; 2] {
     let first = b.within(1..=7);
     let last = if b.one_in(8) { 1 } else { 8 - first };
@@ -111,7 +111,7 @@ fn value(b: &mut Bytes<'_>, around: &Around<'_>, before: &[CompactString]) -> Me
     MessageField::Value(Box::new(MessageValue { item, byte_order, counts }))
 }
 
-/// Returns a parameter number, usually with a value.
+/// Returns a field with a parameter number, usually followed by its value.
 fn parameter(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
     let space = names::of(b, around.spaces);
     let code = MessageField::ItemCode { space: space.clone(), bits: b.pick(&[8, 16, 32, 12, 33]) };
@@ -127,7 +127,7 @@ fn parameter(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
     }
 }
 
-/// Returns a repeated group of fields, with or without a preceding count.
+/// Returns a repeated group of fields. A field with the count may precede it.
 fn repeat(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
     let count = unbound(b, around);
     let max = b.maybe(2, |b| b.within(0..=9));
@@ -141,7 +141,7 @@ fn repeat(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
     vec![count, MessageField::Repeat { count: Some(name), max, fields }]
 }
 
-/// Returns a parameter space that these messages access.
+/// Returns a parameter space to which these messages give access.
 pub fn space(b: &mut Bytes<'_>, name: CompactString, messages: &[CompactString]) -> ParameterSpace {
     ParameterSpace {
         name,
@@ -154,7 +154,7 @@ pub fn space(b: &mut Bytes<'_>, name: CompactString, messages: &[CompactString])
     }
 }
 
-/// Returns a framing. One of the fields is the station address.
+/// Returns a framing. One of the message fields is the station address.
 pub fn framing(b: &mut Bytes<'_>, messages: &[Message]) -> Framing {
     let requested: Vec<CompactString> = messages.iter().flat_map(|own| fields(&own.request)).collect();
     Framing {

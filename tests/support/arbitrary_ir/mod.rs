@@ -1,7 +1,7 @@
-//! Arbitrary catalogs made from bytes. They use all features of the IR, with names that conflict as often as
-//! possible.
+//! Random catalogs that are created from bytes. The catalogs use all features of the IR, and their names conflict as
+//! often as possible.
 //!
-//! Two crates use this module: the test of generated code and the fuzz target `ir`.
+//! Two crates use this module: the test of generated code, and the fuzz target `ir`.
 
 pub mod bytes;
 mod devices;
@@ -23,7 +23,7 @@ use lexibus_codegen::source::Source;
 
 use bytes::Bytes;
 
-/// Returns a catalog as a front end would, before any check.
+/// Returns a catalog in the form that a front end creates, before all checks.
 pub fn catalog(b: &mut Bytes<'_>) -> Catalog {
     const FORMATS: [Format; 10] = [
         Format::Table,
@@ -49,7 +49,7 @@ pub fn catalog(b: &mut Bytes<'_>) -> Catalog {
     catalog
 }
 
-/// Returns a catalog after all passes.
+/// Returns a compilation of a random catalog after all passes.
 pub fn compilation(bytes: &[u8], options: &Options) -> Compilation {
     let catalog = catalog(&mut Bytes::new(bytes));
     let format = catalog.files.first().map(|file| file.format);

@@ -1,4 +1,4 @@
-//! Names and texts: ordinary ones, and those that conflict with Rust, with generated code or with each other.
+//! Random names and texts. Some are ordinary. Others conflict with Rust, with generated code, or with each other.
 
 use lexibus_codegen::ir::{
     Bus, Buses, CiteUnit, CompactString, Documentation, Doubt, Doubts, Extension, Extensions, Fact, FactOrigin,
@@ -8,7 +8,7 @@ use lexibus_codegen::source::Origin;
 
 use super::bytes::Bytes;
 
-/// A short list, so that elements often share a name and references often resolve.
+/// Ordinary names. The list is short, so that elements often have the same name and references often resolve.
 const ORDINARY: [&str; 12] = [
     "Speed",
     "target position",
@@ -24,7 +24,7 @@ const ORDINARY: [&str; 12] = [
     "Maximum of the torque, in 0.1 %",
 ];
 
-/// Keywords, names in the prelude and in generated code, methods, and invalid names.
+/// Unusual names: keywords, names in the prelude and in generated code, names of methods, and invalid names.
 const ODD: [&str; 142] = [
     "",
     " ",
@@ -170,7 +170,7 @@ const ODD: [&str; 142] = [
     "station",
 ];
 
-/// Texts that end comments or strings unless they are escaped.
+/// Texts that would end a comment or string if they were not escaped.
 const TEXTS: [&str; 14] = [
     "It turns.",
     "",
@@ -190,7 +190,7 @@ const TEXTS: [&str; 14] = [
 
 const LANGUAGES: [&str; 3] = ["de", "ja", "zh-\""];
 
-/// Returns a name, often one that other elements also have.
+/// Returns a name. Other elements often have the same name.
 pub fn name(b: &mut Bytes<'_>) -> CompactString {
     match b.within(0..=9) {
         0..=4 => b.pick(&ORDINARY).into(),
@@ -199,7 +199,7 @@ pub fn name(b: &mut Bytes<'_>) -> CompactString {
     }
 }
 
-/// Returns one of the given names, or any name.
+/// Returns one of the given names, or any other name.
 pub fn of(b: &mut Bytes<'_>, given: &[CompactString]) -> CompactString {
     if given.is_empty() || b.one_in(12) {
         name(b)
@@ -217,7 +217,7 @@ pub fn unit(b: &mut Bytes<'_>) -> CompactString {
     b.pick(&["rpm", "mm/s²", "%", "", "0.1 A", "\"", "°C", "in use", "{}", "1"]).into()
 }
 
-/// Returns the name of an item of a window.
+/// Returns the name of an item that belongs to a window.
 pub fn of_window(b: &mut Bytes<'_>) -> CompactString {
     if b.one_in(40) {
         name(b)
@@ -258,7 +258,7 @@ fn fact_origin(b: &mut Bytes<'_>) -> FactOrigin {
     }
 }
 
-/// Returns the origins of facts that the device description doesn't contain.
+/// Returns origins of facts that are not in the device description.
 pub fn origins(b: &mut Bytes<'_>) -> FactOrigins {
     FactOrigins(b.few(4, 3, |b| (b.pick(&Fact::ALL), fact_origin(b))).into_iter().collect())
 }
@@ -305,7 +305,7 @@ pub fn extensions(b: &mut Bytes<'_>) -> Extensions {
     b.few(16, 2, |b| Extension { key: name(b), value: text(b), span: Default::default() }).into()
 }
 
-/// Returns attributes as spelled in a source: unique XML names.
+/// Returns attributes in the notation of the source. The attribute names are unique XML names.
 pub fn attributes(b: &mut Bytes<'_>) -> Vec<(CompactString, CompactString)> {
     let mut list = b.few(8, 2, |b| (b.pick(&["SubstituteLength", "type", "_1", "Größe", "x-y.z"]).into(), text(b)));
     list.sort();

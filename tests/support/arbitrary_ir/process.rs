@@ -1,4 +1,4 @@
-//! Process data: PDOs, sync managers and images.
+//! Random process data: PDOs, sync managers and process images.
 
 use lexibus_codegen::ir::{
     CompactString, Direction, Group, ObjectBuses, Oversampling, Pdo, PdoCommunication, PdoEntry, PdoEntryKind,
@@ -43,7 +43,7 @@ fn pdo(
     let own = Pdo::new(direction, index);
     Pdo {
         name: names::name(b),
-        // CANopen numbers PDOs from 1.
+        // CANopen PDO numbers start at 1.
         number: if is_ethercat { own.number } else { own.number + 1 },
         communication: b.maybe(2, |b| communication(b, index)),
         entries,
@@ -86,7 +86,7 @@ fn communication(b: &mut Bytes<'_>, mapping: u16) -> PdoCommunication {
     }
 }
 
-/// Returns an entry of an existing or missing object, or padding.
+/// Returns a PDO entry of an existing or missing object, or padding.
 fn entry(b: &mut Bytes<'_>, groups: &[Group], types: &[TypeDef]) -> PdoEntry {
     let objects: Vec<&Group> = groups.iter().filter(|own| own.index().is_some() && !own.items.is_empty()).collect();
     let mut entry = match b.within(0..=7) {
@@ -143,7 +143,7 @@ fn sync_managers(b: &mut Bytes<'_>) -> Vec<SyncManager> {
         .collect()
 }
 
-/// Returns an image with this name. Its fields usually are contiguous and fit into it.
+/// Returns a process image with this name. The fields are usually contiguous and within the image.
 pub fn image(b: &mut Bytes<'_>, name: CompactString, types: &[TypeDef], least: u32) -> ProcessImage {
     let mut next = 0;
     let fields = b.list(9, |b| {

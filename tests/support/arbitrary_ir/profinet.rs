@@ -1,4 +1,4 @@
-//! PROFINET: device access points, modules, submodules, records and diagnosis.
+//! Random PROFINET descriptions: device access points, modules, submodules, records and diagnosis.
 
 use lexibus_codegen::ir::{
     Access, Binding, Catalog, CompactString, Device, Direction, FParameter, FParameters, Family, Graphic, Group,
@@ -38,7 +38,7 @@ pub fn catalog(b: &mut Bytes<'_>) -> Catalog {
         }),
         graphics: b.few(4, 2, |b| Graphic { id: names::name(b), file: names::path(b) }),
         extensions: names::extensions(b),
-        // Added by `arbitrary_ir`.
+        // `arbitrary_ir` adds the files.
         files: Vec::new(),
     }
 }
@@ -199,7 +199,7 @@ fn io_data(b: &mut Bytes<'_>, types: &[TypeDef], direction: Direction) -> IoData
     }
 }
 
-/// Returns a record. Its fields usually are contiguous and fit into it.
+/// Returns a record. The fields are usually contiguous and within the record.
 fn record(b: &mut Bytes<'_>, types: &[TypeDef]) -> Group {
     let index = b.within(0..=3);
     let around = Around { types, given: &[], images: &[], spaces: &[], buses: &[], is_table: false };
@@ -276,7 +276,7 @@ fn unit_diagnosis(b: &mut Bytes<'_>, types: &[TypeDef]) -> UnitDiagnosis {
     }
 }
 
-/// Returns a type that may be an enumeration.
+/// Returns a type that can be an enumeration.
 fn enumeration(b: &mut Bytes<'_>, types: &[TypeDef]) -> Option<TypeId> {
     let Type::Named(id) = types::any(b, types.len()) else { return None };
     Some(id)

@@ -1,4 +1,4 @@
-//! Facts of a device other than its items: the header of its file and its capabilities on the bus.
+//! Random facts of a device that do not concern its items: the header of its file, and its capabilities on the bus.
 
 use lexibus_codegen::ir::{
     CanOpenSettings, CanOpenSpans, ClockMode, ClockSyncManager, ClockTime, Coe, Commissioning, DistributedClocks,

@@ -1,4 +1,4 @@
-//! Type definitions of a device, and types of values.
+//! Random type definitions of a device, and types of values.
 
 use lexibus_codegen::ir::{
     Access, BitFieldEntry, BitMeaning, EnumValue, Field, Scale, Shape, TimeFormat, Trigger, Type, TypeDef, TypeId, Zone,
@@ -10,7 +10,7 @@ use super::facts::{availability, condition};
 use super::names;
 use super::values;
 
-/// Widths with a type in Rust or in the runtime, and some without.
+/// Widths in bits. Most of them have a type in Rust or in the runtime, and some have none.
 const WIDTHS: [u8; 18] = [8, 16, 32, 64, 8, 16, 32, 24, 40, 48, 56, 1, 2, 5, 12, 15, 17, 63];
 
 const TIMES: [TimeFormat; 8] = [
@@ -61,7 +61,7 @@ pub fn any(b: &mut Bytes<'_>, defined: usize) -> Type {
     }
 }
 
-/// Returns the underlying basic type.
+/// Returns the basic type on which a type is based.
 pub fn base(types: &[TypeDef], mut ty: Type) -> Type {
     for _ in 0..8 {
         let Type::Named(id) = ty else { return ty };
@@ -74,7 +74,7 @@ pub fn base(types: &[TypeDef], mut ty: Type) -> Type {
     Type::Opaque(None)
 }
 
-/// Returns the type definitions of a device. Each one may use the previous ones.
+/// Returns the type definitions of a device. Each definition may use the definitions before it.
 pub fn definitions(b: &mut Bytes<'_>, most: usize) -> Vec<TypeDef> {
     let mut types: Vec<TypeDef> = Vec::new();
     for _ in 0..b.within(0..=most) {
@@ -103,7 +103,7 @@ fn shape(b: &mut Bytes<'_>, types: &[TypeDef]) -> Shape {
     }
 }
 
-/// Returns an integer type; rarely BOOLEAN or an alias.
+/// Returns an integer type or, in rare cases, BOOLEAN or an alias.
 fn below(b: &mut Bytes<'_>, types: &[TypeDef]) -> Type {
     let aliases = || types.iter().zip(0..).filter(|(own, _)| matches!(own.shape, Shape::Alias(_)));
     match b.within(0..=11) {
@@ -123,7 +123,7 @@ fn record_field(b: &mut Bytes<'_>, defined: usize) -> Field {
     }
 }
 
-/// Returns a value of an enumeration, with many facts.
+/// Returns a value of an enumeration that has many facts.
 pub fn values_of_enumeration(b: &mut Bytes<'_>) -> EnumValue {
     let value = values::number(b);
     EnumValue {
@@ -141,7 +141,7 @@ fn bit_fields(b: &mut Bytes<'_>, types: &[TypeDef], width: u32) -> Vec<BitFieldE
     let mut next = 0_u8;
     b.list(9, |b| {
         let bits = b.pick(&[1, 1, 1, 1, 2, 3, 4, 8, 16, 32]);
-        // Most bit fields are contiguous; some overlap or exceed the integer.
+        // Most bit fields are contiguous, but some overlap or exceed the integer.
         let offset = if b.one_in(6) { b.within(0..=63) } else { next };
         next = offset.saturating_add(bits).min(u8::try_from(width).unwrap_or(64));
         bit_field(b, types, offset, bits)

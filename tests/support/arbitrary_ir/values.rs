@@ -1,11 +1,11 @@
-//! Values and limits.
+//! Random values and limits.
 
 use lexibus_codegen::ir::{Limits, Type, Value};
 
 use super::bytes::Bytes;
 use super::names;
 
-/// Returns an integer, usually a small one, otherwise one at the limit of a type.
+/// Returns an integer. Most integers are small, and some are at the limit of a type.
 pub fn number(b: &mut Bytes<'_>) -> i128 {
     match b.within(0..=7) {
         0..=3 => b.within(0..=9),
@@ -42,7 +42,7 @@ pub fn real(b: &mut Bytes<'_>) -> f64 {
     }
 }
 
-/// Returns a value, usually one that the type can represent.
+/// Returns a value that the type can usually represent.
 pub fn of(b: &mut Bytes<'_>, ty: Type) -> Value {
     if b.one_in(8) {
         return any(b);
@@ -79,7 +79,7 @@ pub fn any(b: &mut Bytes<'_>) -> Value {
     }
 }
 
-/// Returns limits, usually in order.
+/// Returns limits. The minimum is usually not greater than the maximum.
 pub fn limits(b: &mut Bytes<'_>, ty: Type) -> Limits {
     if b.one_in(2) {
         return Limits::default();

@@ -1,4 +1,4 @@
-//! PDOs of up to eight bytes.
+//! Handwritten structs for PDOs of up to eight bytes.
 
 use super::{frame, part, StepMode};
 use lexibus::LengthError;

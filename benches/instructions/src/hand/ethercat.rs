@@ -1,4 +1,4 @@
-//! EtherCAT process data.
+//! Handwritten structs for EtherCAT process data.
 
 use super::{frame, part, AxisMode};
 use lexibus::LengthError;
@@ -19,7 +19,7 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// Returns the mode of a number.
+    /// Returns the mode with this number.
     #[inline]
     pub fn from_raw(raw: u8) -> Self {
         match raw {
@@ -31,7 +31,7 @@ impl Mode {
         }
     }
 
-    /// Returns the number of a mode.
+    /// Returns the number of the mode.
     #[inline]
     pub fn raw(self) -> u8 {
         match self {
@@ -44,7 +44,7 @@ impl Mode {
     }
 }
 
-/// Single bits, an enumeration, a 24-bit number, and a byte-aligned 16-bit number: 48 bits.
+/// A PDO of 48 bits with single bits, an enumeration, a 24-bit number, and a byte-aligned 16-bit number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Encoder {
     /// Bit 0.
@@ -100,12 +100,12 @@ impl Encoder {
     }
 }
 
-/// Byte-aligned fields of more than eight bytes.
+/// A PDO of more than eight bytes with byte-aligned fields.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SetPoints {
     /// Bytes 0 and 1.
     pub controlword: u16,
-    /// Byte 2; byte 3 is padding.
+    /// Byte 2. Byte 3 is padding.
     pub mode: AxisMode,
     /// Bytes 4 to 7.
     pub position: i32,
@@ -146,7 +146,7 @@ impl SetPoints {
     }
 }
 
-/// Numbers that are not byte-aligned, with more than eight bytes: 96 bits.
+/// A PDO of 96 bits with numbers that are not byte-aligned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActualValues {
     /// Bits 0 to 15.
@@ -201,7 +201,7 @@ impl ActualValues {
     }
 }
 
-/// [`Encoder`], directly followed by [`ActualValues`].
+/// A process image that contains [`Encoder`], directly followed by [`ActualValues`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Image {
     /// Bytes 0 to 5.

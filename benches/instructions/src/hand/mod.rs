@@ -1,4 +1,4 @@
-//! Structs as a programmer writes them for a known frame: fields at fixed offsets, without generality.
+//! Handwritten structs for known frames, as a programmer would write them: fields at fixed offsets, without generality.
 
 mod canopen;
 mod ethercat;
@@ -33,7 +33,7 @@ pub fn frame_mut<const N: usize>(data: &mut [u8]) -> Result<&mut [u8; N], Length
     data.first_chunk_mut().ok_or(error)
 }
 
-/// Returns the bytes from `at` on.
+/// Returns the `N` bytes that start at offset `at`.
 #[inline]
 pub fn part<const N: usize>(data: &[u8], at: usize) -> [u8; N] {
     let mut part = [0; N];

@@ -1,4 +1,4 @@
-//! Modes of operation as enumerations that accept every number.
+//! Handwritten enumerations for modes of operation. The enumerations accept all numbers.
 
 macro_rules! modes {
     ($(#[$attribute:meta])* $name:ident { $($mode:ident = $number:literal),* }) => {
@@ -14,7 +14,7 @@ macro_rules! modes {
         }
 
         impl $name {
-            /// Returns the mode of a number.
+            /// Returns the mode with this number.
             #[inline]
             pub fn from_raw(raw: i8) -> Self {
                 match raw {
@@ -23,7 +23,7 @@ macro_rules! modes {
                 }
             }
 
-            /// Returns the number of a mode.
+            /// Returns the number of the mode.
             #[inline]
             pub fn raw(self) -> i8 {
                 match self {
@@ -36,12 +36,12 @@ macro_rules! modes {
 }
 
 modes! {
-    /// Modes of the Vector Step.
+    /// Modes of operation of the Vector Step.
     StepMode { Velocity = -1, Reserved = 0, Profile = 1, Homing = 6, Interpolated = 7, Position = 8, Speed = 9 }
 }
 
 modes! {
-    /// Modes of CiA 402.
+    /// Modes of operation of CiA 402.
     AxisMode {
         None = 0, Profile = 1, Velocity = 2, ProfileVelocity = 3, ProfileTorque = 4, Homing = 6, Interpolated = 7,
         Position = 8, Speed = 9, Torque = 10, TorqueWithAngle = 11

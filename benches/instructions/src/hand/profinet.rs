@@ -1,9 +1,9 @@
-//! PROFINET process data.
+//! Handwritten structs for PROFINET process data.
 
 use super::{frame, part};
 use lexibus::LengthError;
 
-/// Inputs of PROFIdrive's standard telegram 3: big-endian, with single bits.
+/// Inputs of PROFIdrive's standard telegram 3. The fields are big-endian, and some are single bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs {
     /// Bit 9 of ZSW1.

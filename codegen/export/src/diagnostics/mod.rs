@@ -7,7 +7,8 @@ pub mod sarif;
 
 use lexibus_codegen::text::steers;
 
-/// Escapes control characters in a JSON text. JSON allows some of them in strings, but a terminal would interpret them.
+/// Escapes control characters in a JSON text. JSON allows some control characters in strings, but a terminal would
+/// interpret them.
 ///
 /// Control characters occur only in strings, where the escape sequence has the same meaning.
 pub(crate) fn escaped(json: String) -> String {

@@ -11,7 +11,7 @@ pub(super) struct Elements<'g> {
     group: &'g Group,
     /// Number of elements, without sub-index 0.
     pub(super) count: u8,
-    /// The first element. All others are equal to it.
+    /// The first element. All other elements are equal to this one.
     pub(super) template: &'g Item,
 }
 

@@ -7,7 +7,7 @@ use super::section::BIT_RATES;
 use super::{is_coe_only, Context, Flavour};
 use lexibus_codegen::ir::{Behaviour, Binding, Catalog, Device, Group, GroupKind, Item, Module, ObjectBuses};
 
-/// Adds notes for facts of the device that CiA 306 cannot express. Its objects are not included.
+/// Adds notes for facts of the device, except its objects, that CiA 306 cannot express.
 pub(super) fn of_device(context: &Context<'_>, catalog: &Catalog, notes: &mut Notes) {
     let (device, subject) = (context.device, Subject::Device);
     if context.flavour == Flavour::Eds && (device.commissioning.is_some() || !device.header.last_eds.is_empty()) {
@@ -61,14 +61,14 @@ fn pdos(device: &Device, notes: &mut Notes) {
     }
 }
 
-/// Adds notes for facts of a module that CiA 306 cannot express. Its objects are not included.
+/// Adds notes for facts of a module, except its objects, that CiA 306 cannot express.
 pub(super) fn of_module(module: &Module, notes: &mut Notes) {
     let subject = Subject::Named(&module.name);
     notes.add_many(NoteKind::Language, module.names.len(), subject);
     notes.add_many(NoteKind::Documentation, module.documentation.is_some(), subject);
 }
 
-/// Adds notes for facts of an object that CiA 306 cannot express. Its entries are not included.
+/// Adds notes for facts of an object, except its entries, that CiA 306 cannot express.
 pub(super) fn of_object(context: &Context<'_>, group: &Group, notes: &mut Notes) {
     let subject = Subject::object(group);
     notes.add_many(NoteKind::Language, group.names.len(), subject);
@@ -82,7 +82,7 @@ pub(super) fn of_object(context: &Context<'_>, group: &Group, notes: &mut Notes)
     }
 }
 
-/// Adds notes for facts of an entry that CiA 306 cannot express. Its value is not included.
+/// Adds notes for facts of an entry, except its value, that CiA 306 cannot express.
 pub(super) fn of_item(item: &Item, notes: &mut Notes) {
     let subject = Subject::item(item);
     let is_other = |binding: &Binding| match binding {

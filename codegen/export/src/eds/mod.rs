@@ -13,7 +13,7 @@
 //! | `object`, `compact` | objects; CompactSubObj |
 //! | `data_type`, `value` | types as numbers, values as texts |
 //! | `modules` | modular devices |
-//! | `mapping` | mapping objects that the dictionary doesn't have |
+//! | `mapping` | mapping objects that the dictionary does not have |
 //! | `losses` | facts that CiA 306 cannot hold |
 
 mod compact;
@@ -42,10 +42,10 @@ use writer::Writer;
 /// The kind of file (CiA 306).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Flavour {
-    /// An electronic data sheet. It describes a device type without its configuration.
+    /// An electronic data sheet. An EDS describes a device type without its configuration.
     #[default]
     Eds,
-    /// A device configuration file. It adds the node-ID, the network, configured values, denotations and connected
+    /// A device configuration file. A DCF adds the node-ID, the network, configured values, denotations and connected
     /// modules.
     Dcf,
 }

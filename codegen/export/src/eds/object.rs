@@ -88,7 +88,7 @@ impl<'a> Object<'a> {
 
     fn entries(&self, writer: &mut Writer) {
         let items = || self.group.items.iter().filter_map(|item| Some((item.object()?.1, item)));
-        // SubNumber does not count sub-index 0xFF, which describes the structure of the object.
+        // SubNumber does not count sub-index 0xFF. Sub-index 0xFF describes the structure of the object.
         let described = items().filter(|(sub, _)| *sub != 0xFF).count();
         if self.code != ObjectCode::Var || described > 0 {
             writer.entry("SubNumber", described);

@@ -8,7 +8,7 @@ use lexibus_codegen::ir::CompactString;
 /// The bit rates of CiA 306 in kbit/s.
 pub(super) const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
-/// A header section. Writing its first entry opens it.
+/// A header section. Writing the first entry opens the section.
 pub(super) struct Section<'w> {
     writer: &'w mut Writer,
     header: Header,
@@ -17,7 +17,7 @@ pub(super) struct Section<'w> {
 }
 
 impl<'w> Section<'w> {
-    /// Creates a section. It is not written before its first entry.
+    /// Creates a section. The section is not written before its first entry.
     pub(super) fn new(writer: &'w mut Writer, header: Header) -> Self {
         Section { writer, header, is_open: false }
     }

@@ -110,7 +110,7 @@ struct Context<'a> {
 
 impl Context<'_> {
     /// Returns the caller's value (`given`), or the source's value (`found`) if the caller gives none. Records `key` as
-    /// missing if there is neither.
+    /// missing if there is no value.
     fn required<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
         self.missing.require(given.or(found), key, Options::KEYS)
     }

@@ -66,8 +66,8 @@ pub(super) struct Plan {
     /// Name of the type.
     pub(super) ty: CompactString,
     pub(super) bits: u32,
-    /// Names of the sub-items in the type. They apply to entries without a name in the object. `None` means a single
-    /// value.
+    /// Names of the sub-items in the type. The names apply to entries without a name in the object. `None` means that
+    /// the object has a single value.
     pub(super) names: Option<Vec<CompactString>>,
 }
 

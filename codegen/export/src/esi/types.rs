@@ -37,7 +37,7 @@ pub(super) fn unique(names: &mut Unique, name: &str) -> CompactString {
     names.unique(name, |number| format_compact!("{name} ({number})"))
 }
 
-/// A data type that the device doesn't define.
+/// A data type that the device does not define.
 pub(super) enum AddedType {
     Basic { name: CompactString, bits: u32 },
     Array { name: CompactString, element: CompactString, bits: u32, count: u32 },

@@ -1,10 +1,10 @@
 //! Exports PROFINET device descriptions (GSDML): all device access points of a catalog, or a new one for a device of
 //! another format that has fixed process images.
 //!
-//! If the source is a GSDML, the export has all its facts in the order that the schema requires. It keeps attributes of
-//! later schema versions. If the source has another format, the file has a device access point with one submodule,
-//! whose data are the process images. [`Export::notes`] lists the facts that were left out. The [`Options`] supply
-//! facts that the schema requires and the source does not have.
+//! If the source is a GSDML, the export has all its facts in the order that the schema requires. The export keeps
+//! attributes of later schema versions. If the source has another format, the file has a device access point with one
+//! submodule, whose data are the process images. [`Export::notes`] lists the facts that were left out. The [`Options`]
+//! supply facts that the schema requires and the source does not have.
 //!
 //! | file | subject |
 //! |---|---|
@@ -130,7 +130,7 @@ struct Context<'a> {
 
 impl Context<'_> {
     /// Returns the caller's value (`given`), or the source's value (`found`) if the caller gives none. Records `key` as
-    /// missing if there is neither.
+    /// missing if there is no value.
     fn required<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
         self.missing.require(given.or(found), key, Options::KEYS)
     }

@@ -1,4 +1,4 @@
-//! The text list. It contains each text once, in all languages.
+//! The text list, which contains each text once, in all languages.
 
 use std::collections::{HashMap, HashSet};
 
@@ -22,8 +22,7 @@ pub(super) struct TextList {
 }
 
 impl TextList {
-    /// Creates a text list. It starts with the source texts that are referenced only by attributes which the IR stores
-    /// unchanged.
+    /// Creates a text list. The list starts with source texts to which only unchanged attributes refer.
     pub(super) fn new(extensions: &[Extension]) -> Self {
         let mut list = TextList::default();
         let mut positions: HashMap<CompactString, usize> = HashMap::new();

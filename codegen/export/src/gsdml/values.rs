@@ -8,7 +8,7 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{EnumValue, Numbers, Shape, TypeDef};
 
-/// Writes the ValueList element. It contains one list per name, even if several types use the same values.
+/// Writes the ValueList element. The element contains one list per name, even if several types use the same values.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>) {
     let types = context.types;
     let enumeration = |def: &'_ TypeDef| matches!(def.shape, Shape::Enumeration { .. });
@@ -57,12 +57,12 @@ fn assignments(xml: &mut Xml, context: &mut Context<'_>, values: &[EnumValue]) {
     xml.close();
 }
 
-/// Formats ranges of numbers as in GSDML.
+/// Formats ranges of numbers in the notation of GSDML.
 pub(super) fn ranges(numbers: &Numbers) -> String {
     numbers.0.iter().map(|(first, last)| range(first, last)).collect::<Vec<_>>().join(" ")
 }
 
-/// Formats a range of values as in GSDML.
+/// Formats a range of values in the notation of GSDML.
 pub(super) fn range<T: PartialEq + Display>(first: T, last: T) -> String {
     if first == last {
         first.to_string()

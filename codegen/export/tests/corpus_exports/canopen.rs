@@ -107,8 +107,8 @@ impl Pair {
 fn reason(pair: &Pair, at: (u16, u8), before: Option<&Entry>, after: Option<&Entry>) -> Option<&'static str> {
     let item = pair.item(at)?;
     let Some((before, after)) = before.zip(after) else {
-        // The library supports CompactSubObj only for ARRAY objects. It creates only the first element and those with
-        // names.
+        // The library supports CompactSubObj only for ARRAY objects. The library creates only the first element and
+        // elements with names.
         let follows = pair.device().object(at.0).is_some_and(|object| object.origin == item.origin);
         return (before.is_none() && follows).then_some("follows from CompactSubObj");
     };
@@ -200,7 +200,7 @@ fn devices_of_other_formats_load() {
             Err(error) => wrong.push(format!("{name}: {error}")),
             Ok(entries) => {
                 let missing = expected.iter().find(|at| !entries.contains_key(at));
-                wrong.extend(missing.map(|at| format!("{name}: {:04X}:{:02X} isn't there", at.0, at.1)));
+                wrong.extend(missing.map(|at| format!("{name}: {:04X}:{:02X} is missing", at.0, at.1)));
             }
         }
     }

@@ -52,7 +52,7 @@ fn check(file: &File, original: &Compilation, flavour: Flavour) -> Vec<String> {
     let mut wrong = Vec::new();
     let mut say = |message: String| wrong.push(format!("{} as {ending}: {message}", file.name));
     let Some(catalog) = &again.catalog else {
-        say("the export isn't read".into());
+        say("the export cannot be read".into());
         return wrong;
     };
     let mut before = content(&without_swapped_limits(original.catalog.as_ref().expect("a catalog")));

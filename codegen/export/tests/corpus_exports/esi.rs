@@ -81,7 +81,7 @@ fn take_other_vendors(before: &mut Value) -> usize {
 /// Returns the difference between `catalog` and its reread export.
 fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     let again = read(Source::new("export.xml", exported.text.clone().into()), &options());
-    let Some(found) = &again.catalog else { return Some("the export isn't read".into()) };
+    let Some(found) = &again.catalog else { return Some("the export cannot be read".into()) };
     let [mut before, mut after] = [catalog, found].map(content);
     let vendors = take_other_vendors(&mut before);
     let (original_keys, exported_keys) = (take_extensions(&mut before), take_extensions(&mut after));
@@ -214,7 +214,7 @@ fn canopen_devices_have_valid_dictionaries() {
                 let lost = lost_entries(&catalog.devices[0], device, &kinds);
                 wrong.extend(lost.into_iter().map(|lost| format!("{}: {lost}", file.name)));
             }
-            None => wrong.push(format!("{}: the export isn't read", file.name)),
+            None => wrong.push(format!("{}: the export cannot be read", file.name)),
         }
         texts.push((file.name, exported.text));
     }

@@ -39,7 +39,7 @@ fn noted(exported: &Export, kind: NoteKind) -> usize {
 fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     let name = file_name(catalog, &Options::default()).unwrap_or_else(|| "export".into()) + ".xml";
     let again = read(Source::new(name.as_str(), exported.text.clone().into()), &options());
-    let Some(found) = &again.catalog else { return Some("the export isn't read".into()) };
+    let Some(found) = &again.catalog else { return Some("the export cannot be read".into()) };
     let [mut before, mut after] = [catalog, found].map(content);
     let (original_keys, exported_keys) = (take_extensions(&mut before), take_extensions(&mut after));
     comparable(&mut before);

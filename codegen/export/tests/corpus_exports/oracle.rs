@@ -241,7 +241,7 @@ fn check_position(case: &Case, found: &Diagnostic, text: &str, lines: &[(usize, 
     let report = case.one_line(found);
     assert_eq!(found.span.file, FileId(0), "{report}");
     for span in std::iter::once(found.span).chain(found.notes.iter().filter_map(|note| note.span)) {
-        assert!(text.get(span.range()).is_some(), "{report}: {span:?} isn't in the file");
+        assert!(text.get(span.range()).is_some(), "{report}: {span:?} is outside the file");
     }
     if found.span.is_empty() {
         assert!(ABOUT_THE_WHOLE_FILE.contains(&found.code.id), "{report}: it has no position");

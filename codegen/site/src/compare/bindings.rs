@@ -69,7 +69,7 @@ fn binding(old: &Binding, new: &Binding, comparison: &mut Comparison<'_>) {
             fact("length in bytes", Judgement::WIRE)(old, new, comparison);
         }
         (Binding::Indirect(old), Binding::Indirect(new)) => window(old, new, comparison),
-        // These bindings have no other fields than the address. Their buses have already been compared.
+        // All other bindings have no fields except the address. The buses of the item have already been compared.
         _ => {}
     }
 }

@@ -63,7 +63,7 @@ impl Judgement {
         self.api == Effect::Breaking || self.wire == Effect::Breaking
     }
 
-    /// Returns the class of the change. Its worst effect determines the class.
+    /// Returns the class of the change. The worst effect determines the class.
     pub fn class(self) -> Class {
         match [self.api, self.wire, self.behavior].into_iter().max() {
             _ if self.is_breaking() => Class::Breaking,
@@ -107,7 +107,7 @@ pub enum Class {
 /// A difference between two descriptions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Change {
-    /// Name of the changed device or module. Empty if there is only one.
+    /// Name of the changed device or module. The text is empty if there is only one device or module.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub owner: String,
     /// Address and name of the changed element.

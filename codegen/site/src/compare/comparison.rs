@@ -270,7 +270,7 @@ pub(super) struct Elements<T> {
     pub title: fn(&T) -> String,
     /// Returns the first key that pairs elements. An empty key pairs nothing.
     pub name: fn(&T) -> String,
-    /// Returns the second key. It pairs elements that have no common first key.
+    /// Returns the second key, which pairs elements that have no common first key.
     pub position: fn(&T) -> String,
     pub added: fn(&T) -> Judgement,
     pub removed: fn(&T) -> Judgement,

@@ -160,7 +160,7 @@ fn names(names: [&CompactString; 2], identifiers: [&str; 2], comparison: &mut Co
     }
 }
 
-/// Compares the facts of a group. Its items are compared separately.
+/// Compares the facts of a group. The items of the group are compared separately.
 fn facts(old: &Group, new: &Group, identifiers: [&str; 2], comparison: &mut Comparison<'_>) {
     compare_fields!(Group, old, new, comparison, {
         name: |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {

@@ -151,7 +151,7 @@ fn is_narrower(old: &Limits, new: &Limits) -> bool {
     below || above || is_unlisted
 }
 
-/// Compares the variants of an item. They are paired by their models and buses.
+/// Compares the variants of an item, which are paired by their models and buses.
 fn variants() -> Elements<ItemVariant> {
     Elements::titled(|variant: &ItemVariant| {
         let models = variant.models.iter().map(CompactString::as_str);

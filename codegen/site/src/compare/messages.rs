@@ -144,7 +144,7 @@ pub(super) fn space(old: &ParameterSpace, new: &ParameterSpace, comparison: &mut
     }, KEY => [name], POSITION => [origin]);
 }
 
-/// Compares parameter spaces. They are paired by name.
+/// Compares parameter spaces, which are paired by name.
 pub(super) fn spaces() -> impl Fn(&Vec<ParameterSpace>, &Vec<ParameterSpace>, &mut Comparison<'_>) {
     list(Elements::titled(|space: &ParameterSpace| format!("parameter space {}", space.name)), space)
 }

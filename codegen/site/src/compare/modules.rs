@@ -15,7 +15,7 @@ use lexibus_codegen::ir::{
     Catalog, Group, Module, ModuleUse, ObjectBuses, ProcessData, Slot, SubExtension, SubslotName,
 };
 
-/// Compares slots. They are paired by number.
+/// Compares slots, which are paired by number.
 pub(super) fn slots() -> Elements<Slot> {
     Elements::titled(|slot: &Slot| format!("slot {}", slot.number))
 }

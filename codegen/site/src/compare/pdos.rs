@@ -28,7 +28,7 @@ pub(super) fn compare(old: &ProcessData, new: &ProcessData, buses: ObjectBuses, 
     });
 }
 
-/// Compares PDOs. They are paired by mapping object and buses.
+/// Compares PDOs, which are paired by mapping object and buses.
 fn pdos(old: &[Pdo], new: &[Pdo], buses: ObjectBuses, comparison: &mut Comparison<'_>) {
     let key = |pdo: &Pdo| format!("{:?} {} {:?}", pdo.direction, pdo.mapping_index, pdo.buses);
     for (old, new) in super::pairing::pairs(old, new, key, |_| String::new()) {
@@ -148,8 +148,8 @@ impl Layout<'_> {
         Judgement { api, wire: self.wire_effect_of(new), ..Judgement::NONE }
     }
 
-    /// Returns the effect on the communication. It breaks if an entry has another position, or if the type at a
-    /// position changes.
+    /// Returns the effect on the communication. The communication breaks if an entry has another position, or if the
+    /// type at a position changes.
     fn wire_effect_of(&self, new: &Layout<'_>) -> Effect {
         let positions =
             |layout: &Layout<'_>| layout.entries.iter().map(|entry| (entry.bit_offset, entry.bits)).collect::<Vec<_>>();
@@ -262,7 +262,7 @@ fn sync_manager(old: &SyncManager, new: &SyncManager, comparison: &mut Compariso
     }, KEY => [number], POSITION => [origin]);
 }
 
-/// Compares process images. They are paired by direction and name.
+/// Compares process images, which are paired by direction and name.
 fn images() -> Elements<ProcessImage> {
     Elements { name: |image| format!("{:?} {}", image.direction, image.name), ..Elements::titled(image_title) }
 }

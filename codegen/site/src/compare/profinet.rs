@@ -177,7 +177,7 @@ pub(super) fn compare_uses(old: &[SubmoduleUse], new: &[SubmoduleUse], compariso
     compare_slots(&uses(old_catalog, old), &uses(new_catalog, new), comparison);
 }
 
-/// Compares user-defined diagnosis structures. They are paired by API and identifier.
+/// Compares user-defined diagnosis structures, which are paired by API and identifier.
 pub(super) fn unit_diagnoses() -> impl Fn(&Vec<UnitDiagnosis>, &Vec<UnitDiagnosis>, &mut Comparison<'_>) {
     list(
         Elements::titled(|diagnosis: &UnitDiagnosis| {

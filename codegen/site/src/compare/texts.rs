@@ -1,4 +1,4 @@
-//! Compares texts of the source about an element. Their changes have no effect.
+//! Compares texts of the source about an element. Changes of such texts have no effect.
 
 use super::change::Judgement;
 use super::comparison::{compare_fields, or_default, positioned, text, Comparison, CITATION};
@@ -85,7 +85,8 @@ pub(super) fn manual(old: &Option<Box<Manual>>, new: &Option<Box<Manual>>, compa
     })(old, new, comparison);
 }
 
-/// Returns the effects of renaming an element. Its Rust method, field or constant has the name in `snake_case`.
+/// Returns the effects of renaming an element. The Rust method, field or constant of the element has this name in
+/// `snake_case`.
 pub(super) fn renamed<T: AsRef<str>>(old: &T, new: &T) -> Judgement {
     match identifier(old.as_ref()) == identifier(new.as_ref()) {
         true => Judgement::NONE,

@@ -42,7 +42,7 @@ fn every_file_has_pages() {
     let (html, markdown) =
         counts.iter().flatten().fold((0, 0), |(html, markdown), count| (html + count.0, markdown + count.1));
     println!("{} files, {html} links in HTML, {markdown} in Markdown", counts.iter().flatten().count());
-    // The compiler rejects the remaining files. Other tests cover them.
+    // The compiler rejects the remaining files. Other tests cover these files.
     let percent = if lane::is_full() { 95 } else { 75 };
     assert!(counts.iter().flatten().count() * 100 > files.len() * percent);
 }

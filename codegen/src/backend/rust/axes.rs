@@ -6,7 +6,7 @@ use crate::ir::{AxisRange, AxisRule, AxisStep, Device};
 
 /// The axes of a device, ready to be printed.
 pub(super) struct AxesModel {
-    /// Models that have the axes, as part of a sentence. Empty if all models have them.
+    /// Models that have the axes, as part of a sentence. The text is empty if all models have these axes.
     pub models: String,
     /// Value of the constant `AXES`.
     pub constant: Doc,

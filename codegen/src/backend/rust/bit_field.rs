@@ -27,7 +27,7 @@ pub(super) struct BitFieldModel {
     pub base: &'static str,
     /// Primitive integer that holds the raw value.
     pub native: &'static str,
-    /// Initial value. It contains the reserved bits that must be 1.
+    /// Initial value. This value contains the reserved bits that must be 1.
     pub initial: String,
     /// Expression that clears the bits of `raw` beyond the width of the bit field.
     pub cut: String,
@@ -85,7 +85,7 @@ pub(super) struct FieldModel {
 /// The first bit of a field, and the cells of its table row: bits, name and meaning.
 type Row = (u8, [String; 3]);
 
-/// A view of a bit field. It contains the bits that apply under one condition.
+/// A view of a bit field. The view contains the bits that apply under one condition.
 pub(super) struct ViewModel {
     pub name: String,
     pub title: String,

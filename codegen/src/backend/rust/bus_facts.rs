@@ -73,8 +73,8 @@ fn limits(stated: Option<&ModbusTable>, max_read: u16, max_write: u16, spans: Ve
     )
 }
 
-/// Returns the addresses of a table that can be read together with their neighbors. Registers longer than one Modbus
-/// request are excluded.
+/// Returns the address ranges of a table that can be read together. Registers that are longer than one Modbus request
+/// are excluded.
 fn spans(device: &Device, space: RegisterSpace, longest: u16) -> Vec<Doc> {
     let mut addresses: BTreeMap<u16, Option<u8>> = BTreeMap::new();
     let all = items(device).flat_map(|item| registers(item).map(move |register| (item, register)));

@@ -25,7 +25,7 @@ pub(super) struct CodeTypeModel {
     pub complete: bool,
 }
 
-/// A variant of the enumeration. It represents a code or a range of codes.
+/// A variant of the enumeration. The variant represents a code or a range of codes.
 pub(super) struct CodeVariant {
     pub name: String,
     pub docs: String,

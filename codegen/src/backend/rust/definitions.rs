@@ -94,7 +94,8 @@ impl Device<'_> {
             let write = |code: &mut Code| print::types::enumeration(code, enumeration);
             self.is_new(&[Section::Types], &[&enumeration.name], std::iter::empty(), &write)
         });
-        // A state machine adds methods to its bit fields. Both must therefore be shared together.
+        // A state machine adds methods to its bit fields. State machines and their bit fields must therefore be shared
+        // together.
         let machines = std::mem::take(&mut types.machines);
         let has_methods =
             |bits: &BitFieldModel| machines.iter().flat_map(MachineModel::bit_fields).any(|name| name == bits.name);

@@ -28,7 +28,7 @@ pub(super) fn title(device: &Device) -> String {
     }
 }
 
-/// Returns the name of the device's type. It is the chosen name, or is derived from the name of the product or file.
+/// Returns the name of the device's type. This is the chosen name, or a name derived from the product or file name.
 pub(super) fn device_name(device: &Device, file: &FileInfo, chosen: Option<&str>) -> String {
     name_of(device, file, chosen, Case::Pascal)
 }
@@ -41,7 +41,7 @@ pub(super) fn module_name(device: &Device, file: &FileInfo) -> String {
 fn name_of(device: &Device, file: &FileInfo, chosen: Option<&str>, case: Case) -> String {
     let stem = file_name(file);
     let stem = stem.rsplit_once('.').map_or(stem.as_str(), |(stem, _)| stem);
-    // EtherCAT devices are usually known by their order code. Their name is a description.
+    // EtherCAT devices are usually known by their order code. The name of such a device is a description.
     let short = if device.ethercat.is_some() { device.identity.order_code.as_str() } else { "" };
     let names = [chosen.unwrap_or(""), short, &device.name, stem, "device"];
     let name_request = |name| NameRequest { name, fallback: String::new(), suffix: "Device".into() };

@@ -75,8 +75,8 @@ pub(super) fn model(
     }
 }
 
-/// Returns the table of all values. It contains the variants, unless there are too many, and ranges. The values of
-/// ranges are `Unknown`.
+/// Returns the table of all values. The table contains the ranges and, unless there are too many, the variants. The
+/// values of ranges are `Unknown`.
 fn table(all: &[EnumValue], values: &[&EnumValue], variants: &[VariantModel]) -> Vec<String> {
     let mut rows: Vec<(i128, [String; 3])> = Vec::new();
     if variants.len() <= doc_table::MAX_ROWS {

@@ -46,8 +46,8 @@ pub(super) struct ItemModel {
 }
 
 impl ItemModel {
-    /// Returns the name with which `lexibus::pdo!` refers to the item. It is the name of the accessor, with a suffix if
-    /// it would hide a primitive type.
+    /// Returns the name with which `lexibus::pdo!` refers to the item. This is the name of the accessor, with a suffix
+    /// if it would hide a primitive type.
     pub(super) fn mappable_name(&self) -> String {
         const PRIMITIVES: [&str; 15] = [
             "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "f32", "f64",
@@ -56,8 +56,8 @@ impl ItemModel {
         format!("{}{}", self.method, if hides { "_" } else { "" })
     }
 
-    /// Returns the expression that combines the handle with the device's client. It uses a function call for long
-    /// names, because the lines of a method chain would be broken.
+    /// Returns the expression that combines the handle with the device's client. The expression is a function call for
+    /// long names, because the lines of a method chain would be broken.
     pub(super) fn at_client(&self) -> Doc {
         const LONG: usize = 48;
         match self.constant.len() > LONG {

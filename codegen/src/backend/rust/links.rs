@@ -1,4 +1,4 @@
-//! Links in documentation. They map elements of the description to the paths of the generated Rust elements.
+//! Links in documentation. A link maps an element of the description to the path of the generated Rust element.
 //!
 //! Paths are relative, so they stay valid if the generated module is moved.
 
@@ -125,7 +125,7 @@ struct Handle {
 /// Maximum number of elements that a sentence lists.
 const LISTED: usize = 8;
 
-/// The paths of all elements that are generated for a device or module. They are relative to the device's module.
+/// The paths of all elements that are generated for a device or module. The paths are relative to the device's module.
 #[derive(Debug, Default)]
 pub(super) struct Links {
     handles: HashMap<ItemId, Handle>,

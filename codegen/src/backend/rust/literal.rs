@@ -1,4 +1,4 @@
-//! Rust literals. They are escaped so that a text of the description cannot end its literal.
+//! Rust literals, which are escaped so that a text of the description cannot end its literal.
 
 use std::fmt::Write;
 

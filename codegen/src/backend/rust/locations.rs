@@ -17,7 +17,7 @@ fn maker(at: usize) -> String {
 
 /// The locations of a device's or module's handles.
 pub(super) struct Locations {
-    /// The default location type. Handles with this type do not state it.
+    /// The default location type. Handles with the default type do not state their type.
     pub usual: Buses,
     /// Whether some items have another location type.
     pub several: bool,
@@ -102,8 +102,8 @@ fn path_to_handles(outer: &str) -> &str {
     outer.strip_prefix("super::").unwrap_or(outer)
 }
 
-/// Returns the default location type. It is the union of all location types if all of them are direct and some item has
-/// this union. Otherwise, it is the most frequent location type.
+/// Returns the default location type. The default is the union of all location types if all of them are direct and some
+/// item has this union. Otherwise, it is the most frequent location type.
 fn usual(each: &BTreeMap<Buses, usize>) -> Buses {
     match each.keys().all(|buses| buses.is_direct()) {
         true => each.keys().fold(Buses::default(), |all, buses| all.union(*buses)),

@@ -20,7 +20,7 @@ use crate::names::{self, Case};
 pub(super) struct MachineModel {
     pub states: Option<PatternsModel>,
     pub commands: Option<PatternsModel>,
-    /// Transitions that commands cause. `None` if there are none.
+    /// Transitions that commands cause. `None` if no command causes a transition.
     pub transitions: Option<Doc>,
 }
 
@@ -64,7 +64,7 @@ impl PatternsModel {
     }
 }
 
-/// A state or command. It is a bit pattern.
+/// A state or command, which is a bit pattern.
 pub(super) struct PatternModel {
     pub name: String,
     /// Name in the description.

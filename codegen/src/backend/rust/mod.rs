@@ -70,7 +70,8 @@ use ethercat::ModulePaths;
 use model::Model;
 use scope::Scope;
 
-/// Version of the interface between generated code and the runtime. It must equal `lexibus::interface::VERSION`.
+/// Version of the interface between generated code and the runtime. The version must equal
+/// `lexibus::interface::VERSION`.
 pub const INTERFACE_VERSION: u32 = 1;
 
 /// Returns the Rust module for all of `catalog`; `None` if it describes nothing that code can be generated for.

@@ -48,7 +48,7 @@ pub(super) fn context<'a>(scope: Scope<'a>, options: &RustOptions, device_name: 
 pub(super) struct Model {
     pub device_name: String,
     pub title: String,
-    /// Identity of the device; `None` for a module of a modular device.
+    /// Identity of the device. `None` for a module of a modular device.
     pub identity: Option<IdentityModel>,
     /// Whether the device's type has accessor methods.
     pub has_accessors: bool,
@@ -96,7 +96,7 @@ pub(super) struct Model {
     pub module: Option<Doc>,
     pub table: Option<Vec<EntryModel>>,
     pub table_feature: Option<String>,
-    /// Whether the file has other devices or modules. They may re-export definitions of this one.
+    /// Whether the file has other devices or modules. Other devices and modules may re-export definitions of this one.
     pub is_one_of_several: bool,
     /// Definitions that earlier devices or modules of the file already contain.
     pub reexports: Vec<Reexport>,
@@ -168,7 +168,8 @@ impl Model {
         }
     }
 
-    /// Creates the message protocol. Its methods and the accessors of the objects belong to the same type.
+    /// Creates the message protocol. The methods of the protocol and the accessors of the objects belong to the same
+    /// type.
     #[cfg(feature = "messages")]
     fn protocol_of(&self, context: &Context<'_>, options: &RustOptions) -> Option<ProtocolModel> {
         let objects = self.objects.iter().map(|object| object.name.trim_start_matches("r#"));

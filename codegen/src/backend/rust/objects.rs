@@ -11,7 +11,7 @@ use super::naming::handles::{self, HandleNames, NamedItem, NamedObject, NamedReg
 use crate::ir::ObjectCode;
 use crate::names;
 
-/// An object, ready to be printed. It has one value, or is a module with several values.
+/// An object, ready to be printed. The object has one value, or is a module with several values.
 pub(super) struct ObjectModel {
     pub name: String,
     pub docs: Vec<String>,

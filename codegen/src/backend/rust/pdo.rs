@@ -21,7 +21,7 @@ use crate::ir::{Group, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKin
 use crate::names;
 use crate::source::Span;
 
-/// Maximum length of a field's name in an expression that packs the field. It limits the length of the line.
+/// Maximum length of a field's name in an expression that packs the field. A limit keeps the line short.
 const MAX_FIELD_NAME: usize = 30;
 
 /// Number of bits in a word.
@@ -504,7 +504,8 @@ pub(super) fn timing_writes(communication: &PdoCommunication) -> Vec<String> {
     writable.filter_map(|(sub, ty, value)| Some(write(ty, communication.index, sub, &value?.to_string()))).collect()
 }
 
-/// Returns whether the default COB-ID contains a CAN identifier. It is often missing if the PDO is disabled by default.
+/// Returns whether the default COB-ID contains a CAN identifier. The identifier is often missing if the PDO is disabled
+/// by default.
 pub(super) fn has_identifier(pdo: &Pdo) -> bool {
     const IDENTIFIER: i128 = 0x1FFF_FFFF;
     let value = pdo.communication.as_ref().and_then(|communication| communication.cob_id.as_ref());

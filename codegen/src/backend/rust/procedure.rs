@@ -1,5 +1,5 @@
-//! Procedures that consist only of object writes, such as a start-up list. They become constants that a program can
-//! send.
+//! Procedures that consist only of object writes, such as a start-up list. These procedures become constants that a
+//! program can send.
 
 use super::context::Context;
 use super::doc_table;

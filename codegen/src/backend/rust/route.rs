@@ -79,7 +79,7 @@ impl RouteBus {
     }
 }
 
-/// The kind of an access path. It states how values are converted between the item and its address.
+/// The kind of an access path. The kind states how values are converted between the item and its address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum PathKind {
     Direct,
@@ -212,7 +212,7 @@ fn ranges(limits: &Limits) -> Vec<String> {
 pub(super) struct Route<'i> {
     pub read: Option<AccessPath<'i>>,
     pub write: Option<AccessPath<'i>>,
-    /// Whether the item is readable and writable. This bus may allow only one of them.
+    /// Whether the item is readable and writable. This bus may allow only reading or only writing.
     pub is_partial: bool,
 }
 

@@ -45,8 +45,8 @@ pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
 /// Sort key of a row. The runtime sorts objects and registers in the same way.
 type Key = (Option<ObjectAddress>, Option<(u8, u16, Option<u8>)>);
 
-/// Adds the rows of an item. An item has two rows if its objects on CANopen and EtherCAT differ. It has no row if it is
-/// only a parameter of a serial protocol.
+/// Adds the rows of an item. An item has two rows if its objects on CANopen and EtherCAT differ. An item has no row if
+/// it is only a parameter of a serial protocol.
 fn entries(context: &Context<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
     let addresses = ItemAddresses::of(context, item);
     let [object, other] = addresses.objects();

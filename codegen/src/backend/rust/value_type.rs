@@ -11,9 +11,9 @@ pub(super) enum ValueType {
     Native { name: &'static str, range: Option<(i128, i128)>, real: u32 },
     /// `Uint<N>` or `Int<N>`.
     Odd { name: &'static str, range: (i128, i128) },
-    /// A text type. Its values are string literals.
+    /// A text type, whose values are string literals.
     Text(&'static str),
-    /// A byte sequence type. Its values are byte string literals.
+    /// A byte sequence type, whose values are byte string literals.
     Bytes(&'static str),
     /// A time type of the runtime.
     Time(&'static str),
@@ -174,8 +174,8 @@ impl ValueType {
         }
     }
 
-    /// Returns the expression of a `Range` for an integer with fewer bits than its Rust type. It excludes values beyond
-    /// the integer's width.
+    /// Returns the expression of a `Range` for an integer with fewer bits than its Rust type. The range excludes values
+    /// beyond the integer's width.
     #[cfg(feature = "messages")]
     pub(super) fn range_within(self, limits: &Limits) -> Option<Doc> {
         if let Some(list) = self.only(limits, &Doc::from) {

@@ -1,4 +1,4 @@
-//! The same program without Lexibus: frames written by hand.
+//! The same program as `generated` without Lexibus. The frames are handwritten.
 
 #![no_std]
 #![no_main]

@@ -1,4 +1,4 @@
-//! Three of the 585 registers of a drive, through generated accessors.
+//! Uses three of a drive's 585 registers through generated accessors.
 
 #![no_std]
 #![no_main]
@@ -7,7 +7,7 @@ use lexibus::{AbortCode, CanOpen, Client, Error, Object};
 use lexibus_drives::vector_step::types::ModesOfOperation;
 use lexibus_drives::vector_step::VectorStep;
 
-/// A client for expedited SDO transfers: code for a program whose CAN library has no client.
+/// A client for expedited SDO transfers. A program needs this code if its CAN library has no SDO client.
 struct Sdo;
 
 impl Client for Sdo {

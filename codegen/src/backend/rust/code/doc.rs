@@ -217,7 +217,7 @@ macro_rules! generic {
 
 pub(in crate::backend::rust) use {call, generic, seq};
 
-/// Creates literals of constants. They consist of numbers, paths, structs, lists and calls.
+/// Creates literals of constants, which consist of numbers, paths, structs, lists and calls.
 pub struct Data;
 
 impl Data {

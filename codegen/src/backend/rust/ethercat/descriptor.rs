@@ -1,4 +1,4 @@
-//! The constants `DEVICE` and `MODULE`. They describe a slave with the types of the runtime.
+//! The constants `DEVICE` and `MODULE`. These constants describe a slave with the types of the runtime.
 
 use super::{Assigned, ModulePaths};
 use crate::backend::rust::code::{Data, Doc};

@@ -99,7 +99,7 @@ fn model(kind: &str, sync_manager: u8, inside: &[&Assigned<'_>], pdos: &PdoModel
 /// type may implement.
 const RESERVED: [&str; 7] = ["new", "clone", "into", "try_into", "self", "super", "crate"];
 
-/// Maximum length of a field's name. It limits the length of the lines that unpack the field.
+/// Maximum length of a field's name. A limit keeps the lines that unpack the field short.
 const MAX_NAME: usize = 30;
 
 fn fields(placed: &[(&PdoModel, u32)]) -> Vec<ImageField> {

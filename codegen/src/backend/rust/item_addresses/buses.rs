@@ -1,4 +1,4 @@
-//! The buses of a location. They determine the location's Rust type.
+//! The buses of a location. The buses determine the location's Rust type.
 
 use crate::backend::rust::code::{seq, Doc};
 use crate::backend::rust::route::{PathKind, Route, RouteBus, RouteKind};
@@ -54,7 +54,7 @@ impl Buses {
         fields.map(|(bus, ty)| seq![bus.field(), ": rt::", bus.type_name(), " => ", ty]).collect()
     }
 
-    /// Returns the name of the location type. It is also used as a part of other names.
+    /// Returns the name of the location type. The name is also used as a part of other names.
     pub fn word(self) -> String {
         let words: String = RouteBus::ALL.iter().zip(self.0).map(|(bus, kind)| kind.word(*bus)).collect();
         format!("On{}", if words.is_empty() { "NoBus" } else { words.as_str() })

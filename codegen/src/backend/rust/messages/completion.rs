@@ -24,8 +24,8 @@ pub(super) fn sentence(context: &Context<'_>, message: &Message, doc_module: Doc
     })
 }
 
-/// Returns the expression of a reply's `is_complete`. It uses the first polling condition that can be evaluated from
-/// fields of the reply. Returns `None` if the fields may still refer to the previous command.
+/// Returns the expression of a reply's `is_complete`. The expression uses the first polling condition that can be
+/// evaluated from fields of the reply. Returns `None` if the fields may still refer to the previous command.
 pub(super) fn expression(
     context: &Context<'_>,
     conditions: &Conditions<'_>,
@@ -44,7 +44,7 @@ pub(super) fn expression(
     })
 }
 
-/// A polling condition: the polled bit of a field, the mask and the expected value.
+/// A polling condition: the name of the polled bit, the mask, and the expected value.
 type Polled<'c> = (Option<&'c str>, Option<u64>, Option<&'c Value>);
 
 /// The first polling condition for each field.

@@ -14,7 +14,7 @@ use crate::ir::{Item, MessageValue, Type};
 use crate::names::{self, Case};
 use crate::resolve::messages::Step;
 
-/// Maximum length of a field's name. It limits the length of the lines that write the field.
+/// Maximum length of a field's name. A limit keeps the lines that write the field short.
 const MAX_NAME: usize = 24;
 
 /// A field, ready to be printed.

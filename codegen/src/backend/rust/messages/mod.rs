@@ -54,7 +54,7 @@ pub(super) struct MessageModel {
     pub call_docs: Vec<String>,
     /// The request. `None` if only the device sends the message.
     pub request: Option<DataModel>,
-    /// The reply. `None` if the description does not contain it.
+    /// The reply. `None` if the description does not contain the reply.
     pub reply: Option<DataModel>,
     /// Type of the reply that refuses the request.
     pub refusal: String,

@@ -7,7 +7,7 @@ use crate::ir::{Device, ParameterSpace, Type};
 use crate::names::{self, Case, NameRequest};
 use crate::resolve::messages::{numbered, Step};
 
-/// Maximum length of a constant's name. It limits the length of the lines that use the name.
+/// Maximum length of a constant's name. A limit keeps the lines that use the name short.
 const MAX_NAME: usize = 24;
 
 /// A constant with an encoding rule, ready to be printed.

@@ -18,8 +18,8 @@ pub(in crate::backend::rust) struct NamedMachine<'a> {
     pub command_setter: String,
 }
 
-/// Returns the preferred names for the types of states and commands. They are `State` and `Command` if the device has
-/// one machine and no other type with these names.
+/// Returns the preferred names for the types of states and commands. The names are `State` and `Command` if the device
+/// has one machine and no other type with these names.
 pub(super) fn type_names(machines: &[StateMachine], is_used: &dyn Fn(&str) -> bool) -> Vec<[String; 2]> {
     let is_simple = |name: &str| machines.len() == 1 && !is_used(name);
     let name = |machine: &StateMachine, simple: &str, kind: &str| match is_simple(simple) {

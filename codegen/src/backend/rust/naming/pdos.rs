@@ -67,8 +67,8 @@ fn fields<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>, pdo: &'a Pdo) -> Vec
     entries.into_iter().zip(names).map(|(entry, name)| NamedField { entry, name }).collect()
 }
 
-/// Returns the description's name of a mapped entry. It is the name in the PDO, or the name of the object. If the
-/// object has several values, the name of the entry is appended.
+/// Returns the description's name of a mapped entry. The result is the name in the PDO, or the name of the object. If
+/// the object has several values, the name of the entry is appended.
 pub(in crate::backend::rust) fn title(scope: &Scope<'_>, entry: &PdoEntry) -> String {
     if scope.bus == ObjectBus::CoE && !entry.name.is_empty() {
         return entry.name.to_string();

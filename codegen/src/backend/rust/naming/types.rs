@@ -154,8 +154,8 @@ impl<'a> NameCounts<'a> {
         counts
     }
 
-    /// Returns the suffix of a type whose name is ambiguous. It is the base type if this makes the name unique,
-    /// otherwise the position.
+    /// Returns the suffix of a type whose name is ambiguous. The suffix is the base type if this makes the name unique.
+    /// Otherwise, it is the position.
     fn suffix(&self, scope: &Scope<'_>, definition: &TypeDef, position: u32) -> String {
         let base = base_type(scope, definition);
         let name = definition.name.as_str();
@@ -174,7 +174,7 @@ fn base_type(scope: &Scope<'_>, definition: &TypeDef) -> Type {
     }
 }
 
-/// Returns the types that generated code uses. Their names are empty.
+/// Returns the types that generated code uses. The names are still empty.
 fn used<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>) -> TypeNames<'a> {
     let items = scope.groups.iter().flat_map(|group| &group.items).map(|item| item.ty);
     let entries = scope.pdos.iter().flat_map(|pdo| &pdo.entries).map(|entry| entry.ty);

@@ -107,7 +107,7 @@ pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &
         code.doc(&format!("Access to the entries of {}", object.heading));
         open!(code, "pub struct Accessors<'c, C> {");
         // Methods of the device call the constructor. If the file has several devices, methods of any device may call
-        // it.
+        // the constructor.
         let users = if model.is_one_of_several { "super::super::super" } else { "super::super" };
         line!(code, "pub(in ", users, ") client: &'c mut C,");
         code.close("}");

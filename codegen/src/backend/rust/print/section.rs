@@ -5,10 +5,10 @@ use crate::backend::rust::model::Model;
 use crate::backend::rust::reexport::{Reexport, Section};
 
 /// Writes a section of a device: re-exports of definitions in earlier devices, and new definitions. Writes nothing if
-/// there are neither.
+/// there are no definitions.
 ///
-/// `names_runtime` states whether the code of new definitions names the runtime. It is `None` if there are no new
-/// definitions.
+/// `names_runtime` states whether the code of new definitions names the runtime. The value is `None` if there are no
+/// new definitions.
 pub(super) fn write(
     code: &mut Code,
     model: &Model,

@@ -15,7 +15,8 @@ use crate::names::{self, Case, NameRequest};
 /// Name of the table of channel errors in the IR.
 const ERRORS: &str = "channel_diagnosis";
 
-/// Name of the table of extended channel errors in the IR. Their first cell is the error type that they extend.
+/// Name of the table of extended channel errors in the IR. The first cell of a row is the error type that the row
+/// extends.
 const EXTENDED: &str = "extended_channel_diagnosis";
 
 /// Key of a channel error: the application process (API) whose profile defines it, and the error type.

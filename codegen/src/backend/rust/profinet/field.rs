@@ -70,7 +70,7 @@ enum FieldKind {
     Bytes,
 }
 
-/// Purpose of the struct that contains a field. It determines the Rust types of integers with unusual widths.
+/// Purpose of the struct that contains a field. The purpose determines the Rust types of integers with unusual widths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Use {
     /// In an image, which is written without checks. The types can only hold valid values.

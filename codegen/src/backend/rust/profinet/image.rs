@@ -9,7 +9,7 @@ use crate::backend::rust::doc_table;
 use crate::ir::{Direction, IoData, PdoEntry, PdoEntryKind, Submodule};
 use crate::names::{self, Case, NameRequest};
 
-/// Maximum length of a field's name. It limits the length of the lines that read and write the field.
+/// Maximum length of a field's name. A limit keeps the lines that read and write the field short.
 const MAX_FIELD_NAME: usize = 30;
 
 /// Names that fields must not have.
@@ -35,7 +35,7 @@ pub(in crate::backend::rust) struct FieldModel {
     pub name: String,
     pub docs: Vec<String>,
     pub heading: String,
-    /// Position and type of the field, as a table shows them.
+    /// Position and type of the field, as cells of a documentation table.
     cells: [String; 2],
     pub ty: String,
     /// Whether the type is an enumeration.
@@ -168,8 +168,8 @@ impl FieldModel {
     }
 }
 
-/// Returns the attribute for getters with these names. It suppresses a clippy lint about prefixes that imply a certain
-/// signature.
+/// Returns the attribute for getters with these names. The attribute suppresses a clippy lint about prefixes that imply
+/// a certain signature.
 fn allow<'n>(mut names: impl Iterator<Item = &'n str>) -> Option<&'static str> {
     let has_prefix =
         names.any(|name| ["from_", "into_", "to_", "is_", "as_"].iter().any(|prefix| name.starts_with(prefix)));

@@ -36,7 +36,7 @@ pub(super) struct FileModel<'a> {
     pub values: Vec<&'a Enumeration>,
     /// Channel errors as elements of a table.
     pub errors: Vec<Doc>,
-    /// User structures of diagnosis.
+    /// User-defined diagnosis structures.
     pub units: Vec<UnitModel>,
 }
 

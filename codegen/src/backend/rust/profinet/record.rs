@@ -16,7 +16,7 @@ use crate::names::{self, Case, NameRequest};
 use bytes::{default_bytes, value_of};
 use check::{check, ranges};
 
-/// Maximum length of a record's name. It limits the length of the lines that name the record's type.
+/// Maximum length of a record's name. A limit keeps the lines that name the record's type short.
 const MAX_NAME: usize = 32;
 
 /// Maximum length of a field's name.
@@ -49,7 +49,7 @@ pub(in crate::backend::rust) struct RecordModel {
     pub has_real: bool,
 }
 
-/// A field that cannot be changed. It becomes a constant.
+/// A field that cannot be changed and therefore becomes a constant.
 pub(in crate::backend::rust) struct ConstantModel {
     pub name: String,
     pub docs: Vec<String>,

@@ -108,8 +108,8 @@ fn submodules<'a>(
     found.into_iter().zip(names).map(|((at, submodule), name)| (at, (submodule, names::escaped(&name)))).collect()
 }
 
-/// Returns the suffix that distinguishes elements with the same name. It consists of the letters and digits of the
-/// description's ID, or is the ident number.
+/// Returns the suffix that distinguishes elements with the same name. The suffix consists of the letters and digits of
+/// the description's ID, or is the ident number.
 fn identifier(id: &str, ident: u32, position: usize) -> String {
     let words = id.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let words: Vec<&str> = words.collect();

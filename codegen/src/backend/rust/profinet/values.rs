@@ -1,4 +1,4 @@
-//! Enumerations. They contain the named values of fields (`ValueItem`).
+//! Enumerations, which contain the named values of fields (`ValueItem`).
 
 use std::collections::BTreeMap;
 use std::collections::HashSet;

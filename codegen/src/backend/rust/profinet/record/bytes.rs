@@ -7,8 +7,8 @@ use crate::backend::rust::profinet::field::Field;
 use crate::backend::rust::profinet::values::Enumeration;
 use crate::ir::{Record, Value};
 
-/// Returns the default bytes of the record. They consist of its constants, overwritten with the defaults of its
-/// parameters.
+/// Returns the default bytes of the record. These bytes consist of the record's constants, overwritten with the
+/// defaults of its parameters.
 pub(super) fn default_bytes(record: &Record, parameters: &[Parameter<'_>]) -> Vec<u8> {
     let mut bytes = vec![0; record.length as usize];
     for (offset, constant) in &record.constants {
