@@ -21,7 +21,7 @@ pub struct Pty {
 }
 
 impl Pty {
-    /// Opens a raw line. It transfers bytes unchanged.
+    /// Opens a pseudo-terminal in raw mode, which transfers bytes unchanged.
     pub fn open() -> Self {
         let ends = openpty(None, None).expect("a pseudo-terminal");
         let mut settings = tcgetattr(&ends.slave).expect("settings");
@@ -67,7 +67,7 @@ pub struct Cable {
 }
 
 impl Cable {
-    /// Opens a raw line. It transfers bytes unchanged.
+    /// Opens a pseudo-terminal in raw mode, which transfers bytes unchanged.
     pub fn open() -> Self {
         let (left, right) = (Pty::open(), Pty::open());
         let both = |pty: &Pty| (pty.near.try_clone().expect("a handle"), pty.near.try_clone().expect("a handle"));

@@ -17,7 +17,8 @@ fn same(name: &str, data: &[u8], known: usize, write: impl FnOnce(&mut Writer<'_
         Err(error) => panic!("{name} was read but cannot be written: {error}"),
         Ok(()) => {
             assert_eq!(to.written().len(), data.len(), "{name}");
-            // A value of zeros is written as zeros, but arbitrary bytes are accepted when it is read.
+            // A `CmdGetParN` request has zero bytes in place of the value, after the first 6 bytes. The reader accepts any
+            // bytes there, but the writer writes zeros.
             let known = if name == CmdGetParN::NAME { known.min(6) } else { known };
             assert_eq!(to.written()[..known], data[..known], "{name}");
         }

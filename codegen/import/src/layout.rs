@@ -75,7 +75,7 @@ pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
     Listing { spaces, chapters: chapters(rows), definitions, no_access }
 }
 
-/// Converts repeated rows to comments if the table would exceed the maximum number of items.
+/// Converts a row with a repetition count to a comment if its repetitions would exceed `MAX_DERIVED_ITEMS`.
 fn within_budget(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     let mut left = MAX_DERIVED_ITEMS;
     for row in rows.iter_mut().filter(|row| row.address.is_ok()) {
@@ -83,7 +83,7 @@ fn within_budget(rows: &mut [Row], diagnostics: &mut Diagnostics) {
         match left.checked_sub(count as usize * (1 + row.name.len() / ROW_BYTES_PER_ITEM)) {
             Some(rest) => left = rest,
             None => {
-                let message = format!("with this row, repeated rows make more than {MAX_DERIVED_ITEMS} items");
+                let message = format!("with this row, the repetitions of rows exceed {MAX_DERIVED_ITEMS} items");
                 let found = Diagnostic::new(&codes::CSV_NO_ROW, row.span, message);
                 diagnostics.push(found.label("kept as a comment"));
                 row.address = Err("too many items");

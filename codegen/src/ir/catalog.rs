@@ -14,7 +14,7 @@ use crate::source::{Digest, Encoding, Origin, Span};
 pub struct Catalog {
     /// Files that were read. Spans refer to them by position.
     pub files: Vec<FileInfo>,
-    /// Devices in the order of the source. A device access point of GSDML is a device.
+    /// Devices, in the order of the description file. A device access point of GSDML is a device.
     pub devices: Vec<Device>,
     /// Modules of the devices.
     pub modules: Vec<Module>,

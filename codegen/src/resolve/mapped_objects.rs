@@ -1,6 +1,7 @@
 //! Mapped objects of EtherCAT slaves and modules that the dictionary does not describe.
 //!
-//! A mapped object exists. If the dictionary lacks it, the compiler adds it with the name, type and length of the PDO entry.
+//! If a PDO maps an object, the device has that object. If the dictionary lacks it, the compiler adds it with the name,
+//! type and length of the PDO entry.
 //! The line number of these objects is 0, because the file does not contain them as objects.
 
 use std::collections::BTreeMap;

@@ -100,7 +100,7 @@ pub fn original(names: &lexibus_codegen::ir::Texts) -> &str {
     names.first().map(|name| name.text.as_str()).unwrap_or_default()
 }
 
-/// Returns the number at the start of a cell.
+/// Returns the number in a cell, decimal or hexadecimal with `0x`. Returns `None` if the cell contains anything else.
 pub fn number(cell: &str) -> Option<i128> {
     let cell = cell.trim();
     match cell.strip_prefix("0x") {

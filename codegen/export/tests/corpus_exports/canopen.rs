@@ -15,7 +15,7 @@ use lexibus_codegen::source::{Source, Span};
 use lexibus_export::eds::{export, Flavour};
 use serde_json::Value;
 
-/// Files whose exports the library cannot load either, with the reason.
+/// Files that the library can load neither before nor after the export, with the reason.
 const NOT_LOADABLE: [(&str, &str); 3] = [
     ("KITmedical__kacanopen__301__87d58e93.eds", "0x1023 has no DataType"),
     ("bggardner__canopen-rpi__node__root.eds", "0x1018 has no DataType"),

@@ -96,7 +96,7 @@ fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     if let Some(difference) = difference(&before, &after, "") {
         return Some(difference);
     }
-    // The file contains each extension attribute, or a note counts it.
+    // Each extension attribute must be in the exported file or be included in the count of a note.
     let missing: usize = original_keys
         .iter()
         .map(|(key, count)| count.saturating_sub(exported_keys.get(key).copied().unwrap_or(0)))

@@ -23,7 +23,7 @@ pub(super) fn title(device: &Device) -> String {
     match (identity.vendor_name.is_empty(), device.name.is_empty()) {
         (false, false) => format!("{} {}", identity.vendor_name, device.name),
         (true, false) => device.name.to_string(),
-        (false, true) => format!("a device of {}", identity.vendor_name),
+        (false, true) => format!("an unnamed device by {}", identity.vendor_name),
         (true, true) => "the device".to_owned(),
     }
 }

@@ -96,7 +96,7 @@ fn classify_object(name: &str) -> Option<(SectionKind, bool)> {
         _ => (name, false),
     };
     let mut length = digits.bytes().take_while(u8::is_ascii_hexdigit).count();
-    // `De` are hexadecimal digits, too.
+    // The first two letters of `Denotation` are hexadecimal digits, too.
     if length == 6 && digits[4..].eq_ignore_ascii_case("Denotation") {
         length = 4;
     }

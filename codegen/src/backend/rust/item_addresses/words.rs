@@ -52,7 +52,7 @@ impl ItemAddresses<'_> {
         let window = |route: &Route<'_>| route.access_paths().find_map(|access_path| access_path.window);
         let windowed = RouteBus::ALL.iter().zip(&self.routes).filter(|(_, route)| window(route).is_some());
         let windowed: Vec<&str> = windowed.map(|(bus, _)| bus.title()).collect();
-        Some(format!("indirect access with number 0x{number:04X} on {}", windowed.join(", ")))
+        Some(format!("indirect access with number 0x{number:04X} ({})", windowed.join(", ")))
     }
 
     /// Returns the number that selects the item in a window.
