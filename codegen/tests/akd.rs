@@ -107,7 +107,7 @@ fn revisions_of_the_hardware() {
             let shown = format!("{name} {}", version(cell)).to_lowercase();
             assert_eq!(text.to_lowercase().contains(&shown), cell != "-", "line {line} {shown}");
         }
-        let is_pdmm = text.contains(&format!("AKD PDMM from its revision {} on", cells[1]));
+        let is_pdmm = text.contains(&format!("called {} on AKD PDMM", cells[1]));
         assert_eq!(is_pdmm, cells[1] != "-", "line {line}");
     }
 }

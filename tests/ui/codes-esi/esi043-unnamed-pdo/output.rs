@@ -1,4 +1,4 @@
-    /// Outputs: default data of sync manager 2.
+    /// Outputs: data of sync manager 2 with the default PDO assignment.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1600.

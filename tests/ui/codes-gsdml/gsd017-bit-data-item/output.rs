@@ -1,6 +1,6 @@
         /// Inputs: data from the device to the controller.
         ///
-        /// 3 bytes of user data, consistent item by item.
+        /// 3 bytes of user data, with consistency only within each item.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|

@@ -1,19 +1,19 @@
 == chosen.xml
-    /// Outputs: default data of sync manager 0.
+    /// Outputs: data of sync manager 0 with the default PDO assignment.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1601: Speed.
         pub speed: super::pdo::Speed,
     }
 == conflict.xml
-    /// Outputs: default data of sync manager 0.
+    /// Outputs: data of sync manager 0 with the default PDO assignment.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1601: Speed.
         pub speed: super::pdo::Speed,
     }
 == later.xml
-    /// Outputs: default data of sync manager 0.
+    /// Outputs: data of sync manager 0 with the default PDO assignment.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1601: Speed.

@@ -1,5 +1,5 @@
 == none.xml
-    /// Outputs: default data of sync manager 2.
+    /// Outputs: data of sync manager 2 with the default PDO assignment.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1601: Speed.
@@ -8,7 +8,7 @@
         /// Number of the sync manager.
         pub const SYNC_MANAGER: u8 = 2;
 == other.xml
-    /// Outputs: default data of sync manager 0.
+    /// Outputs: data of sync manager 0 with the default PDO assignment.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1601: Speed.

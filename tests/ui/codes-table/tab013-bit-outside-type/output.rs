@@ -1,6 +1,6 @@
     /// status.
     ///
-    /// Values of [`STATUS`](super::objects::STATUS).
+    /// Type of the values of [`STATUS`](super::objects::STATUS).
     ///
     /// | Bits | Name |
     /// |---|---|

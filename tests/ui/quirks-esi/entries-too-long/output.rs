@@ -1,4 +1,4 @@
-/// EtherCAT description of Maker Drive, for a master.
+/// EtherCAT description of Maker Drive for the master.
 pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
     identity: IDENTITY,
     sync_managers: &[
@@ -49,14 +49,14 @@ pub mod pdo {
     use ::lexibus as rt;
     /// RxPDO 0x1602: P1602.
     ///
-    /// Mapping 0x1602, 65535 bits.
+    /// Mapping object 0x1602, 65535 bits.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
     /// | 0.0–8191.6 | [`output_2`](Self::output_2) | [0x7000:02](super::objects::object_7000::OUTPUT_2) | `[u8; 8192]` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct P1602 {
-        /// Output: [0x7000:02](super::objects::object_7000::OUTPUT_2), 65535 bits from bit 0.
+        /// Output: [0x7000:02](super::objects::object_7000::OUTPUT_2), 65535 bits at bit offset 0.
         pub output_2: [u8; 8192],
     }
     impl P1602 {
@@ -64,14 +64,14 @@ pub mod pdo {
         pub const BITS: u32 = 65535;
         /// Length in bytes.
         pub const LEN: usize = 8192;
-        /// Returns the bytes of a frame. Padding is 0.
+        /// Returns the bytes of the PDO. Unmapped bits are 0.
         #[inline]
         pub fn pack(&self) -> [u8; 8192] {
             let mut data = [0; 8192];
             data = rt::bits::put_bits(data, 0, 65535, &self.output_2);
             data
         }
-        /// Reads the fields of a frame. Bytes after the mapped ones are ignored.
+        /// Decodes the fields of the PDO. Bytes after the mapped objects are ignored.
         ///
         /// # Errors
         ///
@@ -100,14 +100,14 @@ pub mod pdo {
         pub const SYNC_MANAGER: u8 = 0;
         /// Length in bytes.
         pub const LEN: usize = 16384;
-        /// Returns the bytes of the image. Padding is 0.
+        /// Returns the bytes of the process image. Unmapped bits are 0.
         #[inline]
         pub fn pack(&self) -> [u8; 16384] {
             let mut data = [0; 16384];
             rt::bits::set_bytes(&mut data, 65536, &self.p1602.pack());
             data
         }
-        /// Reads the PDOs of an image. Bytes after it are ignored.
+        /// Decodes the PDOs of a process image. Bytes after the image are ignored.
         ///
         /// # Errors
         ///

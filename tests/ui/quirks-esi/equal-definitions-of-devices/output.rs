@@ -3,7 +3,7 @@
         use ::lexibus as rt;
         /// DT0800EN08.
         ///
-        /// Values of [`MODE`](super::objects::MODE).
+        /// Type of the values of [`MODE`](super::objects::MODE).
         ///
         /// | Value | Name |
         /// |---|---|
@@ -12,18 +12,18 @@
         pub enum Dt0800En08 {
             /// 0: Off.
             Off,
-            /// Any other number.
+            /// A number without a variant of its own.
             Unknown(u8),
         }
         impl Dt0800En08 {
-            /// Returns the value with this number.
+            /// Returns the variant for this number.
             pub const fn from_raw(raw: u8) -> Self {
                 match raw {
                     0 => Self::Off,
                     other => Self::Unknown(other),
                 }
             }
-            /// Returns the number of the value.
+            /// Returns the number of the variant.
             pub const fn raw(self) -> u8 {
                 match self {
                     Self::Off => 0,
@@ -50,7 +50,7 @@
         use ::lexibus as rt;
         /// DT0800EN08.
         ///
-        /// Values of [`MODE`](super::objects::MODE).
+        /// Type of the values of [`MODE`](super::objects::MODE).
         ///
         /// | Value | Name |
         /// |---|---|
@@ -59,18 +59,18 @@
         pub enum Dt0800En08 {
             /// 0: Stopped.
             Stopped,
-            /// Any other number.
+            /// A number without a variant of its own.
             Unknown(u8),
         }
         impl Dt0800En08 {
-            /// Returns the value with this number.
+            /// Returns the variant for this number.
             pub const fn from_raw(raw: u8) -> Self {
                 match raw {
                     0 => Self::Stopped,
                     other => Self::Unknown(other),
                 }
             }
-            /// Returns the number of the value.
+            /// Returns the number of the variant.
             pub const fn raw(self) -> u8 {
                 match self {
                     Self::Stopped => 0,
@@ -103,13 +103,13 @@
         pub use super::super::d3::image::{Inputs, InputsView};
         /// TxPDO 0x1A00: Sensors.
         ///
-        /// Mapping 0x1A00, 8 bits.
+        /// Mapping object 0x1A00, 8 bits.
         ///
         /// | Bytes | Field | Object | Type |
         /// |---|---|---|---|
         /// | 0 | [`mode`](Self::mode) | [0x2000:00](super::objects::MODE) | [`Dt0800En08`](super::types::Dt0800En08) |
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Sensors {
-            /// Mode: [0x2000:00](super::objects::MODE), 8 bits from bit 0.
+            /// Mode: [0x2000:00](super::objects::MODE), 8 bits at bit offset 0.
             pub mode: super::types::Dt0800En08,
         }

@@ -1,4 +1,4 @@
-/// EtherCAT description of Maker Drive, for a master.
+/// EtherCAT description of Maker Drive for the master.
 pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
     identity: IDENTITY,
     sync_managers: &[
@@ -44,7 +44,7 @@ pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
     mailbox: rt::ethercat::Mailbox::NONE,
     slots: None,
 };
-    /// Outputs: default data of sync manager 0.
+    /// Outputs: data of sync manager 0 with the default PDO assignment.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1601: P1601.

@@ -1,6 +1,6 @@
     /// DT0800EN08.
     ///
-    /// Values of [`MODE`](super::objects::MODE).
+    /// Type of the values of [`MODE`](super::objects::MODE).
     ///
     /// | Value | Name |
     /// |---|---|
@@ -12,13 +12,13 @@
         Off,
         /// 16: On.
         On,
-        /// Any other number.
+        /// A number without a variant of its own.
         Unknown(u8),
     }
     /// Mode.
     ///
     /// Default 16, 0x2000:00, UNSIGNED8, read-only, mappable into TPDOs.
-    /// Accessor: [`mode`](super::D1::mode). Values: [`Dt0800En08`](super::types::Dt0800En08). Carried by [`Sensors`](super::pdo::Sensors).
+    /// Accessor: [`mode`](super::D1::mode). Type of the value: [`Dt0800En08`](super::types::Dt0800En08). Mapped in [`Sensors`](super::pdo::Sensors).
     pub const MODE: ReadOnly<super::types::Dt0800En08> = ReadOnlyNamedDt0800En08::flagged_coe_object_with_default(
         0x2000,
         0x00,
@@ -28,13 +28,13 @@
     );
     /// TxPDO 0x1A00: Sensors.
     ///
-    /// Mapping 0x1A00, 8 bits.
+    /// Mapping object 0x1A00, 8 bits.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
     /// | 0 | [`mode`](Self::mode) | [0x2000:00](super::objects::MODE) | [`Dt0800En08`](super::types::Dt0800En08) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Sensors {
-        /// Mode: [0x2000:00](super::objects::MODE), 8 bits from bit 0.
+        /// Mode: [0x2000:00](super::objects::MODE), 8 bits at bit offset 0.
         pub mode: super::types::Dt0800En08,
     }

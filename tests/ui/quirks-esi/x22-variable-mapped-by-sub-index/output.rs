@@ -1,7 +1,7 @@
         /// Temperature.
         ///
         /// 0x2000:00, UNSIGNED32, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::temperature`]. Carried by [`Values`](super::super::pdo::Values).
+        /// Accessor: [`Accessors::temperature`]. Mapped in [`Values`](super::super::pdo::Values).
         pub const TEMPERATURE: super::ReadOnly<u32> = super::ReadOnlyU32::flagged_coe_object(
             0x2000,
             0x00,
@@ -11,7 +11,7 @@
         /// Peak.
         ///
         /// 0x2000:01, UNSIGNED16, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::peak`]. Carried by [`Values`](super::super::pdo::Values).
+        /// Accessor: [`Accessors::peak`]. Mapped in [`Values`](super::super::pdo::Values).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const PEAK: super::ReadOnly<u16> = super::ReadOnlyU16::flagged_coe_object(

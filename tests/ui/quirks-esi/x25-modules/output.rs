@@ -1,4 +1,4 @@
-        /// EtherCAT description of 4 inputs, for a master.
+        /// EtherCAT description of 4 inputs for the master.
         pub static MODULE: rt::ethercat::Module = rt::ethercat::Module {
             ident: 0x00000030,
             name: "4 inputs",
@@ -40,7 +40,7 @@
         };
             /// FILTER.
             ///
-            /// Values of [`FILTER`](super::objects::FILTER).
+            /// Type of the values of [`FILTER`](super::objects::FILTER).
             ///
             /// | Value | Name |
             /// |---|---|
@@ -49,13 +49,13 @@
             pub enum Filter {
                 /// 5: Slow.
                 Slow,
-                /// Any other number.
+                /// A number without a variant of its own.
                 Unknown(u8),
             }
             /// Filter.
             ///
             /// 0x8000:00, UNSIGNED8, read-write.
-            /// Values: [`Filter`](super::types::Filter).
+            /// Type of the value: [`Filter`](super::types::Filter).
             pub const FILTER: ReadWrite<super::types::Filter> = ReadWriteNamedFilter::coe_object(
                 0x8000,
                 0x00,
@@ -64,7 +64,7 @@
                 /// In 1.
                 ///
                 /// 0x6000:01, BOOLEAN, read-only, mappable into TPDOs.
-                /// Carried by [`Inputs`](super::super::pdo::Inputs).
+                /// Mapped in [`Inputs`](super::super::pdo::Inputs).
                 ///
                 /// Access rights from the rule for objects that only a PDO describes.
                 pub const IN_1: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(

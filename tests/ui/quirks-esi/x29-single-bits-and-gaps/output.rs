@@ -1,6 +1,6 @@
     /// TxPDO 0x1A00: Sensors.
     ///
-    /// Mapping 0x1A00, 44 bits.
+    /// Mapping object 0x1A00, 44 bits.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
@@ -11,13 +11,13 @@
     /// | 4.0–5.3 | [`level`](Self::level) | [0x6020:00](super::objects::LEVEL) | `Uint<12>` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Sensors {
-        /// Ready: [0x6000:01](super::objects::object_6000::READY), 1 bits from bit 0.
+        /// Ready: [0x6000:01](super::objects::object_6000::READY), 1 bits at bit offset 0.
         pub ready: bool,
-        /// Mode: [0x6000:02](super::objects::object_6000::MODE), 5 bits from bit 3.
+        /// Mode: [0x6000:02](super::objects::object_6000::MODE), 5 bits at bit offset 3.
         pub mode: rt::Uint<5>,
-        /// Count: [0x6010:00](super::objects::COUNT), 24 bits from bit 8.
+        /// Count: [0x6010:00](super::objects::COUNT), 24 bits at bit offset 8.
         pub count: rt::Uint<24>,
-        /// Level: [0x6020:00](super::objects::LEVEL), 12 bits from bit 32.
+        /// Level: [0x6020:00](super::objects::LEVEL), 12 bits at bit offset 32.
         pub level: rt::Uint<12>,
     }
     impl Sensors {
@@ -25,7 +25,7 @@
         pub const BITS: u32 = 44;
         /// Length in bytes.
         pub const LEN: usize = 6;
-        /// Returns the bytes of a frame. Padding is 0.
+        /// Returns the bytes of the PDO. Unmapped bits are 0.
         #[inline]
         pub const fn pack(&self) -> [u8; 6] {
             let mut word = 0;
@@ -39,7 +39,7 @@
             word |= bits << 32;
             rt::pdo::to_bytes(word)
         }
-        /// Reads the fields of a frame. Bytes after the mapped ones are ignored.
+        /// Decodes the fields of the PDO. Bytes after the mapped objects are ignored.
         ///
         /// # Errors
         ///

@@ -1,6 +1,6 @@
     /// RxPDO 0x1600: Outputs.
     ///
-    /// Mapping 0x1600, 56 bits.
+    /// Mapping object 0x1600, 56 bits.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
@@ -10,23 +10,23 @@
     /// | 6 | [`lamp`](Self::lamp) | [0x5000:01](super::objects::object_5000::LAMP) | `u8` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
-        /// Control Word: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
+        /// Control Word: [0x6040:00](super::objects::CONTROLWORD), 16 bits at bit offset 0.
         pub controlword: super::types::Controlword,
-        /// Set speed: [0x2002:00](super::objects::SPEED_2002), 16 bits from bit 16.
+        /// Set speed: [0x2002:00](super::objects::SPEED_2002), 16 bits at bit offset 16.
         pub speed_2002: i16,
-        /// Torque: [0x2003:00](super::objects::A_LIMIT_OF_THE_TORQUE_IN_OPERATION_WITH_REDUCED), 16 bits from bit 32.
+        /// Torque: [0x2003:00](super::objects::A_LIMIT_OF_THE_TORQUE_IN_OPERATION_WITH_REDUCED), 16 bits at bit offset 32.
         pub a_limit_of_the_torque_in_operation_with_reduced: i16,
-        /// Lamp: [0x5000:01](super::objects::object_5000::LAMP), 8 bits from bit 48.
+        /// Lamp: [0x5000:01](super::objects::object_5000::LAMP), 8 bits at bit offset 48.
         pub lamp: u8,
     }
     /// RxPDO 0x1600: Outputs.
     ///
-    /// Layout: [`pdo::Outputs`](super::pdo::Outputs).
+    /// The layout is that of [`pdo::Outputs`](super::pdo::Outputs).
     pub struct Outputs<B> {
         pub(super) data: B,
         pub(super) bit: usize,
     }
-    /// Outputs: default data of sync manager 2.
+    /// Outputs: data of sync manager 2 with the default PDO assignment.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Outputs {
         /// RxPDO 0x1600: Outputs.
@@ -34,7 +34,7 @@
     }
     /// TxPDO 0x1A00: Inputs.
     ///
-    /// Mapping 0x1A00, 32 bits.
+    /// Mapping object 0x1A00, 32 bits.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
@@ -45,29 +45,29 @@
     /// | 2–3 | [`speed_2001`](Self::speed_2001) | [0x2001:00](super::objects::SPEED_2001) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Inputs {
-        /// Inputs1\_B01: [0x2000:01](super::objects::digital_inputs::LIMIT_SWITCH), 1 bits from bit 0.
+        /// Inputs1\_B01: [0x2000:01](super::objects::digital_inputs::LIMIT_SWITCH), 1 bits at bit offset 0.
         pub digital_inputs_limit_switch: bool,
-        /// Inputs1\_B02: [0x2000:02](super::objects::digital_inputs::DIGITAL_INPUTS_2), 1 bits from bit 1.
+        /// Inputs1\_B02: [0x2000:02](super::objects::digital_inputs::DIGITAL_INPUTS_2), 1 bits at bit offset 1.
         pub digital_inputs_2: bool,
-        /// Inputs2\_B01: [0x2010:01](super::objects::safe_inputs::LIMIT_SWITCH), 1 bits from bit 2.
+        /// Inputs2\_B01: [0x2010:01](super::objects::safe_inputs::LIMIT_SWITCH), 1 bits at bit offset 2.
         pub safe_inputs_limit_switch: bool,
-        /// Actual speed: [0x2001:00](super::objects::SPEED_2001), 16 bits from bit 16.
+        /// Actual speed: [0x2001:00](super::objects::SPEED_2001), 16 bits at bit offset 16.
         pub speed_2001: i16,
     }
     /// TxPDO 0x1A00: Inputs.
     ///
-    /// Layout: [`pdo::Inputs`](super::pdo::Inputs).
+    /// The layout is that of [`pdo::Inputs`](super::pdo::Inputs).
     pub struct Inputs<B> {
         pub(super) data: B,
         pub(super) bit: usize,
     }
-    /// Inputs: default data of sync manager 3.
+    /// Inputs: data of sync manager 3 with the default PDO assignment.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Inputs {
         /// TxPDO 0x1A00: Inputs.
         pub inputs: super::pdo::Inputs,
     }
-/// Items that can be mapped into PDOs, by the names of their accessors. `lexibus::pdo!` looks them up here.
+/// Items that can be mapped into PDOs, for use by the macro `lexibus::pdo!`. Their names are those of the accessors.
 #[allow(missing_docs, non_camel_case_types)]
 pub mod mappable {
     use ::lexibus as rt;

@@ -1,4 +1,4 @@
-    /// Channel errors that the description names, by application process (API) and error type.
+    /// Channel errors in the device description, sorted by application process identifier (API) and error type.
     pub static CHANNEL_ERRORS: [rt::profinet::ChannelError; 3] = [
         rt::profinet::ChannelError::new(0x0010, "", "", &[]),
         rt::profinet::ChannelError::new(

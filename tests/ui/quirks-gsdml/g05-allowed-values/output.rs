@@ -1,8 +1,8 @@
-            /// Checks the fields against the values that the device allows.
+            /// Checks that the device allows the values of all fields.
             ///
             /// # Errors
             ///
-            /// Fails if a field has another value.
+            /// Fails if a field has a value that the device does not allow.
             #[allow(clippy::approx_constant)]
             pub fn check(&self) -> Result<(), rt::profinet::NotAllowed> {
                 rt::profinet::check("List", self.list, &[(0, 0), (1, 1), (3, 3)])?;

@@ -1,6 +1,6 @@
         /// Inputs: data from the device to the controller.
         ///
-        /// 967 bytes of user data, consistent item by item.
+        /// 967 bytes of user data, with consistency only within each item.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|
@@ -22,7 +22,7 @@
             /// Ready: Boolean, byte 966.
             pub ready: bool,
         }
-            /// Returns the user data. Bits that no field covers are 0.
+            /// Returns the bytes of the user data. Bits without a field are 0.
             #[inline]
             pub fn pack(&self) -> [u8; 967] {
                 let mut data = [0; 967];

@@ -17,8 +17,8 @@
             /// Index of the record.
             pub const INDEX: u16 = 0x000A;
             const INDEX: u16 = Self::INDEX;
-            /// Position in the transfer sequence of the submodule's records at start-up; 0 = any.
+            /// Position among the start-up records of the submodule; 0 means any position.
             pub const TRANSFER_SEQUENCE: u16 = 0;
             const TRANSFER_SEQUENCE: u16 = Self::TRANSFER_SEQUENCE;
-            /// Default bytes.
+            /// Default content of the record.
             pub const DEFAULT_BYTES: [u8; 16] = *b"\x01\x00\x05\x00\x00\x00\x00\x00\xaa\x42\x00\x00\x00\x00\x00\x00";

@@ -1,4 +1,4 @@
-    /// Channel errors that the description names, by application process (API) and error type.
+    /// Channel errors in the device description, sorted by application process identifier (API) and error type.
     pub static CHANNEL_ERRORS: [rt::profinet::ChannelError; 1] = [
         rt::profinet::ChannelError::of_profile(
             0x3A00,

@@ -31,6 +31,6 @@
         Off,
         /// -1: Fault.
         Fault,
-        /// A number that the description does not list.
+        /// A number that is not in the device description.
         Unknown(i16),
     }

@@ -1,4 +1,4 @@
-        /// Description of the submodule, for modules and plans of slots.
+        /// Description of the submodule. Modules and slot plans use this constant.
         pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {
             ident: 0x00000001,
             api: 0x0000,

@@ -5,9 +5,9 @@
     ///
     /// Gain of the speed controller.
     ///
-    /// Access rights assumed: read-write. The manual does not state them.
+    /// Access rights assumed: read-write. The manual states no access rights.
     ///
-    /// Chapter Movement.
+    /// Chapter: Movement.
     pub const GAIN: ReadWrite<u16> = ReadWriteU16::register(
         rt::Register::holding(0),
         "Gain",
@@ -27,7 +27,7 @@
     ///
     /// Actual speed.
     ///
-    /// Chapter Movement.
+    /// Chapter: Movement.
     pub const SPEED: ReadOnly<u16> = ReadOnlyU16::register(
         rt::Register::holding(1),
         "Speed",

@@ -5,7 +5,7 @@
     ///
     /// Speed of the slide.
     ///
-    /// Chapter Movement. Manual: PARAMETRI MOVIMENTO, Speed (line 12): Velocità.
+    /// Chapter: Movement. Manual: PARAMETRI MOVIMENTO, Speed: Velocità.
     pub const SPEED: ReadWrite<u16> = ReadWriteU16::register(
         rt::Register::holding(0),
         "Speed",
@@ -18,9 +18,9 @@
     ///
     /// Mode of operation.
     ///
-    /// Chapter Movement. Manual: 3\.2 Modi; Allarmi, Mode (lines 31, 52-53).
+    /// Chapter: Movement. Manual: 3\.2 Modi; Allarmi, Mode.
     ///
-    /// Note: 2 modes and 3 modes. Assumed: 3 modes (the table has 3 rows). Manual: 3\.2 Modi (line 33).
+    /// Note: 2 modes and 3 modes. Assumed: 3 modes (the table has 3 rows). Manual: 3\.2 Modi.
     pub const MODE: ReadWrite<u16> = ReadWriteU16::register(
         rt::Register::holding(1),
         "Mode",
@@ -30,9 +30,9 @@
     ///
     /// Alarms of the press.
     ///
-    /// Manual: Allarmi (line 50).
+    /// Manual: Allarmi.
     ///
-    /// Type of the codes: [`Alarms`].
+    /// The codes have the type [`Alarms`].
     pub static ALARMS: &[rt::codes::Code] = &[
         rt::codes::Code::new(0x10, 0x10, "door open", "", &[]),
     ];

@@ -1,4 +1,4 @@
-    /// A code of [`ALARMS`].
+    /// Code of the table [`ALARMS`].
     ///
     /// | Code | Name |
     /// |---|---|
@@ -10,10 +10,10 @@
         Bus,
         /// 35: sensor.
         Sensor,
-        /// Any other code.
+        /// A code that is not in the table.
         Unknown(u16),
     }
-    /// A code of [`FAULTS`].
+    /// Code of the table [`FAULTS`].
     ///
     /// | Code | Name |
     /// |---|---|
@@ -25,6 +25,6 @@
         SynchronizationLost,
         /// F130 to F132: encoder.
         Encoder(u16),
-        /// Any other code.
+        /// A code that is not in the table.
         Unknown(u16),
     }

@@ -5,7 +5,7 @@
     ///
     /// Torque limit.
     ///
-    /// Chapter Movement. Manual, page 12.
+    /// Chapter: Movement. Manual, page 12.
     ///
     /// Hazard: Nm and Ncm. Assumed: Nm (the example computes with Nm). Manual, pages 12, 40.
     ///

@@ -6,7 +6,7 @@
     ///
     /// Note: The order of the bits is not printed. Assumed: bit 0 first (all tables begin so). Manual, page 3.
     ///
-    /// Values of [`CONTROL`](super::objects::CONTROL).
+    /// Type of the values of [`CONTROL`](super::objects::CONTROL).
     ///
     /// | Bits | Name |
     /// |---|---|
@@ -17,7 +17,7 @@
     ///
     /// Note: 0: 0 and 00. Assumed: 0 (both are the same). Manual, page 5.
     ///
-    /// Values of [`MODE`](super::objects::MODE).
+    /// Type of the values of [`MODE`](super::objects::MODE).
     ///
     /// | Value | Name |
     /// |---|---|
@@ -26,14 +26,14 @@
     pub enum Mode {
         /// 0: off.
         Off,
-        /// Any other number.
+        /// A number without a variant of its own.
         Unknown(u16),
     }
     /// alarms.
     ///
     /// Note: 0x1: Door and gate. Assumed: door (the figure shows a door). Manual, page 6.
     ///
-    /// Type of the codes: [`Alarms`].
+    /// The codes have the type [`Alarms`].
     pub static ALARMS: &[rt::codes::Code] = &[
         rt::codes::Code::new(1, 1, "door", "", &[]),
     ];

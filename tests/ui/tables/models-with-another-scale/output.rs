@@ -1,10 +1,10 @@
-            /// Level: range -2.0 … 200.0 °C (raw \-20 … 2000), default 5.0 °C (raw 50). Handle for all models: [`objects::LEVEL`].
+            /// Level: range -2.0 … 200.0 °C (raw \-20 … 2000), default 5.0 °C (raw 50). The handle for all models is [`objects::LEVEL`].
             pub const LEVEL: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::LEVEL,
                 rt::Range::Between(-20, 2000),
                 rt::Initial::Value(50),
             );
-            /// Level: range \-30 to 2000, default 7. Handle for all models: [`objects::LEVEL`].
+            /// Level: range \-30 to 2000, default 7. The handle for all models is [`objects::LEVEL`].
             pub const LEVEL: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::LEVEL,
                 rt::Range::Between(-30, 2000),
@@ -15,13 +15,13 @@
     /// 1 LSB = 0.1 °C, range -2.0 … 200.0 °C (raw \-20 … 2000), default 5.0 °C (raw 50), Modbus 0 (holding; wire 0; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`level`](super::Press::level).
     ///
-    /// Default and range of the row apply to the other models.
+    /// All other models have the default value and the range of this item.
     ///
     /// On P2: default 7, at least \-30, 1 LSB = 1 °C.
     ///
-    /// Writes are checked against the range of all models and buses: -3.0 … 200.0 °C (raw \-30 … 2000).
+    /// Generated code checks written values against the widest range of all models and buses: -3.0 … 200.0 °C (raw \-30 … 2000).
     ///
-    /// Chapter Values.
+    /// Chapter: Values.
     pub const LEVEL: ReadWrite<i16> = ReadWriteI16::new(
         rt::OnModbus::modbus(rt::Register::holding(0)),
         "Level",
@@ -37,7 +37,7 @@
         pub mod objects {
             use ::lexibus as rt;
             use super::super::super::objects;
-            /// Level: range \-30 to 2000, default 7. Handle for all models: [`objects::LEVEL`].
+            /// Level: range \-30 to 2000, default 7. The handle for all models is [`objects::LEVEL`].
             pub const LEVEL: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::LEVEL,
                 rt::Range::Between(-30, 2000),

@@ -5,7 +5,7 @@
     ///
     /// Speed of the slide: −10 … 10, ×2, the drive’s.
     ///
-    /// Chapter Registers.
+    /// Chapter: Registers.
     pub const SPEED: ReadWrite<i32> = ReadWriteI32::register(
         rt::Register::high_first(32769, 2).words_per_address(2),
         "Speed",
@@ -23,7 +23,7 @@
     /// Modbus 1 (holding; wire 1; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`gain`](super::Press::gain).
     ///
-    /// Chapter Parameters.
+    /// Chapter: Parameters.
     pub const GAIN: ReadWrite<u16> = ReadWriteU16::register(
         rt::Register::holding(1),
         "Gain",
@@ -34,7 +34,7 @@
     /// Modbus 2–3 (holding; wire 2–3; FC 3/16; low word first (assumed)), UNSIGNED32, read-write.
     /// Accessor: [`time`](super::Press::time).
     ///
-    /// Chapter Parameters.
+    /// Chapter: Parameters.
     pub const TIME: ReadWrite<u32> = ReadWriteU32::register(
         rt::Register::low_first(2, 2),
         "Time",

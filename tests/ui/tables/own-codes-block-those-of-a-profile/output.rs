@@ -81,7 +81,7 @@
     ///
     /// Manual, page 9.
     ///
-    /// Type of the codes: [`Faults`].
+    /// The codes have the type [`Faults`].
     pub static FAULTS: &[rt::codes::Code] = &[
         rt::codes::Code::new(0x1C98, 0x1C98, "cable", "", &[]),
     ];

@@ -1,6 +1,6 @@
     /// TxPDO 0x1A00.
     ///
-    /// Mapping 0x1A00, 96 bits.
+    /// Mapping object 0x1A00, 96 bits.
     ///
     /// | Bytes | Field | Object | Type |
     /// |---|---|---|---|
@@ -10,18 +10,18 @@
     /// | 10–11 | [`statusword`](Self::statusword) | [0x6041:00](super::objects::STATUSWORD) | `u16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Txpdo1a00 {
-        /// Position: an object with an unknown index, 32 bits from bit 0.
+        /// Position: an object with an unknown index, 32 bits at bit offset 0.
         pub position: i32,
-        /// Inputs: an object with an unknown index, 16 bits from bit 32.
+        /// Inputs: an object with an unknown index, 16 bits at bit offset 32.
         pub inputs: u16,
-        /// Temperature: an object with an unknown index, 32 bits from bit 48.
+        /// Temperature: an object with an unknown index, 32 bits at bit offset 48.
         pub temperature: f32,
-        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 80.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits at bit offset 80.
         pub statusword: u16,
     }
     /// TxPDO 0x1A00.
     ///
-    /// Layout: [`pdo::Txpdo1a00`](super::pdo::Txpdo1a00).
+    /// The layout is that of [`pdo::Txpdo1a00`](super::pdo::Txpdo1a00).
     pub struct Txpdo1a00<B> {
         pub(super) data: B,
         pub(super) bit: usize,

@@ -1,4 +1,4 @@
-            /// Temperature: range -20.0 … 100.0 °C (raw \-200 … 1000), default 30.0 °C (raw 300). Handle for all models: [`objects::TEMPERATURE`].
+            /// Temperature: range -20.0 … 100.0 °C (raw \-200 … 1000), default 30.0 °C (raw 300). The handle for all models is [`objects::TEMPERATURE`].
             pub const TEMPERATURE: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
                 objects::TEMPERATURE,
                 rt::Range::Between(-200, 1000),
@@ -11,11 +11,11 @@
     ///
     /// The device rounds to steps of 0.5 °C (raw 5).
     ///
-    /// Default and range of the row apply to the other models.
+    /// All other models have the default value and the range of this item.
     ///
     /// On P2: default 30.0 °C (raw 300), range ≤ 100.0 °C (raw ≤ 1000).
     ///
-    /// Chapter Values.
+    /// Chapter: Values.
     pub const TEMPERATURE: ReadWrite<rt::Scaled<i16, 1, 10>> = ReadWriteI16Times1Per10::new(
         rt::OnModbus::modbus(rt::Register::holding(0)),
         "Temperature",
@@ -29,7 +29,7 @@
     /// 1 LSB = -0.01 rev/s, range -100.00 … 100.00 rev/s (raw \-10000 … 10000), Modbus 1 (holding; wire 1; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`speed`](super::Press::speed).
     ///
-    /// Chapter Values.
+    /// Chapter: Values.
     pub const SPEED: ReadWrite<rt::Scaled<i16, -1, 100>> = ReadWriteI16TimesMinus1Per100::register_within(
         rt::Register::holding(1),
         "Speed",
@@ -42,7 +42,7 @@
     /// Physical value = 1000 / raw Hz, range 250 … 1000 Hz (raw 1 … 4), default 500 Hz (raw 2), Modbus 2 (holding; wire 2; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`frequency`](super::Press::frequency).
     ///
-    /// Chapter Values.
+    /// Chapter: Values.
     pub const FREQUENCY: ReadWrite<rt::Reciprocal<u16, 1000>> = ReadWriteReciprocalU16Times1000Per1::new(
         rt::OnModbus::modbus(rt::Register::holding(2)),
         "Frequency",
@@ -56,7 +56,7 @@
     /// Unit ms, at most 1000, default 250, Modbus 3 (holding; wire 3; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`time`](super::Press::time).
     ///
-    /// Chapter Values.
+    /// Chapter: Values.
     pub const TIME: ReadWrite<u16> = ReadWriteU16::new(
         rt::OnModbus::modbus(rt::Register::holding(3)),
         "Time",
@@ -70,7 +70,7 @@
     /// Physical value = raw × 0.1 / [Time](TIME) V, range raw ≤ 100, default raw 10, Modbus 4 (holding; wire 4; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`level`](super::Press::level).
     ///
-    /// Chapter Values.
+    /// Chapter: Values.
     pub const LEVEL: ReadWrite<rt::PerItem<u16, 1, 10>> = ReadWritePerItemU16Times1Per10::new(
         rt::OnModbus::modbus(rt::Register::holding(4)),
         "Level",
@@ -84,7 +84,7 @@
     /// Physical value = raw × 0.5 − 273.15 °C, one of -273.15 °C (raw 0), -268.15 … -263.15 °C (raw 10 … 20), default -268.15 °C (raw 10), Modbus 5 (holding; wire 5; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`steps`](super::Press::steps).
     ///
-    /// Chapter Values.
+    /// Chapter: Values.
     pub const STEPS: ReadWrite<rt::Scaled<i16, 10, 20, -5463>> = ReadWriteI16Times10Per20PlusMinus5463::new(
         rt::OnModbus::modbus(rt::Register::holding(5)),
         "Steps",

@@ -3,7 +3,7 @@
     /// Modbus 40101 (holding; wire 100; FC 3/16), UNSIGNED16, read-write.
     /// Accessor: [`speed`](super::Press::speed).
     ///
-    /// Chapter Holding.
+    /// Chapter: Holding.
     pub const SPEED: ReadWrite<u16> = ReadWriteU16::register(
         rt::Register::holding(100),
         "Speed",
@@ -21,7 +21,7 @@
     /// Modbus 40102–40103 (holding; wire 101–102; FC 3/16; low word first), INTEGER32, read-write.
     /// Accessor: [`position`](super::Press::position).
     ///
-    /// Chapter Holding.
+    /// Chapter: Holding.
     pub const POSITION: ReadWrite<i32> = ReadWriteI32::register(
         rt::Register::low_first(101, 2),
         "Position",
@@ -32,7 +32,7 @@
     /// Modbus 30005–30006 (input; wire 4–5; FC 4; high word first; bytes swapped), UNSIGNED32, read-only.
     /// Accessor: [`input`](super::Press::input).
     ///
-    /// Chapter Others.
+    /// Chapter: Others.
     pub const INPUT: ReadOnly<u32> = ReadOnlyU32::register(
         rt::Register::new(rt::RegisterTable::Input, 4, 2).swapped(),
         "Input",
@@ -43,7 +43,7 @@
     /// Modbus 7 (coil; wire 6; FC 1/5/15), BOOLEAN, read-write.
     /// Accessor: [`lamp`](super::Press::lamp).
     ///
-    /// Chapter Coils.
+    /// Chapter: Coils.
     pub const LAMP: ReadWrite<bool> = ReadWriteBool::register(
         rt::Register::new(rt::RegisterTable::Coil, 6, 1),
         "Lamp",
@@ -54,7 +54,7 @@
     /// Modbus 40104 (holding; wire 103; FC 3; from bit 3), BOOLEAN, read-only.
     /// Accessor: [`flags`](super::Press::flags).
     ///
-    /// Chapter Holding.
+    /// Chapter: Holding.
     pub const FLAGS: ReadOnly<bool> = ReadOnlyBool::register(
         rt::Register::holding(103).part(3, 1),
         "Flags",
