@@ -76,7 +76,7 @@ fn models_and_buses_differ() {
     assert_eq!(variants[1].scale, Some(Scale::Linear { factor: 0.1, offset: 0.0 }));
     let rust = rust(&text);
     assert!(rust.contains("On SM140: default 2, at most 20."), "{rust}");
-    assert!(rust.contains("On modbus: 1 LSB = 0.1."), "{rust}");
+    assert!(rust.contains("On Modbus: 1 LSB = 0.1."), "{rust}");
     is_wrong(", variants = [{ default = 2 }]", "neither `models` nor `buses`");
     is_wrong(", variants = [{ models = [\"SM140\"] }]", "changes nothing");
     is_wrong(", variants = [{ models = [\"SM150\"], default = 2 }]", "no model has the name `SM150`");
@@ -168,8 +168,13 @@ fn lists_and_ranges_of_values() {
 
 #[test]
 fn words_that_are_no_command() {
-    is_wrong(", save = \"no\"", "write `save = false` without quotes");
-    is_wrong(", save = \"yes\"", "write `save = true`");
+    for (word, flag) in [("no", "false"), ("yes", "true")] {
+        let more = format!(", save = \"{word}\"");
+        is_wrong(&more, &format!("`{word}` is not a command"));
+        let compilation = read(&a(&more));
+        let help = compilation.diagnostics.list()[0].help.as_deref().expect("help");
+        assert!(help.starts_with(&format!("write `save = {flag}` without quotes")), "{help}");
+    }
 }
 
 #[test]
@@ -376,7 +381,7 @@ fn findings_say_what_and_where() {
         &rows("w = { reg = 1, type = \"u16\", access = \"ro\", count = 3 }"),
         "all 3 items of the row have the name `w`",
     );
-    one(&a(", default = [1, 2]"), "the list has 2 defaults, but the row describes 1 items");
+    one(&a(", default = [1, 2]"), "the list has 2 defaults, but the row describes 1 item");
     let by_parameter = a("")
         .replace("modbus = { table = \"holding\" }", "parameter = true")
         .replace("reg = 1,", "reg = 1, swap = true,");

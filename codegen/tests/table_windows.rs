@@ -140,7 +140,7 @@ fn codes_of_one_bus() {
         "[codes.alarms]\ndoc = \"What is wrong\"\nbuses = [\"ethercat\"]\n[codes.alarms.rows]\n7 = \"motor blocked\"\n";
     assert_eq!(reported(text), [""; 0]);
     let code = rust(&format!("{WINDOWS}a = {{ reg = 1, type = \"u32\", access = \"ro\" }}\n{text}"));
-    assert!(code.contains("/// What is wrong.\n    ///\n    /// On ethercat."), "{code}");
+    assert!(code.contains("/// What is wrong.\n    ///\n    /// These codes occur on EtherCAT."), "{code}");
     assert!(reported(&text.replace("ethercat", "ethercatt"))[0].starts_with("TAB004"));
 }
 
