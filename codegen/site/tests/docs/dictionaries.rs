@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::Doubt;
 use lexibus_site::Site;
 
@@ -18,8 +19,10 @@ fn every_doubt_is_on_the_page_of_assumptions() {
         let page = pages.iter().find(|page| page.path.ends_with("assumptions.html")).expect("the page");
         // The page lists the ambiguity of a repeated row once and links to each of its items.
         let all = doubts::doubts(&catalog);
+        let manual = catalog.devices[0].manual.as_deref().expect("a manual");
         let fact = |doubt: &Doubt| {
-            (doubt.says.clone(), doubt.chosen.clone(), doubt.cite.clone(), format!("{:?}", doubt.subject))
+            let cite = doubt.cite.as_ref().map(|cite| PLAIN.citation(manual, "", cite));
+            (doubt.says.clone(), doubt.chosen.clone(), doubt.why.clone(), cite, format!("{:?}", doubt.subject))
         };
         let distinct: HashSet<_> = all.iter().map(fact).collect();
         let rows: Vec<_> = page.text.split("<tr><th scope=\"row\">").skip(1).collect();
