@@ -5,6 +5,7 @@ use core::time::Duration;
 use super::frame::CanFrame;
 use super::nmt::{self, NmtCommand, NmtState};
 use super::port::{AsyncCanPort, CanPort};
+use super::sdo::Owed;
 use crate::emergency::Emergency;
 use crate::error::Error;
 use crate::node_id::NodeId;
@@ -18,17 +19,25 @@ pub const TIMEOUT: Duration = Duration::from_millis(500);
 /// [`AsyncClient`](crate::AsyncClient), and its methods end in `_async`.
 ///
 /// Frames that arrive while another frame is expected are lost, unless the interface is [`Buffered`](super::Buffered).
+///
+/// # Late replies
+///
+/// If a reply doesn't arrive within the timeout, the client aborts the transfer. The reply may still arrive. The next
+/// transfer therefore waits for it, for at most one more timeout, and discards it. After an async transfer that was
+/// dropped, the next transfer sends the abort first. A transfer after a timeout thus takes up to one timeout longer.
+/// Replies to other requests don't prolong a transfer.
 #[derive(Clone, Debug)]
 pub struct Node<P> {
     port: P,
     id: NodeId,
     timeout: Duration,
+    pub(super) owed: Option<Owed>,
 }
 
 impl<P> Node<P> {
     /// Creates a client for the node `id` on `port`, with the default timeout [`TIMEOUT`].
     pub const fn new(port: P, id: NodeId) -> Self {
-        Self { port, id, timeout: TIMEOUT }
+        Self { port, id, timeout: TIMEOUT, owed: None }
     }
 
     /// Returns the client with another timeout for each reply, and for sending a frame on a busy bus.

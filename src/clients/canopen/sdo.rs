@@ -14,12 +14,72 @@ use crate::error::Error;
 use crate::node_id::NodeId;
 use crate::value_error::LengthError;
 
+/// Command specifiers of a node's replies: bits 5 to 7 of the first byte.
+const UPLOAD_SEGMENT: u8 = 0;
+const DOWNLOAD_SEGMENT: u8 = 1;
+const UPLOAD: u8 = 2;
+const DOWNLOAD: u8 = 3;
+const ABORT: u8 = 4;
+
+/// The reply that a request needs: its command specifier, or an abort of the same object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Expected {
+    answers: u16,
+    object: Object,
+    specifier: u8,
+}
+
+impl Expected {
+    /// Returns whether the frame is this reply. An SDO message has eight bytes (CiA 301 7.2.4.3). Other replies aren't
+    /// accepted, so that they don't restart the timeout.
+    fn is(self, frame: &CanFrame) -> bool {
+        let &[command, low, high, sub_index, ..] = frame.data() else { return false };
+        let is_message = frame.id() == self.answers && frame.data().len() == 8;
+        let is_of_object = self.object == Object::new(u16::from_le_bytes([low, high]), sub_index);
+        is_message
+            && match command >> 5 {
+                ABORT => is_of_object,
+                specifier => specifier == self.specifier && (self.is_segment() || is_of_object),
+            }
+    }
+
+    /// Returns whether the reply confirms or contains a segment. Segments don't name their object.
+    const fn is_segment(self) -> bool {
+        matches!(self.specifier, UPLOAD_SEGMENT | DOWNLOAD_SEGMENT)
+    }
+
+    /// Returns the expected reply to the first segment.
+    const fn segment(self) -> Self {
+        let specifier = match self.specifier {
+            UPLOAD => UPLOAD_SEGMENT,
+            DOWNLOAD => DOWNLOAD_SEGMENT,
+            other => other,
+        };
+        Self { specifier, ..self }
+    }
+}
+
+/// A reply that didn't arrive before the client gave up its transfer, or whose transfer was dropped.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Owed {
+    reply: Expected,
+    is_aborted: bool,
+}
+
+impl Owed {
+    /// Returns the message that aborts the transfer (CiA 301 7.2.4.3.17).
+    fn abort(&self, node: NodeId) -> CanFrame {
+        let ([low, high], [a, b, c, d]) = (self.reply.object.index.to_le_bytes(), AbortCode::GENERAL.0.to_le_bytes());
+        let data = [ABORT << 5, low, high, self.reply.object.sub_index, a, b, c, d];
+        CanFrame::of(SdoFrame::rsdo_id(node.get()), data)
+    }
+}
+
 /// An SDO transfer on the default channel: requests with COB-ID 0x600 + node-ID, replies with 0x580 + node-ID (CiA 301
 /// 7.3.5).
 struct Transfer {
     client: SdoClient,
-    answers: u16,
-    object: Object,
+    expected: Expected,
     /// Size of the caller's buffer in bytes, and for a segmented upload, the number of bytes received.
     room: usize,
     received: Option<usize>,
@@ -27,8 +87,8 @@ struct Transfer {
     is_unsized: bool,
     /// Next frame to send in response to the reply.
     next: Option<SdoFrame>,
-    /// How many more replies to other transfers are ignored before the transfer fails.
-    strangers: usize,
+    /// Whether the transfer was given up before the reply to its last request.
+    is_owed: bool,
     outcome: Option<Outcome>,
 }
 
@@ -42,29 +102,23 @@ enum Outcome {
 }
 
 impl Transfer {
-    fn new(node: NodeId, object: Object, room: usize) -> Self {
+    fn new(node: NodeId, object: Object, specifier: u8, room: usize) -> Self {
         // The port measures the timeout.
         let client = SdoClient::new(SdoConfig { timeout: u64::MAX });
         Self {
             client,
-            answers: SdoFrame::tsdo_id(node.get()),
-            object,
+            expected: Expected { answers: SdoFrame::tsdo_id(node.get()), object, specifier },
             room,
             received: None,
             is_unsized: false,
             next: None,
-            strangers: BACKLOG,
+            is_owed: false,
             outcome: None,
         }
     }
 
-    /// Returns a filter for possible replies. An SDO message has eight bytes (CiA 301 7.2.4.3).
-    fn is_answer(answers: u16) -> impl FnMut(&CanFrame) -> bool {
-        move |frame| frame.id() == answers && frame.data().len() == 8
-    }
-
     fn upload<E>(node: NodeId, object: Object, room: usize) -> Result<Self, Error<E>> {
-        let mut transfer = Self::new(node, object, room);
+        let mut transfer = Self::new(node, object, UPLOAD, room);
         let begun = transfer.client.begin_upload(node.get(), object.index, object.sub_index, 0);
         begun.map_err(|_| Error::UnexpectedReply)?;
         Ok(transfer)
@@ -75,7 +129,7 @@ impl Transfer {
             // An SDO transfer can't have the length 0.
             return Err(Error::Length(LengthError::new(1, 0)));
         }
-        let mut transfer = Self::new(node, object, data.len());
+        let mut transfer = Self::new(node, object, DOWNLOAD, data.len());
         let begun = transfer.client.begin_download(node.get(), object.index, object.sub_index, data, 0);
         begun.map_err(|_| Error::UnexpectedReply)?;
         Ok(transfer)
@@ -87,6 +141,12 @@ impl Transfer {
         CanFrame::new(frame.cob_id, &frame.data)
     }
 
+    /// Returns the reply that the node owes after this request.
+    fn owed(&self, request: &CanFrame) -> Option<Owed> {
+        let is_aborted = request.data().first().is_some_and(|command| command >> 5 == ABORT);
+        (self.is_owed || !is_aborted).then_some(Owed { reply: self.expected, is_aborted })
+    }
+
     /// Aborts the transfer and sends the abort code to the node.
     fn give_up(&mut self, code: SdoAbortCode, outcome: Outcome) {
         self.client.abort(code);
@@ -95,7 +155,10 @@ impl Transfer {
 
     /// Processes a reply, or `None` after a timeout.
     fn answer(&mut self, frame: Option<CanFrame>) {
-        let Some(frame) = frame else { return self.give_up(SdoAbortCode::ProtocolTimeout, Outcome::Late) };
+        let Some(frame) = frame else {
+            self.is_owed = true;
+            return self.give_up(SdoAbortCode::ProtocolTimeout, Outcome::Late);
+        };
         let data = frame.padded();
         if let Some(length) = self.too_long(&data) {
             return self.give_up(SdoAbortCode::OutOfMemory, Outcome::TooLong(length));
@@ -104,23 +167,20 @@ impl Transfer {
             return self.give_up(SdoAbortCode::DataTypeLengthMismatch, Outcome::Unexpected);
         }
         self.is_unsized = self.received.is_none() && data[0] & 0xE3 == 0x42;
-        self.outcome = match self.client.handle_frame(SdoFrame::new(self.answers, data), 0) {
+        self.outcome = match self.client.handle_frame(SdoFrame::new(self.expected.answers, data), 0) {
             Ok(Some(outcome)) => Some(Outcome::Done(outcome)),
             Ok(None) => None,
             Err(SdoError::ServerAborted(code)) => Some(Outcome::Refused(AbortCode(u32::from(code)))),
-            Err(_) => Some(Outcome::Unexpected),
+            Err(error) => {
+                // A repeated segment arrived before the requested one.
+                self.is_owed = matches!(error, SdoError::ClientAborted(SdoAbortCode::ToggleBitNotAlternated));
+                Some(Outcome::Unexpected)
+            }
         };
         self.next = self.client.poll_transmit();
+        self.expected = self.expected.segment();
         if self.outcome.is_none() && self.next.is_none() {
-            self.pass_over();
-        }
-    }
-
-    /// Ignores a reply to another transfer. Each reply restarts the timeout, so their number is limited.
-    fn pass_over(&mut self) {
-        self.strangers -= 1;
-        if self.strangers == 0 {
-            self.give_up(SdoAbortCode::ProtocolTimeout, Outcome::Late);
+            self.give_up(SdoAbortCode::General, Outcome::Unexpected);
         }
     }
 
@@ -132,11 +192,11 @@ impl Transfer {
     /// Returns the length of an upload if it is longer than the caller's buffer. This is the length that the node
     /// announces, or the length of the segments if it announces none. Memory is allocated only for data that fit.
     fn too_long(&mut self, data: &[u8; 8]) -> Option<usize> {
-        let [command, low, high, sub_index, length @ ..] = *data;
+        let [command, _, _, _, length @ ..] = *data;
         let length = match (command >> 5, self.received) {
             // Reply to the upload request. Bit 1 means that it contains the whole value, bit 0 that it contains a
             // length.
-            (2, None) if command & 2 == 0 && self.object == Object::new(u16::from_le_bytes([low, high]), sub_index) => {
+            (UPLOAD, None) if command & 2 == 0 => {
                 self.received = Some(0);
                 if command & 1 == 1 {
                     u32::from_le_bytes(length) as usize
@@ -145,7 +205,7 @@ impl Transfer {
                 }
             }
             // A segment. Bits 1 to 3 are the number of its seven bytes without data.
-            (0, Some(received)) => {
+            (UPLOAD_SEGMENT, Some(received)) => {
                 let received = received + 7 - usize::from(command >> 1 & 7);
                 self.received = Some(received);
                 received
@@ -157,6 +217,7 @@ impl Transfer {
 
     /// Aborts the transfer after the interface has failed, and returns the abort message to the node.
     fn broken(&mut self) -> Option<CanFrame> {
+        self.is_owed = true;
         self.client.abort(SdoAbortCode::General);
         self.request()
     }
@@ -190,29 +251,55 @@ impl Done {
 }
 
 macro_rules! transfers {
-    ($Port:ident $Client:ident $send:ident $run:ident $($async:ident $await:ident)?) => {
+    ($Port:ident $Client:ident $send:ident $settle:ident $run:ident $($async:ident $await:ident)?) => {
         impl<P: $Port> Node<P> {
-            $($async)? fn $run(&mut self, mut transfer: Transfer) -> Result<Done, Error<P::Error>> {
-                let (mut of_node, timeout) = (Transfer::is_answer(transfer.answers), self.timeout());
-                // Late replies to earlier requests may still be waiting.
+            /// Waits for the reply to an earlier transfer that was given up or dropped, and discards all waiting
+            /// replies. If the transfer was dropped, aborts it first.
+            $($async)? fn $settle(&mut self, answers: u16) -> Result<(), Error<P::Error>> {
+                let timeout = self.timeout();
+                if let Some(owed) = self.owed {
+                    if !owed.is_aborted {
+                        self.$send(&owed.abort(self.id()))$(.$await)??;
+                        self.owed = Some(Owed { is_aborted: true, ..owed });
+                    }
+                    let late = self.port().receive(timeout, &mut |frame| owed.reply.is(frame))$(.$await)?;
+                    late.map_err(Error::Client)?;
+                    self.owed = None;
+                }
                 let mut old = BACKLOG;
                 while old > 0 {
-                    let late = self.port().receive(Duration::ZERO, &mut of_node)$(.$await)?;
+                    let late = self.port().receive(Duration::ZERO, &mut |frame| frame.id() == answers)$(.$await)?;
                     old = if late.map_err(Error::Client)?.is_some() { old - 1 } else { 0 };
                 }
+                Ok(())
+            }
+
+            $($async)? fn $run(&mut self, mut transfer: Transfer) -> Result<Done, Error<P::Error>> {
+                let timeout = self.timeout();
+                self.$settle(transfer.expected.answers)$(.$await)??;
                 loop {
                     while let Some(frame) = transfer.request() {
-                        self.$send(&frame)$(.$await)??;
+                        self.owed = transfer.owed(&frame);
+                        if let Err(error) = self.$send(&frame)$(.$await)? {
+                            // The node doesn't reply to a first request that it didn't receive.
+                            self.owed = self.owed.filter(|owed| owed.reply.is_segment());
+                            return Err(error);
+                        }
                     }
                     if let Some(end) = transfer.end() {
                         return end;
                     }
-                    match self.port().receive(timeout, &mut of_node)$(.$await)? {
-                        Ok(answer) => transfer.answer(answer),
+                    let expected = transfer.expected;
+                    match self.port().receive(timeout, &mut |frame| expected.is(frame))$(.$await)? {
+                        Ok(answer) => {
+                            self.owed = None;
+                            transfer.answer(answer);
+                        }
                         Err(error) => {
                             // Abort, so that the node doesn't wait for the rest. The caller gets the first error, even
                             // if sending the abort fails.
                             if let Some(abort) = transfer.broken() {
+                                self.owed = transfer.owed(&abort);
                                 let _ = self.$send(&abort)$(.$await)?;
                             }
                             return Err(Error::Client(error));
@@ -239,5 +326,5 @@ macro_rules! transfers {
     };
 }
 
-transfers! { CanPort Client send run }
-transfers! { AsyncCanPort AsyncClient send_async run_async async await }
+transfers! { CanPort Client send settle run }
+transfers! { AsyncCanPort AsyncClient send_async settle_async run_async async await }

@@ -1,0 +1,270 @@
+//! SDO transfers with a simulated node.
+
+use std::collections::HashMap;
+use std::convert::Infallible;
+use std::future::Future;
+use std::pin::{pin, Pin};
+use std::sync::Arc;
+use std::task::{Context, Poll, Wake};
+use std::time::Duration;
+
+use canopen_sdo::{ObjectDictionary, SdoAbortCode, SdoFrame, SdoServer, ServerConfig};
+use lexibus::clients::canopen::{AsyncCanPort, CanFrame, CanPort, Node};
+use lexibus::{AsyncClient, Client, Error, NodeId, Object};
+
+use crate::now::now;
+use crate::random::Random;
+
+const NODE: u8 = 5;
+const TIMEOUT: Duration = Duration::from_millis(500);
+/// Number of requests since the start, which the node counts itself.
+const COUNT: Object = Object::new(0x2000, 0);
+/// The same as a text of 20 bytes, which needs several segments.
+const TEXT: Object = Object::new(0x2001, 0);
+const SETPOINT: Object = Object::new(0x2002, 0);
+
+/// What happens to the replies to one request.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fault {
+    Nothing,
+    /// The replies arrive after this time.
+    Late(Duration),
+    Lost,
+    Duplicated,
+    /// The replies have four bytes.
+    Truncated,
+    /// Instead of the reply, replies about another object arrive all the time.
+    Foreign,
+}
+
+struct Objects(HashMap<Object, Vec<u8>>);
+
+impl ObjectDictionary for Objects {
+    fn read(&mut self, index: u16, sub: u8, buffer: &mut [u8]) -> Result<usize, SdoAbortCode> {
+        let value = self.0.get(&Object::new(index, sub)).ok_or(SdoAbortCode::ObjectDoesNotExist)?;
+        buffer[..value.len()].copy_from_slice(value);
+        Ok(value.len())
+    }
+
+    fn write(&mut self, index: u16, sub: u8, data: &[u8]) -> Result<(), SdoAbortCode> {
+        self.0.insert(Object::new(index, sub), data.to_vec());
+        Ok(())
+    }
+}
+
+/// A CAN bus with one node. Its time passes only while somebody waits.
+struct Bus {
+    server: SdoServer<1024>,
+    objects: Objects,
+    now: Duration,
+    /// Frames with their times of arrival.
+    frames: Vec<(Duration, CanFrame)>,
+    fault: Fault,
+    aborts: usize,
+}
+
+impl Bus {
+    fn new() -> Self {
+        let server = SdoServer::new(ServerConfig::new(NODE));
+        let objects = Objects(HashMap::new());
+        Self { server, objects, now: Duration::ZERO, frames: Vec::new(), fault: Fault::Nothing, aborts: 0 }
+    }
+
+    /// Sets the values that the node counts.
+    fn count(&mut self, count: u32) {
+        self.objects.0.insert(COUNT, count.to_le_bytes().to_vec());
+        self.objects.0.insert(TEXT, text(count));
+    }
+
+    fn reply(&mut self, reply: CanFrame) {
+        let soon = self.now + Duration::from_millis(1);
+        match self.fault {
+            Fault::Nothing => self.frames.push((soon, reply)),
+            Fault::Late(delay) => self.frames.push((self.now + delay, reply)),
+            Fault::Lost => {}
+            Fault::Duplicated => self.frames.extend([(soon, reply), (soon, reply)]),
+            Fault::Truncated => self.frames.extend(CanFrame::new(reply.id(), &reply.data()[..4]).map(|it| (soon, it))),
+            Fault::Foreign => {
+                let foreign = CanFrame::new(0x585, &[0x43, 0x34, 0x12, 1, 9, 9, 9, 9]).expect("a frame");
+                self.frames.extend((1..300).map(|at| (self.now + at * TIMEOUT * 2 / 5, foreign)));
+            }
+        }
+    }
+}
+
+impl CanPort for Bus {
+    type Error = Infallible;
+
+    fn send(&mut self, frame: &CanFrame, _: Duration) -> Result<bool, Infallible> {
+        let data: [u8; 8] = frame.data().try_into().expect("an SDO message");
+        self.aborts += usize::from(data[0] == 0x80);
+        let _ = self.server.handle_frame(SdoFrame::new(frame.id(), data), 0, &mut self.objects);
+        while let Some(reply) = self.server.poll_transmit() {
+            self.reply(CanFrame::new(reply.cob_id, &reply.data).expect("a frame"));
+        }
+        Ok(true)
+    }
+
+    fn receive(
+        &mut self,
+        patience: Duration,
+        wanted: &mut dyn FnMut(&CanFrame) -> bool,
+    ) -> Result<Option<CanFrame>, Infallible> {
+        let end = self.now + patience;
+        loop {
+            let first = (0..self.frames.len()).min_by_key(|&at| self.frames[at].0);
+            let Some(first) = first.filter(|&at| self.frames[at].0 <= end) else {
+                self.now = end;
+                return Ok(None);
+            };
+            let (at, frame) = self.frames.remove(first);
+            self.now = self.now.max(at);
+            if wanted(&frame) {
+                return Ok(Some(frame));
+            }
+        }
+    }
+}
+
+/// The same bus, async. It can stay silent for ever.
+struct AsyncBus {
+    bus: Bus,
+    is_pending: bool,
+}
+
+impl AsyncCanPort for AsyncBus {
+    type Error = Infallible;
+
+    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Infallible> {
+        self.bus.send(frame, patience)
+    }
+
+    async fn receive(
+        &mut self,
+        patience: Duration,
+        wanted: &mut dyn FnMut(&CanFrame) -> bool,
+    ) -> Result<Option<CanFrame>, Infallible> {
+        if self.is_pending && !patience.is_zero() {
+            std::future::pending::<()>().await;
+        }
+        self.bus.receive(patience, wanted)
+    }
+}
+
+/// Polls a future once.
+pub fn poll_once<F: Future>(future: Pin<&mut F>) -> Poll<F::Output> {
+    struct Silent;
+    impl Wake for Silent {
+        fn wake(self: Arc<Self>) {}
+    }
+    future.poll(&mut Context::from_waker(&Arc::new(Silent).into()))
+}
+
+fn text(count: u32) -> Vec<u8> {
+    format!("{count:020}").into_bytes()
+}
+
+fn node() -> Node<Bus> {
+    Node::new(Bus::new(), NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT)
+}
+
+/// Returns the number of requests that failed. Panics at a wrong value.
+fn requests(mut node: Node<Bus>, count: u32, mut fault: impl FnMut(&mut Random) -> Fault) -> u32 {
+    let mut random = Random::new(28);
+    let mut failed = 0;
+    for number in 0..count {
+        node.port().count(number);
+        node.port().fault = fault(&mut random);
+        let mut buffer = [0; 20];
+        let result = match random.below(3) {
+            0 => Client::read(&mut node, COUNT, &mut buffer[..4]).map(|length| {
+                assert_eq!(buffer[..length], number.to_le_bytes(), "request {number}");
+            }),
+            1 => Client::read(&mut node, TEXT, &mut buffer).map(|length| {
+                assert_eq!(buffer[..length], text(number), "request {number}");
+            }),
+            _ => Client::write(&mut node, SETPOINT, &number.to_le_bytes()).map(|()| {
+                assert_eq!(node.port().objects.0[&SETPOINT], number.to_le_bytes(), "request {number}");
+            }),
+        };
+        match result {
+            Ok(()) => {}
+            Err(Error::Timeout) => failed += 1,
+            Err(other) => panic!("request {number}: {other}"),
+        }
+    }
+    failed
+}
+
+#[test]
+fn late_replies_are_not_those_of_the_next_request() {
+    let mut late = 0;
+    let failed = requests(node(), 10_000, |random| match random.below(20) {
+        0 => {
+            late += 1;
+            Fault::Late(TIMEOUT + Duration::from_millis(random.below(450)))
+        }
+        _ => Fault::Nothing,
+    });
+    println!("10,000 SDO transfers, {late} late: {failed} errors, no wrong value");
+    assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
+}
+
+#[test]
+fn foreign_replies_dont_prolong_a_transfer() {
+    let mut node = node();
+    node.port().count(1);
+    node.port().fault = Fault::Foreign;
+    assert_eq!(Client::read(&mut node, COUNT, &mut [0; 4]), Err(Error::Timeout));
+    assert_eq!(node.port().now, TIMEOUT);
+    node.port().fault = Fault::Nothing;
+    let mut buffer = [0; 4];
+    assert_eq!(Client::read(&mut node, COUNT, &mut buffer), Ok(4));
+    assert_eq!((buffer, node.port().now), ([1, 0, 0, 0], 2 * TIMEOUT + Duration::from_millis(1)));
+}
+
+#[test]
+fn other_faults_end_in_time() {
+    for (fault, expected) in
+        [(Fault::Lost, Err(Error::Timeout)), (Fault::Truncated, Err(Error::Timeout)), (Fault::Duplicated, Ok(4))]
+    {
+        let mut node = node();
+        node.port().count(0x0403_0201);
+        node.port().fault = fault;
+        let mut buffer = [0; 4];
+        assert_eq!(Client::read(&mut node, COUNT, &mut buffer), expected, "{fault:?}");
+        assert!(node.port().now <= TIMEOUT, "{fault:?}");
+        node.port().fault = Fault::Nothing;
+        node.port().count(7);
+        assert_eq!((Client::read(&mut node, COUNT, &mut buffer), buffer), (Ok(4), [7, 0, 0, 0]), "{fault:?}");
+    }
+}
+
+#[test]
+fn a_repeated_segment_isnt_data() {
+    let mut node = node();
+    node.port().count(7);
+    node.port().fault = Fault::Duplicated;
+    assert_eq!(Client::read(&mut node, TEXT, &mut [0; 20]), Err(Error::UnexpectedReply));
+    node.port().fault = Fault::Nothing;
+    node.port().count(8);
+    let mut buffer = [0; 20];
+    assert_eq!((Client::read(&mut node, TEXT, &mut buffer), &buffer[..]), (Ok(20), &text(8)[..]));
+}
+
+#[test]
+fn a_dropped_transfer_is_aborted_and_the_next_one_is_right() {
+    let bus = AsyncBus { bus: Bus::new(), is_pending: true };
+    let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
+    node.port().bus.count(7);
+    let mut buffer = [0; 20];
+    for object in [COUNT, TEXT] {
+        let mut dropped = pin!(AsyncClient::read(&mut node, object, &mut buffer));
+        assert_eq!(poll_once(dropped.as_mut()), Poll::Pending);
+    }
+    assert_eq!(node.port().bus.aborts, 1, "the second transfer aborts the first one");
+    node.port().is_pending = false;
+    node.port().bus.count(8);
+    assert_eq!(now(AsyncClient::read(&mut node, TEXT, &mut buffer)), Ok(20));
+    assert_eq!((&buffer[..], node.port().bus.aborts), (&text(8)[..], 1));
+}

@@ -1,0 +1,7 @@
+//! Clients on buses with faults, in simulated time. No fault gives a wrong value, and the next request is right.
+
+#[path = "../support/now.rs"]
+mod now;
+
+mod can;
+mod random;
