@@ -1,12 +1,20 @@
 //! SDO writes that configure a device.
 
-use super::word::to_bytes;
+use core::fmt;
+
+use super::word::{from_bytes, to_bytes};
 use crate::bus::{Bus, Object};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 
 /// A write of at most 8 bytes to an object. A configuration consists of such writes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+///
+/// ```
+/// use lexibus::SdoWrite;
+///
+/// assert_eq!(SdoWrite::new_u32(0x1400, 1, 0x8000_0205).to_string(), "0x1400:01 = 0x80000205");
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct SdoWrite {
     object: Object,
     data: [u8; 8],
@@ -73,10 +81,24 @@ impl SdoWrite {
     }
 }
 
+impl fmt::Display for SdoWrite {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let digits = 2 * usize::from(self.len);
+        write!(f, "{} = 0x{:0digits$X}", self.object, from_bytes(self.data()))
+    }
+}
+
+impl fmt::Debug for SdoWrite {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "SdoWrite({self})")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::CoE;
+    use std::format;
 
     #[derive(Default)]
     struct Last(Option<(Object, usize)>);
@@ -100,6 +122,7 @@ mod tests {
         assert_eq!(SdoWrite::new_u8(0x1600, 0, 2).data(), [2]);
         assert_eq!(SdoWrite::new_u16(0x1400, 3, 0x0102).data(), [2, 1]);
         assert_eq!(SdoWrite::new_u32(0x1400, 1, 0x8000_0205).data(), [5, 2, 0, 0x80]);
+        assert_eq!(format!("{:?}", SdoWrite::new_u16(0x1400, 3, 0xA)), "SdoWrite(0x1400:03 = 0x000A)");
     }
 
     #[test]

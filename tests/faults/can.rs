@@ -9,8 +9,8 @@ use std::task::{Context, Poll, Wake};
 use std::time::Duration;
 
 use canopen_sdo::{ObjectDictionary, SdoAbortCode, SdoFrame, SdoServer, ServerConfig};
-use lexibus::clients::canopen::{AsyncCanPort, CanFrame, CanPort, Node};
-use lexibus::{AsyncClient, Client, Error, NodeId, Object};
+use lexibus::clients::canopen::{sync, AsyncCanPort, Buffered, CanFrame, CanPort, Node};
+use lexibus::{AsyncClient, Client, CobId, Error, NodeId, Object};
 
 use crate::now::now;
 use crate::random::Random;
@@ -61,13 +61,15 @@ struct Bus {
     frames: Vec<(Duration, CanFrame)>,
     fault: Fault,
     aborts: usize,
+    /// Number of SYNC messages, which the node sends in its PDO.
+    sample: u32,
 }
 
 impl Bus {
     fn new() -> Self {
         let server = SdoServer::new(ServerConfig::new(NODE));
         let objects = Objects(HashMap::new());
-        Self { server, objects, now: Duration::ZERO, frames: Vec::new(), fault: Fault::Nothing, aborts: 0 }
+        Self { server, objects, now: Duration::ZERO, frames: Vec::new(), fault: Fault::Nothing, aborts: 0, sample: 0 }
     }
 
     /// Sets the values that the node counts.
@@ -96,6 +98,11 @@ impl CanPort for Bus {
     type Error = Infallible;
 
     fn send(&mut self, frame: &CanFrame, _: Duration) -> Result<bool, Infallible> {
+        if frame.id() == 0x080 {
+            self.sample = self.sample.wrapping_add(1);
+            self.reply(CanFrame::new(0x185, &self.sample.to_le_bytes()).expect("a frame"));
+            return Ok(true);
+        }
         let data: [u8; 8] = frame.data().try_into().expect("an SDO message");
         self.aborts += usize::from(data[0] == 0x80);
         let _ = self.server.handle_frame(SdoFrame::new(frame.id(), data), 0, &mut self.objects);
@@ -267,4 +274,58 @@ fn a_dropped_transfer_is_aborted_and_the_next_one_is_right() {
     node.port().bus.count(8);
     assert_eq!(now(AsyncClient::read(&mut node, TEXT, &mut buffer)), Ok(20));
     assert_eq!((&buffer[..], node.port().bus.aborts), (&text(8)[..], 1));
+}
+
+const PDO: CobId = CobId::from_node(0x180);
+
+/// Returns a node that has sent 200 PDOs, of which the buffer keeps 16 after a wait for another message.
+fn behind() -> Node<Buffered<AsyncBus, 16>> {
+    let mut bus = Bus::new();
+    for _ in 0..200 {
+        bus.send(&sync(), Duration::ZERO).expect("it is sent");
+    }
+    bus.now = Duration::from_secs(1);
+    bus.count(7);
+    let bus = AsyncBus { bus, is_pending: false };
+    Node::new(Buffered::new(bus), NodeId::new(NODE).expect("a node-ID"))
+}
+
+fn sample(frame: CanFrame) -> u32 {
+    u32::from_le_bytes(frame.data().try_into().expect("four bytes"))
+}
+
+#[test]
+fn a_pdo_after_clear_and_sync_is_new() {
+    now(async {
+        let mut node = behind();
+        node.port().clear_async().await?;
+        node.sync_async().await.expect("it is sent");
+        let pdo = node.receive_pdo_async(PDO, TIMEOUT).await.expect("a PDO");
+        assert_eq!(sample(pdo), 201);
+        // The same with a part of the PDOs in the buffer, and without blocking.
+        let mut node = behind();
+        AsyncClient::read(&mut node, COUNT, &mut [0; 4]).await.expect("a value");
+        node.port().clear_async().await?;
+        assert_eq!(node.latest_pdo_async(PDO).await, Ok(None));
+        Ok::<(), Infallible>(())
+    })
+    .expect("no fault");
+    let mut node = Node::new(Buffered::<_, 16>::new(behind().into_port().into_inner().bus), NodeId::new(NODE).unwrap());
+    node.port().clear().expect("no fault");
+    node.sync().expect("it is sent");
+    assert_eq!(sample(node.receive_pdo(PDO, TIMEOUT).expect("a PDO")), 201);
+}
+
+#[test]
+fn the_latest_pdo_is_the_newest_one() {
+    let mut node = behind();
+    assert_eq!(now(node.latest_pdo_async(PDO)).map(|pdo| pdo.map(sample)), Ok(Some(200)));
+    assert_eq!(now(node.latest_pdo_async(PDO)), Ok(None));
+    // Some of the PDOs are in the buffer.
+    let mut node = behind();
+    assert_eq!(now(node.heartbeat_async(Duration::ZERO)), Ok(None));
+    assert_eq!(now(node.latest_pdo_async(PDO)).map(|pdo| pdo.map(sample)), Ok(Some(200)));
+    let mut node = Node::new(behind().into_port().into_inner().bus, NodeId::new(NODE).expect("a node-ID"));
+    assert_eq!(node.latest_pdo(PDO).map(|pdo| pdo.map(sample)), Ok(Some(200)));
+    assert_eq!(node.latest_pdo(PDO), Ok(None));
 }

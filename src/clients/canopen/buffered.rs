@@ -3,7 +3,7 @@
 use core::time::Duration;
 
 use super::frame::CanFrame;
-use super::port::{AsyncCanPort, CanPort};
+use super::port::{AsyncCanPort, CanPort, MOST_WAITING};
 
 /// CAN interface with a buffer for up to `N` received frames. Frames that arrive while another frame is expected are
 /// kept, for example an emergency message during an SDO transfer.
@@ -26,6 +26,10 @@ struct Kept<const N: usize> {
 impl<const N: usize> Kept<N> {
     const fn new() -> Self {
         Self { frames: [None; N], count: 0, lost: 0 }
+    }
+
+    fn clear(&mut self) {
+        *self = Self { lost: self.lost, ..Self::new() };
     }
 
     fn push(&mut self, frame: CanFrame) {
@@ -72,11 +76,6 @@ impl<P, const N: usize> Buffered<P, N> {
         self.kept.lost
     }
 
-    /// Removes all frames from the buffer.
-    pub fn clear(&mut self) {
-        self.kept = Kept { lost: self.kept.lost, ..Kept::new() };
-    }
-
     /// Returns the wrapped interface and drops the buffer.
     pub fn into_inner(self) -> P {
         self.port
@@ -84,7 +83,26 @@ impl<P, const N: usize> Buffered<P, N> {
 }
 
 macro_rules! buffered {
-    ($Port:ident $($async:ident $await:ident)?) => {
+    ($Port:ident $clear:ident $($async:ident $await:ident)?) => {
+        impl<P: $Port, const N: usize> Buffered<P, N> {
+            /// Discards all frames that have already arrived: those in the buffer and those in the receive queue of
+            /// the interface. A frame that is received afterwards is newer than this call.
+            ///
+            /// # Errors
+            ///
+            /// The errors of the interface.
+            pub $($async)? fn $clear(&mut self) -> Result<(), P::Error> {
+                self.kept.clear();
+                for _ in 0..MOST_WAITING {
+                    let waiting = self.port.receive(Duration::ZERO, &mut |_| true)$(.$await)?;
+                    if waiting?.is_none() {
+                        break;
+                    }
+                }
+                Ok(())
+            }
+        }
+
         impl<P: $Port, const N: usize> $Port for Buffered<P, N> {
             type Error = P::Error;
 
@@ -107,8 +125,8 @@ macro_rules! buffered {
     };
 }
 
-buffered! { CanPort }
-buffered! { AsyncCanPort async await }
+buffered! { CanPort clear }
+buffered! { AsyncCanPort clear_async async await }
 
 #[cfg(test)]
 mod tests {

@@ -4,7 +4,7 @@ use core::time::Duration;
 
 use super::frame::CanFrame;
 use super::nmt::{self, NmtCommand, NmtState};
-use super::port::{AsyncCanPort, CanPort};
+use super::port::{AsyncCanPort, CanPort, MOST_WAITING};
 use super::sdo::Owed;
 use crate::emergency::Emergency;
 use crate::error::Error;
@@ -100,7 +100,7 @@ fn pdo<E>(cob_id: CobId, node: NodeId, data: &[u8]) -> Result<CanFrame, Error<E>
 macro_rules! methods {
     (
         $Port:ident: $send:ident $nmt:ident $sync:ident $heartbeat:ident $wait_for:ident $emergency:ident $send_pdo:ident
-        $receive_pdo:ident $($async:ident $await:ident)?
+        $receive_pdo:ident $latest_pdo:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> Node<P> {
             /// Sends a frame to any receiver.
@@ -188,8 +188,8 @@ macro_rules! methods {
 
             /// Waits for the next PDO with this COB-ID and returns it, for `unpack` of a generated struct.
             ///
-            /// A [`Buffered`](super::Buffered) interface returns its oldest PDO. If you need the newest one, call
-            /// [`clear`](super::Buffered::clear) before SYNC.
+            /// The interface returns the oldest PDO that is waiting. For the newest one, use
+            /// [`latest_pdo`](Self::latest_pdo), or call [`clear`](super::Buffered::clear) before SYNC.
             ///
             /// # Errors
             ///
@@ -205,12 +205,54 @@ macro_rules! methods {
                 let frame = self.port.receive(patience, &mut |frame| frame.id() == id)$(.$await)?;
                 frame.map_err(Error::Client)?.ok_or(Error::Timeout)
             }
+
+            /// Returns the newest PDO with this COB-ID that has arrived since the last call, without waiting. Discards
+            /// the older ones, in the interface too. Returns `None` if none has arrived.
+            ///
+            /// A control loop that calls this in each cycle never uses a PDO that is older than one cycle. `None` in
+            /// several cycles means that the node doesn't send any more:
+            ///
+            /// ```
+            /// # use lexibus::clients::canopen::{CanPort, Node};
+            /// # use lexibus::{CobId, Error};
+            /// # use std::time::{Duration, Instant};
+            /// const STATUS: CobId = CobId::from_node(0x180);
+            ///
+            /// fn cycle<P: CanPort>(node: &mut Node<P>, last: &mut Instant) -> Result<(), Error<P::Error>> {
+            ///     match node.latest_pdo(STATUS)? {
+            ///         Some(pdo) => {
+            ///             *last = Instant::now();
+            ///             println!("{:?}", pdo.data());
+            ///         }
+            ///         None if last.elapsed() > Duration::from_millis(20) => return Err(Error::Timeout),
+            ///         None => {}
+            ///     }
+            ///     Ok(())
+            /// }
+            /// ```
+            ///
+            /// # Errors
+            ///
+            /// - [`Error::Client`] if the interface fails.
+            /// - [`Error::OutOfRange`] as for [`send_pdo`](Self::send_pdo).
+            pub $($async)? fn $latest_pdo(&mut self, cob_id: CobId) -> Result<Option<CanFrame>, Error<P::Error>> {
+                let id = identifier(cob_id, self.id)?;
+                let mut newest = None;
+                for _ in 0..MOST_WAITING {
+                    let frame = self.port.receive(Duration::ZERO, &mut |frame| frame.id() == id)$(.$await)?;
+                    match frame.map_err(Error::Client)? {
+                        Some(frame) => newest = Some(frame),
+                        None => break,
+                    }
+                }
+                Ok(newest)
+            }
         }
     };
 }
 
-methods! { CanPort: send nmt sync heartbeat wait_for emergency send_pdo receive_pdo }
+methods! { CanPort: send nmt sync heartbeat wait_for emergency send_pdo receive_pdo latest_pdo }
 methods! {
     AsyncCanPort: send_async nmt_async sync_async heartbeat_async wait_for_async emergency_async send_pdo_async
-    receive_pdo_async async await
+    receive_pdo_async latest_pdo_async async await
 }

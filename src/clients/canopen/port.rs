@@ -8,6 +8,9 @@ use super::frame::CanFrame;
 /// seen even with a timeout of zero, and a busy bus doesn't block the caller forever.
 pub(super) const BACKLOG: usize = 256;
 
+/// Maximum number of frames that are discarded from the receive queue of an interface: more than any queue holds.
+pub(super) const MOST_WAITING: usize = 0x1_0000;
+
 /// CAN interface with timeouts.
 ///
 /// Implement it for a library with its own frame type:

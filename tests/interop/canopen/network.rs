@@ -33,7 +33,7 @@ fn states_and_heartbeat() -> Result<(), Error> {
         assert_eq!(device.heartbeat_time().read()?, 20);
         assert_eq!(script.ask(json!({ "do": "state" })), name);
         // Discard heartbeats that have already arrived.
-        device.client().port().clear();
+        device.client().port().clear().map_err(lexibus::Error::Client)?;
         device.client().wait_for(state, PATIENCE)?;
     }
     device.client().send(&NmtCommand::Start.frame(None))?;
