@@ -4,35 +4,36 @@
 //! use std::time::Duration;
 //!
 //! use lexibus::clients::modbus::tokio_modbus::Slave;
-//! use lexibus::clients::modbus::{sync, ModbusClient};
+//! use lexibus::clients::modbus::{BlockingLink, Link, ModbusClient};
 //! use lexibus::{Item, OnModbus, Register, Rw};
 //!
 //! type Speed = Item<u32, Rw, OnModbus>;
 //! const SPEED: Speed = Speed::register(Register::high_first(10, 2), "Speed", lexibus::Flags::NONE);
 //!
-//! // Set a timeout. Without it, a call to a device that doesn't reply never returns.
-//! let patience = Some(Duration::from_secs(1));
-//! let context = sync::tcp::connect_with_timeout("127.0.0.1:502".parse()?, patience)?;
-//! let mut device = ModbusClient::new(context);
+//! let timeout = Duration::from_secs(1);
+//! let link = BlockingLink::open(async {
+//!     Ok(Link::tcp(tokio::net::TcpStream::connect("127.0.0.1:502").await?, Slave(1), timeout))
+//! })?;
+//! let mut device = ModbusClient::new(link);
 //! SPEED.at(&mut device).write(1500)?;
 //!
 //! // RTU needs a serial line of the crate `tokio-serial` and the address of the device.
 //! let line = tokio_serial::new("/dev/ttyUSB0", 19_200);
-//! let context = sync::rtu::connect_slave_with_timeout(&line, Slave(5), patience)?;
-//! let mut device = ModbusClient::new(context);
+//! let link = BlockingLink::open(async {
+//!     Ok(Link::rtu(tokio_serial::SerialStream::open(&line)?, Slave(5), timeout))
+//! })?;
+//! let mut device = ModbusClient::new(link);
 //! SPEED.at(&mut device).write(1500)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Async contexts have no timeout. Wrap the calls in `tokio::time::timeout`.
+//! A [`Link`] has a timeout and discards late replies. Contexts of `tokio-modbus` work too, but they don't discard
+//! late replies, and async contexts have no timeout. After a late reply, a context of [`rtu`] returns the value of the
+//! previous request for each request with the same length. A context of [`tcp`] then rejects every reply. Create a new
+//! context in this case.
 //!
-//! Modbus RTU has no transaction ID, so a reply can't be matched to its request. After a timeout or a dropped call, a
-//! late reply may arrive while the next request waits. A write detects this, because its reply repeats the request. A
-//! read can return the value of another register with the same length. Create a new context in this case. TCP has
-//! transaction IDs: calls fail until the replies match the requests again.
-//!
-//! With a context of [`sync`], a [`ModbusClient`] is a [`Client`] and a [`RegisterClient`]. With a context of [`tcp`]
-//! or [`rtu`], it is an [`AsyncClient`] and an [`AsyncRegisterClient`].
+//! With a [`BlockingLink`] or a context of [`sync`], a [`ModbusClient`] is a [`Client`] and a [`RegisterClient`]. With a
+//! [`Link`] or a context of [`tcp`] or [`rtu`], it is an [`AsyncClient`] and an [`AsyncRegisterClient`].
 //!
 //! Some devices don't support all requests. Generated bindings list the supported ones in the constant `MODBUS`, for
 //! [`with_limits`](ModbusClient::with_limits). The client then uses only supported requests. If none fits, it returns
@@ -57,6 +58,7 @@
 use std::error;
 use std::fmt;
 
+use tokio::io::{AsyncRead, AsyncWrite};
 use tokio_modbus::client::{Client as _, Context};
 use tokio_modbus::{ExceptionCode, Response};
 
@@ -69,8 +71,10 @@ use crate::error::Error;
 use crate::modbus::{AsyncRegisterClient, Limits, RegisterClient};
 use crate::register::{Register, RegisterTable};
 
+mod link;
 mod request;
 
+pub use link::{BlockingLink, Link};
 use request::{Answer, Echo, Writes};
 
 /// Client for a device, over a context of `tokio-modbus`.
@@ -187,7 +191,7 @@ impl From<ModbusError> for Error<ModbusError> {
 type Reply = tokio_modbus::Result<Response>;
 
 macro_rules! clients {
-    ([$($generics:tt)*] $context:ident: $Client:ident $RegisterClient:ident $($async:ident $await:ident)?) => {
+    ([$($generics:tt)*] $context:ty: $Client:ident $RegisterClient:ident $($async:ident $await:ident)?) => {
         impl<$($generics)*> $Client for ModbusClient<$context> {
             type Bus = Modbus;
             type Error = ModbusError;
@@ -226,6 +230,9 @@ macro_rules! clients {
 
 clients! { [T: sync::Client] T: Client RegisterClient }
 clients! { [] Context: AsyncClient AsyncRegisterClient async await }
+clients! {
+    [T: AsyncRead + AsyncWrite + Unpin + Send + 'static] Link<T>: AsyncClient AsyncRegisterClient async await
+}
 
 #[cfg(test)]
 mod tests;

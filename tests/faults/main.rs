@@ -4,4 +4,5 @@
 mod now;
 
 mod can;
+mod modbus;
 mod random;

@@ -248,6 +248,11 @@ impl Echo {
         }))
     }
 
+    /// Returns whether the response confirms the write.
+    pub(super) fn is(&self, response: &Response) -> bool {
+        self.0.as_ref() == Some(response)
+    }
+
     /// Checks that the reply confirms the write. A late reply to another write doesn't match.
     pub(super) fn check(self, reply: Reply) -> Result<(), Error<ModbusError>> {
         if self.0 == Some(response(reply)?) {

@@ -1,0 +1,323 @@
+//! Connections with a timeout that discard late replies.
+
+use core::future::{poll_fn, Future};
+use core::pin::Pin;
+use core::task::{ready, Context as TaskContext, Poll};
+use core::time::Duration;
+use std::fmt;
+use std::io;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::vec::Vec;
+
+use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
+use tokio::runtime::{Builder, Runtime};
+use tokio::time::{timeout, timeout_at, Instant};
+use tokio_modbus::client::{rtu, sync, tcp, Client as _, Context};
+use tokio_modbus::prelude::SlaveContext;
+use tokio_modbus::{Request, Response, Slave};
+
+use super::request::Echo;
+use super::Reply;
+use crate::framing::Check;
+
+/// Minimum silence between two frames of RTU at more than 19,200 bit/s (MODBUS over Serial Line 2.5.1.1), and the
+/// time in which the end of a late reply is recognized.
+const GAP: Duration = Duration::from_micros(1750);
+
+/// Shortest wait that lets the executor see waiting bytes.
+const TURN: Duration = Duration::from_millis(1);
+
+/// Connection to a device that never takes a late reply for the reply to another request.
+///
+/// Modbus RTU has no transaction ID, so a reply can't be matched to its request. After a timeout, an invalid reply or a
+/// dropped call, the link waits before it sends the next request. It discards the late reply, or it waits until the
+/// line has been silent for twice the timeout. Such a call takes at most four timeouts, all others at most one.
+///
+/// Before each request, RTU waits for the silence that separates frames.
+///
+/// ```no_run
+/// use std::time::Duration;
+///
+/// use lexibus::clients::modbus::tokio_modbus::Slave;
+/// use lexibus::clients::modbus::{Link, ModbusClient};
+/// use lexibus::{Flags, Item, OnModbus, Register, Rw};
+///
+/// const SPEED: Item<u32, Rw, OnModbus> =
+///     Item::<u32, Rw, OnModbus>::register(Register::high_first(10, 2), "Speed", Flags::NONE);
+///
+/// # async fn drive() -> Result<(), Box<dyn std::error::Error>> {
+/// let line = tokio_serial::SerialStream::open(&tokio_serial::new("/dev/ttyUSB0", 19_200))?;
+/// let mut device = ModbusClient::new(Link::rtu(line, Slave(5), Duration::from_millis(500)));
+/// SPEED.at(&mut device).write_async(1500).await?;
+/// # Ok(())
+/// # }
+/// ```
+pub struct Link<T> {
+    context: Context,
+    line: Shared<T>,
+    device: Slave,
+    timeout: Duration,
+    is_rtu: bool,
+    /// Whether the reply to the last request may still arrive.
+    is_unsettled: bool,
+}
+
+impl<T> fmt::Debug for Link<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Link").field("timeout", &self.timeout).field("is_rtu", &self.is_rtu).finish_non_exhaustive()
+    }
+}
+
+impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
+    /// Creates a connection to `device` with Modbus RTU. `timeout` is the time from the request to the end of the
+    /// reply.
+    pub fn rtu(line: T, device: Slave, timeout: Duration) -> Self {
+        Self::new(line, device, timeout, true)
+    }
+
+    /// Creates a connection to `device` with Modbus TCP. After a timeout, the late reply costs no further call.
+    pub fn tcp(line: T, device: Slave, timeout: Duration) -> Self {
+        Self::new(line, device, timeout, false)
+    }
+
+    fn new(line: T, device: Slave, timeout: Duration, is_rtu: bool) -> Self {
+        let line = Shared::new(line);
+        let context = attach(line.clone(), device, is_rtu);
+        Self { context, line, device, timeout, is_rtu, is_unsettled: false }
+    }
+
+    /// Sends a request and waits for the reply.
+    pub(super) async fn call(&mut self, request: Request<'_>) -> Reply {
+        self.settle().await?;
+        let expected = Expected::of(&request);
+        // A dropped call leaves the link unsettled.
+        self.is_unsettled = true;
+        let reply = timeout(self.timeout, self.context.call(request)).await;
+        let reply = reply.unwrap_or_else(|_| Err(late().into()));
+        if matches!(&reply, Err(tokio_modbus::Error::Transport(error)) if error.kind() != io::ErrorKind::TimedOut) {
+            // After an invalid frame, a context reports the end of the stream.
+            self.context = attach(self.line.clone(), self.device, self.is_rtu);
+        }
+        self.is_unsettled = match &reply {
+            Ok(Ok(response)) => !expected.is(response),
+            Ok(Err(_)) => false,
+            Err(_) => true,
+        };
+        reply
+    }
+
+    /// Waits until no earlier reply can arrive any more, and discards what has arrived.
+    async fn settle(&mut self) -> io::Result<()> {
+        let pause = match (self.is_unsettled, self.is_rtu) {
+            (true, _) => 2 * self.timeout,
+            (false, true) => GAP,
+            (false, false) => return Ok(()),
+        };
+        let end = Instant::now() + 3 * self.timeout;
+        let mut discarded = Vec::new();
+        loop {
+            // A complete frame is the reply that was missing.
+            let pause = if self.is_unsettled && self.is_frame(&discarded) { GAP } else { pause };
+            let silent = (self.line.lock().last + pause).max(Instant::now() + TURN);
+            match timeout_at(silent.min(end), self.line.discard(&mut discarded)).await {
+                Ok(Ok(0)) => return Err(io::ErrorKind::UnexpectedEof.into()),
+                Ok(Ok(_)) => {}
+                Ok(Err(error)) => return Err(error),
+                // Noise without a pause.
+                Err(_) if Instant::now() < silent => return Err(late()),
+                Err(_) => break,
+            }
+        }
+        self.is_unsettled = false;
+        Ok(())
+    }
+
+    /// Returns whether the bytes are one complete frame.
+    fn is_frame(&self, bytes: &[u8]) -> bool {
+        if self.is_rtu {
+            // The CRC over a frame and its CRC is zero.
+            (4..=256).contains(&bytes.len()) && Check::Crc16(0xFFFF).of(bytes) == [0; 2]
+        } else {
+            let length = bytes.get(4..6).map(|length| usize::from(length[0]) << 8 | usize::from(length[1]));
+            length.is_some_and(|length| bytes.len() == 6 + length)
+        }
+    }
+}
+
+fn attach<T>(line: Shared<T>, device: Slave, is_rtu: bool) -> Context
+where
+    T: AsyncRead + AsyncWrite + Unpin + Send + 'static,
+{
+    if is_rtu {
+        rtu::attach_slave(line, device)
+    } else {
+        tcp::attach_slave(line, device)
+    }
+}
+
+fn late() -> io::Error {
+    io::ErrorKind::TimedOut.into()
+}
+
+impl<T> SlaveContext for Link<T> {
+    fn set_slave(&mut self, slave: Slave) {
+        self.device = slave;
+        self.context.set_slave(slave);
+    }
+}
+
+/// What a reply must contain to belong to a request.
+enum Expected {
+    Words(u16),
+    Bits(u16),
+    Echo(Echo),
+}
+
+impl Expected {
+    fn of(request: &Request<'_>) -> Self {
+        match request {
+            Request::ReadHoldingRegisters(_, count) | Request::ReadInputRegisters(_, count) => Self::Words(*count),
+            Request::ReadCoils(_, count) | Request::ReadDiscreteInputs(_, count) => Self::Bits(*count),
+            request => Self::Echo(Echo::of(request)),
+        }
+    }
+
+    fn is(&self, response: &Response) -> bool {
+        match (self, response) {
+            (Self::Words(count), Response::ReadHoldingRegisters(words) | Response::ReadInputRegisters(words)) => {
+                words.len() == usize::from(*count)
+            }
+            (Self::Bits(count), Response::ReadCoils(bits) | Response::ReadDiscreteInputs(bits)) => {
+                bits.len().div_ceil(8) == usize::from(*count).div_ceil(8)
+            }
+            (Self::Echo(echo), response) => echo.is(response),
+            _ => false,
+        }
+    }
+}
+
+/// A stream that the context of `tokio-modbus` and the [`Link`] share.
+struct Shared<T>(Arc<Mutex<Line<T>>>);
+
+struct Line<T> {
+    stream: T,
+    /// Time of the last byte in either direction.
+    last: Instant,
+}
+
+impl<T> Clone for Shared<T> {
+    fn clone(&self) -> Self {
+        Self(Arc::clone(&self.0))
+    }
+}
+
+impl<T> fmt::Debug for Shared<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Shared")
+    }
+}
+
+impl<T> Shared<T> {
+    fn new(stream: T) -> Self {
+        Self(Arc::new(Mutex::new(Line { stream, last: Instant::now() })))
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Line<T>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<T: AsyncRead + Unpin> Shared<T> {
+    /// Waits for bytes, appends the first 260 of them to `to` and returns their number.
+    async fn discard(&self, to: &mut Vec<u8>) -> io::Result<usize> {
+        let mut bytes = [0; 260];
+        let mut buffer = ReadBuf::new(&mut bytes);
+        poll_fn(|context| Pin::new(&mut &*self).read(context, &mut buffer)).await?;
+        let read = buffer.filled();
+        to.extend(read.iter().take(260_usize.saturating_sub(to.len())));
+        Ok(read.len())
+    }
+
+    fn read(self: Pin<&mut &Self>, context: &mut TaskContext<'_>, buffer: &mut ReadBuf<'_>) -> Poll<io::Result<()>> {
+        let mut line = self.lock();
+        let before = buffer.filled().len();
+        ready!(Pin::new(&mut line.stream).poll_read(context, buffer))?;
+        if buffer.filled().len() > before {
+            line.last = Instant::now();
+        }
+        Poll::Ready(Ok(()))
+    }
+}
+
+impl<T: AsyncRead + Unpin> AsyncRead for Shared<T> {
+    fn poll_read(
+        self: Pin<&mut Self>,
+        context: &mut TaskContext<'_>,
+        buffer: &mut ReadBuf<'_>,
+    ) -> Poll<io::Result<()>> {
+        Pin::new(&mut &*self).read(context, buffer)
+    }
+}
+
+impl<T: AsyncWrite + Unpin> AsyncWrite for Shared<T> {
+    fn poll_write(self: Pin<&mut Self>, context: &mut TaskContext<'_>, bytes: &[u8]) -> Poll<io::Result<usize>> {
+        let mut line = self.lock();
+        let written = ready!(Pin::new(&mut line.stream).poll_write(context, bytes));
+        line.last = Instant::now();
+        Poll::Ready(written)
+    }
+
+    fn poll_flush(self: Pin<&mut Self>, context: &mut TaskContext<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.lock().stream).poll_flush(context)
+    }
+
+    fn poll_shutdown(self: Pin<&mut Self>, context: &mut TaskContext<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.lock().stream).poll_shutdown(context)
+    }
+}
+
+/// A [`Link`] whose calls block.
+///
+/// ```no_run
+/// use std::time::Duration;
+///
+/// use lexibus::clients::modbus::tokio_modbus::Slave;
+/// use lexibus::clients::modbus::{BlockingLink, Link, ModbusClient};
+///
+/// let line = tokio_serial::new("/dev/ttyUSB0", 19_200);
+/// let link = BlockingLink::open(async {
+///     Ok(Link::rtu(tokio_serial::SerialStream::open(&line)?, Slave(5), Duration::from_millis(500)))
+/// })?;
+/// let mut device = ModbusClient::new(link);
+/// # Ok::<(), std::io::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct BlockingLink<T> {
+    runtime: Runtime,
+    link: Link<T>,
+}
+
+impl<T> BlockingLink<T> {
+    /// Runs `open`, which opens the stream and creates the link.
+    ///
+    /// # Errors
+    ///
+    /// The errors of `open`, and those of the operating system.
+    pub fn open(open: impl Future<Output = io::Result<Link<T>>>) -> io::Result<Self> {
+        let runtime = Builder::new_current_thread().enable_all().build()?;
+        let link = runtime.block_on(open)?;
+        Ok(Self { runtime, link })
+    }
+}
+
+impl<T> SlaveContext for BlockingLink<T> {
+    fn set_slave(&mut self, slave: Slave) {
+        self.link.set_slave(slave);
+    }
+}
+
+impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> sync::Client for BlockingLink<T> {
+    fn call(&mut self, request: Request<'_>) -> Reply {
+        self.runtime.block_on(self.link.call(request))
+    }
+}

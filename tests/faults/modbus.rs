@@ -1,0 +1,243 @@
+//! Modbus RTU and TCP with a simulated device, in simulated time.
+
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use lexibus::clients::modbus::tokio_modbus::client::tcp;
+use lexibus::clients::modbus::tokio_modbus::Slave;
+use lexibus::clients::modbus::{BlockingLink, Link, ModbusClient};
+use lexibus::framing::Check;
+use lexibus::{AsyncClient, Client, Error, Flags, Item, OnModbus, Register, Rw};
+use tokio::io::{duplex, AsyncReadExt, AsyncWriteExt, DuplexStream};
+use tokio::time::{sleep, timeout, Instant};
+
+use crate::random::Random;
+
+const DEVICE: u8 = 5;
+const TIMEOUT: Duration = Duration::from_millis(200);
+/// Number of requests since the start, in two registers.
+const COUNT: Register = Register::high_first(10, 2);
+const SETPOINT: Register = Register::holding(20);
+
+type Setpoint = Item<u16, Rw, OnModbus>;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fault {
+    Nothing,
+    Late(Duration),
+    Lost,
+    Duplicated,
+    Truncated,
+    /// Before the reply, one of another device or transaction.
+    Foreign,
+    Noise,
+    /// Bytes without a pause, for a minute.
+    EndlessNoise,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct World {
+    count: u32,
+    setpoint: u16,
+    fault: Fault,
+}
+
+type Shared = Arc<Mutex<World>>;
+
+fn world() -> Shared {
+    Arc::new(Mutex::new(World { count: 0, setpoint: 0, fault: Fault::Nothing }))
+}
+
+fn frame(is_rtu: bool, transaction: [u8; 2], device: u8, data: &[u8]) -> Vec<u8> {
+    let mut frame = vec![device];
+    frame.extend(data);
+    if is_rtu {
+        frame.extend(Check::Crc16(0xFFFF).of(&frame));
+        return frame;
+    }
+    let [high, low] = (frame.len() as u16).to_be_bytes();
+    [&transaction[..], &[0, 0, high, low], &frame].concat()
+}
+
+/// Replies to requests of functions 3 and 6, one after the other.
+async fn serve(mut line: DuplexStream, is_rtu: bool, world: Shared) {
+    let mut request = vec![0; if is_rtu { 8 } else { 12 }];
+    while line.read_exact(&mut request).await.is_ok() {
+        let (transaction, data) =
+            if is_rtu { ([0; 2], &request[1..6]) } else { ([request[0], request[1]], &request[7..]) };
+        let World { count, fault, .. } = *world.lock().unwrap();
+        let reply = match data[0] {
+            3 => [&[3, 4][..], &count.to_be_bytes()].concat(),
+            _ => {
+                world.lock().unwrap().setpoint = u16::from_be_bytes([data[3], data[4]]);
+                data.to_vec()
+            }
+        };
+        let good = frame(is_rtu, transaction, DEVICE, &reply);
+        let foreign = frame(is_rtu, [0xAB, 0xCD], DEVICE + 1, &reply);
+        sleep(Duration::from_millis(1)).await;
+        let sent = match fault {
+            Fault::Nothing => good,
+            Fault::Late(delay) => {
+                sleep(delay).await;
+                good
+            }
+            Fault::Lost => continue,
+            Fault::Duplicated => [&good[..], &good].concat(),
+            Fault::Truncated => good[..good.len() - 3].to_vec(),
+            Fault::Foreign => [foreign, good].concat(),
+            Fault::Noise => [&[0xFF; 40], &good[..]].concat(),
+            Fault::EndlessNoise => {
+                for _ in 0..6000 {
+                    line.write_all(&[0xFF]).await.unwrap();
+                    sleep(Duration::from_millis(10)).await;
+                }
+                continue;
+            }
+        };
+        line.write_all(&sent).await.unwrap();
+    }
+}
+
+fn link(is_rtu: bool, world: &Shared) -> Link<DuplexStream> {
+    let (line, device) = duplex(0x1_0000);
+    tokio::spawn(serve(device, is_rtu, world.clone()));
+    let link = if is_rtu { Link::rtu } else { Link::tcp };
+    link(line, Slave(DEVICE), TIMEOUT)
+}
+
+fn blocking(is_rtu: bool, world: &Shared) -> ModbusClient<BlockingLink<DuplexStream>> {
+    let link = BlockingLink::open(async {
+        tokio::time::pause();
+        Ok(link(is_rtu, world))
+    });
+    ModbusClient::new(link.expect("a link"))
+}
+
+/// Reads or writes once. Panics at a wrong value.
+async fn request<C: AsyncClient<Bus = lexibus::Modbus>>(
+    device: &mut C,
+    world: &Shared,
+    number: u32,
+    writes: bool,
+) -> Result<(), Error<C::Error>> {
+    world.lock().unwrap().count = number;
+    if writes {
+        device.write(SETPOINT, &(number as u16).to_le_bytes()).await?;
+        assert_eq!(world.lock().unwrap().setpoint, number as u16, "request {number}");
+    } else {
+        let mut buffer = [0; 4];
+        device.read(COUNT, &mut buffer).await?;
+        assert_eq!(u32::from_le_bytes(buffer), number, "request {number}");
+    }
+    Ok(())
+}
+
+#[tokio::test(start_paused = true)]
+async fn late_replies_are_not_those_of_the_next_request() {
+    for is_rtu in [true, false] {
+        let world = world();
+        let mut device = ModbusClient::new(link(is_rtu, &world));
+        let mut random = Random::new(28);
+        let (mut late, mut failed) = (0, 0);
+        for number in 0..10_000 {
+            let is_late = random.below(20) == 0;
+            late += u32::from(is_late);
+            let delay = Duration::from_millis(200 + random.below(190));
+            world.lock().unwrap().fault = if is_late { Fault::Late(delay) } else { Fault::Nothing };
+            match request(&mut device, &world, number, random.below(2) == 0).await {
+                Ok(()) => {}
+                Err(Error::Timeout) => failed += 1,
+                Err(other) => panic!("request {number}: {other}"),
+            }
+        }
+        let name = if is_rtu { "RTU" } else { "TCP" };
+        println!("10,000 Modbus {name} requests, {late} late: {failed} errors, no wrong value");
+        assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn after_each_fault_the_next_request_is_right() {
+    let faults = [
+        Fault::Late(TIMEOUT),
+        Fault::Lost,
+        Fault::Duplicated,
+        Fault::Truncated,
+        Fault::Foreign,
+        Fault::Noise,
+        Fault::EndlessNoise,
+    ];
+    for is_rtu in [true, false] {
+        for fault in faults {
+            let world = world();
+            let mut device = ModbusClient::new(link(is_rtu, &world));
+            world.lock().unwrap().fault = fault;
+            let start = Instant::now();
+            let first = request(&mut device, &world, 1, false).await;
+            let longest = start.elapsed();
+            assert!(longest <= TIMEOUT + Duration::from_millis(10), "{fault:?}: {longest:?}");
+            if fault == Fault::EndlessNoise {
+                let start = Instant::now();
+                assert!(matches!(request(&mut device, &world, 2, false).await, Err(Error::Timeout)));
+                assert!(start.elapsed() <= 4 * TIMEOUT, "{:?}", start.elapsed());
+                sleep(Duration::from_secs(60)).await;
+            }
+            world.lock().unwrap().fault = Fault::Nothing;
+            let start = Instant::now();
+            let second = request(&mut device, &world, 3, false).await;
+            println!("rtu {is_rtu} {fault:?}: {first:?} in {longest:?}, then {second:?} in {:?}", start.elapsed());
+            assert!(second.is_ok(), "{fault:?}: {second:?}");
+            assert!(start.elapsed() <= 4 * TIMEOUT, "{fault:?}: {:?}", start.elapsed());
+        }
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn after_a_dropped_call_the_next_one_is_right() {
+    for is_rtu in [true, false] {
+        let world = world();
+        let mut device = ModbusClient::new(link(is_rtu, &world));
+        world.lock().unwrap().fault = Fault::Late(Duration::from_millis(100));
+        let dropped = timeout(Duration::from_millis(20), request(&mut device, &world, 1, false)).await;
+        assert!(dropped.is_err());
+        world.lock().unwrap().fault = Fault::Nothing;
+        request(&mut device, &world, 2, false).await.expect("the reply");
+    }
+}
+
+#[test]
+fn blocking_calls_after_a_late_reply() {
+    for is_rtu in [true, false] {
+        let world = world();
+        let mut device = blocking(is_rtu, &world);
+        world.lock().unwrap().fault = Fault::Late(TIMEOUT);
+        assert!(matches!(Client::read(&mut device, COUNT, &mut [0; 4]), Err(Error::Timeout)));
+        world.lock().unwrap().fault = Fault::Nothing;
+        world.lock().unwrap().count = 7;
+        let mut buffer = [0; 4];
+        assert_eq!(Client::read(&mut device, COUNT, &mut buffer).expect("a value"), 4);
+        assert_eq!(buffer, [7, 0, 0, 0]);
+        const ITEM: Setpoint = Setpoint::register(SETPOINT, "Setpoint", Flags::NONE);
+        ITEM.at(&mut device).write(12).expect("a reply");
+        assert_eq!(world.lock().unwrap().setpoint, 12);
+    }
+}
+
+/// A context of `tokio-modbus` alone keeps the late reply. This is why [`Link`] exists.
+#[tokio::test(start_paused = true)]
+async fn contexts_without_a_link_are_out_of_step() {
+    let world = world();
+    let (line, device) = duplex(0x1_0000);
+    tokio::spawn(serve(device, false, world.clone()));
+    let mut device = ModbusClient::new(tcp::attach_slave(line, Slave(DEVICE)));
+    world.lock().unwrap().fault = Fault::Late(TIMEOUT);
+    assert!(timeout(TIMEOUT, request(&mut device, &world, 1, false)).await.is_err());
+    world.lock().unwrap().fault = Fault::Nothing;
+    sleep(TIMEOUT).await;
+    let mut failed = 0;
+    for number in 2..12 {
+        failed += u32::from(request(&mut device, &world, number, false).await.is_err());
+    }
+    assert_eq!(failed, 10, "each call gets the reply to the one before");
+}
