@@ -3,7 +3,9 @@
 use crate::bus::{Parameter, Serial};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
-use crate::message::{answer, Answer, AsyncMessageClient, Message, MessageClient, Station, WriteError, Writer};
+use crate::message::{
+    answer, Answer, AsyncMessageClient, Failure, Message, MessageClient, Station, WriteError, Writer,
+};
 use crate::value_error::LengthError;
 
 /// Sends a request to one device and blocks until the reply arrives. Clients of request and reply protocols use this
@@ -47,6 +49,10 @@ pub trait Exchange {
     /// Returns [`Error::Client`] if the line fails or no reply arrives. Returns [`Error::Length`] if `request` is too
     /// long for the protocol or the reply is longer than `reply`.
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
+
+    /// Notes that the last reply doesn't belong to its request, so that its own reply may still arrive. The next
+    /// exchange should discard it. The default implementation does nothing.
+    fn unsettle(&mut self) {}
 }
 
 /// Sends a request to one device and receives the reply without blocking, under the same rules as [`Exchange`].
@@ -76,6 +82,9 @@ pub trait AsyncExchange {
     ///
     /// Returns the errors of [`Exchange::exchange`].
     async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
+
+    /// Notes that the last reply doesn't belong to its request, as [`Exchange::unsettle`] does.
+    fn unsettle(&mut self) {}
 }
 
 /// Messages of a protocol that reads and writes numbered parameters.
@@ -201,6 +210,10 @@ macro_rules! clients {
             $($async)? fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<T::Error>> {
                 T::exchange(self, request, reply)$(.$await)?
             }
+
+            fn unsettle(&mut self) {
+                T::unsettle(self);
+            }
         }
 
         impl<X: $Exchange, M: ParameterMessages, const N: usize> $Client for Parameters<X, M, N> {
@@ -211,14 +224,22 @@ macro_rules! clients {
                 let length = self.messages.read_request(parameter, buffer.len(), &mut self.request)?;
                 let request = filled(&self.request, length)?;
                 let length = self.exchange.exchange(request, &mut self.reply)$(.$await)??;
-                self.messages.read_reply(parameter, request, filled(&self.reply, length)?, buffer)
+                let read = self.messages.read_reply(parameter, request, filled(&self.reply, length)?, buffer);
+                if matches!(read, Err(Error::UnexpectedReply | Error::Length(_))) {
+                    self.exchange.unsettle();
+                }
+                read
             }
 
             $($async)? fn write(&mut self, parameter: Parameter, data: &[u8]) -> Result<(), Error<X::Error>> {
                 let length = self.messages.write_request(parameter, data, &mut self.request)?;
                 let request = filled(&self.request, length)?;
                 let length = self.exchange.exchange(request, &mut self.reply)$(.$await)??;
-                self.messages.write_reply(parameter, request, filled(&self.reply, length)?)
+                let written = self.messages.write_reply(parameter, request, filled(&self.reply, length)?);
+                if matches!(written, Err(Error::UnexpectedReply | Error::Length(_))) {
+                    self.exchange.unsettle();
+                }
+                written
             }
         }
 
@@ -229,7 +250,11 @@ macro_rules! clients {
                 let mut request = Writer::new(&mut self.request);
                 message.write(self.messages.station(), &mut request)?;
                 let length = self.exchange.exchange(request.written(), &mut self.reply)$(.$await)??;
-                answer::<_, M>(request.written(), filled(&self.reply, length)?)
+                let answer = answer::<_, M>(request.written(), filled(&self.reply, length)?);
+                if matches!(answer, Err(Failure::Error(Error::UnexpectedReply | Error::Length(_)))) {
+                    self.exchange.unsettle();
+                }
+                answer
             }
         }
     };

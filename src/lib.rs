@@ -66,7 +66,7 @@
 //! | scaling and units | [`Quantity`], [`Scaled`] and related types |
 //! | the state machine of a drive | [`Step`] |
 //! | alarms and other codes | [`codes`] |
-//! | custom clients | [`Client`], [`AsyncClient`], [`RegisterClient`](modbus::RegisterClient), [`RecordClient`](profinet::RecordClient), [`Exchange`] |
+//! | custom clients | [`Client`], [`AsyncClient`], [`RegisterClient`](modbus::RegisterClient), [`RecordClient`](profinet::RecordClient), [`Exchange`], [`Clock`], [`Timer`] |
 //! | process data of CANopen, custom PDO mappings | [`pdo`](mod@pdo), [`pdo!`] |
 //! | EtherCAT: PDO assignment, slots, start-up lists | [`ethercat`] |
 //! | PROFINET: plans, records, images, diagnosis | [`profinet`] |
@@ -111,6 +111,7 @@ mod bus;
 mod client;
 #[cfg(any(feature = "canopen", feature = "ethercat", feature = "modbus", feature = "serial"))]
 pub mod clients;
+mod clock;
 pub mod codes;
 mod composite;
 mod data_type;
@@ -160,6 +161,7 @@ pub use bit_field::debug_bits;
 pub use bit_field::{bits16, bits32, bits64, bits8};
 pub use bus::{Bus, CanOpen, CoE, Esc, EscMemory, Modbus, Object, Parameter, ProcessImage, Profinet, Record, Serial};
 pub use client::{AsyncClient, Client, Timed, Write};
+pub use clock::{Clock, DefaultClock, Timer};
 pub use composite::Composite;
 pub use data_type::DataType;
 pub use emergency::Emergency;

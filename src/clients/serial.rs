@@ -23,18 +23,48 @@
 //! }
 //! ```
 //!
-//! The crate `embedded-io-adapters` converts streams of `std` to streams of `embedded-io`. The stream determines the
-//! timeout for a reply, and its timeout error becomes the error of the exchange.
+//! The crate `embedded-io-adapters` converts streams of `std` to streams of `embedded-io`.
+//!
+//! # Timeouts
+//!
+//! A blocking stream determines how long a read may last, and its timeout error becomes the error of the exchange.
+//! [`SerialLine::with_time`] bounds the whole exchange, also if noise arrives all the time. Async streams have no
+//! timeout, so an async line needs a timer:
+//!
+//! ```
+//! use core::time::Duration;
+//! use lexibus::clients::serial::SerialLine;
+//! use lexibus::framing::Delimited;
+//!
+//! # let (port, other) = ((), ());
+//! // A blocking line; `|| timer.elapsed()` without the feature `std`.
+//! let line: SerialLine<_, _, 140> = SerialLine::new(port, Delimited::new(None, b'\r')).with_timeout(Duration::from_secs(1));
+//! // An async line; `embassy_time::Timer::after` on a microcontroller.
+//! let line: SerialLine<_, _, 140, _> =
+//!     SerialLine::new(other, Delimited::new(None, b'\r')).with_time(tokio::time::sleep, Duration::from_secs(1));
+//! ```
+//!
+//! # Late replies
+//!
+//! Nothing in a frame tells which request it replies to. After a timeout, an invalid reply or a dropped exchange, the
+//! next exchange first discards the late reply. It waits for a frame, or until a read of the stream times out, or for
+//! at most one timeout of the line. This needs a stream whose reads time out, or an async line with a timer. If the
+//! stream implements `embedded_io::ReadReady`, [`SerialLine::draining`] discards repeated replies as well.
 
 use core::error;
 use core::fmt;
+use core::time::Duration;
 
+use crate::clock::{Clock, DefaultClock, Timer};
 use crate::error::Error;
 use crate::exchange::{AsyncExchange, Exchange};
 use crate::framing::{FrameError, Framing};
 
 pub use embedded_io;
 pub use embedded_io_async;
+
+/// Maximum number of bytes of an exchange that aren't part of the reply.
+const MOST_NOISE: usize = 4096;
 
 /// Client for a device on a stream `S` with the framing `F`. `N` is the maximum length of a frame to send, in bytes. If
 /// the framing has escapes, this is twice the length of data and check, plus start and end.
@@ -44,28 +74,46 @@ pub use embedded_io_async;
 /// stream if this is too slow.
 ///
 /// Bytes before a reply are ignored. An invalid reply ends the exchange with an error, unless another frame starts
-/// within it. That frame is then the reply. Only the protocol can check whether a reply belongs to its request.
-pub struct SerialLine<S, F: Framing, const N: usize> {
+/// within it. That frame is then the reply. Only the protocol can check whether a reply belongs to its request. After
+/// 4096 bytes without a reply, the exchange ends with [`Error::Timeout`].
+///
+/// `T` is the [`Clock`] of a blocking line or the [`Timer`] of an async line.
+pub struct SerialLine<S, F: Framing, const N: usize, T = DefaultClock> {
+    line: Line<S, F, N>,
+    time: T,
+    timeout: Option<Duration>,
+    /// Whether the reply to the last request may still arrive.
+    is_unsettled: bool,
+    /// Whether a read of the stream has timed out, so that reads don't block forever.
+    times_out: bool,
+}
+
+/// A stream with a framing.
+struct Line<S, F: Framing, const N: usize> {
     stream: S,
     framing: F,
+    /// Returns whether a read returns at once.
+    ready: Option<fn(&mut S) -> bool>,
     /// Decoder state after an invalid reply whose end wasn't received.
     within: Option<F::Decoder>,
 }
 
-impl<S: Clone, F: Framing + Clone, const N: usize> Clone for SerialLine<S, F, N>
+impl<S: Clone, F: Framing + Clone, const N: usize, T: Clone> Clone for SerialLine<S, F, N, T>
 where
     F::Decoder: Clone,
 {
     fn clone(&self) -> Self {
-        Self { stream: self.stream.clone(), framing: self.framing.clone(), within: self.within.clone() }
+        let Line { stream, framing, ready, within } = &self.line;
+        let line = Line { stream: stream.clone(), framing: framing.clone(), ready: *ready, within: within.clone() };
+        Self { line, time: self.time.clone(), ..*self }
     }
 }
 
-impl<S: fmt::Debug, F: Framing + fmt::Debug, const N: usize> fmt::Debug for SerialLine<S, F, N> {
+impl<S: fmt::Debug, F: Framing + fmt::Debug, const N: usize, T> fmt::Debug for SerialLine<S, F, N, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("SerialLine")
-            .field("stream", &self.stream)
-            .field("framing", &self.framing)
+            .field("stream", &self.line.stream)
+            .field("framing", &self.line.framing)
             .finish_non_exhaustive()
     }
 }
@@ -73,19 +121,51 @@ impl<S: fmt::Debug, F: Framing + fmt::Debug, const N: usize> fmt::Debug for Seri
 impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
     /// Creates a client for the device at the other end of `stream`.
     pub const fn new(stream: S, framing: F) -> Self {
-        Self { stream, framing, within: None }
+        let line = Line { stream, framing, ready: None, within: None };
+        Self { line, time: DefaultClock, timeout: None, is_unsettled: false, times_out: false }
     }
 
-    /// Returns the stream, for example to discard late bytes.
+    /// Returns the line with a timeout for each exchange, measured with the [`DefaultClock`]. Without the feature `std`,
+    /// and for async lines, use [`with_time`](Self::with_time).
+    #[must_use]
+    pub fn with_timeout(self, timeout: Duration) -> Self {
+        self.with_time(DefaultClock, timeout)
+    }
+
+    /// Returns the line with a timeout for each exchange. `time` is the [`Clock`] of a blocking line or the [`Timer`]
+    /// of an async line. An exchange of a blocking line ends when the timeout has expired and the next byte arrives, or
+    /// a read times out.
+    #[must_use]
+    pub fn with_time<T>(self, time: T, timeout: Duration) -> SerialLine<S, F, N, T> {
+        let Self { line, is_unsettled, times_out, .. } = self;
+        SerialLine { line, time, timeout: Some(timeout), is_unsettled, times_out }
+    }
+}
+
+impl<S, F: Framing, const N: usize, T> SerialLine<S, F, N, T> {
+    /// Returns the line, which from now on discards all waiting bytes before each request: repeated replies, and
+    /// messages that the device sends without a request.
+    #[must_use]
+    pub fn draining(mut self) -> Self
+    where
+        S: embedded_io::ReadReady,
+    {
+        self.line.ready = Some(|stream| stream.read_ready().unwrap_or(false));
+        self
+    }
+
+    /// Returns the stream.
     pub fn stream(&mut self) -> &mut S {
-        &mut self.stream
+        &mut self.line.stream
     }
 
     /// Returns the stream and drops the client.
     pub fn into_stream(self) -> S {
-        self.stream
+        self.line.stream
     }
+}
 
+impl<S, F: Framing, const N: usize> Line<S, F, N> {
     /// Returns the decoder for the next bytes. It also detects the rest of a reply that was cut off, which isn't a
     /// reply.
     fn decoder(&mut self) -> F::Decoder {
@@ -158,35 +238,135 @@ fn one<E>(byte: [u8; 1], count: usize) -> Result<u8, Error<SerialError<E>>> {
     }
 }
 
-macro_rules! exchanges {
-    ($Exchange:ident $io:ident $($async:ident $await:ident)?) => {
-        impl<S, F, const N: usize> $Exchange for SerialLine<S, F, N>
-        where
-            S: $io::Read + $io::Write,
-            F: Framing,
-        {
-            type Error = SerialError<S::Error>;
+/// Returns whether a read of the stream has timed out.
+fn is_timeout<E: embedded_io::Error>(error: &Error<SerialError<E>>) -> bool {
+    matches!(error, Error::Client(SerialError::Stream(error)) if error.kind() == embedded_io::ErrorKind::TimedOut)
+}
 
-            $($async)? fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>> {
-                let mut frame = [0; N];
-                let length = self.framing.encode(request, &mut frame)?;
-                let sent = self.stream.write_all(frame.get(..length).unwrap_or_default())$(.$await)?;
-                sent.map_err(failed)?;
+/// Defines the parts of an exchange, blocking and async.
+macro_rules! exchanges {
+    ($io:ident $call:ident $receive:ident $discard:ident $($async:ident $await:ident)?) => {
+        impl<S: $io::Read + $io::Write, F: Framing, const N: usize> Line<S, F, N> {
+            /// Discards waiting bytes if the stream tells of them, sends a frame, and reads until the reply is complete or `is_late` returns true.
+            $($async)? fn $call(
+                &mut self,
+                frame: &[u8],
+                reply: &mut [u8],
+                mut is_late: impl FnMut() -> bool,
+            ) -> Result<usize, Error<SerialError<S::Error>>> {
+                if let Some(ready) = self.ready {
+                    for _ in 0..MOST_NOISE {
+                        if !ready(&mut self.stream) {
+                            break;
+                        }
+                        self.$receive()$(.$await)??;
+                    }
+                }
+                self.stream.write_all(frame)$(.$await)?.map_err(failed)?;
                 self.stream.flush()$(.$await)?.map_err(failed)?;
                 let mut decoder = self.decoder();
-                loop {
-                    let mut byte = [0];
-                    let count = self.stream.read(&mut byte)$(.$await)?.map_err(failed)?;
-                    match self.take(&mut decoder, one(byte, count)?, reply) {
+                for _ in 0..MOST_NOISE.saturating_add(reply.len().saturating_mul(2)) {
+                    let byte = self.$receive()$(.$await)??;
+                    match self.take(&mut decoder, byte, reply) {
+                        Ok(None) if is_late() => break,
                         Ok(None) => {}
                         Ok(Some(length)) => return Ok(length),
                         Err(error) => return Err(self.failed(decoder, error)),
                     }
                 }
+                Err(Error::Timeout)
+            }
+
+            /// Discards bytes up to the end of a frame, or until `is_late` returns true.
+            $($async)? fn $discard(
+                &mut self,
+                mut is_late: impl FnMut() -> bool,
+            ) -> Result<(), Error<SerialError<S::Error>>> {
+                let (mut decoder, mut data) = (self.decoder(), [0; N]);
+                for _ in 0..MOST_NOISE {
+                    let byte = self.$receive()$(.$await)??;
+                    let decoded = self.framing.decode(&mut decoder, byte, &mut data);
+                    if matches!(decoded, Ok(Some(_))) || is_late() {
+                        break;
+                    }
+                }
+                Ok(())
+            }
+
+            $($async)? fn $receive(&mut self) -> Result<u8, Error<SerialError<S::Error>>> {
+                let mut byte = [0];
+                let count = self.stream.read(&mut byte)$(.$await)?.map_err(failed)?;
+                one(byte, count)
             }
         }
     };
 }
 
-exchanges! { Exchange embedded_io }
-exchanges! { AsyncExchange embedded_io_async async await }
+exchanges! { embedded_io call receive discard }
+exchanges! { embedded_io_async call_async receive_async discard_async async await }
+
+/// Returns a function that tells whether more than `timeout` has passed since now.
+fn deadline<T: Clock>(time: &mut T, timeout: Option<Duration>) -> impl FnMut() -> bool + '_ {
+    let end = timeout.and_then(|timeout| Some(time.now()?.saturating_add(timeout)));
+    move || end.is_some_and(|end| time.now().is_some_and(|now| now >= end))
+}
+
+impl<S, F, const N: usize, T> Exchange for SerialLine<S, F, N, T>
+where
+    S: embedded_io::Read + embedded_io::Write,
+    F: Framing,
+    T: Clock,
+{
+    type Error = SerialError<S::Error>;
+
+    fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>> {
+        let mut frame = [0; N];
+        let length = self.line.framing.encode(request, &mut frame)?;
+        if self.is_unsettled && self.times_out {
+            match self.line.discard(deadline(&mut self.time, self.timeout)) {
+                Err(error) if !is_timeout(&error) => return Err(error),
+                _ => {}
+            }
+        }
+        let frame = frame.get(..length).unwrap_or_default();
+        let received = self.line.call(frame, reply, deadline(&mut self.time, self.timeout));
+        self.times_out |= received.as_ref().is_err_and(is_timeout);
+        self.is_unsettled = received.is_err();
+        received
+    }
+
+    fn unsettle(&mut self) {
+        self.is_unsettled = true;
+    }
+}
+
+impl<S, F, const N: usize, T> AsyncExchange for SerialLine<S, F, N, T>
+where
+    S: embedded_io_async::Read + embedded_io_async::Write,
+    F: Framing,
+    T: Timer,
+{
+    type Error = SerialError<S::Error>;
+
+    async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>> {
+        let mut frame = [0; N];
+        let length = self.line.framing.encode(request, &mut frame)?;
+        let frame = frame.get(..length).unwrap_or_default();
+        let Some(timeout) = self.timeout.filter(|_| T::EXPIRES) else {
+            return self.line.call_async(frame, reply, || false).await;
+        };
+        if self.is_unsettled {
+            self.time.limit(timeout, self.line.discard_async(|| false)).await.unwrap_or(Ok(()))?;
+        }
+        // A dropped exchange leaves the line unsettled.
+        self.is_unsettled = true;
+        let call = self.line.call_async(frame, reply, || false);
+        let received = self.time.limit(timeout, call).await.unwrap_or(Err(Error::Timeout));
+        self.is_unsettled = received.is_err();
+        received
+    }
+
+    fn unsettle(&mut self) {
+        self.is_unsettled = true;
+    }
+}

@@ -6,3 +6,4 @@ mod now;
 mod can;
 mod modbus;
 mod random;
+mod serial;

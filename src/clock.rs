@@ -1,0 +1,91 @@
+//! Clocks and timers, which bound the time of an exchange.
+
+use core::future::{poll_fn, Future};
+use core::pin::pin;
+use core::task::Poll;
+use core::time::Duration;
+
+/// Monotonic clock of a blocking client. A function that returns the time since any fixed moment is a clock.
+pub trait Clock {
+    /// Returns the time since a fixed moment, or `None` if there is no clock.
+    fn now(&mut self) -> Option<Duration>;
+}
+
+impl<F: FnMut() -> Duration> Clock for F {
+    fn now(&mut self) -> Option<Duration> {
+        Some(self())
+    }
+}
+
+/// Timer of an async client. A function that returns a future is a timer if the future ends after the given time, such
+/// as `tokio::time::sleep` or `embassy_time::Timer::after`.
+#[allow(async_fn_in_trait)]
+pub trait Timer {
+    /// Whether the timer can expire.
+    const EXPIRES: bool = true;
+
+    /// Returns the output of `future`, or `None` if it takes longer than `time`.
+    async fn limit<F: Future>(&mut self, time: Duration, future: F) -> Option<F::Output>;
+}
+
+impl<D: FnMut(Duration) -> S, S: Future> Timer for D {
+    async fn limit<F: Future>(&mut self, time: Duration, future: F) -> Option<F::Output> {
+        let (mut future, mut sleep) = (pin!(future), pin!(self(time)));
+        let either = poll_fn(|context| match future.as_mut().poll(context) {
+            Poll::Ready(output) => Poll::Ready(Some(output)),
+            Poll::Pending => sleep.as_mut().poll(context).map(|_| None),
+        });
+        either.await
+    }
+}
+
+/// The clock of the standard library with the feature `std`; otherwise no clock. As a [`Timer`], it never expires,
+/// because a timer depends on the executor.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DefaultClock;
+
+impl Clock for DefaultClock {
+    #[cfg(feature = "std")]
+    fn now(&mut self) -> Option<Duration> {
+        static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
+        Some(START.get_or_init(std::time::Instant::now).elapsed())
+    }
+
+    #[cfg(not(feature = "std"))]
+    fn now(&mut self) -> Option<Duration> {
+        None
+    }
+}
+
+impl Timer for DefaultClock {
+    const EXPIRES: bool = false;
+
+    async fn limit<F: Future>(&mut self, _: Duration, future: F) -> Option<F::Output> {
+        Some(future.await)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::now::now;
+
+    #[test]
+    fn timers() {
+        let mut at_once = |_: Duration| core::future::ready(());
+        assert_eq!(now(at_once.limit(Duration::ZERO, core::future::ready(5))), Some(5));
+        assert_eq!(now(at_once.limit(Duration::ZERO, core::future::pending::<()>())), None);
+        assert_eq!(now(DefaultClock.limit(Duration::ZERO, core::future::ready(5))), Some(5));
+    }
+
+    #[test]
+    fn clocks() {
+        let mut time = 0;
+        let mut clock = || {
+            time += 1;
+            Duration::from_secs(time)
+        };
+        assert_eq!(Clock::now(&mut clock), Some(Duration::from_secs(1)));
+        assert_eq!(Clock::now(&mut DefaultClock).is_some(), cfg!(feature = "std"));
+    }
+}

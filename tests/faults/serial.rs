@@ -1,0 +1,290 @@
+//! Serial lines with a simulated device, in simulated time.
+
+use std::cell::Cell;
+use std::collections::VecDeque;
+use std::io::ErrorKind;
+use std::rc::Rc;
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use lexibus::clients::serial::{embedded_io, embedded_io_async, SerialError, SerialLine};
+use lexibus::framing::{Check, Delimited, Framing};
+use lexibus::{AsyncExchange, Error, Exchange};
+use tokio::io::{duplex, AsyncReadExt, AsyncWriteExt, DuplexStream};
+use tokio::time::{sleep, timeout, Instant, Sleep};
+
+use crate::random::Random;
+
+const FRAMING: Delimited = Delimited::new(Some(0x02), 0x03)
+    .with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B])
+    .with_check(Check::Crc16(0xFFFF))
+    .with_max_data(20);
+
+/// Timeout of a read of the stream, and of an exchange.
+const TIMEOUT: Duration = Duration::from_millis(100);
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fault {
+    Nothing,
+    Late(Duration),
+    Lost,
+    /// The reply arrives twice.
+    Duplicated,
+    Truncated,
+    Noise,
+    /// Bytes without a pause, for a minute.
+    EndlessNoise,
+}
+
+const FAULTS: [Fault; 5] =
+    [Fault::Late(Duration::from_millis(150)), Fault::Lost, Fault::Truncated, Fault::Noise, Fault::EndlessNoise];
+
+/// Returns the bytes that the device sends after a request, with their delays.
+fn reply(count: u32, fault: Fault) -> Vec<(Duration, u8)> {
+    let mut frame = [0; 64];
+    let length = FRAMING.encode(&count.to_le_bytes(), &mut frame).expect("it fits");
+    let soon = Duration::from_millis(1);
+    let at = |delay| frame[..length].iter().map(move |byte| (delay, *byte));
+    match fault {
+        Fault::Nothing => at(soon).collect(),
+        Fault::Late(delay) => at(delay).collect(),
+        Fault::Lost => Vec::new(),
+        Fault::Duplicated => at(soon).chain(at(soon)).collect(),
+        Fault::Truncated => at(soon).take(length - 2).collect(),
+        Fault::Noise => [0xFF, 0x03, 0x41].map(|byte| (soon, byte)).into_iter().chain(at(soon)).collect(),
+        Fault::EndlessNoise => (1..6000).map(|at| (at * 10 * soon, 0x41)).collect(),
+    }
+}
+
+/// A stream whose reads time out, with a device that replies to each frame with the number of the request.
+struct Port {
+    now: Rc<Cell<Duration>>,
+    bytes: VecDeque<(Duration, u8)>,
+    count: u32,
+    fault: Fault,
+}
+
+#[derive(Debug)]
+struct Late(ErrorKind);
+
+impl std::fmt::Display for Late {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl std::error::Error for Late {}
+
+impl embedded_io::Error for Late {
+    fn kind(&self) -> embedded_io::ErrorKind {
+        self.0.into()
+    }
+}
+
+impl embedded_io::ErrorType for Port {
+    type Error = Late;
+}
+
+impl embedded_io::Read for Port {
+    fn read(&mut self, buffer: &mut [u8]) -> Result<usize, Late> {
+        let end = self.now.get() + TIMEOUT;
+        match self.bytes.front() {
+            Some(&(at, byte)) if at <= end => {
+                self.bytes.pop_front();
+                self.now.set(at.max(self.now.get()));
+                buffer[0] = byte;
+                Ok(1)
+            }
+            _ => {
+                self.now.set(end);
+                Err(Late(ErrorKind::TimedOut))
+            }
+        }
+    }
+}
+
+impl embedded_io::ReadReady for Port {
+    fn read_ready(&mut self) -> Result<bool, Late> {
+        Ok(self.bytes.front().is_some_and(|(at, _)| *at <= self.now.get()))
+    }
+}
+
+impl embedded_io::Write for Port {
+    fn write(&mut self, bytes: &[u8]) -> Result<usize, Late> {
+        let start = self.bytes.back().map_or(Duration::ZERO, |(at, _)| *at).max(self.now.get());
+        self.bytes.extend(reply(self.count, self.fault).into_iter().map(|(delay, byte)| (start + delay, byte)));
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> Result<(), Late> {
+        Ok(())
+    }
+}
+
+type Outcome = Result<(), Error<SerialError<Late>>>;
+
+fn blocking() -> (SerialLine<Port, Delimited, 64, impl FnMut() -> Duration>, Rc<Cell<Duration>>) {
+    let now = Rc::new(Cell::new(Duration::ZERO));
+    let port = Port { now: now.clone(), bytes: VecDeque::new(), count: 0, fault: Fault::Nothing };
+    let clock = now.clone();
+    (SerialLine::new(port, FRAMING).with_time(move || clock.get(), TIMEOUT), now)
+}
+
+/// Exchanges once. Panics at a wrong reply.
+fn once<T: lexibus::Clock>(line: &mut SerialLine<Port, Delimited, 64, T>, count: u32, fault: Fault) -> Outcome {
+    (line.stream().count, line.stream().fault) = (count, fault);
+    let mut reply = [0; 20];
+    let length = Exchange::exchange(line, &[1], &mut reply)?;
+    assert_eq!(reply[..length], count.to_le_bytes(), "exchange {count}");
+    Ok(())
+}
+
+#[test]
+fn late_replies_are_not_those_of_the_next_request() {
+    let (mut line, _) = blocking();
+    let mut random = Random::new(28);
+    let (mut late, mut failed) = (0, 0);
+    for count in 0..10_000 {
+        let is_late = random.below(20) == 0;
+        late += u32::from(is_late);
+        let fault = Fault::Late(Duration::from_millis(101 + random.below(90)));
+        failed += u32::from(once(&mut line, count, if is_late { fault } else { Fault::Nothing }).is_err());
+    }
+    println!("10,000 exchanges on a serial line, {late} late: {failed} errors, no wrong reply");
+    assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
+}
+
+#[test]
+fn a_repeated_reply_isnt_that_of_the_next_request() {
+    let mut line = blocking().0.draining();
+    for count in 0..10 {
+        once(&mut line, count, Fault::Duplicated).expect("the reply");
+    }
+}
+
+#[test]
+fn after_each_fault_the_next_request_is_right() {
+    for fault in FAULTS {
+        let (mut line, now) = blocking();
+        let first = once(&mut line, 1, fault);
+        assert!(now.get() <= 2 * TIMEOUT, "{fault:?}: {:?}", now.get());
+        assert_eq!(first.is_ok(), fault == Fault::Noise, "{fault:?}: {first:?}");
+        if fault == Fault::EndlessNoise {
+            let start = now.get();
+            once(&mut line, 2, Fault::Lost).expect_err("noise");
+            assert!(now.get() - start <= 3 * TIMEOUT);
+            line.stream().bytes.clear();
+        }
+        let start = now.get();
+        once(&mut line, 3, Fault::Nothing).expect("the reply");
+        assert!(now.get() - start <= 2 * TIMEOUT, "{fault:?}");
+    }
+}
+
+/// A stream of `tokio`.
+struct AsyncPort(DuplexStream);
+
+impl embedded_io::ErrorType for AsyncPort {
+    type Error = Late;
+}
+
+impl embedded_io_async::Read for AsyncPort {
+    async fn read(&mut self, buffer: &mut [u8]) -> Result<usize, Late> {
+        self.0.read(buffer).await.map_err(|error| Late(error.kind()))
+    }
+}
+
+impl embedded_io_async::Write for AsyncPort {
+    async fn write(&mut self, bytes: &[u8]) -> Result<usize, Late> {
+        self.0.write(bytes).await.map_err(|error| Late(error.kind()))
+    }
+
+    async fn flush(&mut self) -> Result<(), Late> {
+        Ok(())
+    }
+}
+
+type World = Arc<Mutex<(u32, Fault)>>;
+
+async fn serve(mut line: DuplexStream, world: World) {
+    let (mut decoder, mut request) = (FRAMING.decoder(), [0; 20]);
+    while let Ok(byte) = line.read_u8().await {
+        if !matches!(FRAMING.decode(&mut decoder, byte, &mut request), Ok(Some(_))) {
+            continue;
+        }
+        let (count, fault) = *world.lock().unwrap();
+        let start = Instant::now();
+        for (delay, byte) in reply(count, fault) {
+            tokio::time::sleep_until(start + delay).await;
+            line.write_all(&[byte]).await.unwrap();
+        }
+    }
+}
+
+type AsyncLine = SerialLine<AsyncPort, Delimited, 64, fn(Duration) -> Sleep>;
+
+fn asynchronous() -> (AsyncLine, World) {
+    let world = Arc::new(Mutex::new((0, Fault::Nothing)));
+    let (line, device) = duplex(0x1_0000);
+    tokio::spawn(serve(device, world.clone()));
+    let sleep: fn(Duration) -> Sleep = sleep;
+    (SerialLine::new(AsyncPort(line), FRAMING).with_time(sleep, TIMEOUT), world)
+}
+
+async fn once_async<T: lexibus::Timer>(
+    line: &mut SerialLine<AsyncPort, Delimited, 64, T>,
+    world: &World,
+    count: u32,
+    fault: Fault,
+) -> Outcome {
+    *world.lock().unwrap() = (count, fault);
+    let mut reply = [0; 20];
+    let length = AsyncExchange::exchange(line, &[1], &mut reply).await?;
+    assert_eq!(reply[..length], count.to_le_bytes(), "exchange {count}");
+    Ok(())
+}
+
+#[tokio::test(start_paused = true)]
+async fn async_late_replies_are_not_those_of_the_next_request() {
+    let (mut line, world) = asynchronous();
+    let mut random = Random::new(28);
+    let (mut late, mut failed) = (0, 0);
+    for count in 0..10_000 {
+        let is_late = random.below(20) == 0;
+        late += u32::from(is_late);
+        let fault = Fault::Late(Duration::from_millis(101 + random.below(90)));
+        let fault = if is_late { fault } else { Fault::Nothing };
+        failed += u32::from(once_async(&mut line, &world, count, fault).await.is_err());
+    }
+    println!("10,000 async exchanges on a serial line, {late} late: {failed} errors, no wrong reply");
+    assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
+}
+
+#[tokio::test(start_paused = true)]
+async fn async_after_each_fault_the_next_request_is_right() {
+    let soon = Duration::from_millis(5);
+    for fault in FAULTS {
+        let (mut line, world) = asynchronous();
+        let start = Instant::now();
+        let first = once_async(&mut line, &world, 1, fault).await;
+        assert!(start.elapsed() <= TIMEOUT + soon, "{fault:?}: {:?}", start.elapsed());
+        assert_eq!(first.is_ok(), fault == Fault::Noise, "{fault:?}: {first:?}");
+        if fault == Fault::EndlessNoise {
+            let start = Instant::now();
+            once_async(&mut line, &world, 2, Fault::Lost).await.expect_err("noise");
+            assert!(start.elapsed() <= 2 * TIMEOUT + soon);
+            sleep(Duration::from_secs(60)).await;
+        }
+        let start = Instant::now();
+        once_async(&mut line, &world, 3, Fault::Nothing).await.expect("the reply");
+        assert!(start.elapsed() <= 2 * TIMEOUT + soon, "{fault:?}: {:?}", start.elapsed());
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn after_a_dropped_exchange_the_next_one_is_right() {
+    let (mut line, world) = asynchronous();
+    let late = Fault::Late(Duration::from_millis(50));
+    assert!(timeout(Duration::from_millis(20), once_async(&mut line, &world, 1, late)).await.is_err());
+    once_async(&mut line, &world, 2, Fault::Nothing).await.expect("the reply");
+}
