@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use ethercrab::std::ethercat_now;
 use ethercrab::{MainDevice, MainDeviceConfig, PduStorage, Timeouts};
-use lexibus::clients::ethercat::{is_a, Sdo};
+use lexibus::clients::ethercat::{is_a, Cycle, Sdo};
 use lexibus::ethercat::Assignment;
 use lexibus::Step;
 
@@ -73,21 +73,23 @@ async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
 
     // Go to Safe-Operational and Operational.
     let group = group.into_op(maindevice).await?;
+    let cycle = Cycle::of(maindevice, &group);
     let subdevice = group.subdevice(maindevice, position)?;
     let mut controlword = Controlword::new();
     let mut target = 0;
-    for cycle in 0..16 {
+    for number in 0..16 {
         {
-            // Release the lock here, because `tx_rx` also locks the process data.
+            // Release the lock here, because the cycle also locks the process data.
             let mut outputs = subdevice.outputs_raw_mut();
             let mut outputs = image::OutputsView::new(&mut outputs[..])?;
             outputs.position_mode_mut().set_controlword(controlword);
             outputs.position_mode_mut().set_target_position(target);
         }
-        group.tx_rx(maindevice).await?;
+        // An error if the inputs would be stale.
+        cycle.run(maindevice, &group).await?;
         let inputs = image::Inputs::unpack(&subdevice.inputs_raw())?.position;
         let state = inputs.statusword.state().ok_or("the statusword has no valid state")?;
-        println!("cycle {cycle:2}: {state:?}, position {}", inputs.position_actual_value);
+        println!("cycle {number:2}: {state:?}, position {}", inputs.position_actual_value);
         match state.toward(State::OperationEnabled) {
             Step::Command(command) => controlword = controlword.with_command(command),
             Step::Reached => target += 1000,

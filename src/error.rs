@@ -18,6 +18,10 @@ pub enum Error<E> {
     Client(E),
     /// The device refused the access, with an SDO abort code (CiA 301 7.2.4.3.17) or the equivalent of another bus.
     Abort(AbortCode),
+    /// The mailbox of an EtherCAT device rejected the request, with an error code (ETG.1000.4 5.6): 1 syntax, 2
+    /// unsupported protocol, 3 invalid channel, 4 unsupported service, 5 invalid header, 6 too short, 7 no memory, 8
+    /// invalid length.
+    Mailbox(u16),
     /// The device refused the access without a reason, or with a reason that this type can't hold.
     Refused,
     /// The reply of the device doesn't match the request.
@@ -56,6 +60,7 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
         match self {
             Self::Client(error) => error.fmt(f),
             Self::Abort(code) => write!(f, "the device refused: {code}"),
+            Self::Mailbox(code) => write!(f, "the mailbox of the device rejected the request: error 0x{code:04X}"),
             Self::Refused => f.write_str("the device refused"),
             Self::UnexpectedReply => f.write_str("unexpected reply"),
             Self::NoMessage => f.write_str("the protocol has no message for this access"),

@@ -8,8 +8,8 @@ use std::time::Duration;
 
 use ethercrab::error::{Error as BusError, MailboxError};
 use ethercrab::subdevice_group::{Op, PreOp};
-use ethercrab::{DefaultLock, MainDevice, MainDeviceConfig, PduStorage, SubDeviceGroup, Timeouts};
-use lexibus::clients::ethercat::{is_a, Memory, Sdo};
+use ethercrab::{DefaultLock, MainDevice, MainDeviceConfig, PduStorage, SubDeviceGroup, SubDeviceState, Timeouts};
+use lexibus::clients::ethercat::{is_a, Cycle, CycleError, Memory, Sdo};
 use lexibus::ethercat::{configure_async, Assignment, Device, Mailbox, StartupCommand, Transition};
 use lexibus::Emergency;
 use lexibus::{
@@ -376,6 +376,30 @@ fn several_subdevices_in_a_row() {
     });
 }
 
+#[test]
+fn stale_inputs_are_an_error() {
+    with_segment(vec![servo().0, servo().0], |maindevice| async move {
+        let group = pre_op(maindevice).await;
+        let memory = |at| Memory::new(maindevice, &group.subdevice(maindevice, at).expect("a SubDevice"));
+        let (mut first, mut second) = (memory(0), memory(1));
+        let group: Group<Op> = group.into_op(maindevice).await.unwrap();
+        let cycle = Cycle::of(maindevice, &group);
+        assert_eq!(cycle, Cycle::expecting(6));
+        assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
+        // The second SubDevice doesn't map its inputs any more: FMMU 1, activate.
+        let activate = EscMemory::new(0x061C, 1);
+        second.write(activate, &[0]).await.unwrap();
+        let missing = CycleError::WorkingCounter { expected: 6, actual: 5 };
+        assert_eq!(cycle.run(maindevice, &group).await, Err(missing));
+        second.write(activate, &[1]).await.unwrap();
+        assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
+        // The first SubDevice leaves Operational: AL control.
+        first.write(EscMemory::new(0x0120, 2), &[4, 0]).await.unwrap();
+        let state = CycleError::State { subdevice: 0, state: SubDeviceState::SafeOp };
+        assert_eq!(cycle.run(maindevice, &group).await, Err(state));
+    });
+}
+
 /// The drive without a mailbox.
 static MUTE: Device = Device { mailbox: Mailbox::NONE, sync_managers: &[], ..servo::DEVICE };
 
@@ -405,7 +429,7 @@ fn what_goes_wrong_on_the_bus() {
         let unknown = Error::Abort(AbortCode(0x1234_5678));
         assert_eq!(other.target_position().write_async(1).await, Err(unknown));
         assert_eq!(other.target_position().read_async().await, Err(Error::Abort(AbortCode::GENERAL)));
-        let mut hasty = DemoServo::new(other.into_client().with_patience(0));
+        let mut hasty = DemoServo::new(other.into_client().with_timeout(Duration::ZERO));
         let late = hasty.target_position().read_async().await;
         assert_eq!(late, Err(Error::Timeout));
     });

@@ -5,7 +5,7 @@
 //!
 //! ```no_run
 //! use ethercrab::{std::ethercat_now, MainDevice};
-//! use lexibus::clients::ethercat::{is_a, Sdo};
+//! use lexibus::clients::ethercat::{is_a, Cycle, Sdo};
 //! use lexibus::ethercat::Assignment;
 //!
 //! lexibus::dictionary! {
@@ -27,8 +27,9 @@
 //!
 //!     // In Operational: exchange process data.
 //!     let group = group.into_op(maindevice).await?;
+//!     let cycle = Cycle::of(maindevice, &group);
 //!     loop {
-//!         group.tx_rx(maindevice).await?;
+//!         cycle.run(maindevice, &group).await?; // stale inputs are an error
 //!         let subdevice = group.subdevice(maindevice, 0)?;
 //!         let inputs = image::Inputs::unpack(&subdevice.inputs_raw())?;
 //!         let mut outputs = subdevice.outputs_raw_mut();
@@ -59,13 +60,17 @@
 //! an emergency message before its reply. [`Sdo`] exchanges the mailbox messages itself, in datagrams of `ethercrab`,
 //! and needs no buffer.
 
+mod cycle;
 mod mailbox;
 mod memory;
 mod protocol;
 
+use core::time::Duration;
+
 use ethercrab::error::Error as BusError;
 use ethercrab::{MainDevice, SubDevice};
 
+pub use self::cycle::{Cycle, CycleError};
 pub use self::memory::Memory;
 
 use self::mailbox::{Mailbox, Sought};
@@ -78,9 +83,8 @@ use crate::ethercat::StartupCommand;
 use crate::identity::Identity;
 use crate::value_error::LengthError;
 
-/// Default number of times that a mailbox state is polled before a timeout. Each poll is one frame round trip,
-/// typically 50 to 200 µs.
-pub const PATIENCE: u32 = 10_000;
+/// Default timeout of a mailbox exchange.
+pub const TIMEOUT: Duration = Duration::from_secs(1);
 
 /// Returns whether a SubDevice matches a description: vendor and product code are equal, unless the description omits
 /// them.
@@ -104,13 +108,23 @@ pub struct Sdo<'m> {
 impl<'m> Sdo<'m> {
     /// Creates the client for `subdevice`.
     pub fn new(maindevice: &'m MainDevice<'m>, subdevice: &SubDevice) -> Self {
-        Self { mailbox: Mailbox::new(maindevice, subdevice.configured_address(), PATIENCE) }
+        Self { mailbox: Mailbox::new(maindevice, subdevice.configured_address()) }
     }
 
-    /// Returns the client with another number of polls of a mailbox state before a timeout.
+    /// Returns the client with another timeout for each mailbox exchange: a request and its reply. The default is
+    /// [`TIMEOUT`].
     #[must_use]
-    pub fn with_patience(mut self, patience: u32) -> Self {
-        self.mailbox.patience = patience;
+    pub fn with_timeout(mut self, timeout: Duration) -> Self {
+        self.mailbox.timeout = timeout;
+        self
+    }
+
+    /// Returns the client with a clock: a function that returns the time since any fixed moment. Without the feature
+    /// `std` and without a clock, an exchange ends after 20,000 polls of the mailbox. Each poll is one frame round trip,
+    /// typically 50 to 200 µs.
+    #[must_use]
+    pub fn with_clock(mut self, clock: fn() -> Duration) -> Self {
+        self.mailbox.clock = Some(clock);
         self
     }
 

@@ -1,12 +1,15 @@
 //! Mailbox of a SubDevice: sends one message and receives one message (ETG.1000.4 6.7, ETG.1000.6 5.3).
 
 use core::ops::Deref;
+use core::time::Duration;
 
 use ethercrab::error::{Error as BusError, MailboxError};
 use ethercrab::{Command, EtherCrabWireWrite, MainDevice, RegisterAddress};
 
 use super::protocol::{Answer, Request, SMALLEST};
+use super::TIMEOUT;
 use crate::bus::Object;
+use crate::clock::{Clock, DefaultClock};
 use crate::emergency::Emergency;
 use crate::error::Error;
 
@@ -19,6 +22,40 @@ const REGISTERS: u16 = 8;
 /// Offset of the status register of a sync manager, and its bit for a full mailbox.
 const STATE: u16 = 5;
 const FULL: u8 = 0x08;
+
+/// Maximum number of polls in an exchange without a clock.
+const POLLS: u32 = 20_000;
+
+/// The time or the number of polls that an exchange may take.
+struct Deadline {
+    clock: Option<fn() -> Duration>,
+    end: Option<Duration>,
+    polls: u32,
+}
+
+impl Deadline {
+    fn now(clock: Option<fn() -> Duration>) -> Option<Duration> {
+        clock.map(|clock| clock()).or_else(|| DefaultClock.now())
+    }
+
+    fn new(clock: Option<fn() -> Duration>, timeout: Duration) -> Self {
+        Self { clock, end: Self::now(clock).map(|now| now.saturating_add(timeout)), polls: POLLS }
+    }
+
+    /// Counts a poll. Fails if the time is over.
+    fn poll(&mut self) -> Result<(), Error<BusError>> {
+        self.polls = self.polls.saturating_sub(1);
+        let is_late = match (self.end, Self::now(self.clock)) {
+            (Some(end), Some(now)) => now >= end,
+            _ => self.polls == 0,
+        };
+        if is_late {
+            Err(Error::Timeout)
+        } else {
+            Ok(())
+        }
+    }
+}
 
 /// A mailbox buffer in the memory of the slave controller.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +70,8 @@ struct Buffer {
 pub(super) struct Mailbox<'m> {
     maindevice: &'m MainDevice<'m>,
     station: u16,
-    pub(super) patience: u32,
+    pub(super) timeout: Duration,
+    pub(super) clock: Option<fn() -> Duration>,
     /// Buffers for sending and receiving. They are read from the registers at the first use.
     buffers: Option<(Buffer, Buffer)>,
     pub(super) emergency: Option<Emergency>,
@@ -61,14 +99,15 @@ impl<T> Sought<T> {
                 Sought::Other
             }
             Answer::Abort { code, .. } => Sought::Failed(Error::Abort(code)),
+            Answer::MailboxError(code) => Sought::Failed(Error::Mailbox(code)),
             _ => Sought::Failed(Error::UnexpectedReply),
         }
     }
 }
 
 impl<'m> Mailbox<'m> {
-    pub(super) const fn new(maindevice: &'m MainDevice<'m>, station: u16, patience: u32) -> Self {
-        Self { maindevice, station, patience, buffers: None, emergency: None }
+    pub(super) const fn new(maindevice: &'m MainDevice<'m>, station: u16) -> Self {
+        Self { maindevice, station, timeout: TIMEOUT, clock: None, buffers: None, emergency: None }
     }
 
     /// Returns the maximum length of a message to the device in bytes.
@@ -85,13 +124,14 @@ impl<'m> Mailbox<'m> {
         mut seek: impl FnMut(Answer<'_>) -> Sought<T>,
     ) -> Result<T, Error<BusError>> {
         let (out, back) = self.buffers().await?;
-        self.clear(back).await?;
-        self.wait(out, false).await?;
+        let mut deadline = Deadline::new(self.clock, self.timeout);
+        self.clear(back, &mut deadline).await?;
+        self.wait(out, false, &mut deadline).await?;
         let message = Message { head: request.head(), data, length: usize::from(out.length) };
         let written = Command::fpwr(self.station, out.address).send_receive_slice(self.maindevice, message);
         written.await.map_err(Error::Client)?;
-        for _ in 0..self.patience {
-            self.wait(back, true).await?;
+        loop {
+            self.wait(back, true, &mut deadline).await?;
             let received = self.take(back).await?;
             let answer = Answer::parse(&received);
             if let Answer::Emergency(emergency) = answer {
@@ -103,21 +143,18 @@ impl<'m> Mailbox<'m> {
                 Sought::Other => {}
             }
         }
-        Err(Error::Timeout)
     }
 
     /// Removes messages of earlier transfers from the mailbox.
-    async fn clear(&mut self, back: Buffer) -> Result<(), Error<BusError>> {
-        for _ in 0..self.patience {
-            if !self.is_full(back).await? {
-                return Ok(());
-            }
+    async fn clear(&mut self, back: Buffer, deadline: &mut Deadline) -> Result<(), Error<BusError>> {
+        while self.is_full(back).await? {
+            deadline.poll()?;
             let received = self.take(back).await?;
             if let Answer::Emergency(emergency) = Answer::parse(&received) {
                 self.emergency = Some(emergency);
             }
         }
-        Err(Error::Timeout)
+        Ok(())
     }
 
     async fn take(&self, back: Buffer) -> Result<impl Deref<Target = [u8]> + 'm, Error<BusError>> {
@@ -125,13 +162,13 @@ impl<'m> Mailbox<'m> {
         read.await.map_err(Error::Client)
     }
 
-    async fn wait(&self, buffer: Buffer, full: bool) -> Result<(), Error<BusError>> {
-        for _ in 0..self.patience {
+    async fn wait(&self, buffer: Buffer, full: bool, deadline: &mut Deadline) -> Result<(), Error<BusError>> {
+        loop {
+            deadline.poll()?;
             if self.is_full(buffer).await? == full {
                 return Ok(());
             }
         }
-        Err(Error::Timeout)
     }
 
     async fn is_full(&self, buffer: Buffer) -> Result<bool, Error<BusError>> {

@@ -20,6 +20,11 @@ pub(super) const SMALLEST: usize = MAILBOX_HEADER + INITIATE;
 /// Minimum length of the data in a segment, in bytes.
 const SEGMENT: usize = 7;
 
+/// Protocol number of a mailbox error in the header of a mailbox message, and the service type in its data
+/// (ETG.1000.4 5.6).
+const ERROR: u8 = 0;
+const ERROR_REPLY: [u8; 2] = [1, 0];
+
 /// Protocol number of CoE in the header of a mailbox message.
 const COE: u8 = 3;
 
@@ -122,6 +127,8 @@ pub(super) enum Answer<'d> {
     Abort { object: Object, code: AbortCode },
     /// An emergency message.
     Emergency(Emergency),
+    /// The mailbox rejected the request, with an error code.
+    MailboxError(u16),
     /// A message of another protocol or service.
     Foreign,
     /// An invalid message.
@@ -138,7 +145,11 @@ impl<'d> Answer<'d> {
         let (header, rest) = mailbox.split_first_chunk::<MAILBOX_HEADER>()?;
         let body = rest.get(..usize::from(u16::from_le_bytes([header[0], header[1]])))?;
         match header[5] & 0x0F {
-            0 => return None,
+            ERROR => {
+                let (reply, detail) = body.split_first_chunk::<2>()?;
+                let code = u16::from_le_bytes(*detail.first_chunk()?);
+                return (*reply == ERROR_REPLY).then_some(Answer::MailboxError(code));
+            }
             COE => {}
             _ => return Some(Answer::Foreign),
         }

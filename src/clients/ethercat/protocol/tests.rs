@@ -99,10 +99,17 @@ fn what_comes_unasked() {
 }
 
 #[test]
+fn mailbox_errors() {
+    // Protocol 0, type 1, code 2: the protocol isn't supported.
+    assert_eq!(Answer::parse(&[4, 0, 0, 0, 0, 0, 1, 0, 2, 0]), Answer::MailboxError(2));
+    assert_eq!(Answer::parse(&[2, 0, 0, 0, 0, 0, 1, 0]), Answer::Malformed);
+}
+
+#[test]
 fn what_is_no_message() {
     assert_eq!(Answer::parse(&[]), Answer::Malformed);
     assert_eq!(Answer::parse(&[0; 128]), Answer::Malformed);
-    // A mailbox error, a wrong length, and messages that are too short.
+    // A mailbox error of another type, a wrong length, and messages that are too short.
     assert_eq!(Answer::parse(&message(0, 3, &[0x4B, 0x7A, 0x60, 2, 7, 8, 0, 0])), Answer::Malformed);
     assert_eq!(Answer::parse(&[255, 255, 0, 0, 0, 3, 0, 0x30, 0x4B]), Answer::Malformed);
     for length in 0..8 {
