@@ -3,15 +3,15 @@
 use std::io;
 use std::time::{Duration, Instant};
 
-use socketcan::{CanSocket, Socket};
+use socketcan::{CanError, CanSocket, Error, Socket};
 
 use super::frame::CanFrame;
 use super::port::{CanPort, BACKLOG};
 
 impl CanPort for CanSocket {
-    type Error = io::Error;
+    type Error = Error;
 
-    fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, io::Error> {
+    fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Error> {
         let Some(frame) = frame.to_frame::<socketcan::CanFrame>() else { return Ok(false) };
         // A timeout of zero would mean no timeout.
         self.set_write_timeout(patience.max(Duration::from_micros(1)))?;
@@ -27,7 +27,7 @@ impl CanPort for CanSocket {
                     }
                     std::thread::sleep(PAUSE);
                 }
-                Err(error) => return Err(error),
+                Err(error) => return Err(error.into()),
             }
         }
     }
@@ -36,21 +36,21 @@ impl CanPort for CanSocket {
         &mut self,
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
-    ) -> Result<Option<CanFrame>, io::Error> {
+    ) -> Result<Option<CanFrame>, Error> {
         let end = Instant::now().checked_add(patience);
         let mut waiting = BACKLOG;
         while waiting > 0 {
             let left = end.map_or(patience, |end| end.saturating_duration_since(Instant::now()));
             match self.read_frame_timeout(left) {
                 Ok(frame) => {
-                    if let Some(found) = from_socket(&frame).filter(|found| wanted(found)) {
+                    if let Some(found) = from_socket(&frame)?.filter(|found| wanted(found)) {
                         return Ok(Some(found));
                     }
                     waiting -= usize::from(left.is_zero());
                 }
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
                 Err(error) if is_late(&error) => return Ok(None),
-                Err(error) => return Err(error),
+                Err(error) => return Err(error.into()),
             }
         }
         Ok(None)
@@ -65,13 +65,24 @@ pub(super) fn is_full(error: &io::Error) -> bool {
     error.raw_os_error() == Some(libc::ENOBUFS)
 }
 
-/// Converts a data frame. Returns `None` for remote frames, and for error frames, which the interface itself generates.
-pub(super) fn from_socket(frame: &socketcan::CanFrame) -> Option<CanFrame> {
+/// Converts a data frame. Returns `None` for remote frames.
+///
+/// # Errors
+///
+/// The error in an error frame, which the interface itself generates. The socket receives only those of its error
+/// filter.
+pub(super) fn from_socket(frame: &socketcan::CanFrame) -> Result<Option<CanFrame>, CanError> {
     match frame {
-        socketcan::CanFrame::Data(_) => CanFrame::from_frame(frame),
-        socketcan::CanFrame::Remote(_) | socketcan::CanFrame::Error(_) => None,
+        socketcan::CanFrame::Data(_) => Ok(CanFrame::from_frame(frame)),
+        socketcan::CanFrame::Remote(_) => Ok(None),
+        // A frame can report several errors. Bus-off ends the communication.
+        socketcan::CanFrame::Error(error) if error.error_bits() & BUS_OFF != 0 => Err(CanError::BusOff),
+        socketcan::CanFrame::Error(error) => Err(CanError::from(*error)),
     }
 }
+
+/// Bit of bus-off in an error frame.
+const BUS_OFF: u32 = libc::CAN_ERR_BUSOFF;
 
 fn is_late(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut)
@@ -84,13 +95,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn errors_of_the_interface_are_no_frames() {
+    fn error_frames_are_errors() {
         let id = StandardId::new(0x088).expect("an identifier");
         let data = SocketFrame::new(id, &[1, 2]).expect("a frame");
-        assert_eq!(from_socket(&data), CanFrame::new(0x088, &[1, 2]));
-        let error = CanErrorFrame::new_error(0x088, &[0; 8]).expect("an error");
-        assert_eq!(from_socket(&SocketFrame::Error(error)), None);
+        assert_eq!(from_socket(&data).ok(), Some(CanFrame::new(0x088, &[1, 2])));
+        let error = |bits| SocketFrame::Error(CanErrorFrame::new_error(bits, &[0; 8]).expect("an error"));
+        assert!(matches!(from_socket(&error(0x040)), Err(CanError::BusOff)));
+        assert!(matches!(from_socket(&error(0x042)), Err(CanError::BusOff)));
+        assert!(matches!(from_socket(&error(0x020)), Err(CanError::NoAck)));
         let remote = SocketFrame::new_remote(id, 2).expect("a request");
-        assert_eq!(from_socket(&remote), None);
+        assert_eq!(from_socket(&remote).ok(), Some(None));
     }
 }

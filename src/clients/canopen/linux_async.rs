@@ -4,7 +4,7 @@ use std::io;
 use std::time::Duration;
 
 use socketcan::tokio::CanSocket;
-use socketcan::CanFrame as SocketFrame;
+use socketcan::{CanFrame as SocketFrame, Error};
 use tokio::time::{sleep, timeout, Instant};
 
 use super::frame::CanFrame;
@@ -12,9 +12,9 @@ use super::linux::{from_socket, is_full, PAUSE};
 use super::port::{AsyncCanPort, BACKLOG};
 
 impl AsyncCanPort for CanSocket {
-    type Error = io::Error;
+    type Error = Error;
 
-    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, io::Error> {
+    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Error> {
         let Some(frame) = frame.to_frame::<SocketFrame>() else { return Ok(false) };
         let sent = async {
             loop {
@@ -25,7 +25,7 @@ impl AsyncCanPort for CanSocket {
             }
         };
         match timeout(patience, sent).await {
-            Ok(sent) => sent.map(|()| true),
+            Ok(sent) => Ok(sent.map(|()| true)?),
             Err(_) => Ok(false),
         }
     }
@@ -34,14 +34,19 @@ impl AsyncCanPort for CanSocket {
         &mut self,
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
-    ) -> Result<Option<CanFrame>, io::Error> {
+    ) -> Result<Option<CanFrame>, Error> {
         let end = Instant::now().checked_add(patience);
         let mut waiting = BACKLOG;
         while waiting > 0 {
             let left = end.map_or(patience, |end| end.saturating_duration_since(Instant::now()));
-            match timeout(left, self.read_frame()).await {
+            // A frame that is waiting in the queue, even if the executor hasn't seen it yet.
+            let received = match self.try_read_frame() {
+                Err(error) if error.kind() == io::ErrorKind::WouldBlock => timeout(left, self.read_frame()).await,
+                received => Ok(received),
+            };
+            match received {
                 Ok(frame) => {
-                    if let Some(found) = from_socket(&frame?).filter(|found| wanted(found)) {
+                    if let Some(found) = from_socket(&frame?)?.filter(|found| wanted(found)) {
                         return Ok(Some(found));
                     }
                     waiting -= usize::from(left.is_zero());

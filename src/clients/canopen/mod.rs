@@ -36,6 +36,13 @@
 //! SocketCAN, which this module re-exports. The feature `socketcan-tokio` implements [`AsyncCanPort`]. For any other
 //! library, implement [`CanPort`], as its example shows.
 //!
+//! # Errors of the CAN interface
+//!
+//! The errors of SocketCAN are [`socketcan::Error`](https://docs.rs/socketcan): `Io` for those of the operating system,
+//! and `Can` for those of the bus, for example `CanError::BusOff`. The kernel reports bus errors only if the socket has
+//! an error filter. Set it to the errors that should end a transfer, for example
+//! `socket.set_error_filter(libc::CAN_ERR_BUSOFF)` with the trait `socketcan::SocketOptions`.
+//!
 //! Only SDO transfers allocate: each one has a buffer on the heap.
 
 mod buffered;
