@@ -67,6 +67,7 @@
 //! | the state machine of a drive | [`Step`] |
 //! | alarms and other codes | [`codes`] |
 //! | custom clients | [`Client`], [`AsyncClient`], [`RegisterClient`](modbus::RegisterClient), [`RecordClient`](profinet::RecordClient), [`Exchange`], [`Clock`], [`Timer`] |
+//! | timeouts and retries | [`Deadline`], [`Retrying`] |
 //! | process data of CANopen, custom PDO mappings | [`pdo`](mod@pdo), [`pdo!`] |
 //! | EtherCAT: PDO assignment, slots, start-up lists | [`ethercat`] |
 //! | PROFINET: plans, records, images, diagnosis | [`profinet`] |
@@ -142,6 +143,7 @@ pub mod profinet;
 mod quantity;
 mod range;
 mod register;
+mod retrying;
 mod route;
 #[cfg(feature = "std")]
 pub mod sim;
@@ -183,6 +185,7 @@ pub use pdo::{AnyPdo, CobId, Mappable, MappedEntry, Pdo, Remappable, Rpdo, SdoWr
 pub use quantity::{Exponential, Fraction, Number, OrNone, PerItem, Quantity, Reciprocal, Scaled};
 pub use range::Range;
 pub use register::{Register, RegisterPart, RegisterTable, WordOrder};
+pub use retrying::{Deadline, Retrying};
 pub use route::{
     Closed, Direct, Handshake, Limited, ReadRoute, ReadWindow, Resized, Route, Split, Through, WriteRoute, WriteWindow,
 };
