@@ -12,6 +12,7 @@ use canopen_sdo::{ObjectDictionary, SdoAbortCode, SdoFrame, SdoServer, ServerCon
 use lexibus::clients::canopen::{sync, AsyncCanPort, Buffered, CanFrame, CanPort, Node};
 use lexibus::{AsyncClient, Client, CobId, Error, NodeId, Object};
 
+use crate::matrix::{name, Row};
 use crate::now::now;
 use crate::random::Random;
 
@@ -35,6 +36,8 @@ enum Fault {
     Truncated,
     /// Instead of the reply, replies about another object arrive all the time.
     Foreign,
+    /// Before the reply, a thousand frames of other nodes arrive.
+    Noise,
 }
 
 struct Objects(HashMap<Object, Vec<u8>>);
@@ -86,6 +89,11 @@ impl Bus {
             Fault::Lost => {}
             Fault::Duplicated => self.frames.extend([(soon, reply), (soon, reply)]),
             Fault::Truncated => self.frames.extend(CanFrame::new(reply.id(), &reply.data()[..4]).map(|it| (soon, it))),
+            Fault::Noise => {
+                let other = CanFrame::new(0x123, &[1, 2, 3]).expect("a frame");
+                self.frames.extend([(soon, other); 1000]);
+                self.frames.push((soon, reply));
+            }
             Fault::Foreign => {
                 let foreign = CanFrame::new(0x585, &[0x43, 0x34, 0x12, 1, 9, 9, 9, 9]).expect("a frame");
                 self.frames.extend((1..300).map(|at| (self.now + at * TIMEOUT * 2 / 5, foreign)));
@@ -328,4 +336,43 @@ fn the_latest_pdo_is_the_newest_one() {
     let mut node = Node::new(behind().into_port().into_inner().bus, NodeId::new(NODE).expect("a node-ID"));
     assert_eq!(node.latest_pdo(PDO).map(|pdo| pdo.map(sample)), Ok(Some(200)));
     assert_eq!(node.latest_pdo(PDO), Ok(None));
+}
+
+/// Returns the rows of the matrix for SDO transfers.
+pub fn rows() -> Vec<Row> {
+    let faults = [
+        ("late", Fault::Late(TIMEOUT + Duration::from_millis(100))),
+        ("lost", Fault::Lost),
+        ("duplicated", Fault::Duplicated),
+        ("truncated", Fault::Truncated),
+        ("foreign", Fault::Foreign),
+        ("noise", Fault::Noise),
+    ];
+    let mut rows = Vec::new();
+    for (fault_name, fault) in faults {
+        for is_async in [false, true] {
+            let mut blocking = node();
+            let bus = AsyncBus { bus: Bus::new(), is_pending: false };
+            let mut asynchronous = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
+            let mut read = |count: u32, fault| {
+                let bus = if is_async { &mut asynchronous.port().bus } else { blocking.port() };
+                bus.count(count);
+                bus.fault = fault;
+                let (start, mut buffer) = (bus.now, [0; 4]);
+                let result = match is_async {
+                    true => now(AsyncClient::read(&mut asynchronous, COUNT, &mut buffer)),
+                    false => Client::read(&mut blocking, COUNT, &mut buffer),
+                };
+                assert!(result.is_err() || buffer == count.to_le_bytes(), "{fault:?}");
+                let bus = if is_async { &mut asynchronous.port().bus } else { blocking.port() };
+                (result, bus.now - start)
+            };
+            let (result, time) = read(1, fault);
+            let (second, next) = read(2, Fault::Nothing);
+            second.expect("the next request is right");
+            let (client, result, timeout) = ("SDO", name(&result), TIMEOUT);
+            rows.push(Row { client, is_async, fault: fault_name, result, time, next, timeout });
+        }
+    }
+    rows
 }

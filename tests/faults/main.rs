@@ -4,6 +4,7 @@
 mod now;
 
 mod can;
+mod matrix;
 mod modbus;
 mod random;
 mod serial;

@@ -11,6 +11,7 @@ use lexibus::{AsyncClient, Client, Error, Flags, Item, OnModbus, Register, Rw};
 use tokio::io::{duplex, AsyncReadExt, AsyncWriteExt, DuplexStream};
 use tokio::time::{sleep, timeout, Instant};
 
+use crate::matrix::{name, Row};
 use crate::random::Random;
 
 const DEVICE: u8 = 5;
@@ -240,4 +241,74 @@ async fn contexts_without_a_link_are_out_of_step() {
         failed += u32::from(request(&mut device, &world, number, false).await.is_err());
     }
     assert_eq!(failed, 10, "each call gets the reply to the one before");
+}
+
+/// Returns the rows of the matrix for Modbus.
+pub fn rows() -> Vec<Row> {
+    let faults = [
+        ("late", Fault::Late(TIMEOUT)),
+        ("lost", Fault::Lost),
+        ("duplicated", Fault::Duplicated),
+        ("truncated", Fault::Truncated),
+        ("foreign", Fault::Foreign),
+        ("noise", Fault::Noise),
+    ];
+    let mut rows = Vec::new();
+    for (client, is_rtu) in [("Modbus RTU", true), ("Modbus TCP", false)] {
+        for (fault_name, fault) in faults {
+            for is_async in [false, true] {
+                let world = world();
+                let (first, second) =
+                    if is_async { twice(is_rtu, &world, fault) } else { blocking_twice(is_rtu, &world, fault) };
+                let (result, time, next, timeout) = (first.0, first.1, second, TIMEOUT);
+                rows.push(Row { client, is_async, fault: fault_name, result, time, next, timeout });
+            }
+        }
+    }
+    rows
+}
+
+type Twice = ((&'static str, Duration), Duration);
+
+/// Returns the name and the time of a request with a fault, and the time of the next one, which is right.
+fn twice(is_rtu: bool, world: &Shared, fault: Fault) -> Twice {
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().start_paused(true).build();
+    runtime.expect("a runtime").block_on(async {
+        let mut device = ModbusClient::new(link(is_rtu, world));
+        world.lock().unwrap().fault = fault;
+        let start = Instant::now();
+        let first = (name(&request(&mut device, world, 1, false).await), start.elapsed());
+        world.lock().unwrap().fault = Fault::Nothing;
+        let start = Instant::now();
+        request(&mut device, world, 2, false).await.expect("the next request is right");
+        (first, start.elapsed())
+    })
+}
+
+fn blocking_twice(is_rtu: bool, world: &Shared, fault: Fault) -> Twice {
+    let mut handle = None;
+    let link = BlockingLink::open(async {
+        tokio::time::pause();
+        handle = Some(tokio::runtime::Handle::current());
+        Ok(link(is_rtu, world))
+    });
+    let mut device = ModbusClient::new(link.expect("a link"));
+    let handle = handle.expect("the runtime of the link");
+    // The simulated time of the link.
+    let now = || {
+        let _guard = handle.enter();
+        Instant::now()
+    };
+    let mut read = |count: u32, fault| {
+        (world.lock().unwrap().count, world.lock().unwrap().fault) = (count, fault);
+        let mut buffer = [0; 4];
+        let start = now();
+        let result = Client::read(&mut device, COUNT, &mut buffer);
+        assert!(result.is_err() || u32::from_le_bytes(buffer) == count, "{fault:?}");
+        (result, now() - start)
+    };
+    let (first, time) = read(1, fault);
+    let (second, next) = read(2, Fault::Nothing);
+    second.expect("the next request is right");
+    ((name(&first), time), next)
 }

@@ -3,8 +3,10 @@
 use std::cell::Cell;
 use std::collections::VecDeque;
 use std::io::ErrorKind;
+use std::pin::pin;
 use std::rc::Rc;
 use std::sync::{Arc, Mutex};
+use std::task::Poll;
 use std::time::Duration;
 
 use lexibus::clients::serial::{embedded_io, embedded_io_async, SerialError, SerialLine};
@@ -13,6 +15,8 @@ use lexibus::{AsyncExchange, Error, Exchange};
 use tokio::io::{duplex, AsyncReadExt, AsyncWriteExt, DuplexStream};
 use tokio::time::{sleep, timeout, Instant, Sleep};
 
+use crate::can::poll_once;
+use crate::matrix::{name, Row};
 use crate::random::Random;
 
 const FRAMING: Delimited = Delimited::new(Some(0x02), 0x03)
@@ -31,6 +35,8 @@ enum Fault {
     /// The reply arrives twice.
     Duplicated,
     Truncated,
+    /// Instead of the reply, a frame whose check is wrong.
+    Foreign,
     Noise,
     /// Bytes without a pause, for a minute.
     EndlessNoise,
@@ -51,6 +57,7 @@ fn reply(count: u32, fault: Fault) -> Vec<(Duration, u8)> {
         Fault::Lost => Vec::new(),
         Fault::Duplicated => at(soon).chain(at(soon)).collect(),
         Fault::Truncated => at(soon).take(length - 2).collect(),
+        Fault::Foreign => [0x02, 0x41, 0x41, 0x41, 0x03].map(|byte| (soon, byte)).into(),
         Fault::Noise => [0xFF, 0x03, 0x41].map(|byte| (soon, byte)).into_iter().chain(at(soon)).collect(),
         Fault::EndlessNoise => (1..6000).map(|at| (at * 10 * soon, 0x41)).collect(),
     }
@@ -181,8 +188,8 @@ fn after_each_fault_the_next_request_is_right() {
     }
 }
 
-/// A stream of `tokio`.
-struct AsyncPort(DuplexStream);
+/// A stream of `tokio`, and a byte that was read to see whether bytes are waiting.
+struct AsyncPort(DuplexStream, Option<u8>);
 
 impl embedded_io::ErrorType for AsyncPort {
     type Error = Late;
@@ -190,7 +197,22 @@ impl embedded_io::ErrorType for AsyncPort {
 
 impl embedded_io_async::Read for AsyncPort {
     async fn read(&mut self, buffer: &mut [u8]) -> Result<usize, Late> {
+        if let Some(byte) = self.1.take() {
+            buffer[0] = byte;
+            return Ok(1);
+        }
         self.0.read(buffer).await.map_err(|error| Late(error.kind()))
+    }
+}
+
+impl embedded_io::ReadReady for AsyncPort {
+    fn read_ready(&mut self) -> Result<bool, Late> {
+        if self.1.is_none() {
+            if let Poll::Ready(Ok(byte)) = poll_once(pin!(self.0.read_u8())) {
+                self.1 = Some(byte);
+            }
+        }
+        Ok(self.1.is_some())
     }
 }
 
@@ -228,7 +250,7 @@ fn asynchronous() -> (AsyncLine, World) {
     let (line, device) = duplex(0x1_0000);
     tokio::spawn(serve(device, world.clone()));
     let sleep: fn(Duration) -> Sleep = sleep;
-    (SerialLine::new(AsyncPort(line), FRAMING).with_time(sleep, TIMEOUT), world)
+    (SerialLine::new(AsyncPort(line, None), FRAMING).with_time(sleep, TIMEOUT), world)
 }
 
 async fn once_async<T: lexibus::Timer>(
@@ -287,4 +309,38 @@ async fn after_a_dropped_exchange_the_next_one_is_right() {
     let late = Fault::Late(Duration::from_millis(50));
     assert!(timeout(Duration::from_millis(20), once_async(&mut line, &world, 1, late)).await.is_err());
     once_async(&mut line, &world, 2, Fault::Nothing).await.expect("the reply");
+}
+
+/// Returns the rows of the matrix for serial lines.
+pub fn rows() -> Vec<Row> {
+    let faults = [
+        ("late", Fault::Late(Duration::from_millis(150))),
+        ("lost", Fault::Lost),
+        ("duplicated", Fault::Duplicated),
+        ("truncated", Fault::Truncated),
+        ("foreign", Fault::Foreign),
+        ("noise", Fault::Noise),
+    ];
+    let mut rows = Vec::new();
+    for (fault_name, fault) in faults {
+        let (line, now) = blocking();
+        let mut line = line.draining();
+        let result = name(&once(&mut line, 1, fault));
+        let time = now.get();
+        once(&mut line, 2, Fault::Nothing).expect("the next request is right");
+        let (client, timeout, next) = ("serial", TIMEOUT, now.get() - time);
+        rows.push(Row { client, is_async: false, fault: fault_name, result, time, next, timeout });
+
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().start_paused(true).build();
+        rows.push(runtime.expect("a runtime").block_on(async {
+            let (line, world) = asynchronous();
+            let mut line = line.draining();
+            let start = Instant::now();
+            let result = name(&once_async(&mut line, &world, 1, fault).await);
+            let time = start.elapsed();
+            once_async(&mut line, &world, 2, Fault::Nothing).await.expect("the next request is right");
+            Row { client, is_async: true, fault: fault_name, result, time, next: start.elapsed() - time, timeout }
+        }));
+    }
+    rows
 }

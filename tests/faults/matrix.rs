@@ -1,0 +1,54 @@
+//! Each client with each fault: the result, the longest time, and that the next request is right. Prints a table.
+
+use std::fmt::{Debug, Write as _};
+use std::time::Duration;
+
+use lexibus::Error;
+
+use crate::{can, modbus, serial};
+
+/// Result of a request with a fault, and of the next one without. Values are checked where the row is created.
+pub struct Row {
+    pub client: &'static str,
+    pub is_async: bool,
+    pub fault: &'static str,
+    pub result: &'static str,
+    pub time: Duration,
+    /// Time of the next request, which has the right value.
+    pub next: Duration,
+    /// Timeout of the client.
+    pub timeout: Duration,
+}
+
+/// Returns the name of a result. A right value is checked before.
+pub fn name<T, E: Debug>(result: &Result<T, Error<E>>) -> &'static str {
+    match result {
+        Ok(_) => "right value",
+        Err(Error::Timeout) => "`Timeout`",
+        Err(Error::UnexpectedReply) => "`UnexpectedReply`",
+        Err(Error::Client(_)) => "`Client`",
+        Err(other) => panic!("an error without a name in the table: {other:?}"),
+    }
+}
+
+#[test]
+fn matrix() {
+    let rows: Vec<Row> = [can::rows(), modbus::rows(), serial::rows()].into_iter().flatten().collect();
+    let mut table = "| client | | fault | result | time | next request |\n|---|---|---|---|---|---|\n".to_string();
+    for row in &rows {
+        let mode = if row.is_async { "async" } else { "blocking" };
+        let times = |time: Duration| format!("{:.1} timeouts", time.as_secs_f64() / row.timeout.as_secs_f64());
+        let (time, next) = (times(row.time), times(row.next));
+        writeln!(table, "| {} | {mode} | {} | {} | {time} | right value, {next} |", row.client, row.fault, row.result)
+            .expect("a string");
+    }
+    println!("{table}");
+    for row in &rows {
+        // The discrete timers of `tokio` and the deadline of a read that has just begun.
+        let soon = Duration::from_millis(5);
+        assert!(row.time <= 2 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.time);
+        assert!(row.next <= 4 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.next);
+    }
+    // Each client with each fault, blocking and async.
+    assert_eq!(rows.len(), 4 * 6 * 2);
+}
