@@ -400,6 +400,28 @@ fn stale_inputs_are_an_error() {
     });
 }
 
+#[test]
+fn a_lost_mailbox_reply_is_requested_again() {
+    let (subdevice, device) = servo();
+    let lost = subdevice.lost_reads();
+    with_segment(vec![subdevice], |maindevice| async move {
+        let group = pre_op(maindevice).await;
+        let mut drive = drive(maindevice, &group, 0);
+        for count in [1, 2, 3] {
+            lost.set(count);
+            drive.target_position().write_async(100 + count as i32).await.unwrap();
+            assert_eq!(device.borrow().device.get(objects::TARGET_POSITION), Ok(100 + count as i32));
+            lost.set(count);
+            assert_eq!(drive.target_position().read_async().await, Ok(100 + count as i32));
+        }
+        // Too many replies are lost. The next request is right.
+        lost.set(4);
+        assert!(matches!(drive.target_position().read_async().await, Err(Error::Client(_))));
+        lost.set(0);
+        assert_eq!(drive.target_position().read_async().await, Ok(103));
+    });
+}
+
 /// The drive without a mailbox.
 static MUTE: Device = Device { mailbox: Mailbox::NONE, sync_managers: &[], ..servo::DEVICE };
 

@@ -1,6 +1,8 @@
 //! The slave controller: 64 KiB of memory, of which 4 KiB are registers (ETG.1000.4 6).
 
+use std::cell::Cell;
 use std::ops::Range;
+use std::rc::Rc;
 
 /// Register addresses.
 const STATION: usize = 0x0010;
@@ -18,6 +20,10 @@ const RECEIVE_TIME: usize = 0x0918;
 
 /// Status bit of a mailbox sync manager. The bit is set if the mailbox is full.
 const FULL: u8 = 0x08;
+
+/// Bit in the activate register to request the repetition of a message, and in the PDI control register to acknowledge
+/// it.
+const REPEAT: u8 = 0x02;
 
 /// Times in ns that a frame needs for the whole segment, and from one SubDevice to the next.
 const FRAME: u64 = 10_000;
@@ -43,6 +49,10 @@ pub struct Controller {
     pub request: Option<u8>,
     /// Whether process data have been exchanged since the last run of the firmware.
     pub exchanged: bool,
+    /// The last message that the master read from the mailbox.
+    last: Vec<u8>,
+    /// How many of the next reads of the mailbox are lost on their way back.
+    pub lost_reads: Rc<Cell<u32>>,
 }
 
 impl Controller {
@@ -51,7 +61,8 @@ impl Controller {
         // Type, revision and build; 8 FMMUs, 8 sync managers and 8 KiB of memory; two Ethernet ports; 64-bit clocks.
         memory[..10].copy_from_slice(&[0x11, 0, 1, 0, 8, 8, 8, 0x0F, 0x0C, 0]);
         memory[AL_STATUS] = 1;
-        Self { memory, eeprom, time: 0, position: 0, count: 1, request: None, exchanged: false }
+        let (last, lost_reads) = (Vec::new(), Rc::default());
+        Self { memory, eeprom, time: 0, position: 0, count: 1, request: None, exchanged: false, last, lost_reads }
     }
 
     /// Sets the position in the segment. The position determines which ports have a link.
@@ -108,6 +119,12 @@ impl Controller {
             }
             if range.end == mailbox.range.end {
                 self.memory[mailbox.state] &= !FULL;
+                self.last = self.load(&mailbox);
+                let lost = self.lost_reads.get();
+                self.lost_reads.set(lost.saturating_sub(1));
+                if lost > 0 {
+                    return None;
+                }
             }
         }
         self.memory.get(range).map(<[u8]>::to_vec)
@@ -149,7 +166,14 @@ impl Controller {
         }
         for number in 0..8 {
             let own = self.manager(number);
-            if range.contains(&(own.state + 1)) {
+            if !range.contains(&(own.state + 1)) {
+                continue;
+            }
+            if (self.memory[own.state + 1] ^ self.memory[own.state + 2]) & REPEAT != 0 {
+                let message = std::mem::take(&mut self.last);
+                self.put(&own, &message);
+                self.memory[own.state + 2] ^= REPEAT;
+            } else {
                 // Reconfiguring a sync manager clears its buffer.
                 self.memory[own.state] = 0;
             }

@@ -1,6 +1,8 @@
 //! The firmware of a SubDevice: state machine (ETG.1000.6 6.4), mailbox and process data.
 
+use std::cell::Cell;
 use std::collections::VecDeque;
+use std::rc::Rc;
 
 use lexibus::ethercat::{Device, SyncManagerPurpose};
 use lexibus::{AbortCode, MappedEntry};
@@ -48,6 +50,13 @@ impl SubDevice {
             messages: VecDeque::new(),
             state: INIT,
         }
+    }
+
+    /// Returns how many of the next mailbox reads are lost after the device has emptied its mailbox. Set it to simulate
+    /// lost replies.
+    #[allow(dead_code)]
+    pub fn lost_reads(&self) -> Rc<Cell<u32>> {
+        self.controller.lost_reads.clone()
     }
 
     /// Runs the firmware once between two frames.

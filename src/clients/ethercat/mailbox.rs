@@ -23,6 +23,15 @@ const REGISTERS: u16 = 8;
 const STATE: u16 = 5;
 const FULL: u8 = 0x08;
 
+/// Offsets of the activate and the PDI control register from the status register, and their bits to request and to
+/// acknowledge the repetition of a message (ETG.1000.4 6.7.3).
+const ACTIVATE: u16 = 1;
+const PDI_CONTROL: u16 = 2;
+const REPEAT: u8 = 0x02;
+
+/// How often the repetition of one message is requested.
+const MOST_REPEATS: u32 = 3;
+
 /// Maximum number of polls in an exchange without a clock.
 const POLLS: u32 = 20_000;
 
@@ -132,7 +141,7 @@ impl<'m> Mailbox<'m> {
         written.await.map_err(Error::Client)?;
         loop {
             self.wait(back, true, &mut deadline).await?;
-            let received = self.take(back).await?;
+            let received = self.take(back, &mut deadline).await?;
             let answer = Answer::parse(&received);
             if let Answer::Emergency(emergency) = answer {
                 self.emergency = Some(emergency);
@@ -149,7 +158,7 @@ impl<'m> Mailbox<'m> {
     async fn clear(&mut self, back: Buffer, deadline: &mut Deadline) -> Result<(), Error<BusError>> {
         while self.is_full(back).await? {
             deadline.poll()?;
-            let received = self.take(back).await?;
+            let received = self.take(back, deadline).await?;
             if let Answer::Emergency(emergency) = Answer::parse(&received) {
                 self.emergency = Some(emergency);
             }
@@ -157,9 +166,40 @@ impl<'m> Mailbox<'m> {
         Ok(())
     }
 
-    async fn take(&self, back: Buffer) -> Result<impl Deref<Target = [u8]> + 'm, Error<BusError>> {
-        let read = Command::fprd(self.station, back.address).receive_slice(self.maindevice, back.length);
-        read.await.map_err(Error::Client)
+    /// Reads the message in the mailbox. If the datagram is lost after the device has emptied the mailbox, requests the
+    /// message again.
+    async fn take(
+        &self,
+        back: Buffer,
+        deadline: &mut Deadline,
+    ) -> Result<impl Deref<Target = [u8]> + 'm, Error<BusError>> {
+        let mut repeats = MOST_REPEATS;
+        loop {
+            match Command::fprd(self.station, back.address).receive_slice(self.maindevice, back.length).await {
+                Ok(received) => return Ok(received),
+                Err(error) if repeats == 0 => return Err(Error::Client(error)),
+                Err(_) => self.repeat(back, deadline).await?,
+            }
+            repeats -= 1;
+        }
+    }
+
+    /// Waits until the last message is in the mailbox again. Toggles the repeat request if the device has emptied it.
+    async fn repeat(&self, back: Buffer, deadline: &mut Deadline) -> Result<(), Error<BusError>> {
+        if self.is_full(back).await? {
+            return Ok(());
+        }
+        let request = self.register(back.state + ACTIVATE).await? ^ REPEAT;
+        let written = Command::fpwr(self.station, back.state + ACTIVATE).send(self.maindevice, request).await;
+        written.map_err(Error::Client)?;
+        while (self.register(back.state + PDI_CONTROL).await? ^ request) & REPEAT != 0 {
+            deadline.poll()?;
+        }
+        self.wait(back, true, deadline).await
+    }
+
+    async fn register(&self, address: u16) -> Result<u8, Error<BusError>> {
+        Command::fprd(self.station, address).receive::<u8>(self.maindevice).await.map_err(Error::Client)
     }
 
     async fn wait(&self, buffer: Buffer, full: bool, deadline: &mut Deadline) -> Result<(), Error<BusError>> {
@@ -172,8 +212,7 @@ impl<'m> Mailbox<'m> {
     }
 
     async fn is_full(&self, buffer: Buffer) -> Result<bool, Error<BusError>> {
-        let state = Command::fprd(self.station, buffer.state).receive::<u8>(self.maindevice);
-        Ok(state.await.map_err(Error::Client)? & FULL != 0)
+        Ok(self.register(buffer.state).await? & FULL != 0)
     }
 
     async fn buffers(&mut self) -> Result<(Buffer, Buffer), Error<BusError>> {
