@@ -6,7 +6,8 @@
 
 use std::time::Duration;
 
-use lexibus::clients::modbus::{sync, ModbusClient};
+use lexibus::clients::modbus::tokio_modbus::Slave;
+use lexibus::clients::modbus::{BlockingLink, ModbusClient};
 use lexibus::modbus::{Plan, RegisterClient};
 use lexibus::RegisterTable::{Coil, DiscreteInput, Holding, Input};
 
@@ -39,8 +40,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let server = Server::start(&device, Framing::Tcp)?;
 
     // Code for a real drive starts here. `MODBUS` contains the limits of the drive's requests.
-    let context = sync::tcp::connect_with_timeout(server.address(), Some(Duration::from_secs(5)))?;
-    let client = ModbusClient::new(context).with_limits(inverter::MODBUS);
+    // The link discards replies that are too late.
+    let link = BlockingLink::tcp(server.address(), Slave(1), Duration::from_secs(5))?;
+    let client = ModbusClient::new(link).with_limits(inverter::MODBUS);
     let mut drive = Inverter::new(client);
 
     drive.mode().write(Mode::Position)?;

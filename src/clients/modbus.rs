@@ -11,10 +11,7 @@
 //! const SPEED: Speed = Speed::register(Register::high_first(10, 2), "Speed", lexibus::Flags::NONE);
 //!
 //! let timeout = Duration::from_secs(1);
-//! let link = BlockingLink::open(async {
-//!     Ok(Link::tcp(tokio::net::TcpStream::connect("127.0.0.1:502").await?, Slave(1), timeout))
-//! })?;
-//! let mut device = ModbusClient::new(link);
+//! let mut device = ModbusClient::new(BlockingLink::tcp("127.0.0.1:502".parse()?, Slave(1), timeout)?);
 //! SPEED.at(&mut device).write(1500)?;
 //!
 //! // RTU needs a serial line of the crate `tokio-serial` and the address of the device.

@@ -8,7 +8,7 @@ use lexibus::clients::modbus::tokio_modbus::Slave;
 use lexibus::clients::modbus::{BlockingLink, Link, ModbusClient};
 use lexibus::framing::Check;
 use lexibus::{AsyncClient, Client, Error, Flags, Item, OnModbus, Register, Rw};
-use tokio::io::{duplex, AsyncReadExt, AsyncWriteExt, DuplexStream};
+use tokio::io::{duplex, AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt, DuplexStream};
 use tokio::time::{sleep, timeout, Instant};
 
 use crate::matrix::{name, Row};
@@ -61,7 +61,7 @@ fn frame(is_rtu: bool, transaction: [u8; 2], device: u8, data: &[u8]) -> Vec<u8>
 }
 
 /// Replies to requests of functions 3 and 6, one after the other.
-async fn serve(mut line: DuplexStream, is_rtu: bool, world: Shared) {
+async fn serve(mut line: impl AsyncRead + AsyncWrite + Unpin, is_rtu: bool, world: Shared) {
     let mut request = vec![0; if is_rtu { 8 } else { 12 }];
     while line.read_exact(&mut request).await.is_ok() {
         let (transaction, data) =
@@ -192,6 +192,26 @@ async fn after_each_fault_the_next_request_is_right() {
             assert!(start.elapsed() <= 4 * TIMEOUT, "{fault:?}: {:?}", start.elapsed());
         }
     }
+}
+
+/// A pseudo-terminal in real time, as far as a busy machine allows.
+#[cfg(unix)]
+#[tokio::test]
+async fn late_replies_on_a_pseudo_terminal() {
+    const TIMEOUT: Duration = Duration::from_millis(100);
+    let (near, far) = tokio_serial::SerialStream::pair().expect("a pseudo-terminal");
+    let world = world();
+    tokio::spawn(serve(far, true, world.clone()));
+    let mut device = ModbusClient::new(Link::rtu(near, Slave(DEVICE), TIMEOUT));
+    let (mut late, mut failed) = (0, 0);
+    for number in 0..200 {
+        let is_late = number % 20 == 7;
+        late += u32::from(is_late);
+        world.lock().unwrap().fault = if is_late { Fault::Late(TIMEOUT * 5 / 4) } else { Fault::Nothing };
+        failed += u32::from(request(&mut device, &world, number, false).await.is_err());
+    }
+    println!("200 Modbus RTU requests on a pseudo-terminal, {late} late: {failed} errors, no wrong value");
+    assert!((late..100).contains(&failed), "{failed} errors for {late} late replies");
 }
 
 #[tokio::test(start_paused = true)]

@@ -6,7 +6,7 @@ use std::net::SocketAddr;
 use std::time::Duration;
 
 use lexibus::clients::modbus::tokio_modbus::{ExceptionCode, Slave};
-use lexibus::clients::modbus::{rtu, sync, tcp, ModbusClient, ModbusError};
+use lexibus::clients::modbus::{sync, tcp, BlockingLink, Link, ModbusClient, ModbusError};
 use lexibus::modbus::{AsyncRegisterClient as _, RegisterClient as _};
 use serde_json::{json, Value};
 use tokio_serial::SerialStream;
@@ -309,8 +309,8 @@ macro_rules! all_scenarios {
 #[test]
 fn tcp_blocking() -> Result<(), Error> {
     let Some((mut script, address)) = over_tcp() else { return Ok(()) };
-    let context = sync::tcp::connect_slave_with_timeout(address, DEVICE, Some(PATIENCE)).expect("a connection");
-    let mut device = Registers::new(ModbusClient::new(context));
+    let link = BlockingLink::tcp(address, DEVICE, PATIENCE).expect("a connection");
+    let mut device = Registers::new(ModbusClient::new(link));
     all_scenarios! { blocking, script, device }
     Ok(())
 }
@@ -319,8 +319,8 @@ fn tcp_blocking() -> Result<(), Error> {
 fn rtu_blocking() -> Result<(), Error> {
     let Some((mut script, cable)) = over_rtu() else { return Ok(()) };
     let line = tokio_serial::new(cable.ends()[0], BAUD);
-    let context = sync::rtu::connect_slave_with_timeout(&line, DEVICE, Some(PATIENCE)).expect("a serial line");
-    let mut device = Registers::new(ModbusClient::new(context));
+    let link = BlockingLink::open(async { Ok(Link::rtu(SerialStream::open(&line)?, DEVICE, PATIENCE)) });
+    let mut device = Registers::new(ModbusClient::new(link.expect("a serial line")));
     all_scenarios! { blocking, script, device }
     Ok(())
 }
@@ -341,7 +341,7 @@ fn rtu_not_blocking() -> Result<(), Error> {
     let Some((mut script, cable)) = over_rtu() else { return Ok(()) };
     block_on(async {
         let line = SerialStream::open(&tokio_serial::new(cable.ends()[0], BAUD)).expect("a serial line");
-        let mut device = Registers::new(ModbusClient::new(rtu::attach_slave(line, DEVICE)));
+        let mut device = Registers::new(ModbusClient::new(Link::rtu(line, DEVICE, PATIENCE)));
         all_scenarios! { awaited, script, device }
         Ok(())
     })

@@ -6,10 +6,12 @@ use core::task::{ready, Context as TaskContext, Poll};
 use core::time::Duration;
 use std::fmt;
 use std::io;
+use std::net::SocketAddr;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::vec::Vec;
 
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
+use tokio::net::TcpStream;
 use tokio::runtime::{Builder, Runtime};
 use tokio::time::{timeout, timeout_at, Instant};
 use tokio_modbus::client::{rtu, sync, tcp, Client as _, Context};
@@ -138,8 +140,8 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
             // The CRC over a frame and its CRC is zero.
             (4..=256).contains(&bytes.len()) && Check::Crc16(0xFFFF).of(bytes) == [0; 2]
         } else {
-            let length = bytes.get(4..6).map(|length| usize::from(length[0]) << 8 | usize::from(length[1]));
-            length.is_some_and(|length| bytes.len() == 6 + length)
+            matches!(*bytes, [_, _, _, _, high, low, ref rest @ ..]
+                if rest.len() == usize::from(u16::from_be_bytes([high, low])))
         }
     }
 }
@@ -307,6 +309,20 @@ impl<T> BlockingLink<T> {
         let runtime = Builder::new_current_thread().enable_all().build()?;
         let link = runtime.block_on(open)?;
         Ok(Self { runtime, link })
+    }
+}
+
+impl BlockingLink<TcpStream> {
+    /// Connects to `device` with Modbus TCP. `timeout` bounds the connection, and each call as [`Link`] describes.
+    ///
+    /// # Errors
+    ///
+    /// The errors of the connection, and [`io::ErrorKind::TimedOut`] if it takes too long.
+    pub fn tcp(address: SocketAddr, device: Slave, timeout: Duration) -> io::Result<Self> {
+        Self::open(async {
+            let stream = tokio::time::timeout(timeout, TcpStream::connect(address)).await;
+            Ok(Link::tcp(stream.unwrap_or_else(|_| Err(late()))?, device, timeout))
+        })
     }
 }
 
