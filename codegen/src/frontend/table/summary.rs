@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use super::at::{At, Literal, OneOrMany};
+use super::at::{At, OneOrMany};
 use super::definitions::Definitions;
 use super::format::SummaryTable;
 use super::tree::{cited, Reader};
 use super::words::{ACCESSES, DIRECTIONS, OBJECT_CODES};
 use super::{types, value};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Access, Group, Item, Mappable, ObjectCode, Texts, Type, Value};
+use crate::ir::{Access, Group, Item, Mappable, ObjectCode, Texts, Type};
 use crate::source::Span;
 use crate::text::{brief, count_of};
 
@@ -158,12 +158,8 @@ fn numbers(
     base: Type,
     differs: &mut Vec<(Span, String, String)>,
 ) {
-    let pairs: [(&str, &Option<At<Literal>>, Option<&Value>); 3] = [
-        ("minimum", &summary.min, item.limits.low.as_ref()),
-        ("maximum", &summary.max, item.limits.high.as_ref()),
-        ("default", &summary.default, item.default.as_ref()),
-    ];
-    for (what, given, has) in pairs {
+    let limits = [("minimum", &summary.min, &item.limits.low), ("maximum", &summary.max, &item.limits.high)];
+    for (what, given, has) in limits.into_iter().chain([("default", &summary.default, &item.default)]) {
         let (Some(given), Some(has)) = (given, has) else { continue };
         let says = value::convert(&given.value, base, reader.is_pattern(given));
         if let Some(says) = says.filter(|says| says != has) {
