@@ -1,4 +1,4 @@
-/// EtherCAT description of a device of Maker for the master.
+/// EtherCAT description of an unnamed device by Maker for the master.
 pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
     identity: IDENTITY,
     sync_managers: &[],
