@@ -36,7 +36,7 @@ fn modules(eds: String) -> Option<String> {
     let options = Options::default();
     let text = check(Source::new("device.eds", eds.into()), &options).rust(&options.rust).expect("bindings");
     compile_support::compile("device.eds", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
-    let start = text.find("/// PDOs with a mapping that can be changed")?;
+    let start = text.find("/// PDOs with a writable mapping")?;
     let end = text[start..].find("\n/// PDOs with their default mapping").map_or(text.len(), |end| start + end);
     Some(text[start..end].to_owned())
 }

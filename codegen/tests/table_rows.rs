@@ -395,7 +395,10 @@ fn findings_say_what_and_where() {
                      half = { reg = 3, type = \"u16\", access = \"ro\", same_as = \"whole\", min = 0, max = 9 }",
     );
     assert_eq!(reported(&half), [""; 0]);
-    one(&half.replace("half = { reg = 3, type = \"u16\"", "half = { reg = 3, type = \"u64\""), "the same value as");
+    one(
+        &half.replace("half = { reg = 3, type = \"u16\"", "half = { reg = 3, type = \"u64\""),
+        "declared as the same value",
+    );
     let mapped = a("")
         .replace("[device]\n", "[device]\nbuses = [\"ethercat\", \"modbus\"]\n")
         .replace("reg = 2,", "reg = 2, obj = 0x2002,")

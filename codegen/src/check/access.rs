@@ -14,7 +14,7 @@ pub(super) fn conflicts(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         for (span, problem) in contradictions(item).into_iter().flatten() {
             let message = format!("`{}` is {} and {problem}", brief(&item.name), item.access.name());
             let found = codes::ACCESS_CONFLICT.at(access_span(item, span), message);
-            let help = "correct the misprinted fact according to the text of the manual, and add a `doubt`";
+            let help = "check both facts in the manual, correct the wrong one, and add a `doubt`";
             diagnostics.push(found.help(help));
         }
     }
@@ -43,8 +43,8 @@ fn contradictions(item: &Item) -> [Option<(Span, &'static str)>; 3] {
     let behaviour = item.behaviour.as_deref();
     let saved = behaviour.filter(|behaviour| matches!(behaviour.storage, Storage::Immediate | Storage::OnCommand(_)));
     let saved = match saved {
-        Some(_) if !writable => conflict(Span::default(), "non-volatile, although it cannot be written"),
-        Some(saved) if saved.self_clearing => conflict(Span::default(), "non-volatile, although the device clears it"),
+        Some(_) if !writable => conflict(Span::default(), "non-volatile"),
+        Some(saved) if saved.self_clearing => conflict(Span::default(), "non-volatile, but the device clears it"),
         _ => None,
     };
     let mapped = match item.mappable {

@@ -800,7 +800,7 @@ codes! {
         "`conversions` holds raw values and the physical values that the manual gives for them. The scale gives \
         another value, more than one raw step away. A digit is misprinted, or the scale, a machine value or the base \
         is wrong. Keep the numbers that fit each other, and add a `doubt`."
-    TAB053 OVERLAY_SHARED Lint Warn "an overlay changes a part of a device that it is not for"
+    TAB053 OVERLAY_SHARED Lint Warn "an overlay also changes a device that its `for` does not name"
         "`for` in `[overlay]` names some devices. Another device has the same module or submodule, which is described \
         once, so the overlay changes it there too. If this is correct, name the module or the other device in `for`."
     MSG001 FRAMING_BYTES Lint Warn "start, end and escape bytes of frames contradict each other"

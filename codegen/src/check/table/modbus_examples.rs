@@ -109,7 +109,7 @@ fn reply(request: Option<&Request>, bytes: &[u8]) -> Vec<String> {
             if u16::from(count) != request.quantity.saturating_mul(2) {
                 let expected = request.quantity.saturating_mul(2);
                 problems.push(format!(
-                    "has {count} bytes instead of {expected} for {}",
+                    "has the byte count {count} instead of {expected} for {}",
                     count_of(request.quantity, "register")
                 ));
             }
