@@ -90,7 +90,7 @@ export class Window {
     return this.page;
   }
 
-  // Types into the search field with the keyboard, and waits for results or the message that there are none.
+  // Types into the search field with the keyboard, and waits for results or for the message about no results.
   async search(text) {
     const { page } = this;
     await page.keyboard.press("Escape");

@@ -25,7 +25,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the location of the differing fact in an overlay, or else of the row.
+/// Returns the location of the differing fact if an overlay states it. Returns the location of the row otherwise.
 fn difference_span(item: &Item, alias: &ItemRef) -> Span {
     let row = item.origin.span;
     let facts = [alias.span, item.at.ty, item.at.low, item.at.high];

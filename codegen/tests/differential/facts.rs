@@ -45,7 +45,7 @@ pub fn put_some(facts: &mut Facts, name: &str, value: Option<impl ToString>) {
     }
 }
 
-/// Adds a number unless it is 0, which means that there is no value.
+/// Adds a number unless it is 0, which means no value.
 pub fn put_number(facts: &mut Facts, name: &str, number: impl Into<i64>) {
     put_some(facts, name, Some(number.into()).filter(|&number| number != 0));
 }

@@ -71,7 +71,7 @@ impl<'a> Object<'a> {
     fn single_value(&self) -> Option<&'a Item> {
         let [item] = self.group.items.as_slice() else { return None };
         let is_alone = item.object().is_some_and(|(_, sub)| sub == 0) && !self.code.has_subs();
-        // If the name differs or the object has flags of its own, the device description has a section for sub-index 0.
+        // If the name differs or the object has flags, the device description has a section for sub-index 0.
         let is_the_object = item.name == self.group.name && self.group.flags == 0;
         (is_alone && (is_the_object || self.code == ObjectCode::Var)).then_some(item)
     }
