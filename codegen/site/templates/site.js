@@ -64,13 +64,15 @@ function numberPoints(number, { word, hex, values }) {
   return number.plain.includes(word) ? 20 : 0;
 }
 
-function textPoints([name, names, ...rest], word) {
+// Returns the points of a text for a word. A whole unit counts more than a part of a name: `v` is part of most names.
+function textPoints([name, names, unit, description], word) {
   let points = 0;
   if (name === word) points += 100;
   if (name.startsWith(word)) points += 30;
   if (name.includes(word)) points += 10;
   if (names.includes(word)) points += 8;
-  return points || Number(rest.some((field) => field.includes(word)));
+  if (unit === word) points += 50;
+  return points || Number([unit, description].some((field) => field?.includes(word)));
 }
 
 function each(list, points) {
