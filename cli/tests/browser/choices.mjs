@@ -28,7 +28,7 @@ async function languages(browser) {
   const window = await Window.open(browser, site);
   const page = await window.go("aec-vector-step/encoder-1.html");
   const row = page.locator("tbody[id=Renc1pulse] td").first();
-  const shown = async () => (await row.innerText()).trim();
+  const shown = async () => (await row.locator("b:visible, i:visible").allInnerTexts()).join(" ");
   const choose = (language) => page.locator("#language").selectOption(language);
   assert.equal(await shown(), "Renc1pulse Impulsi giro encoder 1");
   await choose("-");

@@ -25,9 +25,9 @@ pub(super) struct Row {
     pub default: String,
     pub range: String,
     pub unit: String,
-    /// First sentence of the description.
+    /// First line of the description, which the row shows after the name.
     pub description: String,
-    /// The facts below the row, one sentence each.
+    /// The facts below the row, one sentence each. They begin with further lines of the description.
     pub facts: Vec<String>,
     /// The description in other languages.
     pub translations: Vec<(String, String)>,
@@ -55,6 +55,18 @@ pub(super) struct Doubt {
     pub chosen: String,
     pub why: String,
     pub cite: String,
+}
+
+impl Doubt {
+    /// Returns whether a wrong assumption can move a motor or damage wiring.
+    pub fn is_hazard(&self) -> bool {
+        self.severity == Severity::Hazard
+    }
+}
+
+/// Splits ambiguities, which are sorted by severity, into hazards and others.
+pub(super) fn by_hazard(doubts: &[Doubt]) -> (&[Doubt], &[Doubt]) {
+    doubts.split_at(doubts.partition_point(Doubt::is_hazard))
 }
 
 impl Row {
@@ -135,6 +147,7 @@ impl Rows<'_> {
             addresses.iter().map(|address| address.lookup.clone()).filter(|lookup| !lookup.is_empty()).collect();
         let addresses = addresses.into_iter().filter(|address| address.text != number);
         let elsewhere = addresses.map(|address| format!("{}: {}", address.bus, address.text)).collect();
+        let description = PLAIN.description(item.documentation.as_deref());
         Row {
             anchor,
             number,
@@ -146,8 +159,8 @@ impl Rows<'_> {
             default: item::default(item, self.types),
             range: item::range(item, &item.limits, self.types, ALLOWED_SHOWN),
             unit: item::unit(item).to_owned(),
-            description: PLAIN.description(item.documentation.as_deref()).into_iter().next().unwrap_or_default(),
-            facts: self.facts(item, definition),
+            facts: self.facts(item, &description, definition),
+            description: description.first().cloned().unwrap_or_default(),
             translations: words::translations(item.documentation.as_deref()),
             elsewhere,
             doubts: doubts(&item.doubts, self.known.manual),
@@ -162,10 +175,11 @@ impl Rows<'_> {
         }
     }
 
-    fn facts(&self, item: &Item, definition: Option<&TypeDef>) -> Vec<String> {
-        let mut facts = PLAIN.description(item.documentation.as_deref());
+    /// Returns the facts below a row. `description` contains the lines of the description; the row shows the first one.
+    fn facts(&self, item: &Item, description: &[String], definition: Option<&TypeDef>) -> Vec<String> {
         let of_type = PLAIN.description(definition.and_then(|definition| definition.documentation.as_deref()));
-        facts.extend(of_type.into_iter().filter(|fact| !facts.contains(fact)).collect::<Vec<_>>());
+        let of_type = of_type.into_iter().filter(|fact| !description.contains(fact));
+        let mut facts: Vec<String> = description.iter().skip(1).cloned().chain(of_type).collect();
         facts.extend(PLAIN.access(item));
         facts.extend(item::mappable(item.mappable).map(|pdos| format!("Mappable into {pdos}.")));
         facts.extend(PLAIN.meaning_from(types::definition(self.types, item.ty)));

@@ -30,6 +30,8 @@ pub(super) struct Folder {
     pub index: Index,
     pub listed: ListedCatalog,
     diagnostics: ShownDiagnostics,
+    /// File name and title of the list of devices, if there are several.
+    list: Option<(String, String)>,
     /// Links to pages that all devices share.
     shared: Rc<Links>,
     /// Links to the pages of the device that was written last.
@@ -73,6 +75,7 @@ impl Folder {
             index: Index::default(),
             listed: ListedCatalog::default(),
             diagnostics,
+            list: None,
             shared: Rc::default(),
             last: Rc::default(),
         }
@@ -81,11 +84,12 @@ impl Folder {
     /// Writes all pages of the catalog. `title` is the title of the catalog.
     pub fn catalog(&mut self, title: &str, catalog: &Catalog) {
         let is_alone = catalog.devices.len() == 1;
+        self.list = (!is_alone).then(|| (format!("{FIRST}{}", self.format.ending()), title.to_owned()));
         // The device pages link to the shared pages, so the file names of the shared pages are determined first.
         let (modules, files) = self.modules(catalog);
-        let diagnostics = (!self.diagnostics.list.is_empty()).then(|| self.file("Findings"));
+        let diagnostics = (!self.diagnostics.list.is_empty()).then(|| self.file("Diagnostics"));
         self.listed.shared.extend(files.iter().cloned());
-        self.listed.shared.extend(diagnostics.iter().map(|file| (file.clone(), "Findings".to_owned())));
+        self.listed.shared.extend(diagnostics.iter().map(|file| (file.clone(), "Diagnostics".to_owned())));
         // The first module page links to all module pages.
         self.shared = Rc::new(Links::new(self.listed.shared.clone(), files.len().min(1)..files.len()));
         let spoken = languages_of_modules(catalog);
@@ -96,14 +100,14 @@ impl Folder {
             self.listed.devices.first().filter(|_| is_alone).map_or(title, |device| device.title.as_str()).to_owned();
         let device_pages = if is_alone { self.last.clone() } else { Rc::default() };
         let languages = languages(&catalog.devices, &spoken);
-        let frame = Frameset { title, device_pages, shared: self.shared.clone(), languages };
+        let list = self.list.clone();
+        let frame = Frameset { title, list, device_pages, shared: self.shared.clone(), languages };
         self.module_pages(&modules, &files, &frame);
         if let Some(file) = &diagnostics {
             let text = self.format.page(&frame, file, Content::Diagnostics(&self.diagnostics.list));
             self.pages.push(Page::new(file, text));
         }
-        if !is_alone {
-            let file = format!("{FIRST}{}", self.format.ending());
+        if let Some((file, _)) = self.list.clone() {
             let list = Content::List { devices: &self.listed.devices, root: "..", index: "" };
             let text = self.format.page(&frame, &file, list);
             self.pages.push(Page::new(&file, text));
@@ -134,8 +138,8 @@ impl Folder {
         links.extend(pages.iter().cloned());
         self.last = Rc::new(Links::new(links, 1..1 + parts.areas.len()));
         let languages = languages(std::slice::from_ref(device), spoken);
-        let frame =
-            Frameset { title: title.clone(), device_pages: self.last.clone(), shared: self.shared.clone(), languages };
+        let (device_pages, shared) = (self.last.clone(), self.shared.clone());
+        let frame = Frameset { title: title.clone(), list: self.list.clone(), device_pages, shared, languages };
         if let Some(file) = &assumptions {
             self.page(&frame, file, Content::Assumptions(&ranked));
         }

@@ -18,8 +18,13 @@ use super::Page;
 /// The style sheet.
 const STYLE: &str = include_str!("../templates/site.css");
 
-/// The script: search, theme, language and copy buttons.
-const SCRIPT: &str = include_str!("../templates/site.js");
+/// The script. Its parts share one scope, because modules do not load from disk.
+const SCRIPT: &str = concat!(
+    include_str!("../templates/script/frame.js"),
+    include_str!("../templates/script/rows.js"),
+    include_str!("../templates/script/search.js"),
+    include_str!("../templates/script/start.js"),
+);
 
 /// Declares one template for each kind of page.
 macro_rules! templates {

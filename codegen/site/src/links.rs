@@ -26,13 +26,27 @@ impl Links {
         self.list.iter()
     }
 
+    pub fn count(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Returns the file name and title of a page by its position.
+    pub fn get(&self, at: usize) -> Option<&(String, String)> {
+        self.list.get(at)
+    }
+
+    /// Returns the position of a file in the page order.
+    pub fn position(&self, file: &str) -> Option<usize> {
+        self.positions.get(file).copied()
+    }
+
     /// Returns all pages if there are only a few. Otherwise returns the pages near `file` and the pages outside `many`.
     pub fn near(&self, file: &str) -> impl Iterator<Item = &(String, String)> {
         let Range { start, end } = self.many;
         let near = if end - start <= MAX_LINKED_PAGES {
             start..end
         } else {
-            let at = self.positions.get(file).copied().unwrap_or(start).clamp(start, end - 1);
+            let at = self.position(file).unwrap_or(start).clamp(start, end - 1);
             at.saturating_sub(NEAR_LINKED_PAGES).max(start)..(at + NEAR_LINKED_PAGES + 1).min(end)
         };
         [0..start, near, end..self.list.len()].into_iter().flat_map(|range| &self.list[range])

@@ -184,6 +184,7 @@ mod tests {
         let pages = (0..1000).map(|at| (format!("modules-{at}.md"), format!("Modules {at}"))).collect();
         let frame = Frameset {
             title: "Coupler".to_owned(),
+            list: None,
             device_pages: Rc::default(),
             shared: Rc::new(Links::new(pages, 0..1000)),
             languages: Vec::new(),

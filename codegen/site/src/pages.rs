@@ -22,6 +22,8 @@ pub(super) const FIRST: &str = "index";
 pub(super) struct Frameset {
     /// Title of the device or catalog.
     pub title: String,
+    /// File name and title of the list of devices, if the catalog has several.
+    pub list: Option<(String, String)>,
     /// Links to the pages of the device.
     pub device_pages: Rc<Links>,
     /// Links to the pages that all devices share.
@@ -34,6 +36,29 @@ impl Frameset {
     /// Returns the file names and titles of all pages.
     pub fn all(&self) -> Vec<&(String, String)> {
         self.device_pages.all().chain(self.shared.all()).collect()
+    }
+
+    /// Returns the pages that lead from the list of all catalogs to `file`, ending with `file`.
+    pub fn path(&self, file: &str) -> Vec<(&String, &String)> {
+        let list = self.list.iter().map(|(file, title)| (file, title));
+        let first = self.device_pages.get(0).map(|(file, _)| (file, &self.title));
+        let open = self.position(file).filter(|at| *at > 0 || first.is_none()).and_then(|at| self.get(at));
+        list.chain(first).chain(open.map(|(file, title)| (file, title))).collect()
+    }
+
+    /// Returns the pages before and after `file`.
+    pub fn neighbors(&self, file: &str) -> (Option<&(String, String)>, Option<&(String, String)>) {
+        let Some(at) = self.position(file) else { return (None, None) };
+        (at.checked_sub(1).and_then(|at| self.get(at)), self.get(at + 1))
+    }
+
+    fn position(&self, file: &str) -> Option<usize> {
+        let shared = || Some(self.device_pages.count() + self.shared.position(file)?);
+        self.device_pages.position(file).or_else(shared)
+    }
+
+    fn get(&self, at: usize) -> Option<&(String, String)> {
+        self.device_pages.get(at).or_else(|| self.shared.get(at.checked_sub(self.device_pages.count())?))
     }
 
     /// Returns the file names and titles of the pages to which `file` links.

@@ -88,8 +88,8 @@ fn repairs_stand_where_they_matter() {
                [2000]\nParameterName=Gain\nDataType=6\nAccessType=rw\nDefaultValue=012\n\
                [2001]\nParameterName=Level\nDataType=6\nAccessType=ro\n";
     for (format, page, all) in [
-        (Format::Html, "pump/manufacturer-objects.html", "pump/findings.html"),
-        (Format::Markdown, "pump/manufacturer-objects.md", "pump/findings.md"),
+        (Format::Html, "pump/manufacturer-objects.html", "pump/diagnostics.html"),
+        (Format::Markdown, "pump/manufacturer-objects.md", "pump/diagnostics.md"),
     ] {
         let pages = site(format, vec![("pump".to_owned(), Source::new("pump.eds", eds.into()))]);
         let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
@@ -102,7 +102,7 @@ fn repairs_stand_where_they_matter() {
     }
     // If a file has no diagnostics, its documentation has no page of diagnostics.
     let pages = files(Format::Html, &["dictionaries/demo-drive.eds"]);
-    assert!(pages.iter().all(|page| !page.path.ends_with("findings.html")));
+    assert!(pages.iter().all(|page| !page.path.ends_with("diagnostics.html")));
 }
 
 #[test]

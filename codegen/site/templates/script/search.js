@@ -1,13 +1,9 @@
-// Written by lexibus docs.
-"use strict";
+// The search.
 // The index of a site or of one device: pages with their titles, numbers, texts and anchors. An entry refers to a page, a number
 // and a text, and has an anchor. A text contains name, names in other languages, unit and description.
 let pages = [], titles = [], numbers = [], texts = [], anchors = [], isLoading = false, isLoaded = false;
 // Positions in these lists, for each entry.
 let pageOf, numberOf, textOf;
-
-// Returns a text without capitals and accents, which the search ignores.
-const plain = (text) => text.replace(/[\u00c0-\u024f]/g, (letter) => letter.normalize("NFD")[0]).toLowerCase();
 
 function lexibusIndex(list, numberLines, textLines, anchorLines, entries) {
   pages = list.map(([path, title]) => ({ path, title }));
@@ -36,8 +32,7 @@ function numberFrom(text) {
 }
 
 // The folder of the index if it differs from that of the page.
-const folder = document.documentElement.dataset.index || "";
-const byId = (id) => document.getElementById(id);
+const folder = root.dataset.index || "";
 const input = byId("search"), found = byId("found");
 
 function load() {
@@ -143,17 +138,9 @@ function search() {
   const list = matches(input.value);
   found.replaceChildren(...list.map((entry, at) => {
     const [name, names, unit] = texts[textOf[entry]].fields, page = pages[pageOf[entry]];
-    const item = document.createElement("li"), link = document.createElement("a"), more = document.createElement("small");
-    item.role = "presentation";
-    link.role = "option";
-    link.id = "found-" + at;
-    link.href = linkOf(entry);
-    link.tabIndex = -1;
-    link.textContent = numbers[numberOf[entry]].text + " " + name + " ";
-    more.textContent = [names, unit, page.title].filter(Boolean).join(" · ");
-    link.append(more);
-    item.append(link);
-    return item;
+    const more = element("small", { textContent: [names, unit, page.title].filter(Boolean).join(" · ") });
+    const link = element("a", { role: "option", id: "found-" + at, href: linkOf(entry), tabIndex: -1 }, numbers[numberOf[entry]].text + " " + name + " ", more);
+    return element("li", { role: "presentation" }, link);
   }));
   found.hidden = !list.length;
   input.setAttribute("aria-expanded", String(list.length > 0));
@@ -196,67 +183,12 @@ for (const leaving of ["focusin", "pointerdown"]) {
   document.addEventListener(leaving, ({ target }) => { if (!target.closest(".search")) close(); });
 }
 document.addEventListener("keydown", (event) => {
-  if (event.key === "/" && !event.ctrlKey && !event.metaKey && !/INPUT|SELECT/.test(document.activeElement.tagName)) {
-    event.preventDefault();
-    input.focus();
-  }
+  const isShortcut = event.key === "/" ? !/INPUT|SELECT|TEXTAREA/.test(document.activeElement.tagName) : event.key === "k" && (event.ctrlKey || event.metaKey);
+  if (!isShortcut) return;
+  event.preventDefault();
+  input.focus();
+  input.select();
 });
-
-// Stores a choice of the reader and returns it. Some browsers store nothing.
-const kept = (key, value) => {
-  try {
-    if (value !== undefined) localStorage.setItem(key, value);
-    return localStorage.getItem(key) || "";
-  } catch { return ""; }
-};
-
-const root = document.documentElement;
-if (kept("theme")) root.dataset.theme = kept("theme");
-byId("theme").addEventListener("click", () => {
-  const dark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
-  root.dataset.theme = kept("theme", dark ? "light" : "dark");
-});
-
-// Shows names and descriptions in the selected language. Elements without a name in it keep the name of the source.
-function names(language) {
-  for (const text of document.querySelectorAll(":is(i, p)[lang]")) text.hidden = language !== "" && text.lang !== language;
-  for (const name of document.querySelectorAll("b:has(+ i[lang])")) {
-    const others = [];
-    for (let next = name.nextElementSibling; next && next.matches("i[lang]"); next = next.nextElementSibling) others.push(next);
-    name.hidden = others.some((other) => other.lang === language);
-  }
-}
-const language = byId("language");
-if (language) {
-  language.value = kept("language");
-  names(language.value);
-  language.addEventListener("change", () => names(kept("language", language.value)));
-}
-
-// Adds copy buttons to lines of code. Pages without a script don't need them.
-for (const code of document.querySelectorAll("p > code:only-child")) {
-  const button = document.createElement("button");
-  button.type = "button";
-  button.textContent = "Copy";
-  button.className = "copy";
-  button.addEventListener("click", () => {
-    navigator.clipboard?.writeText(code.textContent).then(() => { button.textContent = "Copied"; }, () => getSelection().selectAllChildren(code));
-  });
-  code.after(" ", button);
-}
-
-// Lets the keyboard reach elements that are wider than the page and scroll.
-const boxes = new ResizeObserver((list) => {
-  for (const { target } of list) {
-    if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
-    else target.removeAttribute("tabindex");
-  }
-});
-for (const box of document.querySelectorAll(".wide, pre")) boxes.observe(box);
-
-// Scrolls the list of pages to the open page.
-const open = document.querySelector("nav [aria-current]");
-if (open) open.parentElement.scrollTop = open.offsetTop - open.parentElement.offsetTop - open.offsetHeight;
 
 // Returns the address in the URL if this page does not have it.
 function missingAddress() {
@@ -281,4 +213,3 @@ function leadOrLoad() {
   else if (missingAddress()) load();
 }
 addEventListener("hashchange", leadOrLoad);
-leadOrLoad();

@@ -1,0 +1,50 @@
+// The rows of a table of items. Their details unfold in place: one row by its button, the row of the address, or all rows.
+
+// The details of a row are completed when they are shown for the first time. Each function gets a row group.
+const completions = [];
+
+function unfold(row, isOpen) {
+  row.classList.toggle("open", isOpen);
+  row.querySelector("button.fold")?.setAttribute("aria-expanded", String(isOpen));
+  if (!isOpen || row.dataset.complete) return;
+  row.dataset.complete = "yes";
+  for (const complete of completions) complete(row);
+}
+
+const foldable = [...document.querySelectorAll(".items > tbody")].filter((row) => row.querySelector(":scope > .more"));
+for (const row of foldable) {
+  const heading = row.rows[0].cells[0];
+  const button = element("button", { type: "button", className: "fold", title: "Details" });
+  button.setAttribute("aria-expanded", "false");
+  button.setAttribute("aria-label", `Details of ${heading.textContent.trim()}`);
+  heading.prepend(button);
+}
+
+// A click anywhere in a row unfolds it, unless it is on a link or selects text.
+document.addEventListener("click", ({ target }) => {
+  const line = target.closest(".items > tbody > tr:not(.more)"), row = line?.parentElement;
+  if (!line?.querySelector("button.fold") || target.closest("a, code") || !getSelection().isCollapsed) return;
+  unfold(row, !row.classList.contains("open"));
+});
+
+for (const button of document.querySelectorAll("button.unfold")) {
+  button.hidden = foldable.length === 0;
+  button.addEventListener("click", () => {
+    const isOpen = button.getAttribute("aria-pressed") !== "true";
+    button.setAttribute("aria-pressed", String(isOpen));
+    for (const row of foldable) unfold(row, isOpen);
+  });
+}
+
+// Unfolds the row of the address.
+function unfoldTarget() {
+  let id = location.hash.slice(1);
+  try { id = decodeURIComponent(id); } catch { /* The address is not UTF-8 and stays as it is. */ }
+  const row = byId(id)?.closest(".items > tbody");
+  if (row && foldable.includes(row)) unfold(row, true);
+}
+addEventListener("hashchange", unfoldTarget);
+
+completions.push((row) => {
+  for (const code of row.querySelectorAll("p > code:only-child")) code.after(" ", copyButton(code));
+});

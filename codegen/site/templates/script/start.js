@@ -1,0 +1,3 @@
+// Runs when all parts are defined.
+unfoldTarget();
+leadOrLoad();
