@@ -82,7 +82,7 @@ pub struct Record {
     pub index: u16,
     /// Byte offset of the value in the record.
     pub offset: u16,
-    /// Whether the value is a text or a byte string. Otherwise, it is a number with the most significant byte first.
+    /// True if the value is a text or a byte string. Otherwise, it is a number with the most significant byte first.
     pub is_bytes: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Traits that carry the bytes of items. Adapters to bus libraries implement them.
+//! Traits that transfer the bytes of items. Adapters to bus libraries implement these traits.
 
 use core::future::Future;
 use core::time::Duration;
@@ -6,7 +6,7 @@ use core::time::Duration;
 use crate::bus::Bus;
 use crate::error::Error;
 
-/// Reads and writes one device, and blocks until the device replies.
+/// Reads and writes the items of one device. Each call blocks until the device replies.
 ///
 /// Values have their least significant byte first, as in CANopen, on every bus. A client converts them if the bus uses
 /// another byte order.
@@ -19,9 +19,9 @@ pub trait Client {
 
     /// Reads the value at `address` to the start of `buffer` and returns its length in bytes.
     ///
-    /// For a value of a fixed size, `buffer` has exactly the length of the value, so a bus that doesn't send lengths
-    /// fills it. If the device sends more than `buffer` holds, return the length that it sent, or an error. The
-    /// contents of the buffer don't matter then.
+    /// For a value of a fixed size, `buffer` has exactly the length of the value. If the bus doesn't transmit lengths,
+    /// fill the whole buffer. If the device sends a value that is longer than `buffer`, return the length of this
+    /// value, or an error. In this case, the content of `buffer` is unspecified.
     ///
     /// # Errors
     ///
@@ -34,36 +34,38 @@ pub trait Client {
     ///
     /// # Errors
     ///
-    /// The errors of [`read`](Self::read).
+    /// Returns the errors of [`read`](Self::read).
     fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
 
-    /// Writes two values in this order, at the same time if the bus can, for example in one cycle of a process image.
-    /// The default implementation writes one after the other.
+    /// Writes two values in this order. Buses with a process image can send both values in one cycle. The default
+    /// implementation writes one value after the other.
     ///
     /// # Errors
     ///
-    /// The errors of [`write`](Self::write). The first value may already be written then.
+    /// Returns the errors of [`write`](Self::write). In this case, the first value may already be written.
     fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
         writes.into_iter().try_for_each(|(address, data)| self.write(address, data))
     }
 
-    /// Waits at least for `time`.
+    /// Waits for at least `time`.
     ///
     /// Some devices need time between two transfers of one access: see [`Handshake`](crate::Handshake). The default
-    /// implementation sleeps with the feature `std`, and fails without it. [`Timed`] adds a clock to any client.
+    /// implementation sleeps if the feature `std` is enabled. Otherwise, it returns an error. [`Timed`] adds a clock to
+    /// any client.
     ///
     /// # Errors
     ///
-    /// [`Error::NoClock`] if the client can't wait, and the errors of the work that it does while it waits.
+    /// Returns [`Error::NoClock`] if the client cannot wait. A client that communicates while it waits also returns
+    /// communication errors.
     fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         sleep(time)
     }
 }
 
-/// An address and the bytes to write there.
+/// An address and the bytes to write to this address.
 pub type Write<'d, B> = (<B as Bus>::Address, &'d [u8]);
 
-/// Puts the thread to sleep if the feature `std` is on.
+/// Puts the thread to sleep. Returns an error if the feature `std` is not enabled.
 #[inline]
 pub(crate) fn sleep<E>(time: Duration) -> Result<(), Error<E>> {
     #[cfg(feature = "std")]
@@ -76,9 +78,9 @@ pub(crate) fn sleep<E>(time: Duration) -> Result<(), Error<E>> {
     }
 }
 
-/// Reads and writes one device without blocking. The rules of [`Client`] apply.
+/// Reads and writes the items of one device without blocking, under the same rules as [`Client`].
 ///
-/// Whether the futures are `Send` depends on the client.
+/// The client determines whether the futures are `Send`.
 #[allow(async_fn_in_trait)]
 pub trait AsyncClient {
     /// Bus of the device.
@@ -91,7 +93,7 @@ pub trait AsyncClient {
     ///
     /// # Errors
     ///
-    /// The errors of [`Client::read`].
+    /// Returns the errors of [`Client::read`].
     async fn read(
         &mut self,
         address: <Self::Bus as Bus>::Address,
@@ -102,14 +104,14 @@ pub trait AsyncClient {
     ///
     /// # Errors
     ///
-    /// The errors of [`Client::write`].
+    /// Returns the errors of [`Client::write`].
     async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
 
     /// Writes two values, as [`Client::write_both`] does.
     ///
     /// # Errors
     ///
-    /// The errors of [`Client::write_both`].
+    /// Returns the errors of [`Client::write_both`].
     async fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
         for (address, data) in writes {
             self.write(address, data).await?;
@@ -117,12 +119,12 @@ pub trait AsyncClient {
         Ok(())
     }
 
-    /// Waits for `time`, as [`Client::wait`] does. The default implementation fails, because a clock depends on the
-    /// executor.
+    /// Waits for `time`, as [`Client::wait`] does. The default implementation returns an error, because the clock
+    /// depends on the executor.
     ///
     /// # Errors
     ///
-    /// The errors of [`Client::wait`].
+    /// Returns the errors of [`Client::wait`].
     async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         let _ = time;
         Err(Error::NoClock)
@@ -130,7 +132,7 @@ pub trait AsyncClient {
 }
 
 /// Adds a clock to a client, for accesses that have to [wait](Client::wait). `D` is a function that waits for the given
-/// time, or returns a future that does.
+/// time, or returns a future that is ready after this time.
 ///
 /// ```
 /// use core::time::Duration;

@@ -21,7 +21,7 @@ impl<F: FnMut() -> Duration> Clock for F {
 /// as `tokio::time::sleep` or `embassy_time::Timer::after`.
 #[allow(async_fn_in_trait)]
 pub trait Timer {
-    /// Whether the timer can expire.
+    /// True if the timer can expire.
     const EXPIRES: bool = true;
 
     /// Returns the output of `future`, or `None` if it takes longer than `time`.

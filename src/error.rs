@@ -22,7 +22,7 @@ pub enum Error<E> {
     /// unsupported protocol, 3 invalid channel, 4 unsupported service, 5 invalid header, 6 too short, 7 no memory, 8
     /// invalid length.
     Mailbox(u16),
-    /// The device refused the access without a reason, or with a reason that this type can't hold.
+    /// The device refused the access without a reason, or with a reason that this type cannot represent.
     Refused,
     /// The reply of the device doesn't match the request.
     UnexpectedReply,
@@ -30,7 +30,7 @@ pub enum Error<E> {
     NoMessage,
     /// The device didn't reply in time, or the bus was busy.
     Timeout,
-    /// The device needs time before it has the value, and the client can't wait
+    /// The device needs time before it has the value, and the client cannot wait
     /// ([`Client::wait`](crate::Client::wait)). Use [`Timed`](crate::Timed) to add a clock to the client.
     NoClock,
     /// The device marks its cyclic data as invalid (provider status of PROFINET).
@@ -42,8 +42,8 @@ pub enum Error<E> {
         /// Object of the first axis.
         object: Object,
     },
-    /// A value to write is outside the item's declared range, or doesn't fit its type on this bus; nothing was sent. Or
-    /// a value that was read has more bits on this bus and doesn't fit the item's type.
+    /// A value to write is outside the item's declared range, or doesn't fit its type on this bus; nothing was sent.
+    /// This error also occurs if a value that was read has more bits on this bus and doesn't fit the item's type.
     OutOfRange(OutOfRange),
     /// The device sent, or the caller passed, the wrong number of bytes.
     Length(LengthError),

@@ -50,8 +50,8 @@ pub trait Exchange {
     /// long for the protocol or the reply is longer than `reply`.
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
-    /// Notes that the last reply doesn't belong to its request, so that its own reply may still arrive. The next
-    /// exchange should discard it. The default implementation does nothing.
+    /// Notifies the line that the last reply doesn't belong to its request. The reply to this request may still arrive,
+    /// and the next exchange should discard it. The default implementation does nothing.
     fn unsettle(&mut self) {}
 }
 
@@ -83,7 +83,7 @@ pub trait AsyncExchange {
     /// Returns the errors of [`Exchange::exchange`].
     async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
-    /// Notes that the last reply doesn't belong to its request, as [`Exchange::unsettle`] does.
+    /// Notifies the line that the last reply doesn't belong to its request, as [`Exchange::unsettle`] does.
     fn unsettle(&mut self) {}
 }
 
@@ -141,8 +141,8 @@ pub trait ParameterMessages {
     /// # Errors
     ///
     /// - [`Error::UnexpectedReply`] if the reply belongs to another request.
-    /// - [`Error::Refused`] or [`Error::Abort`] if the device refuses.
-    /// - [`Error::Length`] if the value has another length.
+    /// - [`Error::Refused`] or [`Error::Abort`] if the device refuses the request.
+    /// - [`Error::Length`] if the received value has another length than `value`.
     fn read_reply<E>(
         &self,
         parameter: Parameter,

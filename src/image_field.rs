@@ -8,8 +8,8 @@ use crate::value_error::LengthError;
 /// Byte order of a field.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ImageOrder {
-    /// A number with its most significant byte first, as in PROFINET. A field with a part of a byte is a bit field in
-    /// such a number.
+    /// A number with its most significant byte first, as in PROFINET. A field that doesn't fill whole bytes is a bit
+    /// field in such a number.
     #[default]
     BigEndian,
     /// A number with its least significant byte first, as in EtherCAT.
@@ -39,15 +39,15 @@ pub enum ImageOrder {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ImageField {
-    /// Whether the field is an output of the controller, which the device receives. Otherwise, the field is an input,
+    /// True if the field is an output of the controller, which the device receives. Otherwise, the field is an input,
     /// which the device sends.
     pub is_output: bool,
     /// Bit offset: eight times the offset of the first byte, plus the number of unused bits below the field. In a
     /// big-endian field, the unused bits are in the last byte. In a little-endian field, they are in the first byte.
     pub bit: u32,
-    /// Length in bits; 64 at most for a number.
+    /// Length in bits, at most 64 for a number.
     pub bits: u16,
-    /// Byte order.
+    /// Byte order of the field.
     pub order: ImageOrder,
 }
 
@@ -70,7 +70,7 @@ impl ImageField {
         Self { order, ..self }
     }
 
-    /// Returns the length of the value in bytes, as used outside the image.
+    /// Returns the length in bytes that the value has outside the image.
     #[must_use]
     pub const fn byte_len(&self) -> usize {
         match self.order {

@@ -39,7 +39,7 @@ impl<T: AddNodeId> Initial<T> {
 
 /// Integers to which [`Initial::resolve`] can add a node-ID. You can implement this trait for newtypes of integers.
 pub trait AddNodeId: Copy {
-    /// Returns the sum of the integer and the node-ID, or `None` if the type can't represent the sum.
+    /// Returns the sum of the integer and the node-ID, or `None` if the type cannot represent the sum.
     #[must_use]
     fn add_node_id(self, node: NodeId) -> Option<Self>;
 }

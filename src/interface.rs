@@ -11,7 +11,7 @@ pub const VERSION: u32 = 1;
 ///
 /// # Panics
 ///
-/// If `generated` isn't [`VERSION`]. In a constant, this is a compile error.
+/// Panics if `generated` isn't [`VERSION`]. In a constant, this is a compile error.
 #[track_caller]
 pub const fn assert_version(generated: u32) {
     assert!(

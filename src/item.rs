@@ -145,8 +145,8 @@ where
     B: Value,
 {
     /// Converts a physical value to a mantissa and an exponent. Tries `exponents` in order and returns the first one
-    /// with a mantissa in the item's range. The lowest exponent gives the highest resolution. Write the exponent to its
-    /// own item.
+    /// with a mantissa in the item's range. The lowest exponent gives the highest resolution. Write the exponent to the
+    /// item that contains the exponent.
     ///
     /// ```
     /// use lexibus::{Exponential, Flags, Initial, Item, OnSerial, OutOfRange, Range, Rw};

@@ -87,7 +87,7 @@ pub trait Message {
     /// Name of the request in the device description.
     const NAME: &'static str;
 
-    /// Specifies when the device has completed the request.
+    /// Specifies when the device completes the request.
     const COMPLETION: Completion;
 
     /// Writes the data of the request for the device with this station address. Protocols without station addresses
@@ -101,7 +101,7 @@ pub trait Message {
 
 /// The reply to a [`Message`]. A program reads it; a simulated device writes it.
 pub trait Reply<'r>: Sized {
-    /// Whether this reply accepts any data. If so, the data are checked for a refusal first.
+    /// True if this reply accepts any data. If so, the data are checked for a refusal first.
     const IS_ANYTHING: bool = false;
 
     /// Decodes the reply to a request. Returns `None` unless all data match the reply. Parts of the reply that repeat
@@ -160,7 +160,7 @@ pub fn read<'r, M: Message, E>(request: &[u8], reply: &'r [u8]) -> Result<M::Rep
     answer::<E, M>(request, reply).map_err(Failure::into_error)
 }
 
-/// Specifies when a device has completed a request.
+/// Specifies when a device completes a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Completion {

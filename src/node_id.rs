@@ -16,7 +16,7 @@ impl NodeId {
         }
     }
 
-    /// Returns the number, 1 to 127.
+    /// Returns the node-ID as a number, 1 to 127.
     #[must_use]
     pub const fn get(self) -> u8 {
         self.0

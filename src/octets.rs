@@ -19,7 +19,7 @@ pub fn serialize<S: Serializer, const N: usize>(bytes: &[u8; N], serializer: S) 
     tuple.end()
 }
 
-/// Deserializes the output of [`serialize`].
+/// Deserializes bytes that [`serialize`] has written.
 ///
 /// # Errors
 ///

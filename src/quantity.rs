@@ -44,8 +44,8 @@ macro_rules! integers {
 
             #[inline]
             fn nearest(real: f64) -> Option<Self> {
-                // The limits of the type are exact as `f64`. Only the upper limits of 64-bit types are rounded up to a
-                // power of two.
+                // Minimum and maximum of the type are exact as `f64`. Only the maximum of a 64-bit type is rounded up
+                // to a power of two.
                 let low = Self::MIN as f64;
                 if !((real >= low || real > low - 0.5) && real < Self::MAX as f64 + 0.5) {
                     return None;
@@ -123,7 +123,7 @@ pub trait Quantity: Fixed {
 /// ```
 pub struct Scaled<B, const NUM: i64, const DEN: i64 = 1, const OFFSET: i64 = 0>(PhantomData<B>);
 
-/// Reciprocal scaling: physical = `NUM` / `DEN` / raw. The raw value 0 is read as infinity and can't be written.
+/// Reciprocal scaling: physical = `NUM` / `DEN` / raw. The raw value 0 is read as infinity and cannot be written.
 pub struct Reciprocal<B, const NUM: i64, const DEN: i64 = 1>(PhantomData<B>);
 
 /// Fraction of another value: physical = raw / 2^`BITS` × the other value.

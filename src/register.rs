@@ -67,7 +67,7 @@ pub struct Register {
     pub count: u16,
     /// Order of the registers.
     pub order: WordOrder,
-    /// Whether the two bytes of each register are swapped.
+    /// True if the two bytes of each register are swapped.
     pub bytes_swapped: bool,
     /// Bit field of the number that forms the value, or `None` if the value is the whole number. To write a bit field,
     /// a client first reads the registers.
@@ -75,7 +75,7 @@ pub struct Register {
     /// Number of 16-bit registers per address: 1 on most devices, 2 on devices with one address per 32-bit register. On
     /// the latter, a 32-bit value at `address` is followed by the next value at `address + 1`.
     pub words_per_address: u8,
-    /// Whether a number with fewer bytes than its registers is sign-extended. Otherwise, the number is padded with
+    /// True if a number with fewer bytes than its registers is sign-extended. Otherwise, the number is padded with
     /// zeros.
     pub sign_extended: bool,
 }
@@ -126,7 +126,7 @@ impl Register {
         Self { bytes_swapped: true, ..self }
     }
 
-    /// Returns the bit field of the number with `bits` bits and bit offset `first`.
+    /// Returns the bit field with `bits` bits at bit offset `first` of the number.
     #[must_use]
     pub const fn part(self, first: u8, bits: u8) -> Self {
         Self { part: Some(RegisterPart { first, bits }), ..self }

@@ -9,11 +9,11 @@ use crate::clock::Timer;
 use crate::error::Error;
 use crate::modbus::{AsyncRegisterClient, Limits, RegisterClient};
 
-/// Repeats accesses that fail because of the bus: [`Error::Timeout`], [`Error::UnexpectedReply`] and
-/// [`Error::Client`]. Other errors aren't repeated, because the device replied.
+/// Client that repeats an access after an error of the bus: [`Error::Timeout`], [`Error::UnexpectedReply`] or
+/// [`Error::Client`]. After any other error, the access isn't repeated, because the device replied.
 ///
-/// Writes are not repeated by default: the device may have executed a write whose reply is lost. Don't repeat reads that
-/// change the device, for example of a queue.
+/// Writes are not repeated by default: the device may have executed a write whose reply is lost. Don't use this client
+/// for reads that change the device, for example reads of a queue.
 ///
 /// ```
 /// # use lexibus::{Client, Error, Parameter, Serial};
@@ -47,7 +47,7 @@ impl<C> Retrying<C> {
         Self { client, reads: count, writes: 0 }
     }
 
-    /// Returns the client, which also repeats a failed write up to `count` times.
+    /// Returns the client with the option to repeat a failed write up to `count` times.
     #[must_use]
     pub fn and_writes(self, count: u8) -> Self {
         Self { writes: count, ..self }
@@ -64,7 +64,7 @@ impl<C> Retrying<C> {
     }
 }
 
-/// Returns whether another attempt can succeed, and counts it.
+/// Returns whether another attempt is made, and counts this attempt.
 fn again<T, E>(result: &Result<T, Error<E>>, left: &mut u8) -> bool {
     let is_transient = matches!(result, Err(Error::Timeout | Error::UnexpectedReply | Error::Client(_)));
     let is_again = is_transient && *left > 0;
@@ -132,11 +132,12 @@ macro_rules! retrying {
 retrying! { Client RegisterClient }
 retrying! { AsyncClient AsyncRegisterClient async await }
 
-/// An async client with a timeout for each access. Use it for a client without its own timeout, and to bound an access
-/// of several transfers. `T` is a [`Timer`], for example `tokio::time::sleep` or `embassy_time::Timer::after`.
+/// An async client with a timeout for each access. Use it for a client without its own timeout, or to limit the time of
+/// an access with several transfers. `T` is a [`Timer`], for example `tokio::time::sleep` or
+/// `embassy_time::Timer::after`.
 ///
-/// When the timeout expires, the transfer is dropped. All clients of this crate continue with a correct transfer after
-/// that, except contexts of `tokio-modbus` without a `Link`.
+/// When the timeout expires, the transfer is dropped. After that, the next transfer of any client of this crate is
+/// correct, except with contexts of `tokio-modbus` without a `Link`.
 ///
 /// ```
 /// # use core::time::Duration;
@@ -229,7 +230,7 @@ mod tests {
     use crate::now::now;
     use crate::{AbortCode, Parameter, Serial};
 
-    /// Fails a number of times with an error.
+    /// A client whose first accesses fail with an error. The number of these accesses is in the second field.
     struct Failing(Error<()>, u8);
 
     impl Failing {

@@ -41,8 +41,8 @@ macro_rules! time {
                 Self { milliseconds, days }
             }
 
-            /// Returns the 48 bits that are sent: 28 bits of milliseconds, 4 reserved bits, 16 bits of days. Bits of
-            /// `milliseconds` above the 28 are cut off.
+            /// Returns the 48 bits that are sent: 28 bits of milliseconds, 4 reserved bits, 16 bits of days. Higher
+            /// bits of `milliseconds` are discarded.
             #[must_use]
             pub const fn raw(self) -> u64 {
                 (self.milliseconds & MILLISECONDS) as u64 | (self.days as u64) << 32

@@ -13,7 +13,7 @@ pub struct LengthError {
 }
 
 impl LengthError {
-    /// Creates the error for a length of `actual` bytes where `expected` bytes were required.
+    /// Creates the error for a length of `actual` bytes instead of `expected` bytes.
     #[must_use]
     pub const fn new(expected: usize, actual: usize) -> Self {
         Self { expected, actual }

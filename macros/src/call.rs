@@ -6,14 +6,14 @@ use lexibus_codegen::{Level, Presence};
 use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Ident, LitBool, LitStr, Token, Visibility};
 
-/// `#[…] pub mod name = "path" { option: value, … };`
+/// Arguments of the macro: `#[…] pub mod name = "path" { option: value, … };`
 pub struct Call {
     pub attributes: Vec<Attribute>,
     pub visibility: Visibility,
     pub name: Ident,
     pub path: LitStr,
     pub options: Options,
-    /// Paths of overlays.
+    /// Paths of the overlay files.
     pub overlays: Vec<LitStr>,
 }
 
@@ -97,7 +97,7 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options, overlays: &mut V
     Ok(())
 }
 
-/// Parses a value that is `true`, `false`, or the name of the cargo feature that enables the code.
+/// Parses the value of an option: `true`, `false`, or the name of the cargo feature that enables the code.
 fn presence(input: ParseStream<'_>) -> syn::Result<Presence> {
     if input.peek(LitBool) {
         let always = input.parse::<LitBool>()?.value;

@@ -59,7 +59,7 @@ use syn::LitStr;
 /// `overlay: "../dictionaries/drive.overlay.toml"` applies a table that corrects or extends the description. The option
 /// may be repeated.
 ///
-/// Diagnostics are reported at the path argument and quote the line of the description. A macro on stable Rust can't
+/// Diagnostics are reported at the path argument and quote the line of the description. A macro on stable Rust cannot
 /// report warnings, so a warning appears as the use of a deprecated constant. If your crate denies warnings, put
 /// `#[allow(deprecated)]` on the module. Cargo and editors detect changes of the description file.
 #[proc_macro]
@@ -124,7 +124,7 @@ fn absolute(path: &str) -> PathBuf {
 /// Maximum number of diagnostics that are shown individually.
 const MAX_SHOWN: usize = 16;
 
-/// Uses a deprecated constant for each warning, because macros on stable Rust can't report warnings.
+/// Uses a deprecated constant for each warning, because macros on stable Rust cannot report warnings.
 fn warnings(compilation: &Compilation, span: Span) -> Vec<TokenStream> {
     let list = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Warning);
     let mut notes: Vec<String> = list.clone().take(MAX_SHOWN).map(|warning| compilation.one_line(warning)).collect();

@@ -16,7 +16,7 @@ macro_rules! scaled {
     ) => {
         impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
             /// Reads the physical value in the item's unit. The type is `f64`, or `Option<f64>` if some raw value has a
-            /// special meaning. Then, `None` means that the device sent this raw value.
+            /// special meaning. In this case, `None` means that the device sent this raw value.
             ///
             /// # Errors
             ///
@@ -46,8 +46,8 @@ macro_rules! scaled {
             }
         }
 
-        /// Methods for values whose scale depends on another value. The caller passes the other value. The
-        /// documentation of the item names it.
+        /// Methods for values whose scale depends on another value. The caller passes the other value, which the item's
+        /// documentation names.
         impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
             /// Reads the physical value in the item's unit. `other` is the value that determines the scale.
             ///

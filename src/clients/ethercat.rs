@@ -42,23 +42,23 @@
 //!
 //! # Memory of the slave controller
 //!
-//! [`Memory`] reads and writes items with an address in this memory: AL status, error counters, and what else the
-//! device's manual lists.
+//! [`Memory`] reads and writes items with an address in this memory: AL status, error counters, and other registers
+//! that the device's manual lists.
 //!
 //! # Process data
 //!
 //! `ethercrab` reads the PDO assignment from the device, and provides the inputs and outputs of a SubDevice as byte
 //! slices. If the default PDOs are assigned, generated `image` types convert these slices: use `Inputs::unpack`,
 //! `Outputs::pack`, or views that access single fields. For another assignment,
-//! [`Assignment::find`](crate::ethercat::Assignment::find) returns the bit offset of a PDO, and the PDO's `view::…::at`
-//! takes it. If a device has several sync managers of one direction, their data follow each other in the slice. The
-//! data of each start at a whole byte.
+//! [`Assignment::find`](crate::ethercat::Assignment::find) returns the bit offset of a PDO. Pass this offset to the
+//! PDO's `view::…::at`. If a device has several sync managers of one direction, their data follow each other in the
+//! slice. The data of each sync manager start at a byte boundary.
 //!
 //! # Why not `sdo_read` and `sdo_write` of `ethercrab`
 //!
-//! In version 0.7.1, they write at most 4 bytes and can't read segmented values. They fail or panic if the device sends
-//! an emergency message before its reply. [`Sdo`] exchanges the mailbox messages itself, in datagrams of `ethercrab`,
-//! and needs no buffer.
+//! In version 0.7.1, these functions write at most 4 bytes and cannot read segmented values. They fail or panic if the
+//! device sends an emergency message before its reply. [`Sdo`] exchanges the mailbox messages itself, in datagrams of
+//! `ethercrab`, and needs no buffer.
 
 mod cycle;
 mod mailbox;
@@ -99,7 +99,7 @@ pub fn is_a(subdevice: &SubDevice, identity: &Identity) -> bool {
 /// (ETG.1000.6 5.6.2).
 ///
 /// Run only one transfer with a SubDevice at a time, including those of `ethercrab`, because the SubDevice has only one
-/// mailbox. You can drop a transfer before it ends; the next one clears the mailbox.
+/// mailbox. You can drop a transfer before it ends; the next transfer clears the mailbox.
 #[derive(Debug)]
 pub struct Sdo<'m> {
     mailbox: Mailbox<'m>,
@@ -120,8 +120,8 @@ impl<'m> Sdo<'m> {
     }
 
     /// Returns the client with a clock: a function that returns the time since any fixed moment. Without the feature
-    /// `std` and without a clock, an exchange ends after 20,000 polls of the mailbox. Each poll is one frame round trip,
-    /// typically 50 to 200 µs.
+    /// `std` and without a clock, an exchange ends after 20,000 polls of the mailbox. Each poll takes one frame round
+    /// trip, typically 50 to 200 µs.
     #[must_use]
     pub fn with_clock(mut self, clock: fn() -> Duration) -> Self {
         self.mailbox.clock = Some(clock);
@@ -134,12 +134,12 @@ impl<'m> Sdo<'m> {
     }
 
     /// Sends a start-up list, for example [`Assignment::startup`](crate::ethercat::Assignment::startup), with complete
-    /// access for the commands that request it. Call it in state `PreOp`, before the group changes to `PreOpPdi` or
-    /// `SafeOp`. `ethercrab` reads the PDO assignment during these transitions.
+    /// access for the commands that request it. Call this method in state `PreOp`, before the group changes to
+    /// `PreOpPdi` or `SafeOp`. `ethercrab` reads the PDO assignment during these transitions.
     ///
     /// # Errors
     ///
-    /// That of the first command that fails. The remaining commands are not sent.
+    /// Returns the error of the first command that fails. The remaining commands are not sent.
     pub async fn configure(
         &mut self,
         commands: impl IntoIterator<Item = StartupCommand>,
@@ -155,7 +155,7 @@ impl<'m> Sdo<'m> {
     ///
     /// # Errors
     ///
-    /// The errors of [`AsyncClient::read`].
+    /// Returns the errors of [`AsyncClient::read`].
     pub async fn read_complete(&mut self, from: Object, buffer: &mut [u8]) -> Result<usize, Error<BusError>> {
         self.upload(from, true, buffer).await
     }
@@ -164,7 +164,7 @@ impl<'m> Sdo<'m> {
     ///
     /// # Errors
     ///
-    /// The errors of [`AsyncClient::write`].
+    /// Returns the errors of [`AsyncClient::write`].
     pub async fn write_complete(&mut self, from: Object, data: &[u8]) -> Result<(), Error<BusError>> {
         self.download(from, true, data).await
     }
@@ -177,13 +177,13 @@ impl<'m> Sdo<'m> {
                 // If the reply has no length, the value has the requested length.
                 Sought::Found((size.unwrap_or(data.len().min(buffer.len())), filled))
             }
-            // Segment of an earlier transfer that was dropped.
+            // This segment belongs to an earlier transfer that was dropped.
             Answer::UploadSegment { .. } => Sought::Other,
             other => Sought::of(other, object),
         });
         let (size, mut have) = begun.await?;
         if size > buffer.len() {
-            // The remaining segments aren't needed. The device drops them at the next request.
+            // The remaining segments are not needed. The device discards them at the next request.
             return Err(Error::Length(LengthError::new(buffer.len(), size)));
         }
         let mut toggle = false;

@@ -50,7 +50,8 @@
 //! ```
 //!
 //! If a value is a part of a register, the client reads the register and then writes it. No other client should write
-//! the register in between. If the limits contain function 22, the device changes the bits in one step.
+//! the register between the read and the write. If the limits contain function 22, the device changes the bits in one
+//! step.
 
 use std::error;
 use std::fmt;

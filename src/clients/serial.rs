@@ -28,8 +28,8 @@
 //! # Timeouts
 //!
 //! A blocking stream determines how long a read may last, and its timeout error becomes the error of the exchange.
-//! [`SerialLine::with_time`] bounds the whole exchange, also if noise arrives all the time. Async streams have no
-//! timeout, so an async line needs a timer:
+//! [`SerialLine::with_time`] limits the time of the whole exchange, even if noise arrives continuously. Async streams
+//! have no timeout, so an async line needs a timer:
 //!
 //! ```
 //! use core::time::Duration;
@@ -46,10 +46,10 @@
 //!
 //! # Late replies
 //!
-//! Nothing in a frame tells which request it replies to. After a timeout, an invalid reply or a dropped exchange, the
-//! next exchange first discards the late reply. It waits for a frame, or until a read of the stream times out, or for
-//! at most one timeout of the line. This needs a stream whose reads time out, or an async line with a timer. If the
-//! stream implements `embedded_io::ReadReady`, [`SerialLine::draining`] discards repeated replies as well.
+//! A frame does not identify the request to which it replies. After a timeout, an invalid reply or a dropped exchange,
+//! the next exchange first discards the late reply. It waits until a frame arrives, a read of the stream times out, or
+//! the timeout of the line has expired. This requires a stream whose reads time out, or an async line with a timer. If
+//! the stream implements `embedded_io::ReadReady`, [`SerialLine::draining`] discards repeated replies as well.
 
 use core::error;
 use core::fmt;
@@ -69,22 +69,22 @@ const MOST_NOISE: usize = 4096;
 /// Client for a device on a stream `S` with the framing `F`. `N` is the maximum length of a frame to send, in bytes. If
 /// the framing has escapes, this is twice the length of data and check, plus start and end.
 ///
-/// It is an [`Exchange`] if the stream implements the traits of `embedded_io`, and an [`AsyncExchange`] if it
-/// implements those of `embedded_io_async`. It reads single bytes, and none after the end of a reply. Use a buffered
-/// stream if this is too slow.
+/// The client is an [`Exchange`] if the stream implements the traits of `embedded_io`, and an [`AsyncExchange`] if the
+/// stream implements those of `embedded_io_async`. The client reads single bytes, and no bytes after the end of a
+/// reply. Use a buffered stream if single reads are too slow.
 ///
 /// Bytes before a reply are ignored. An invalid reply ends the exchange with an error, unless another frame starts
-/// within it. That frame is then the reply. Only the protocol can check whether a reply belongs to its request. After
-/// 4096 bytes without a reply, the exchange ends with [`Error::Timeout`].
+/// within this reply. In this case, the other frame is the reply. Only the protocol can check whether a reply belongs
+/// to its request. After 4096 bytes without a reply, the exchange ends with [`Error::Timeout`].
 ///
 /// `T` is the [`Clock`] of a blocking line or the [`Timer`] of an async line.
 pub struct SerialLine<S, F: Framing, const N: usize, T = DefaultClock> {
     line: Line<S, F, N>,
     time: T,
     timeout: Option<Duration>,
-    /// Whether the reply to the last request may still arrive.
+    /// True if the reply to the last request may still arrive.
     is_unsettled: bool,
-    /// Whether a read of the stream has timed out, so that reads don't block forever.
+    /// True if a read of the stream has timed out, which means that reads don't block forever.
     times_out: bool,
 }
 
@@ -92,7 +92,7 @@ pub struct SerialLine<S, F: Framing, const N: usize, T = DefaultClock> {
 struct Line<S, F: Framing, const N: usize> {
     stream: S,
     framing: F,
-    /// Returns whether a read returns at once.
+    /// Function that returns whether a read returns at once.
     ready: Option<fn(&mut S) -> bool>,
     /// Decoder state after an invalid reply whose end wasn't received.
     within: Option<F::Decoder>,
@@ -119,7 +119,7 @@ impl<S: fmt::Debug, F: Framing + fmt::Debug, const N: usize, T> fmt::Debug for S
 }
 
 impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
-    /// Creates a client for the device at the other end of `stream`.
+    /// Creates a client for the device that `stream` is connected to.
     pub const fn new(stream: S, framing: F) -> Self {
         let line = Line { stream, framing, ready: None, within: None };
         Self { line, time: DefaultClock, timeout: None, is_unsettled: false, times_out: false }
@@ -143,8 +143,8 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
 }
 
 impl<S, F: Framing, const N: usize, T> SerialLine<S, F, N, T> {
-    /// Returns the line, which from now on discards all waiting bytes before each request: repeated replies, and
-    /// messages that the device sends without a request.
+    /// Returns the line with the option to discard all waiting bytes before each request. These are repeated replies,
+    /// and messages that the device sends without a request.
     #[must_use]
     pub fn draining(mut self) -> Self
     where
@@ -166,8 +166,7 @@ impl<S, F: Framing, const N: usize, T> SerialLine<S, F, N, T> {
 }
 
 impl<S, F: Framing, const N: usize> Line<S, F, N> {
-    /// Returns the decoder for the next bytes. It also detects the rest of a reply that was cut off, which isn't a
-    /// reply.
+    /// Returns the decoder for the next bytes. The decoder does not mistake the rest of a truncated reply for a reply.
     fn decoder(&mut self) -> F::Decoder {
         self.within.take().unwrap_or_else(|| self.framing.decoder())
     }
@@ -243,11 +242,12 @@ fn is_timeout<E: embedded_io::Error>(error: &Error<SerialError<E>>) -> bool {
     matches!(error, Error::Client(SerialError::Stream(error)) if error.kind() == embedded_io::ErrorKind::TimedOut)
 }
 
-/// Defines the parts of an exchange, blocking and async.
+/// Defines the steps of an exchange, blocking and async.
 macro_rules! exchanges {
     ($io:ident $call:ident $receive:ident $discard:ident $($async:ident $await:ident)?) => {
         impl<S: $io::Read + $io::Write, F: Framing, const N: usize> Line<S, F, N> {
-            /// Discards waiting bytes if the stream tells of them, sends a frame, and reads until the reply is complete or `is_late` returns true.
+            /// Discards waiting bytes if the stream can report them, sends a frame, and reads until the reply is
+            /// complete or `is_late` returns true.
             $($async)? fn $call(
                 &mut self,
                 frame: &[u8],
@@ -305,7 +305,7 @@ macro_rules! exchanges {
 exchanges! { embedded_io call receive discard }
 exchanges! { embedded_io_async call_async receive_async discard_async async await }
 
-/// Returns a function that tells whether more than `timeout` has passed since now.
+/// Returns a function that returns whether more than `timeout` has passed since this call.
 fn deadline<T: Clock>(time: &mut T, timeout: Option<Duration>) -> impl FnMut() -> bool + '_ {
     let end = timeout.and_then(|timeout| Some(time.now()?.saturating_add(timeout)));
     move || end.is_some_and(|end| time.now().is_some_and(|now| now >= end))
@@ -358,7 +358,7 @@ where
         if self.is_unsettled {
             self.time.limit(timeout, self.line.discard_async(|| false)).await.unwrap_or(Ok(()))?;
         }
-        // A dropped exchange leaves the line unsettled.
+        // The line stays unsettled if the exchange is dropped.
         self.is_unsettled = true;
         let call = self.line.call_async(frame, reply, || false);
         let received = self.time.limit(timeout, call).await.unwrap_or(Err(Error::Timeout));

@@ -121,7 +121,7 @@ impl<const N: usize> Assignment<N> {
     /// # Errors
     ///
     /// - [`AssignmentError::Unknown`] if the PDO isn't assigned.
-    /// - [`AssignmentError::Fixed`] if its mapping is read-only.
+    /// - [`AssignmentError::Fixed`] if the mapping of the PDO is read-only.
     /// - [`AssignmentError::TooLong`] if the process data exceed the maximum length of the sync manager.
     pub fn with_mapping<P: Pdo>(mut self) -> Result<Self, AssignmentError> {
         let configures = self.device.mailbox.coe.is_some_and(|coe| coe.pdo_config);

@@ -56,7 +56,7 @@ pub struct InitCommand {
     pub index: u16,
     /// Sub-index of the object.
     pub sub_index: u8,
-    /// Whether complete access is used, which transfers all sub-indices at once.
+    /// True if complete access is used, which transfers all sub-indices at once.
     pub complete_access: bool,
     /// Slot dependency of the index, if the command belongs to a module.
     pub depends_on: DependsOn,
@@ -67,13 +67,13 @@ pub struct InitCommand {
 /// Capabilities of CANopen over EtherCAT (CoE).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Coe {
-    /// Whether the SDO information service is supported.
+    /// True if the SDO information service is supported.
     pub sdo_info: bool,
-    /// Whether the PDO assignment is writable.
+    /// True if the PDO assignment is writable.
     pub pdo_assign: bool,
-    /// Whether PDO mappings are writable.
+    /// True if PDO mappings are writable.
     pub pdo_config: bool,
-    /// Whether complete access is supported.
+    /// True if complete access is supported.
     pub complete_access: bool,
     /// Initialization commands of the device.
     pub init_commands: &'static [InitCommand],

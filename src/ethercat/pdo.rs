@@ -25,15 +25,15 @@ pub struct PdoInfo {
     pub sync_manager: Option<u8>,
     /// Numbers of the sync managers that the PDO must not be assigned to.
     pub excluded_sync_managers: &'static [u8],
-    /// Whether the mapping is read-only.
+    /// True if the mapping is read-only.
     pub fixed: bool,
-    /// Whether the PDO must be assigned.
+    /// True if the PDO must be assigned.
     pub mandatory: bool,
     /// Slot dependency of the PDO's index.
     pub depends_on: DependsOn,
     /// Indices of PDOs that must not be assigned together with this PDO.
     pub excludes: &'static [u16],
-    /// The mapped entries. Each entry has a slot dependency of its own.
+    /// The mapped entries. Each entry has its own slot dependency.
     pub mapping: &'static [MappedEntry],
 }
 

@@ -29,7 +29,7 @@ pub struct SlotPlan<const N: usize> {
     modules: [Option<&'static Module>; N],
 }
 
-/// Reasons why a module can't be plugged or a plan is invalid.
+/// Reasons why a module cannot be plugged or a plan is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PlanError {
@@ -46,7 +46,7 @@ pub enum PlanError {
         /// Ident of the module.
         ident: u32,
     },
-    /// A series of slots has fewer modules than its minimum. The value is the number of the first free slot.
+    /// A series of slots has fewer modules than its minimum. The variant contains the number of the first free slot.
     Empty(u16),
     /// A list object has too few sub-indices. List objects are assignments (0x1C10 and following), the module idents
     /// (0xF030), and the mapping of a padding PDO.
@@ -145,7 +145,7 @@ impl<const N: usize> SlotPlan<N> {
     ///
     /// # Errors
     ///
-    /// Returns [`PlanError::NoSuchSlot`], [`PlanError::DoesNotFit`] or [`PlanError::Taken`] if the module can't be
+    /// Returns [`PlanError::NoSuchSlot`], [`PlanError::DoesNotFit`] or [`PlanError::Taken`] if the module cannot be
     /// plugged.
     pub fn plug(&mut self, slot: u16, module: &'static Module) -> Result<(), PlanError> {
         let group = self.slot(slot).ok_or(PlanError::NoSuchSlot(slot))?;

@@ -14,9 +14,9 @@ pub struct StartupCommand {
     pub transition: Transition,
     /// The object to write.
     pub object: Object,
-    /// Whether complete access is used, which transfers all sub-indices from `object` on at once.
+    /// True if complete access is used, which transfers all sub-indices from `object` on at once.
     pub complete_access: bool,
-    /// The value.
+    /// The value to write.
     pub data: StartupData,
 }
 

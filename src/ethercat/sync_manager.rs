@@ -18,7 +18,7 @@ pub enum SyncManagerPurpose {
 pub struct SyncManager {
     /// Number of the sync manager.
     pub number: u8,
-    /// Purpose.
+    /// Purpose of the sync manager.
     pub purpose: SyncManagerPurpose,
     /// Start address in the memory of the slave controller.
     pub start_address: u16,
@@ -30,9 +30,9 @@ pub struct SyncManager {
     pub max_size: Option<u16>,
     /// Value of the control register.
     pub control: u8,
-    /// Whether the sync manager is enabled.
+    /// True if the sync manager is enabled.
     pub enable: bool,
-    /// Whether the sync manager is enabled only in Operational.
+    /// True if the sync manager is enabled only in Operational.
     pub op_only: bool,
 }
 
@@ -52,10 +52,10 @@ pub enum FmmuPurpose {
 /// A fieldbus memory management unit (FMMU).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Fmmu {
-    /// Purpose.
+    /// Purpose of the FMMU.
     pub purpose: FmmuPurpose,
     /// Number of the sync manager that the FMMU maps, if known.
     pub sync_manager: Option<u8>,
-    /// Whether the FMMU is enabled only in Operational.
+    /// True if the FMMU is enabled only in Operational.
     pub op_only: bool,
 }

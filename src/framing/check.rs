@@ -61,10 +61,10 @@ mod tests {
     #[test]
     fn known_checks() {
         let digits = b"123456789";
-        // Check values from the CRC catalogue, for MODBUS and ARC.
+        // These are the check values of the CRC catalogue for MODBUS and ARC.
         assert_eq!(Check::Crc16(0xFFFF).of(digits), 0x4B37_u16.to_le_bytes());
         assert_eq!(Check::Crc16(0).of(digits), 0xBB3D_u16.to_le_bytes());
-        // 477 = 0x1DD.
+        // The sum of the digits is 477, which is 0x1DD.
         assert_eq!((Check::Sum(0).of(digits)[0], Check::Lrc(0).of(digits)[0]), (0xDD, 0x23));
         assert_eq!((Check::Xor(0).of(digits)[0], Check::Xor(0xFF).of(digits)[0]), (0x31, 0xCE));
         assert_eq!([Check::None, Check::Lrc(0), Check::Crc16(0)].map(Check::len), [0, 1, 2]);

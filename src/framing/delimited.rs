@@ -3,13 +3,13 @@
 use super::{Check, FrameError, Framing};
 use crate::value_error::LengthError;
 
-/// Framing with an end byte, and usually a start byte: start, data, check, end.
+/// Framing with an end byte, and usually a start byte: start, data, checksum, end.
 ///
-/// If frames have a start byte, bytes between frames are ignored. Start and end byte may be equal. Then one byte can be
-/// the end of a frame and the start of the next one, and frames without data are ignored.
+/// If frames have a start byte, bytes between frames are ignored. Start and end byte may be equal. In this case, one
+/// byte can be both the end of a frame and the start of the next frame, and frames without data are ignored.
 ///
-/// A check without escapes can contain the end byte. The decoder ends a frame at the first end byte with a matching
-/// check before it. In rare cases, this byte is inside the frame, which the decoder can't detect.
+/// A checksum without escapes can contain the end byte. The decoder ends a frame at the first end byte that follows a
+/// matching checksum. In rare cases, this end byte is inside the frame, which the decoder cannot detect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Delimited {
     /// Start byte; `None` if each frame starts after the end of the last one.
@@ -18,13 +18,13 @@ pub struct Delimited {
     pub end: u8,
     /// Escape sequences for start and end bytes in the data; `None` if the data never contain them.
     pub escape: Option<Escape>,
-    /// Check after the data.
+    /// Checksum after the data.
     pub check: Check,
-    /// Offset of the first data byte that the check covers.
+    /// Offset of the first data byte that the checksum covers.
     pub check_from: usize,
-    /// Whether the check is escaped, as the data are.
+    /// True if the checksum is escaped, as the data are.
     pub is_check_escaped: bool,
-    /// Maximum number of data bytes, without start, end, escapes and check.
+    /// Maximum number of data bytes, without start, end, escapes and checksum.
     pub max_data: usize,
 }
 
@@ -40,7 +40,7 @@ pub struct Escape {
 }
 
 impl Delimited {
-    /// Creates a framing for data of any length, without escapes and check.
+    /// Creates a framing for data of any length, without escapes and checksum.
     #[must_use]
     pub const fn new(start: Option<u8>, end: u8) -> Self {
         Self {
@@ -61,7 +61,7 @@ impl Delimited {
         Self { escape: Some(Escape { byte, xor, escaped }), ..self }
     }
 
-    /// Returns the framing with a check over all data. The check is escaped, as the data are.
+    /// Returns the framing with a checksum over all data. The checksum is escaped, as the data are.
     #[must_use]
     pub const fn with_check(self, check: Check) -> Self {
         Self { check, ..self }
@@ -77,13 +77,13 @@ impl Delimited {
         self.escape.filter(|escape| escape.escaped.contains(&byte))
     }
 
-    /// Computes the check of `data`.
+    /// Computes the checksum of `data`.
     fn check_of(&self, data: &[u8]) -> [u8; 2] {
         self.check.of(data.get(self.check_from..).unwrap_or_default())
     }
 }
 
-/// Writes bytes as far as they fit, and counts all of them.
+/// Writer that stores the bytes that fit, and counts all bytes.
 struct Writer<'f> {
     frame: &'f mut [u8],
     length: usize,
@@ -114,7 +114,7 @@ pub struct DelimitedDecoder {
     state: State,
     /// Number of data bytes so far.
     length: usize,
-    /// The last bytes, which may be the check. They are still escaped if the check is sent without escapes.
+    /// The last bytes, which may be the checksum. They are still escaped if the checksum is sent without escapes.
     held: [u8; 2],
     held_length: usize,
 }
@@ -123,7 +123,7 @@ pub struct DelimitedDecoder {
 enum State {
     /// Waits for the start byte, or for an end byte if frames have no start byte.
     Idle,
-    /// In a frame.
+    /// Inside a frame.
     Data,
     /// After an escape byte.
     Escaped,
@@ -134,7 +134,8 @@ impl DelimitedDecoder {
         *self = Self { state, length: 0, held: [0; 2], held_length: 0 };
     }
 
-    /// Holds a byte that may be a part of the check, and returns the oldest one if it can't be part of it any more.
+    /// Holds a byte that may be a part of the checksum. Returns the oldest held byte if it can no longer be a part of
+    /// the checksum.
     fn hold(&mut self, byte: u8, check: usize) -> Option<u8> {
         if check == 0 {
             return Some(byte);
@@ -172,7 +173,7 @@ impl Delimited {
         Err(error)
     }
 
-    /// Returns whether the held bytes are the check of the data.
+    /// Returns whether the held bytes are the checksum of the data.
     fn agrees(&self, decoder: &DelimitedDecoder, data: &[u8]) -> bool {
         let check = self.check_of(data.get(..decoder.length).unwrap_or_default());
         let count = self.check.len();
@@ -217,8 +218,8 @@ impl Delimited {
         }
     }
 
-    /// Decodes a byte in a frame whose check is escaped. Start, end and escape bytes then have the same meaning
-    /// everywhere.
+    /// Decodes a byte in a frame whose checksum is escaped. In such a frame, start, end and escape bytes have the same
+    /// meaning at all positions.
     fn inside(&self, decoder: &mut DelimitedDecoder, byte: u8, data: &mut [u8]) -> Result<Option<usize>, FrameError> {
         let is_escaped = decoder.state == State::Escaped;
         match self.unescape(decoder, byte) {
@@ -242,8 +243,8 @@ impl Delimited {
         Ok(None)
     }
 
-    /// Decodes a byte in a frame whose check isn't escaped. The meaning of a byte is known when it can't be part of the
-    /// check any more.
+    /// Decodes a byte in a frame whose checksum isn't escaped. The meaning of a byte is known when it can no longer be
+    /// a part of the checksum.
     fn inside_raw(
         &self,
         decoder: &mut DelimitedDecoder,
@@ -272,7 +273,7 @@ impl Delimited {
                 return self.lost(decoder, byte, error);
             }
         }
-        // An end byte may belong to the check, or be the first of its two bytes.
+        // An end byte may belong to the checksum, or be the first of its two bytes.
         let is_check = count > 1 || (decoder.state == State::Data && self.agrees(decoder, data));
         match byte == self.end && !is_check {
             true if decoder.length == 0 => self.lost(decoder, byte, FrameError::TooShort),

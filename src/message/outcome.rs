@@ -7,7 +7,7 @@ pub enum Outcome<S: 'static> {
     Refused,
     /// The device executes the message and stays in its state.
     Unchanged,
-    /// The device enters the first of these states, and then the following states automatically.
+    /// The device enters the first state of this list, and then automatically enters the other states in order.
     States(&'static [S]),
 }
 
@@ -67,8 +67,8 @@ impl<S: PartialEq> Outcomes<S> {
         self.0.iter().find(|row| row.state == state).map_or(&[], |row| row.outcomes)
     }
 
-    /// Returns whether the device accepts the message in `state`. Returns `None` if the answer is unknown or depends on
-    /// other conditions.
+    /// Returns whether the device accepts the message in `state`. Returns `None` if the device description doesn't
+    /// state the reaction, or if it depends on other conditions.
     #[must_use]
     pub fn accepts(&self, state: S) -> Option<bool> {
         let outcomes = self.of(state);

@@ -56,13 +56,13 @@ impl<'r> Reader<'r> {
         (self.bytes(expected.len())? == expected).then_some(())
     }
 
-    /// Reads `count` bytes and checks that they equal the bytes of the request from `first` on.
+    /// Reads `count` bytes and checks that they equal the bytes of the request from offset `first` on.
     pub fn echo(&mut self, request: &[u8], first: usize, count: usize) -> Option<()> {
         self.constant(request.get(first..first.checked_add(count)?)?)
     }
 
-    /// Reads `count` bytes and compares them with the bytes of the request from `first` on. If the request is shorter,
-    /// the remaining bytes are not compared.
+    /// Reads `count` bytes and compares them with the bytes of the request from offset `first` on. If the request is
+    /// shorter, the remaining bytes are not compared.
     pub fn copy(&mut self, request: &[u8], first: usize, count: usize) -> Option<()> {
         let expected = request.get(first..).unwrap_or_default();
         self.bytes(count)?.iter().zip(expected).all(|(byte, expected)| byte == expected).then_some(())
@@ -78,7 +78,7 @@ impl<'r> Reader<'r> {
         (self.ordered(order)? == expected).then_some(())
     }
 
-    /// Checks that `length` equals the number of bytes from `first` to the end of the data.
+    /// Checks that `length` equals the number of bytes from offset `first` to the end of the data.
     pub fn counted(&self, first: usize, length: u64) -> Option<()> {
         let rest = self.data.len().checked_sub(first)?;
         (u64::try_from(rest) == Ok(length)).then_some(())

@@ -19,7 +19,7 @@ pub struct Writer<'b> {
     bits: usize,
 }
 
-/// Reasons why a message can't be encoded. In all cases, nothing has been sent.
+/// Reasons why a message cannot be encoded. In all cases, nothing has been sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -174,7 +174,7 @@ impl<'b> Writer<'b> {
         Ok(())
     }
 
-    /// Writes `count` bytes of the request, starting with the byte at `first`.
+    /// Writes `count` bytes of the request, starting with the byte at offset `first`.
     ///
     /// # Errors
     ///
@@ -183,8 +183,8 @@ impl<'b> Writer<'b> {
         self.bytes(part(request, first, count)?)
     }
 
-    /// Checks that the `count` written bytes at `at` equal the bytes of the request at `first`. With this check, a
-    /// reply can only contain the parameter of its request.
+    /// Checks that the `count` bytes written at offset `at` equal the bytes of the request at offset `first`. This
+    /// check ensures that a reply contains the parameter of its request.
     ///
     /// # Errors
     ///
@@ -197,7 +197,8 @@ impl<'b> Writer<'b> {
         }
     }
 
-    /// Writes the number of bytes from `first` on into the length field at `at`, in the byte order `order`.
+    /// Writes the number of bytes from offset `first` on into the length field at offset `at`, in the byte order
+    /// `order`.
     ///
     /// # Errors
     ///
@@ -214,8 +215,8 @@ impl<'b> Writer<'b> {
         written
     }
 
-    /// Writes `count` bytes of the request, starting with the byte at `first`. If the request is shorter, writes zeros
-    /// instead of the missing bytes.
+    /// Writes `count` bytes of the request, starting with the byte at offset `first`. If the request is shorter, writes
+    /// zeros instead of the missing bytes.
     ///
     /// # Errors
     ///
@@ -230,7 +231,7 @@ impl<'b> Writer<'b> {
     }
 }
 
-/// Returns `count` bytes of the request, starting with the byte at `first`.
+/// Returns `count` bytes of the request, starting with the byte at offset `first`.
 fn part(request: &[u8], first: usize, count: usize) -> Result<&[u8], LengthError> {
     let end = first.saturating_add(count);
     request.get(first..end).ok_or(LengthError::new(end, request.len()))

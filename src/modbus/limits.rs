@@ -42,7 +42,7 @@ pub struct TableLimits {
     pub max_read: u16,
     /// Maximum number of registers or bits in a write request.
     pub max_write: u16,
-    /// Whether a value that exceeds one request is split into several requests. Such a transfer isn't atomic. The
+    /// True if a value that exceeds one request is split into several requests. Such a transfer isn't atomic. The
     /// device or the client may see a mix of the old and the new value.
     pub split: bool,
     /// Addresses that a request can include between the addresses of items. These addresses exist on every model, and

@@ -25,7 +25,7 @@ impl CobId {
         Self { base, add_node: true }
     }
 
-    /// Returns the COB-ID for a node-ID. The sum wraps around at 32 bits.
+    /// Returns the COB-ID for a node-ID. The addition wraps around at 32 bits.
     #[must_use]
     pub const fn resolve(self, node: NodeId) -> u32 {
         if self.add_node {

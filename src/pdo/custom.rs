@@ -106,7 +106,7 @@ impl<F, const WORD: u32> MappableInto<Tpdo> for Mappable<F, Tpdo, WORD> {}
 impl<F, const WORD: u32> MappableInto<Rpdo> for Mappable<F, AnyPdo, WORD> {}
 impl<F, const WORD: u32> MappableInto<Tpdo> for Mappable<F, AnyPdo, WORD> {}
 
-/// A type that is [`CobId`]. Because of the lifetime, rustc checks the bound only when the method is called.
+/// Implemented only by [`CobId`]. Because of the lifetime, rustc checks the bound only when the method is called.
 #[diagnostic::on_unimplemented(
     message = "this PDO has no default COB-ID",
     label = "the default COB-ID is unknown",
@@ -116,7 +116,7 @@ pub trait IsCobId<'a> {}
 
 impl IsCobId<'_> for CobId {}
 
-/// A marker of a CANopen PDO. The lifetime has the same purpose as in [`IsCobId`].
+/// Implemented only by the COB-ID types of CANopen PDOs. The lifetime has the same purpose as in [`IsCobId`].
 #[diagnostic::on_unimplemented(
     message = "this is an EtherCAT PDO, which has no COB-ID",
     label = "not a CANopen PDO",
@@ -129,7 +129,7 @@ impl IsOnCanOpen<'_> for NoCobId {}
 
 /// A type of default COB-ID: [`CobId`], [`NoCobId`] or [`OnEtherCat`].
 pub trait Identifier {
-    /// Whether a gap needs a dummy entry.
+    /// True if a gap needs a dummy entry.
     const NEEDS_DUMMIES: bool;
 }
 

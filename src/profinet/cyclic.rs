@@ -21,9 +21,9 @@ const CYCLE: Duration = Duration::from_millis(1);
 ///
 /// Outputs keep the values that were written last. The caller sets the status of the outputs, for example with
 /// [`Plan::set_status`](super::Plan::set_status). Each access exchanges the frames once. When a write returns, the data
-/// have been sent. When a read returns, the data are from this exchange. A program with its own cycle calls
-/// [`by_hand`](Self::by_hand). Then, only [`cycle`](Self::cycle) exchanges the frames, and one cycle can send several
-/// fields together.
+/// have been sent. When a read returns, the data are from this exchange. If the program has its own cycle, call
+/// [`by_hand`](Self::by_hand). In this case, only [`cycle`](Self::cycle) exchanges the frames, and one cycle can send
+/// several fields together.
 ///
 /// ```
 /// use lexibus::profinet::{Cyclic, ImageClient, SubmoduleIo, IoSpan, IoStatus};

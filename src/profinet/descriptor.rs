@@ -32,7 +32,7 @@ pub struct IoLengths {
     pub data: Option<u16>,
 }
 
-/// A module.
+/// A module and its submodules.
 #[derive(Clone, Copy, Debug)]
 pub struct Module {
     /// Module ident number.
@@ -63,7 +63,7 @@ impl ModuleUse {
     }
 }
 
-/// A submodule.
+/// A submodule: the lengths of its cyclic data, and its parameter records.
 #[derive(Clone, Copy, Debug)]
 pub struct Submodule {
     /// Submodule ident number.

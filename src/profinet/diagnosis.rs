@@ -256,7 +256,7 @@ pub enum Maintenance {
     Qualified,
 }
 
-/// Whether a diagnosis appears or disappears.
+/// Change that a diagnosis reports: the diagnosis appears or disappears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ChannelSpecifier {
     /// All diagnoses of the channel disappear.

@@ -155,8 +155,8 @@ pub struct SubmoduleIo {
     pub slot: u16,
     /// Number of the subslot.
     pub subslot: u16,
-    /// Inputs with their provider status, in the input frame. If the submodule has neither inputs nor outputs, only the
-    /// status.
+    /// Inputs with their provider status, in the input frame. If the submodule has neither inputs nor outputs, this
+    /// span contains only the status.
     pub inputs: Option<IoSpan>,
     /// Outputs with their provider status, in the output frame.
     pub outputs: Option<IoSpan>,

@@ -63,7 +63,7 @@ impl IoStatus {
         }
     }
 
-    /// Writes the status to all of `bytes`. In every byte except the last one, bit 0 is set because another byte
+    /// Writes the status to every byte of `bytes`. In every byte except the last one, bit 0 is set because another byte
     /// follows.
     pub fn write(self, bytes: &mut [u8]) {
         let last = bytes.len().saturating_sub(1);

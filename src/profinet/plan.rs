@@ -62,7 +62,7 @@ pub enum PlanError {
     NoSuchSlot,
     /// The slot already has a module.
     SlotTaken,
-    /// The module in the slot can't be removed.
+    /// The module in the slot cannot be removed.
     FixedModule,
     /// The device doesn't support the module, or doesn't allow it in this slot.
     ModuleNotAllowed,
@@ -72,7 +72,7 @@ pub enum PlanError {
     NoSuchSubslot,
     /// The subslot already has a submodule.
     SubslotTaken,
-    /// The submodule in the subslot can't be removed.
+    /// The submodule in the subslot cannot be removed.
     FixedSubmodule,
     /// The module doesn't support the submodule, or doesn't allow it in this subslot.
     SubmoduleNotAllowed,
@@ -184,7 +184,7 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// Returns [`PlanError::EmptySlot`] if the slot is empty, or [`PlanError::FixedModule`] if the module can't be
+    /// Returns [`PlanError::EmptySlot`] if the slot is empty, or [`PlanError::FixedModule`] if the module cannot be
     /// removed.
     pub fn unplug(&mut self, slot: u16) -> Result<(), PlanError> {
         let module = self.module(slot).ok_or(PlanError::EmptySlot)?;
@@ -226,7 +226,7 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// Returns a [`PlanError`] if the subslot is empty, or if the submodule can't be removed.
+    /// Returns a [`PlanError`] if the subslot is empty, or if the submodule cannot be removed.
     pub fn unplug_submodule(&mut self, slot: u16, subslot: u16) -> Result<(), PlanError> {
         let at = self.submodules().find(|(entry, _)| entry.slot == slot && entry.subslot == subslot);
         if at.ok_or(PlanError::NoSuchSubslot)?.0.is_fixed {

@@ -33,7 +33,7 @@ pub trait RecordData: Sized {
     fn encode_into<'b>(&self, data: &'b mut [u8]) -> Result<&'b [u8], RecordError>;
 }
 
-/// Reasons why a record can't be encoded.
+/// Reasons why a record cannot be encoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum RecordError {

@@ -45,8 +45,8 @@ impl PnioStatus {
         self.0.to_be_bytes()[3]
     }
 
-    /// Returns whether the device can't reply yet because it is busy, a resource is busy, or there is a state conflict.
-    /// Drives report a state conflict while the response to a parameter request isn't available.
+    /// Returns whether the device cannot reply yet because it is busy, a resource is busy, or there is a state
+    /// conflict. Drives report a state conflict while the response to a parameter request isn't available.
     #[must_use]
     pub const fn is_busy(self) -> bool {
         self.error_decode() == 0x80 && matches!(self.error_code_1(), 0xA7 | 0xB5 | 0xC2)

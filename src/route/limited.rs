@@ -21,9 +21,9 @@ use crate::value_error::OutOfRange;
 pub struct Limited<R> {
     /// Route to the value.
     pub at: R,
-    /// Whether the value is in two's complement.
+    /// True if the value is in two's complement.
     pub is_signed: bool,
-    /// Accepted ranges: the first and the last value of each.
+    /// Accepted ranges, each with its first and last value.
     pub values: &'static [(i64, i64)],
 }
 

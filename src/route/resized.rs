@@ -12,7 +12,8 @@ use crate::value_error::{LengthError, OutOfRange};
 /// Route of an integer that has `bits` bits on the bus, independent of the width of its item.
 ///
 /// If the bus has fewer bits, values that don't fit aren't sent, and values that are read are extended. If the bus has
-/// more bits, values to write are extended, and values that are read have to fit. `is_signed` means sign extension.
+/// more bits, values to write are extended, and values that are read have to fit. Values are sign-extended if
+/// `is_signed` is set.
 ///
 /// ```
 /// use lexibus::{CanOpen, Client, Error, Modbus, Object, Register, Resized};
@@ -57,7 +58,7 @@ pub struct Resized<R> {
     pub at: R,
     /// Width of the number on the bus in bits, 1 to 64. It is transferred in whole bytes.
     pub bits: u8,
-    /// Whether the narrower of the two numbers is in two's complement.
+    /// True if the narrower of the two numbers is in two's complement.
     pub is_signed: bool,
 }
 
@@ -75,8 +76,8 @@ impl<R> Resized<R> {
     }
 }
 
-/// Converts `value` from `from` bits to `to` bits. Returns `None` if it doesn't fit. The narrower number is in two's
-/// complement if `is_signed`.
+/// Converts `value` from `from` bits to `to` bits. Returns `None` if the value doesn't fit. The narrower number is in
+/// two's complement if `is_signed`.
 const fn fit(value: u64, from: u32, to: u32, is_signed: bool) -> Option<u64> {
     let narrow = if from < to { from } else { to };
     let low = value & mask(narrow);
@@ -106,7 +107,7 @@ pub(super) fn written(data: &[u8], bits: u32, is_signed: bool) -> Result<[u8; 8]
     fit(from_bytes(data), bits_of(data), bits, is_signed).map(u64::to_le_bytes).ok_or(OutOfRange)
 }
 
-/// Returns the start of `bytes` that holds `bits` bits, in whole bytes.
+/// Returns the first bytes of `bytes`, as many as `bits` bits need.
 pub(super) fn truncated(bytes: &mut [u8; 8], bits: u32) -> &mut [u8] {
     &mut bytes[..byte_len(bits)]
 }

@@ -1,4 +1,5 @@
-//! Windows: indirect access to values. The number of a value is written to one address; another address has the value.
+//! Windows: indirect access to values. A client writes the number of a value to one address, and accesses the value at
+//! another address.
 
 use core::time::Duration;
 
@@ -11,13 +12,13 @@ use crate::value_error::OutOfRange;
 /// Interval between two polls for a number that the device clears.
 const INTERVAL: Duration = Duration::from_millis(1);
 
-/// How a device reports that it has completed an access through a window.
+/// Specifies how a device reports that it has completed an access through a window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Handshake {
     /// Maximum number of polls if the device clears the number to 0. Polls are 1 ms apart if the client [can
     /// wait](Client::wait). 0 if the device doesn't clear the number.
     pub polls: u16,
-    /// Time in milliseconds that the device needs, if it doesn't clear the number. A client that can't wait fails with
+    /// Time in milliseconds that the device needs, if it doesn't clear the number. A client that cannot wait fails with
     /// [`Error::NoClock`].
     pub wait: u16,
 }
@@ -57,7 +58,7 @@ pub struct ReadWindow<A> {
     pub value: A,
     /// Width of the value in bits.
     pub value_bits: u8,
-    /// How the device reports that the value is available.
+    /// Specifies how the device reports that the value is available.
     pub handshake: Handshake,
 }
 
@@ -72,9 +73,9 @@ pub struct WriteWindow<A> {
     pub value: A,
     /// Width of the value in bits.
     pub value_bits: u8,
-    /// Whether the number is written before the value. In a process image, both are sent in one cycle.
+    /// True if the number is written before the value. In a process image, both are sent in one cycle.
     pub is_number_first: bool,
-    /// How the device reports that it has accepted the value.
+    /// Specifies how the device reports that it has accepted the value.
     pub handshake: Handshake,
 }
 
@@ -126,7 +127,7 @@ pub struct Through<W: 'static> {
     pub number: u32,
     /// The window.
     pub window: &'static W,
-    /// Whether the value is in two's complement.
+    /// True if the value is in two's complement.
     pub is_signed: bool,
 }
 
@@ -143,13 +144,13 @@ impl<W> Through<W> {
         Self { number, window, is_signed: false }
     }
 
-    /// Returns the number in bytes, the least significant byte first.
+    /// Returns the bytes of the number, the least significant byte first.
     fn number(&self) -> [u8; 8] {
         u64::from(self.number).to_le_bytes()
     }
 }
 
-/// Ignores a missing clock: without one, the polls follow each other directly.
+/// Ignores a missing clock. Without a clock, the polls follow each other directly.
 fn unless_no_clock<E>(waited: Result<(), Error<E>>) -> Result<(), Error<E>> {
     match waited {
         Err(Error::NoClock) => Ok(()),
@@ -217,7 +218,7 @@ impl<B: Bus> ReadRoute<B> for Through<ReadWindow<B::Address>> {
     }
 }
 
-/// Address, bytes, and number of bits that are used.
+/// A write: the address, the bytes, and the number of used bits.
 type Transfer<A> = (A, [u8; 8], u32);
 
 impl<A: Copy> Through<WriteWindow<A>> {

@@ -22,7 +22,7 @@ struct Cell {
     items: Vec<usize>,
 }
 
-/// All registers and bits. Registers and items always have the same values: a change of one updates the other.
+/// All registers and bits. A change of a register updates its items, and a change of an item updates its registers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cells(BTreeMap<Address, Cell>);
 

@@ -42,13 +42,13 @@ from! {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Exception {
-    /// The function isn't allowed for this table. For example, inputs can't be written.
+    /// The function isn't allowed for this table. For example, inputs cannot be written.
     IllegalFunction,
-    /// A register doesn't exist, or can't be read or written.
+    /// A register doesn't exist, or cannot be read or written.
     IllegalDataAddress,
     /// The number of registers is 0 or too high, or a value is out of range.
     IllegalDataValue,
-    /// The device can't execute the request now.
+    /// The device cannot execute the request now.
     ServerDeviceFailure,
 }
 

@@ -11,13 +11,14 @@ pub struct Address {
     pub bus: &'static str,
     /// Short form of the address, as the source prints it.
     pub number: String,
-    /// Search terms: printed address and wire address; empty if another address of the item has the same.
+    /// Search terms: printed address and wire address. Empty if another address of the item has the same terms.
     pub lookup: String,
     /// Complete form of the address, with all its facts.
     pub text: String,
 }
 
-/// Returns the addresses of an item, main address first. `tables`: requests that the device accepts on Modbus.
+/// Returns the addresses of an item, with the main address first. `tables` contains the requests that the device
+/// accepts on Modbus.
 pub fn addresses(item: &Item, tables: &[ModbusTable]) -> Vec<Address> {
     item.bindings.iter().map(|binding| address(binding, item, tables)).collect()
 }

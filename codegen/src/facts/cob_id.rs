@@ -9,7 +9,7 @@ const BIT_30: u32 = 1 << 30;
 /// Flag of a 29-bit identifier.
 const EXTENDED: u32 = 1 << 29;
 
-/// The kind of object that a COB-ID belongs to. It determines the meaning of the flags.
+/// The kind of object that a COB-ID belongs to. The kind of object determines the meaning of the flags.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CobId {
     /// 0x1400 to 0x15FF.
@@ -66,7 +66,7 @@ pub fn text(value: &Value, kind: CobId) -> Option<String> {
     };
     let raw = u32::try_from(number).ok()?;
     let mask = if raw & EXTENDED != 0 { 0x1FFF_FFFF } else { 0x7FF };
-    // An identifier has no further bits.
+    // A COB-ID has no other bits.
     if raw & !(BIT_31 | BIT_30 | EXTENDED | mask) != 0 {
         return None;
     }

@@ -7,7 +7,7 @@ pub fn text(row: &CodeRow) -> String {
     row.printed_code()
 }
 
-/// Returns the cell of a row in a further column, or an empty text if the row has none.
+/// Returns the cell of a row in an additional column, or an empty text if the row has no such cell.
 pub fn cell(row: &CodeRow, column: usize) -> String {
     match (row.printed_cells.get(column).filter(|printed| !printed.is_empty()), row.cells.get(column)) {
         (Some(printed), _) => printed.to_string(),

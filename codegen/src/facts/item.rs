@@ -16,8 +16,8 @@ pub fn default(item: &Item, types: &[TypeDef]) -> String {
     item.default.as_ref().map(|default| value(item, default, types)).unwrap_or_default()
 }
 
-/// Returns the range: `0 … 5`, `1, 3 to 7`, `-20.0 … 200.0 °C (raw -200 … 2000)`. The range is
-/// empty without limits. It contains at most `shown` values of a list.
+/// Returns the range: `0 … 5`, `1, 3 to 7`, `-20.0 … 200.0 °C (raw -200 … 2000)`. The text is empty if there are no
+/// limits. It contains at most `shown` values of a list.
 pub fn range(item: &Item, limits: &Limits, types: &[TypeDef], shown: usize) -> String {
     let physical = Physical::of(item.quantity.as_deref());
     let basic = types::basic(types, item.ty);
@@ -46,7 +46,7 @@ pub fn mappable(mappable: Mappable) -> Option<&'static str> {
     }
 }
 
-/// Returns a raw value. It is decimal if the item has a unit or a scale factor.
+/// Formats a raw value. The number is decimal if the item has a unit or a scale factor.
 fn raw(item: &Item, value: &Value, ty: Type) -> String {
     match item.quantity {
         Some(_) => PLAIN.value(value),

@@ -96,7 +96,7 @@ impl<'q> Physical<'q> {
     }
 }
 
-/// Returns the unit that outputs show. A ratio has none.
+/// Returns the unit that outputs show. A ratio has no unit.
 pub fn shown_unit(quantity: &Quantity) -> &str {
     if quantity.unit == "1" {
         ""

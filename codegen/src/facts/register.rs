@@ -24,7 +24,8 @@ impl RegisterSpace {
     }
 }
 
-/// Returns the printed addresses: `40102–40103`, `R01`. These are the wire addresses if the source prints no others.
+/// Returns the printed addresses: `40102–40103`, `R01`. If the source prints no addresses, these are the wire
+/// addresses.
 pub fn printed(register: &RegisterBinding) -> String {
     match register.printed.as_str() {
         "" => wire(register),
@@ -40,7 +41,7 @@ pub fn wire(register: &RegisterBinding) -> String {
     }
 }
 
-/// Formats a wire address. It is hexadecimal if it has more than four digits.
+/// Formats a wire address. Addresses with more than four digits are hexadecimal.
 pub fn wire_address(address: u16) -> String {
     if address > 9999 {
         format!("0x{address:04X}")
@@ -49,10 +50,10 @@ pub fn wire_address(address: u16) -> String {
     }
 }
 
-/// Returns addresses with facts: `40102–40103 (holding; wire 101–102; FC 3/16; low word first)`. `tables`: function codes that the device
-/// accepts.
+/// Returns addresses with facts: `40102–40103 (holding; wire address 101–102; FC 3/16; low word first)`. `tables`
+/// contains the function codes that the device accepts.
 pub fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> String {
-    let mut facts = vec![register.space.title().to_owned(), format!("wire {}", wire(register))];
+    let mut facts = vec![register.space.title().to_owned(), format!("wire address {}", wire(register))];
     let functions = functions(register, item, tables);
     facts.extend((!functions.is_empty()).then(|| format!("FC {}", functions.join("/"))));
     if register.words_per_address > 1 {
@@ -74,7 +75,8 @@ pub fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> 
 
 /// Returns the function codes that read and write an item at this register, if the device accepts them.
 fn functions(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> Vec<String> {
-    /// Mask Write Register, which changes some bits of a register. It is optional, so a description has to list it.
+    /// Mask Write Register, which changes some bits of a register. A description must list this function because it is
+    /// optional.
     const MASK_WRITE: u8 = 22;
     let table = tables.iter().find(|table| table.space == register.space);
     let accepted = table.map_or(&[][..], |table| &table.functions);
@@ -127,23 +129,23 @@ mod tests {
 
     #[test]
     fn both_addresses_are_named() {
-        is(&register(2), NUMBER, &[], "40102–40103 (holding; wire 101–102; FC 3/16; low word first)");
-        is(&register(1), NUMBER, &[], "40102 (holding; wire 101; FC 3/6/16)");
-        is(&register(1), READ_ONLY, &[], "40102 (holding; wire 101; FC 3)");
+        is(&register(2), NUMBER, &[], "40102–40103 (holding; wire address 101–102; FC 3/16; low word first)");
+        is(&register(1), NUMBER, &[], "40102 (holding; wire address 101; FC 3/6/16)");
+        is(&register(1), READ_ONLY, &[], "40102 (holding; wire address 101; FC 3)");
         let binding =
             RegisterBinding { space: RegisterSpace::Coil, bytes_swapped: true, printed: "".into(), ..register(1) };
-        is(&binding, (Type::Boolean, Access::WriteOnly), &[], "101 (coil; wire 101; FC 5/15; bytes swapped)");
+        is(&binding, (Type::Boolean, Access::WriteOnly), &[], "101 (coil; wire address 101; FC 5/15; bytes swapped)");
         let binding =
             RegisterBinding { words_per_address: 2, low_word_first: false, printed: "40102".into(), ..register(2) };
-        is(&binding, READ_ONLY, &[], "40102 (holding; wire 101; FC 3; 32 bits per address; high word first)");
+        is(&binding, READ_ONLY, &[], "40102 (holding; wire address 101; FC 3; 32 bits per address; high word first)");
         let binding = RegisterBinding { bit_offset: Some(8), ..register(1) };
-        is(&binding, READ_ONLY, &[], "40102 (holding; wire 101; FC 3; from bit 8)");
+        is(&binding, READ_ONLY, &[], "40102 (holding; wire address 101; FC 3; from bit 8)");
     }
 
     #[test]
     fn strings_have_no_word_order() {
         let text = (Type::VisibleString(None), Access::ReadWrite);
-        is(&register(2), text, &[], "40102–40103 (holding; wire 101–102; FC 3/16)");
+        is(&register(2), text, &[], "40102–40103 (holding; wire address 101–102; FC 3/16)");
     }
 
     #[test]
@@ -155,11 +157,11 @@ mod tests {
             max_write: None,
             split: false,
         };
-        is(&register(1), NUMBER, std::slice::from_ref(&table), "40102 (holding; wire 101; FC 3/16)");
+        is(&register(1), NUMBER, std::slice::from_ref(&table), "40102 (holding; wire address 101; FC 3/16)");
         let split = ModbusTable { functions: vec![3, 6], split: true, ..table.clone() };
-        is(&register(2), NUMBER, &[split], "40102–40103 (holding; wire 101–102; FC 3/6; low word first)");
+        is(&register(2), NUMBER, &[split], "40102–40103 (holding; wire address 101–102; FC 3/6; low word first)");
         let masked = ModbusTable { functions: vec![3, 6, 22], ..table };
         let part = RegisterBinding { bit_offset: Some(8), ..register(1) };
-        is(&part, NUMBER, &[masked], "40102 (holding; wire 101; FC 3/22; from bit 8)");
+        is(&part, NUMBER, &[masked], "40102 (holding; wire address 101; FC 3/22; from bit 8)");
     }
 }

@@ -32,7 +32,7 @@ pub fn numbers(first: i128, last: Option<i128>) -> String {
     }
 }
 
-/// Formats a number. Large numbers are often bit patterns, so they have both decimal and hexadecimal notation.
+/// Formats a number. Large numbers have both decimal and hexadecimal notation, because they are often bit patterns.
 fn number(number: i128) -> String {
     match number {
         0..=255 => number.to_string(),

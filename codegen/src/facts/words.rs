@@ -8,7 +8,7 @@ use crate::ir::{
     Reference, Rule, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
 };
 
-/// Writes sentences in the format of an output. It escapes all texts of the source.
+/// Writes sentences in the format of an output. All texts of the source are escaped.
 #[derive(Clone, Copy)]
 pub struct Words<'w> {
     /// Escapes a text so that the output shows it literally, on one line.
@@ -33,8 +33,8 @@ pub fn manual(device: &Device) -> Manual {
     device.manual.as_deref().cloned().unwrap_or_default()
 }
 
-/// Returns the name of an item's row in the manual: the name in an ASCII protocol, or of a register or parameter. It is empty for
-/// objects, because manuals may not print their names.
+/// Returns the name of an item's row in the manual: the name in an ASCII protocol, or of a register or parameter. The text is
+/// empty for objects, because manuals may not print their names.
 pub fn row_of(item: &Item) -> &str {
     let ascii = item.bindings.iter().find_map(|binding| match binding {
         Binding::Ascii(name) => Some(name.as_str()),
@@ -50,7 +50,8 @@ pub const ALLOWED_SHOWN: usize = 16;
 /// Maximum number of sections in a citation.
 const SECTIONS_NAMED: usize = 3;
 
-/// Returns section, row and page of a manual: `PARAMETRI MOVIMENTO, Rvel (page 12)`. Without sections, it returns page or line.
+/// Returns section, row and page of a manual: `PARAMETRI MOVIMENTO, Rvel (page 12)`. If no section is known, returns only the
+/// page or the line.
 fn citation(manual: &Manual, row: &str, cite: &str) -> String {
     let numbers = cite.split(',').filter_map(|part| part.split('-').next()?.trim().parse().ok());
     let mut sections: Vec<&str> = Vec::new();
@@ -80,7 +81,7 @@ fn citation(manual: &Manual, row: &str, cite: &str) -> String {
         citation += ", ";
         citation += row;
     }
-    // Lines count in a text of the manual that readers do not have.
+    // Line numbers refer to a text version of the manual that readers do not have.
     match is_number && manual.counts == Some(CiteUnit::Line) {
         true => citation,
         false => format!("{citation} ({number})"),
@@ -112,9 +113,19 @@ pub fn bus_name(bus: Bus) -> &'static str {
     }
 }
 
-/// Returns the names of buses: `CANopen, EtherCAT`.
+/// Returns the names of buses: `CANopen and EtherCAT`.
 pub fn bus_names(buses: Buses) -> String {
-    buses.iter().map(bus_name).collect::<Vec<_>>().join(", ")
+    enumerated(&buses.iter().map(bus_name).collect::<Vec<_>>())
+}
+
+/// Returns access rights in words.
+pub fn access_name(access: Access) -> &'static str {
+    match access {
+        Access::ReadOnly => "read-only",
+        Access::WriteOnly => "write-only",
+        Access::Constant => "constant",
+        Access::ReadWrite | Access::ReadWriteInput | Access::ReadWriteOutput => "read-write",
+    }
 }
 
 /// Returns the origin of a fact: `CiA 402, 17.3.7`, `overlay pump.toml:12`.
@@ -127,7 +138,7 @@ pub fn origin_name(origin: &FactOrigin) -> String {
         FactOrigin::Rule(Rule::ReservedEntry) => "the rule for reserved sub-indices".to_owned(),
         FactOrigin::Rule(Rule::AnnouncedPdo) => "the rule for PDOs without a description".to_owned(),
         FactOrigin::Rule(Rule::MappedObject) => "the rule for objects that only a PDO describes".to_owned(),
-        FactOrigin::PrintedName => "the printed name".to_owned(),
+        FactOrigin::PrintedName => "the name in the manual".to_owned(),
     }
 }
 
@@ -181,7 +192,8 @@ impl Words<'_> {
     }
 
     fn list(&self, names: &[CompactString]) -> String {
-        names.iter().map(|name| self.escaped(name)).collect::<Vec<_>>().join(", ")
+        let names: Vec<String> = names.iter().map(|name| self.escaped(name)).collect();
+        enumerated(&names.iter().map(String::as_str).collect::<Vec<_>>())
     }
 
     /// Returns the lines of a description as sentences.
@@ -192,21 +204,15 @@ impl Words<'_> {
 
     /// Returns the access rights as words; assumed ones are marked.
     pub fn access_rights(&self, item: &Item) -> String {
-        let rights = match item.access {
-            Access::ReadOnly => "read-only",
-            Access::WriteOnly => "write-only",
-            Access::Constant => "constant",
-            Access::ReadWrite | Access::ReadWriteInput | Access::ReadWriteOutput => "read-write",
-        };
         let assumed = if item.is_access_assumed() { " (assumed)" } else { "" };
-        format!("{rights}{assumed}")
+        format!("{}{assumed}", access_name(item.access))
     }
 
     /// Returns a sentence if the access rights are an assumption.
     pub fn access(&self, item: &Item) -> Option<String> {
         let assumed = if item.access.writable() { "read-write" } else { "read-only" };
         item.is_access_assumed()
-            .then(|| format!("Access rights assumed: {assumed}. The manual states no access rights."))
+            .then(|| format!("The access rights ({assumed}) are an assumption, because the manual states none."))
     }
 
     /// Returns sentences about storage, side effects and conditions of writing.
@@ -214,16 +220,16 @@ impl Words<'_> {
         let mut sentences = Vec::new();
         sentences.extend(self.storage(&behaviour.storage).map(|storage| sentence(&capital(&storage))));
         if let Some(access) = behaviour.pdi_access {
-            sentences.push(format!("Access rights of the slave application (PDI): {}.", access.name()));
+            sentences.push(format!("Access rights of the slave application (PDI): {}.", access_name(access)));
         }
         if let Some(effective) = &behaviour.effective {
-            sentences.push(format!("Effective after: {}", sentence(&self.escaped(effective))));
+            sentences.push(format!("Changes take effect after: {}", sentence(&self.escaped(effective))));
         }
         for condition in &behaviour.write_when {
             sentences.push(format!("The value can be written only while {}.", self.holds(condition)));
         }
         if !behaviour.writable_values.is_empty() {
-            sentences.push(format!("Only {} can be written.", self.values(&behaviour.writable_values)));
+            sentences.push(format!("Only the value {} can be written.", self.values(&behaviour.writable_values)));
         }
         if behaviour.self_clearing {
             sentences.push("The device resets the value automatically.".to_owned());
@@ -420,15 +426,16 @@ impl Words<'_> {
         }
         if !availability.buses.is_empty() {
             let buses: Vec<&str> = availability.buses.iter().map(bus_name).collect();
-            sentences.push(format!("Available only on {}.", buses.join(", ")));
+            sentences.push(format!("Available only on {}.", enumerated(&buses)));
         }
         if !availability.options.is_empty() {
-            sentences.push(format!("Requires {}.", self.list(&availability.options)));
+            let noun = if availability.options.len() > 1 { "options" } else { "option" };
+            sentences.push(format!("Required {noun}: {}.", self.list(&availability.options)));
         }
         sentences.join(" ")
     }
 
-    /// Returns an ambiguity with the assumption: `Note: … Assumed: … (reason). Manual: ….`
+    /// Returns an ambiguity with the assumption: `Note for …: …. Assumed: … (reason). Manual: ….`
     pub fn doubt(&self, manual: &Manual, doubt: &Doubt) -> String {
         let part = |text: &str| self.escaped(text.trim_end_matches('.'));
         let why = if doubt.why.is_empty() { String::new() } else { format!(" ({})", part(&doubt.why)) };
@@ -436,8 +443,8 @@ impl Words<'_> {
         let hazard = if doubt.severity == Severity::Hazard { "Hazard" } else { "Note" };
         let citation = citation.unwrap_or_default();
         let element = doubt.subject.as_deref().map(|subject| subject.element.as_str()).unwrap_or_default();
-        let element = if element.is_empty() { String::new() } else { format!("{}: ", self.escaped(element)) };
-        format!("{hazard}: {element}{}. Assumed: {}{why}.{citation}", part(&doubt.says), part(&doubt.chosen))
+        let element = if element.is_empty() { String::new() } else { format!(" for {}", self.escaped(element)) };
+        format!("{hazard}{element}: {}. Assumed: {}{why}.{citation}", part(&doubt.says), part(&doubt.chosen))
     }
 
     /// Returns a citation: `Manual: PARAMETRI MOVIMENTO, Rvel (page 12)`, or without a known section `Manual, line 2178`.
@@ -447,6 +454,7 @@ impl Words<'_> {
     }
 
     /// Returns the citation of an element and its name in the manual: `Manual: PARAMETRI MOVIMENTO, Rvel (page 12): Posizione.`
+    /// Without a citation, returns `Name in the manual: Posizione.`
     pub fn manual_entry(
         &self,
         manual: &Manual,
@@ -467,7 +475,7 @@ impl Words<'_> {
             (None, None) => None,
             (Some(citation), None) => Some(format!("{citation}.")),
             (citation, Some(original)) => {
-                let citation = citation.unwrap_or_else(|| "Manual".to_owned());
+                let citation = citation.unwrap_or_else(|| "Name in the manual".to_owned());
                 Some(format!("{citation}: {}", sentence(&original)))
             }
         };
@@ -586,7 +594,7 @@ impl Words<'_> {
     pub fn variants(&self, item: &Item, manual: &Manual) -> Vec<String> {
         let is_by_model = item.variants.iter().any(|variant| !variant.models.is_empty());
         let others =
-            is_by_model.then(|| "All other models have the default value and the range of this item.".to_owned());
+            is_by_model.then(|| "Models that are not listed below have the item's default value and range.".to_owned());
         let of_item = item.documentation.as_deref().and_then(|documentation| documentation.cite.as_ref());
         let sentences = |variant: &ItemVariant| {
             let documentation = variant.documentation.as_deref().filter(|text| text.cite.as_ref() != of_item);
@@ -613,7 +621,7 @@ impl Words<'_> {
         };
         let mut facts = Vec::new();
         facts.extend(variant.ty.map(|ty| ty.to_string()));
-        facts.extend(variant.access.map(|access| access.name().to_owned()));
+        facts.extend(variant.access.map(|access| access_name(access).to_owned()));
         facts.extend(variant.default.as_ref().map(|value| format!("default {}", shown(value))));
         facts.extend(self.limits(&variant.limits, physical().as_ref()));
         facts.extend(variant.step.as_ref().map(|step| format!("rounded to {}", self.step_of(step, physical()))));

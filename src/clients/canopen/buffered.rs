@@ -55,7 +55,7 @@ impl<const N: usize> Kept<N> {
         self.remove(at)
     }
 
-    /// Returns whether `frame` is wanted, and stores it if it isn't.
+    /// Returns whether `wanted` accepts the frame. Stores a frame that `wanted` rejects.
     fn check(&mut self, frame: &CanFrame, wanted: &mut dyn FnMut(&CanFrame) -> bool) -> bool {
         let is_wanted = wanted(frame);
         if !is_wanted {
@@ -85,12 +85,12 @@ impl<P, const N: usize> Buffered<P, N> {
 macro_rules! buffered {
     ($Port:ident $clear:ident $($async:ident $await:ident)?) => {
         impl<P: $Port, const N: usize> Buffered<P, N> {
-            /// Discards all frames that have already arrived: those in the buffer and those in the receive queue of
-            /// the interface. A frame that is received afterwards is newer than this call.
+            /// Discards all frames that have already arrived: those in the buffer and those in the receive queue of the
+            /// interface. All frames that are received afterwards arrived after this call.
             ///
             /// # Errors
             ///
-            /// The errors of the interface.
+            /// Returns the errors of the interface.
             pub $($async)? fn $clear(&mut self) -> Result<(), P::Error> {
                 self.kept.clear();
                 for _ in 0..MOST_WAITING {

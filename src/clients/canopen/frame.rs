@@ -51,7 +51,7 @@ impl CanFrame {
         }
     }
 
-    /// Converts the frame to a frame of another library. Returns `None` if that library can't represent it.
+    /// Converts the frame to a frame of another library. Returns `None` if that library cannot represent it.
     pub fn to_frame<F: embedded_can::Frame>(&self) -> Option<F> {
         F::new(StandardId::new(self.id)?, self.data())
     }

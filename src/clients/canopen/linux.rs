@@ -13,7 +13,7 @@ impl CanPort for CanSocket {
 
     fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Error> {
         let Some(frame) = frame.to_frame::<socketcan::CanFrame>() else { return Ok(false) };
-        // A timeout of zero would mean no timeout.
+        // A timeout of zero would disable the timeout.
         self.set_write_timeout(patience.max(Duration::from_micros(1)))?;
         let end = Instant::now().checked_add(patience);
         loop {
@@ -60,7 +60,7 @@ impl CanPort for CanSocket {
 /// Pause before the next attempt if the transmit queue is full: about the duration of one frame at 125 kbit/s.
 pub(super) const PAUSE: Duration = Duration::from_millis(1);
 
-/// Returns whether the transmit queue is full. It fills up if no other node acknowledges frames.
+/// Returns whether the transmit queue is full. The queue fills up if no other node acknowledges frames.
 pub(super) fn is_full(error: &io::Error) -> bool {
     error.raw_os_error() == Some(libc::ENOBUFS)
 }
@@ -69,19 +69,19 @@ pub(super) fn is_full(error: &io::Error) -> bool {
 ///
 /// # Errors
 ///
-/// The error in an error frame, which the interface itself generates. The socket receives only those of its error
-/// filter.
+/// Returns the error in an error frame. The interface itself generates error frames, and the socket receives only those
+/// that match its error filter.
 pub(super) fn from_socket(frame: &socketcan::CanFrame) -> Result<Option<CanFrame>, CanError> {
     match frame {
         socketcan::CanFrame::Data(_) => Ok(CanFrame::from_frame(frame)),
         socketcan::CanFrame::Remote(_) => Ok(None),
-        // A frame can report several errors. Bus-off ends the communication.
+        // An error frame can report several errors. Bus-off takes precedence because it ends the communication.
         socketcan::CanFrame::Error(error) if error.error_bits() & BUS_OFF != 0 => Err(CanError::BusOff),
         socketcan::CanFrame::Error(error) => Err(CanError::from(*error)),
     }
 }
 
-/// Bit of bus-off in an error frame.
+/// Bit of an error frame that reports bus-off.
 const BUS_OFF: u32 = libc::CAN_ERR_BUSOFF;
 
 fn is_late(error: &io::Error) -> bool {

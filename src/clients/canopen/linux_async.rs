@@ -39,7 +39,7 @@ impl AsyncCanPort for CanSocket {
         let mut waiting = BACKLOG;
         while waiting > 0 {
             let left = end.map_or(patience, |end| end.saturating_duration_since(Instant::now()));
-            // A frame that is waiting in the queue, even if the executor hasn't seen it yet.
+            // Read a frame that is already in the queue, even if the executor hasn't been notified yet.
             let received = match self.try_read_frame() {
                 Err(error) if error.kind() == io::ErrorKind::WouldBlock => timeout(left, self.read_frame()).await,
                 received => Ok(received),

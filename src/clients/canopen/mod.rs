@@ -32,18 +32,18 @@
 //! }
 //! ```
 //!
-//! [`Polled`] makes a [`CanPort`] from an interface of `embedded-can`. The feature `socketcan` implements it for
-//! SocketCAN, which this module re-exports. The feature `socketcan-tokio` implements [`AsyncCanPort`]. For any other
-//! library, implement [`CanPort`], as its example shows.
+//! [`Polled`] converts an interface of `embedded-can` to a [`CanPort`]. The feature `socketcan` implements [`CanPort`]
+//! for SocketCAN, which this module re-exports. The feature `socketcan-tokio` implements [`AsyncCanPort`]. For any
+//! other library, implement [`CanPort`] as in the example of this trait.
 //!
 //! # Errors of the CAN interface
 //!
-//! The errors of SocketCAN are [`socketcan::Error`](https://docs.rs/socketcan): `Io` for those of the operating system,
-//! and `Can` for those of the bus, for example `CanError::BusOff`. The kernel reports bus errors only if the socket has
-//! an error filter. Set it to the errors that should end a transfer, for example
+//! The errors of SocketCAN are [`socketcan::Error`](https://docs.rs/socketcan): `Io` for errors of the operating
+//! system, and `Can` for errors of the bus, for example `CanError::BusOff`. The kernel reports bus errors only if the
+//! socket has an error filter. Set the filter to the errors that should end a transfer, for example
 //! `socket.set_error_filter(libc::CAN_ERR_BUSOFF)` with the trait `socketcan::SocketOptions`.
 //!
-//! Only SDO transfers allocate: each one has a buffer on the heap.
+//! Only SDO transfers allocate memory: each transfer has a buffer on the heap.
 
 mod buffered;
 mod emergency;

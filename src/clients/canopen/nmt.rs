@@ -40,14 +40,14 @@ impl NmtCommand {
         }
     }
 
-    /// Returns the frame with this command to `node`, or to all nodes.
+    /// Returns the frame that sends this command to `node`, or to all nodes if `node` is `None`.
     #[must_use]
     pub fn frame(self, node: Option<NodeId>) -> CanFrame {
         CanFrame::of(COMMANDS, [self.specifier(), node.map_or(0, NodeId::get)])
     }
 
-    /// Returns the command in a frame of an NMT master, and the node that it is for, or `None` if it is for all nodes.
-    /// Returns `None` for other frames.
+    /// Returns the command in a frame of an NMT master, and the addressed node (`None` for all nodes). Returns `None`
+    /// for other frames.
     #[must_use]
     pub fn of(frame: &CanFrame) -> Option<(Self, Option<NodeId>)> {
         let (COMMANDS, &[specifier, node]) = (frame.id(), frame.data()) else { return None };
@@ -64,15 +64,15 @@ impl NmtCommand {
 /// NMT state of a node, as its heartbeat reports it (CiA 301 7.2.8.3.2.2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum NmtState {
-    /// The node has just started, and is Pre-operational from now on.
+    /// The node has just started and enters Pre-operational.
     BootUp,
-    /// Stopped.
+    /// The node is in Stopped. Only NMT and heartbeat work in this state.
     Stopped,
-    /// Operational.
+    /// The node is in Operational. PDOs are exchanged in this state.
     Operational,
-    /// Pre-operational.
+    /// The node is in Pre-operational. Nodes are configured in this state.
     PreOperational,
-    /// A number without meaning.
+    /// Any other number, which is not a defined state.
     Unknown(u8),
 }
 
@@ -118,7 +118,7 @@ impl NmtState {
     }
 }
 
-/// Returns a SYNC message (CiA 301 7.2.5). Nodes send and apply synchronous PDOs when they receive it.
+/// Returns a SYNC message (CiA 301 7.2.5). Nodes send and apply synchronous PDOs when they receive this message.
 #[must_use]
 pub fn sync() -> CanFrame {
     CanFrame::of(SYNC, [])

@@ -15,17 +15,17 @@ use crate::value_error::{LengthError, OutOfRange};
 /// Default timeout for each reply.
 pub const TIMEOUT: Duration = Duration::from_millis(500);
 
-/// A node on a CAN interface. With a [`CanPort`], it is a [`Client`](crate::Client). With an [`AsyncCanPort`], it is an
-/// [`AsyncClient`](crate::AsyncClient), and its methods end in `_async`.
+/// A node on a CAN interface. With a [`CanPort`], the node implements [`Client`](crate::Client). With an
+/// [`AsyncCanPort`], it implements [`AsyncClient`](crate::AsyncClient), and the names of its methods end in `_async`.
 ///
 /// Frames that arrive while another frame is expected are lost, unless the interface is [`Buffered`](super::Buffered).
 ///
 /// # Late replies
 ///
 /// If a reply doesn't arrive within the timeout, the client aborts the transfer. The reply may still arrive. The next
-/// transfer therefore waits for it, for at most one more timeout, and discards it. After an async transfer that was
-/// dropped, the next transfer sends the abort first. A transfer after a timeout thus takes up to one timeout longer.
-/// Replies to other requests don't prolong a transfer.
+/// transfer therefore waits for the late reply, for at most one more timeout, and discards it. After an async transfer
+/// that was dropped, the next transfer sends the abort first. A transfer after a timeout thus takes up to one timeout
+/// longer. Replies to other requests don't prolong a transfer.
 #[derive(Clone, Debug)]
 pub struct Node<P> {
     port: P,
@@ -75,7 +75,7 @@ fn sent<E>(is_sent: bool) -> Result<(), Error<E>> {
     }
 }
 
-/// Returns the state in the frame, if it is a heartbeat of `id`.
+/// Returns the state in the frame if the frame is a heartbeat of `id`.
 fn state_of(frame: &CanFrame, id: NodeId) -> Option<NmtState> {
     NmtState::of(frame).filter(|(node, _)| *node == id).map(|(_, state)| state)
 }
@@ -103,11 +103,11 @@ macro_rules! methods {
         $receive_pdo:ident $latest_pdo:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> Node<P> {
-            /// Sends a frame to any receiver.
+            /// Sends a frame on the bus.
             ///
             /// # Errors
             ///
-            /// [`Error::Client`] if the interface fails, [`Error::Timeout`] if the bus stays busy.
+            /// Returns [`Error::Client`] if the interface fails, or [`Error::Timeout`] if the bus stays busy.
             pub $($async)? fn $send(&mut self, frame: &CanFrame) -> Result<(), Error<P::Error>> {
                 sent(self.port.send(frame, self.timeout)$(.$await)?.map_err(Error::Client)?)
             }
@@ -117,17 +117,18 @@ macro_rules! methods {
             ///
             /// # Errors
             ///
-            /// The errors of [`send`](Self::send).
+            /// Returns the errors of [`send`](Self::send).
             pub $($async)? fn $nmt(&mut self, command: NmtCommand) -> Result<(), Error<P::Error>> {
                 let frame = command.frame(Some(self.id));
                 self.$send(&frame)$(.$await)?
             }
 
-            /// Sends SYNC. All nodes of the network send and apply their synchronous PDOs when they receive it.
+            /// Sends SYNC. All nodes of the network send and apply their synchronous PDOs when they receive this
+            /// message.
             ///
             /// # Errors
             ///
-            /// The errors of [`send`](Self::send).
+            /// Returns the errors of [`send`](Self::send).
             pub $($async)? fn $sync(&mut self) -> Result<(), Error<P::Error>> {
                 self.$send(&nmt::sync())$(.$await)?
             }
@@ -136,66 +137,67 @@ macro_rules! methods {
             /// within `patience`.
             ///
             /// A [`Buffered`](super::Buffered) interface returns its oldest heartbeat. Call
-            /// [`clear`](super::Buffered::clear) first to ignore old ones.
+            /// [`clear`](super::Buffered::clear) first to ignore old heartbeats.
             ///
             /// # Errors
             ///
-            /// [`Error::Client`] if the interface fails.
+            /// Returns [`Error::Client`] if the interface fails.
             pub $($async)? fn $heartbeat(&mut self, patience: Duration) -> Result<Option<NmtState>, Error<P::Error>> {
                 let id = self.id;
                 let frame = self.port.receive(patience, &mut |frame| state_of(frame, id).is_some())$(.$await)?;
                 Ok(frame.map_err(Error::Client)?.and_then(|frame| state_of(&frame, id)))
             }
 
-            /// Waits for a heartbeat with this state. [`NmtState::BootUp`] is the message of a node that has just
-            /// started.
+            /// Waits for a heartbeat with this state. Pass [`NmtState::BootUp`] to wait for the boot-up message, which
+            /// a node sends after its start.
             ///
-            /// Heartbeats in a [`Buffered`](super::Buffered) interface count too. Call
-            /// [`clear`](super::Buffered::clear) first to ignore them.
+            /// This method also accepts heartbeats that a [`Buffered`](super::Buffered) interface has stored. Call
+            /// [`clear`](super::Buffered::clear) first to ignore stored heartbeats.
             ///
             /// # Errors
             ///
-            /// [`Error::Client`] if the interface fails, [`Error::Timeout`] if no such heartbeat arrives within
-            /// `patience`.
+            /// Returns [`Error::Client`] if the interface fails, or [`Error::Timeout`] if no such heartbeat arrives
+            /// within `patience`.
             pub $($async)? fn $wait_for(&mut self, state: NmtState, patience: Duration) -> Result<(), Error<P::Error>> {
                 let id = self.id;
                 let frame = self.port.receive(patience, &mut |frame| state_of(frame, id) == Some(state))$(.$await)?;
                 sent(frame.map_err(Error::Client)?.is_some())
             }
 
-            /// Waits for the node's next emergency message and returns it. Returns `None` if none arrives within
-            /// `patience`. A [`Buffered`](super::Buffered) interface returns its oldest one.
+            /// Waits for the node's next emergency message and returns it. Returns `None` if no message arrives within
+            /// `patience`. A [`Buffered`](super::Buffered) interface returns its oldest message.
             ///
             /// # Errors
             ///
-            /// [`Error::Client`] if the interface fails.
+            /// Returns [`Error::Client`] if the interface fails.
             pub $($async)? fn $emergency(&mut self, patience: Duration) -> Result<Option<Emergency>, Error<P::Error>> {
                 let id = self.id;
                 let frame = self.port.receive(patience, &mut |frame| Emergency::of(frame, id).is_some())$(.$await)?;
                 Ok(frame.map_err(Error::Client)?.and_then(|frame| Emergency::of(&frame, id)))
             }
 
-            /// Sends a PDO to the node. `data` is the output of `pack` of a generated struct, `cob_id` its `COB_ID`.
+            /// Sends a PDO to the node. `data` is the output of a generated struct's `pack`, and `cob_id` is the
+            /// struct's `COB_ID`.
             ///
             /// # Errors
             ///
-            /// The errors of [`send`](Self::send). [`Error::OutOfRange`] if `cob_id` isn't an 11-bit COB-ID that a PDO may
-            /// have (CiA 301 7.3.5). [`Error::Length`] if `data` has more than 8 bytes.
+            /// Returns the errors of [`send`](Self::send). Returns [`Error::OutOfRange`] if `cob_id` isn't an 11-bit
+            /// COB-ID that a PDO may have (CiA 301 7.3.5), or [`Error::Length`] if `data` has more than 8 bytes.
             pub $($async)? fn $send_pdo(&mut self, cob_id: CobId, data: &[u8]) -> Result<(), Error<P::Error>> {
                 let frame = pdo(cob_id, self.id, data)?;
                 self.$send(&frame)$(.$await)?
             }
 
-            /// Waits for the next PDO with this COB-ID and returns it, for `unpack` of a generated struct.
+            /// Waits for the next PDO with this COB-ID and returns it. Pass its data to `unpack` of a generated struct.
             ///
-            /// The interface returns the oldest PDO that is waiting. For the newest one, use
+            /// If several PDOs are waiting, this method returns the oldest one. For the newest PDO, use
             /// [`latest_pdo`](Self::latest_pdo), or call [`clear`](super::Buffered::clear) before SYNC.
             ///
             /// # Errors
             ///
             /// - [`Error::Client`] if the interface fails.
             /// - [`Error::Timeout`] if no PDO arrives within `patience`.
-            /// - [`Error::OutOfRange`] as for [`send_pdo`](Self::send_pdo).
+            /// - [`Error::OutOfRange`] if `cob_id` is invalid, as for [`send_pdo`](Self::send_pdo).
             pub $($async)? fn $receive_pdo(
                 &mut self,
                 cob_id: CobId,
@@ -207,10 +209,10 @@ macro_rules! methods {
             }
 
             /// Returns the newest PDO with this COB-ID that has arrived since the last call, without waiting. Discards
-            /// the older ones, in the interface too. Returns `None` if none has arrived.
+            /// older PDOs, including those in the receive queue of the interface. Returns `None` if no PDO has arrived.
             ///
-            /// A control loop that calls this in each cycle never uses a PDO that is older than one cycle. `None` in
-            /// several cycles means that the node doesn't send any more:
+            /// A control loop that calls this method in each cycle never uses a PDO that is older than one cycle. If
+            /// several cycles return `None`, the node no longer sends the PDO:
             ///
             /// ```
             /// # use lexibus::clients::canopen::{CanPort, Node};
@@ -234,7 +236,7 @@ macro_rules! methods {
             /// # Errors
             ///
             /// - [`Error::Client`] if the interface fails.
-            /// - [`Error::OutOfRange`] as for [`send_pdo`](Self::send_pdo).
+            /// - [`Error::OutOfRange`] if `cob_id` is invalid, as for [`send_pdo`](Self::send_pdo).
             pub $($async)? fn $latest_pdo(&mut self, cob_id: CobId) -> Result<Option<CanFrame>, Error<P::Error>> {
                 let id = identifier(cob_id, self.id)?;
                 let mut newest = None;

@@ -144,8 +144,8 @@ mod tests {
         }
     }
 
-    /// Sends frame 1 for 5 ms with these replies of the controller. Returns the result and the frames that the
-    /// controller accepted.
+    /// Sends frame 1 with a timeout of 5 ms. `answers` are the results of the transmissions. Returns the result and the
+    /// frames that the controller accepted.
     fn sent(
         answers: impl IntoIterator<Item = Transmitted>,
     ) -> (Result<bool, embedded_can::ErrorKind>, std::vec::Vec<Raw>) {

@@ -5,7 +5,7 @@ use core::time::Duration;
 use super::frame::CanFrame;
 
 /// Maximum number of frames that are read from an interface after the timeout. Frames that have already arrived are
-/// seen even with a timeout of zero, and a busy bus doesn't block the caller forever.
+/// therefore found even with a timeout of zero, and a busy bus doesn't block the caller forever.
 pub(super) const BACKLOG: usize = 256;
 
 /// Maximum number of frames that are discarded from the receive queue of an interface: more than any queue holds.
@@ -13,7 +13,7 @@ pub(super) const MOST_WAITING: usize = 0x1_0000;
 
 /// CAN interface with timeouts.
 ///
-/// Implement it for a library with its own frame type:
+/// Implement this trait for a library with its own frame type:
 ///
 /// ```
 /// use std::collections::VecDeque;
@@ -53,20 +53,20 @@ pub trait CanPort {
     /// Error type of the interface.
     type Error;
 
-    /// Sends a frame. Returns `false` if that wasn't possible within `patience`.
+    /// Sends a frame. Returns `false` if the frame could not be sent within `patience`.
     ///
     /// # Errors
     ///
-    /// The errors of the interface.
+    /// Returns the errors of the interface.
     fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Self::Error>;
 
-    /// Waits for a frame that `wanted` accepts and returns it. Passes each received frame to `wanted`; frames that it
-    /// rejects are lost. Returns `None` if it accepts no frame within `patience`. Frames that have already arrived are
-    /// seen even if `patience` is zero.
+    /// Waits for a frame that `wanted` accepts and returns it. Passes each received frame to `wanted`. Rejected frames
+    /// are lost. Returns `None` if `wanted` accepts no frame within `patience`. Frames that have already arrived are
+    /// passed to `wanted` even if `patience` is zero.
     ///
     /// # Errors
     ///
-    /// The errors of the interface.
+    /// Returns the errors of the interface.
     fn receive(
         &mut self,
         patience: Duration,
@@ -74,7 +74,7 @@ pub trait CanPort {
     ) -> Result<Option<CanFrame>, Self::Error>;
 }
 
-/// CAN interface with timeouts, without blocking. The rules of [`CanPort`] apply.
+/// Non-blocking CAN interface with timeouts, under the same rules as [`CanPort`].
 #[allow(async_fn_in_trait)]
 pub trait AsyncCanPort {
     /// Error type of the interface.
@@ -84,14 +84,14 @@ pub trait AsyncCanPort {
     ///
     /// # Errors
     ///
-    /// The errors of the interface.
+    /// Returns the errors of the interface.
     async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Self::Error>;
 
     /// Waits for a frame that `wanted` accepts, as [`CanPort::receive`] does.
     ///
     /// # Errors
     ///
-    /// The errors of the interface.
+    /// Returns the errors of the interface.
     async fn receive(
         &mut self,
         patience: Duration,

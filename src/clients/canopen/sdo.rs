@@ -21,7 +21,7 @@ const UPLOAD: u8 = 2;
 const DOWNLOAD: u8 = 3;
 const ABORT: u8 = 4;
 
-/// The reply that a request needs: its command specifier, or an abort of the same object.
+/// The expected reply to a request: a reply with this command specifier, or an abort for the same object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Expected {
     answers: u16,
@@ -30,8 +30,8 @@ struct Expected {
 }
 
 impl Expected {
-    /// Returns whether the frame is this reply. An SDO message has eight bytes (CiA 301 7.2.4.3). Other replies aren't
-    /// accepted, so that they don't restart the timeout.
+    /// Returns whether the frame is the expected reply. An SDO message has eight bytes (CiA 301 7.2.4.3). Other frames
+    /// are not accepted because they would restart the timeout.
     fn is(self, frame: &CanFrame) -> bool {
         let &[command, low, high, sub_index, ..] = frame.data() else { return false };
         let is_message = frame.id() == self.answers && frame.data().len() == 8;
@@ -43,7 +43,7 @@ impl Expected {
             }
     }
 
-    /// Returns whether the reply confirms or contains a segment. Segments don't name their object.
+    /// Returns whether the reply confirms or contains a segment. Segments don't contain the address of their object.
     const fn is_segment(self) -> bool {
         matches!(self.specifier, UPLOAD_SEGMENT | DOWNLOAD_SEGMENT)
     }
@@ -59,7 +59,7 @@ impl Expected {
     }
 }
 
-/// A reply that didn't arrive before the client gave up its transfer, or whose transfer was dropped.
+/// A missing reply: the client gave up the transfer before the reply arrived, or the transfer was dropped.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Owed {
     reply: Expected,
@@ -80,14 +80,15 @@ impl Owed {
 struct Transfer {
     client: SdoClient,
     expected: Expected,
-    /// Size of the caller's buffer in bytes, and for a segmented upload, the number of bytes received.
+    /// Size of the caller's buffer in bytes.
     room: usize,
+    /// Number of received bytes of a segmented upload.
     received: Option<usize>,
-    /// Whether the reply contains the whole value but no length.
+    /// True if the reply contains the whole value but no length.
     is_unsized: bool,
     /// Next frame to send in response to the reply.
     next: Option<SdoFrame>,
-    /// Whether the transfer was given up before the reply to its last request.
+    /// True if the transfer was given up before the reply to its last request.
     is_owed: bool,
     outcome: Option<Outcome>,
 }
@@ -103,7 +104,7 @@ enum Outcome {
 
 impl Transfer {
     fn new(node: NodeId, object: Object, specifier: u8, room: usize) -> Self {
-        // The port measures the timeout.
+        // The SDO client needs no timeout because the port measures it.
         let client = SdoClient::new(SdoConfig { timeout: u64::MAX });
         Self {
             client,
@@ -126,7 +127,7 @@ impl Transfer {
 
     fn download<E>(node: NodeId, object: Object, data: &[u8]) -> Result<Self, Error<E>> {
         if data.is_empty() {
-            // An SDO transfer can't have the length 0.
+            // An SDO transfer cannot have the length 0.
             return Err(Error::Length(LengthError::new(1, 0)));
         }
         let mut transfer = Self::new(node, object, DOWNLOAD, data.len());
@@ -141,7 +142,7 @@ impl Transfer {
         CanFrame::new(frame.cob_id, &frame.data)
     }
 
-    /// Returns the reply that the node owes after this request.
+    /// Returns the reply that the node still has to send after this request.
     fn owed(&self, request: &CanFrame) -> Option<Owed> {
         let is_aborted = request.data().first().is_some_and(|command| command >> 5 == ABORT);
         (self.is_owed || !is_aborted).then_some(Owed { reply: self.expected, is_aborted })
@@ -194,8 +195,8 @@ impl Transfer {
     fn too_long(&mut self, data: &[u8; 8]) -> Option<usize> {
         let [command, _, _, _, length @ ..] = *data;
         let length = match (command >> 5, self.received) {
-            // Reply to the upload request. Bit 1 means that it contains the whole value, bit 0 that it contains a
-            // length.
+            // This is the reply to the upload request. Bit 1 means that the reply contains the whole value. Bit 0 means
+            // that the reply contains a length.
             (UPLOAD, None) if command & 2 == 0 => {
                 self.received = Some(0);
                 if command & 1 == 1 {
@@ -204,7 +205,7 @@ impl Transfer {
                     0
                 }
             }
-            // A segment. Bits 1 to 3 are the number of its seven bytes without data.
+            // This is a segment of seven bytes. Bits 1 to 3 contain the number of unused bytes.
             (UPLOAD_SEGMENT, Some(received)) => {
                 let received = received + 7 - usize::from(command >> 1 & 7);
                 self.received = Some(received);
@@ -215,7 +216,7 @@ impl Transfer {
         Some(length).filter(|length| *length > self.room)
     }
 
-    /// Aborts the transfer after the interface has failed, and returns the abort message to the node.
+    /// Aborts the transfer after the interface has failed, and returns the abort message for the node.
     fn broken(&mut self) -> Option<CanFrame> {
         self.is_owed = true;
         self.client.abort(SdoAbortCode::General);
@@ -281,7 +282,7 @@ macro_rules! transfers {
                     while let Some(frame) = transfer.request() {
                         self.owed = transfer.owed(&frame);
                         if let Err(error) = self.$send(&frame)$(.$await)? {
-                            // The node doesn't reply to a first request that it didn't receive.
+                            // A node that did not receive the first request of a transfer does not reply.
                             self.owed = self.owed.filter(|owed| owed.reply.is_segment());
                             return Err(error);
                         }
@@ -296,8 +297,8 @@ macro_rules! transfers {
                             transfer.answer(answer);
                         }
                         Err(error) => {
-                            // Abort, so that the node doesn't wait for the rest. The caller gets the first error, even
-                            // if sending the abort fails.
+                            // Abort the transfer, so that the node doesn't wait for its remaining messages. The caller
+                            // gets the first error, even if the abort message cannot be sent.
                             if let Some(abort) = transfer.broken() {
                                 self.owed = transfer.owed(&abort);
                                 let _ = self.$send(&abort)$(.$await)?;

@@ -83,7 +83,7 @@ impl CanPort for Bus {
     }
 }
 
-/// The same bus, async.
+/// The same bus with an async interface.
 struct NoWait(Bus);
 
 impl AsyncCanPort for NoWait {
@@ -159,7 +159,7 @@ fn nobody_says_how_much_is_allocated() {
     let mut node = scripted([&[&[0x41, 0x02, 0x20, 0, 0xFF, 0xFF, 0xFF, 0xFF]]]);
     let too_long = Err(Error::Length(LengthError::new(8, u32::MAX as usize)));
     assert_eq!(Client::read(&mut node, Object::new(0x2002, 0), &mut buffer), too_long);
-    // No length, and an endless number of segments.
+    // The node announces no length and sends an endless number of segments.
     let begin = [0x40, 0x02, 0x20, 0, 0, 0, 0, 0];
     let [even, odd] = [0x00, 0x10].map(|toggle| [toggle, 1, 2, 3, 4, 5, 6, 7]);
     let mut node = scripted([&[&begin], &[&even], &[&odd], &[&even], &[&odd]]);
@@ -171,13 +171,13 @@ fn nobody_says_how_much_is_allocated() {
 fn answers_to_nobody_are_passed_over() {
     let mut node = node();
     SPEED.at(&mut node).write(7).unwrap();
-    // A segment, and the reply about another object.
+    // A segment arrives, followed by the reply about another object.
     node.port().answers.extend(CanFrame::new(0x585, &[0x00, 1, 2, 3, 4, 5, 6, 7]));
     node.port().answers.extend(CanFrame::new(0x585, &[0x4B, 0x01, 0x20, 0, 9, 9, 0, 0]));
     assert_eq!(SPEED.at(&mut node).read(), Ok(7));
 }
 
-/// A node that replies to the requests in order with these frames, whatever the requests are.
+/// A node that replies to the requests in order with these frames, regardless of the content of the requests.
 #[derive(Default)]
 struct Script {
     answers: VecDeque<Vec<Vec<u8>>>,
@@ -223,7 +223,7 @@ fn number(index: u16, value: u8) -> [u8; 8] {
 #[test]
 fn reads_are_in_step_again_after_a_late_answer() {
     let (one, two, three) = (number(0x2000, 1), number(0x2000, 2), number(0x2000, 3));
-    // No reply to the request and to the abort; then both replies at once.
+    // The node replies neither to the request nor to the abort. Later, it sends both replies at once.
     let mut node = scripted([&[], &[], &[&one, &two], &[&three]]);
     assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
     assert_eq!(SPEED.at(&mut node).read(), Ok(1), "a late reply can't be distinguished from this reply");
@@ -241,7 +241,7 @@ fn answers_to_others_dont_go_on_for_ever() {
     let mut node = scripted([&many]);
     assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
     assert_eq!(node.port().sent[1][0], 0x80, "it is aborted");
-    // Segments without data.
+    // The node sends segments without data.
     let begin = [0x41, 0x02, 0x20, 0, 0, 0, 0, 0];
     let mut node = scripted([&[&begin], &[&[0x0E, 0, 0, 0, 0, 0, 0, 0]], &[&[0x1E, 0, 0, 0, 0, 0, 0, 0]]]);
     assert_eq!(Client::read(&mut node, Object::new(0x2002, 0), &mut [0; 8]), Err(Error::UnexpectedReply));
@@ -342,9 +342,9 @@ fn pdos_have_the_identifiers_of_the_node() {
     assert_eq!(received.data(), [2, 3]);
     assert_eq!(node.receive_pdo(CobId::from_node(0x180), Duration::ZERO), Err(Error::Timeout));
     assert_eq!(node.send_pdo(CobId::from_node(0x200), &[1, 2]), Ok(()));
-    // Disabled by default, until it is configured.
+    // The PDO is disabled by default, and a configuration can enable it.
     assert_eq!(node.send_pdo(CobId::from_node(0xC000_0200), &[]), Ok(()));
-    // No COB-ID, SDO, heartbeat, and 29-bit identifiers.
+    // A PDO must not have the COB-ID 0, a COB-ID of SDO or heartbeat, or a 29-bit identifier.
     for wrong in [CobId::fixed(0x8000_0000), CobId::from_node(0x8000_0000), CobId::fixed(0), CobId::fixed(0x605)] {
         assert_eq!(node.send_pdo(wrong, &[0x80, 0]), Err(Error::OutOfRange(OutOfRange)));
         assert_eq!(node.receive_pdo(wrong, Duration::ZERO), Err(Error::OutOfRange(OutOfRange)));

@@ -46,18 +46,18 @@ impl Cycle {
         Self { working_counter: counts.sum() }
     }
 
-    /// Creates the check for another number, for example that of a group with process data in several frames.
+    /// Creates the check for another working counter, for example for a group with process data in several frames.
     #[must_use]
     pub const fn expecting(working_counter: u16) -> Self {
         Self { working_counter }
     }
 
-    /// Checks the response of any of `ethercrab`'s methods that exchange process data.
+    /// Checks the response of an `ethercrab` method that exchanges process data.
     ///
     /// # Errors
     ///
-    /// [`CycleError::State`] if a SubDevice isn't in Operational. [`CycleError::WorkingCounter`] if the working counter is
-    /// too low.
+    /// Returns [`CycleError::State`] if a SubDevice isn't in Operational, or [`CycleError::WorkingCounter`] if the
+    /// working counter is too low.
     pub fn check<const N: usize, T>(self, response: &TxRxResponse<N, T>) -> Result<(), CycleError> {
         let mut states = response.subdevice_states.iter().copied().enumerate();
         if let Some((subdevice, state)) = states.find(|(_, state)| *state != SubDeviceState::Op) {
@@ -74,7 +74,8 @@ impl Cycle {
     ///
     /// # Errors
     ///
-    /// The errors of [`check`](Self::check), and [`CycleError::Bus`] if no frame came back. The inputs are stale then.
+    /// Returns the errors of [`check`](Self::check), or [`CycleError::Bus`] if no frame came back. In both cases, the
+    /// inputs are stale.
     pub async fn run<const N: usize, const P: usize, DC>(
         self,
         maindevice: &MainDevice<'_>,
@@ -101,7 +102,7 @@ pub enum CycleError {
     State {
         /// Index of the SubDevice in the group.
         subdevice: usize,
-        /// Its state.
+        /// State of the SubDevice.
         state: SubDeviceState,
     },
 }

@@ -29,13 +29,13 @@ const ACTIVATE: u16 = 1;
 const PDI_CONTROL: u16 = 2;
 const REPEAT: u8 = 0x02;
 
-/// How often the repetition of one message is requested.
+/// Maximum number of repeat requests for one message.
 const MOST_REPEATS: u32 = 3;
 
 /// Maximum number of polls in an exchange without a clock.
 const POLLS: u32 = 20_000;
 
-/// The time or the number of polls that an exchange may take.
+/// Limit of an exchange: its end time, or the number of remaining polls.
 struct Deadline {
     clock: Option<fn() -> Duration>,
     end: Option<Duration>,
@@ -51,7 +51,7 @@ impl Deadline {
         Self { clock, end: Self::now(clock).map(|now| now.saturating_add(timeout)), polls: POLLS }
     }
 
-    /// Counts a poll. Fails if the time is over.
+    /// Counts a poll. Returns an error if the limit is exceeded.
     fn poll(&mut self) -> Result<(), Error<BusError>> {
         self.polls = self.polls.saturating_sub(1);
         let is_late = match (self.end, Self::now(self.clock)) {
@@ -81,7 +81,7 @@ pub(super) struct Mailbox<'m> {
     station: u16,
     pub(super) timeout: Duration,
     pub(super) clock: Option<fn() -> Duration>,
-    /// Buffers for sending and receiving. They are read from the registers at the first use.
+    /// Buffers for sending and receiving. The client reads them from the registers at the first use.
     buffers: Option<(Buffer, Buffer)>,
     pub(super) emergency: Option<Emergency>,
 }
@@ -90,9 +90,9 @@ pub(super) struct Mailbox<'m> {
 pub(super) enum Sought<T> {
     /// The message is the reply.
     Found(T),
-    /// The message is unrelated.
+    /// The message is unrelated to the request.
     Other,
-    /// The device refused, or the reply doesn't match the request.
+    /// The device refused the request, or the reply doesn't match the request.
     Failed(Error<BusError>),
 }
 
@@ -184,7 +184,8 @@ impl<'m> Mailbox<'m> {
         }
     }
 
-    /// Waits until the last message is in the mailbox again. Toggles the repeat request if the device has emptied it.
+    /// Waits until the last message is in the mailbox again. Toggles the repeat request if the device has emptied the
+    /// mailbox.
     async fn repeat(&self, back: Buffer, deadline: &mut Deadline) -> Result<(), Error<BusError>> {
         if self.is_full(back).await? {
             return Ok(());
@@ -241,7 +242,7 @@ fn find(registers: &[u8], first: u16, to_device: bool) -> Option<Buffer> {
     })
 }
 
-/// A message that is padded to the length of the mailbox. The write of the last byte hands the mailbox to the device.
+/// A message that is padded to the length of the mailbox. The write of the last byte passes the mailbox to the device.
 struct Message<'d> {
     head: &'d [u8],
     data: &'d [u8],

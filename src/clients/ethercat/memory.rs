@@ -11,8 +11,8 @@ use crate::value_error::LengthError;
 /// Client for the memory of the slave controller of one SubDevice (ETG.1000.4), for items with an address in this
 /// memory.
 ///
-/// It needs no mailbox and works in every state. `ethercrab` and the device use this memory too. Don't write to the
-/// registers that they use (states, sync managers, FMMUs).
+/// The client needs no mailbox and works in every state. `ethercrab` and the device use this memory too. Don't write to
+/// registers that `ethercrab` or the device uses (states, sync managers, FMMUs).
 #[derive(Clone, Copy, Debug)]
 pub struct Memory<'m> {
     maindevice: &'m MainDevice<'m>,

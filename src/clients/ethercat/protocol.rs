@@ -37,7 +37,7 @@ pub(super) enum Command {
     Normal,
 }
 
-/// A message to the device: the head, which bytes of a value may follow.
+/// A message to the device: a head, which may be followed by bytes of a value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Request {
     head: [u8; SMALLEST],
@@ -49,8 +49,8 @@ impl Request {
     /// Creates a request from the command and the fields before the value. `length` is the length after the mailbox
     /// header in bytes.
     fn new(rest: &[u8], length: usize, command: Command) -> Self {
-        // Address 0, lowest priority. The counter stays 0, which disables the detection of repeated messages, because
-        // the counter of `ethercrab` is unknown.
+        // The address is 0, with the lowest priority. The counter stays 0, which disables the detection of repeated
+        // messages, because the counter of `ethercrab` is unknown.
         let [low, high] = (length as u16).to_le_bytes();
         let fixed = [low, high, 0, 0, 0, COE, 0, Service::Request as u8 * 0x10];
         let mut head = [0; SMALLEST];
@@ -89,8 +89,8 @@ pub(super) fn upload_segment(toggle: bool) -> Request {
     Request::new(&[0x60 | u8::from(toggle) << 4, 0, 0, 0, 0, 0, 0, 0], INITIATE, Command::Short)
 }
 
-/// Returns the request to download a value, and how many bytes of `data` follow its head. `room` is the maximum length
-/// of a message.
+/// Returns the request to download a value, and the number of bytes of `data` that follow its head. `room` is the
+/// maximum length of a message.
 pub(super) fn download(object: Object, complete: bool, data: &[u8], room: usize) -> (Request, usize) {
     if (1..=4).contains(&data.len()) {
         let mut bytes = [0; 4];
@@ -103,7 +103,8 @@ pub(super) fn download(object: Object, complete: bool, data: &[u8], room: usize)
     (Request::new(&initiate(0x21, object, complete, size), INITIATE + first, Command::Normal), first)
 }
 
-/// Returns the request for the next segment, and how many of the `rest` bytes follow its head.
+/// Returns the request for the next segment, and the number of bytes that follow its head. `rest` is the number of
+/// remaining bytes.
 pub(super) fn download_segment(toggle: bool, rest: usize, room: usize) -> (Request, usize) {
     let most = room.saturating_sub(MAILBOX_HEADER + COE_HEADER + 1).max(SEGMENT);
     let length = rest.min(most);
@@ -156,7 +157,7 @@ impl<'d> Answer<'d> {
         let (coe, sdo) = body.split_first_chunk::<COE_HEADER>()?;
         match coe[1] >> 4 {
             service if service == Service::Emergency as u8 => emergency(sdo),
-            // An abort is sent as a request too.
+            // An abort can also be sent as a request.
             service if service == Service::Response as u8 || service == Service::Request as u8 => response(sdo),
             _ => Some(Answer::Foreign),
         }

@@ -22,20 +22,21 @@ use super::request::Echo;
 use super::Reply;
 use crate::framing::Check;
 
-/// Minimum silence between two frames of RTU at more than 19,200 bit/s (MODBUS over Serial Line 2.5.1.1), and the
-/// time in which the end of a late reply is recognized.
+/// Minimum silence between two RTU frames at more than 19,200 bit/s (MODBUS over Serial Line 2.5.1.1). After this
+/// silence, a late reply is also considered complete.
 const GAP: Duration = Duration::from_micros(1750);
 
-/// Shortest wait that lets the executor see waiting bytes.
+/// Minimum wait after which the executor reports waiting bytes.
 const TURN: Duration = Duration::from_millis(1);
 
-/// Connection to a device that never takes a late reply for the reply to another request.
+/// Connection to a device that never mistakes a late reply for the reply to another request.
 ///
-/// Modbus RTU has no transaction ID, so a reply can't be matched to its request. After a timeout, an invalid reply or a
-/// dropped call, the link waits before it sends the next request. It discards the late reply, or it waits until the
-/// line has been silent for twice the timeout. Such a call takes at most four timeouts, all others at most one.
+/// Modbus RTU has no transaction ID, so a reply cannot be matched to its request. After a timeout, an invalid reply or
+/// a dropped call, the link waits before it sends the next request. The link discards the late reply, or it waits until
+/// the line has been silent for twice the timeout. Such a call takes at most four timeouts. All other calls take at
+/// most one timeout.
 ///
-/// Before each request, RTU waits for the silence that separates frames.
+/// Before each RTU request, the link waits for the silence that separates frames.
 ///
 /// ```no_run
 /// use std::time::Duration;
@@ -60,7 +61,7 @@ pub struct Link<T> {
     device: Slave,
     timeout: Duration,
     is_rtu: bool,
-    /// Whether the reply to the last request may still arrive.
+    /// True if the reply to the last request may still arrive.
     is_unsettled: bool,
 }
 
@@ -77,7 +78,8 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
         Self::new(line, device, timeout, true)
     }
 
-    /// Creates a connection to `device` with Modbus TCP. After a timeout, the late reply costs no further call.
+    /// Creates a connection to `device` with Modbus TCP. After a timeout, the late reply does not cause another call to
+    /// fail.
     pub fn tcp(line: T, device: Slave, timeout: Duration) -> Self {
         Self::new(line, device, timeout, false)
     }
@@ -92,7 +94,7 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
     pub(super) async fn call(&mut self, request: Request<'_>) -> Reply {
         self.settle().await?;
         let expected = Expected::of(&request);
-        // A dropped call leaves the link unsettled.
+        // The link stays unsettled if the call is dropped.
         self.is_unsettled = true;
         let reply = timeout(self.timeout, self.context.call(request)).await;
         let reply = reply.unwrap_or_else(|_| Err(late().into()));
@@ -108,7 +110,7 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
         reply
     }
 
-    /// Waits until no earlier reply can arrive any more, and discards what has arrived.
+    /// Waits until no earlier reply can arrive any more. Discards all received bytes.
     async fn settle(&mut self) -> io::Result<()> {
         let pause = match (self.is_unsettled, self.is_rtu) {
             (true, _) => 2 * self.timeout,
@@ -118,14 +120,14 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
         let end = Instant::now() + 3 * self.timeout;
         let mut discarded = Vec::new();
         loop {
-            // A complete frame is the reply that was missing.
+            // A complete frame is the missing reply.
             let pause = if self.is_unsettled && self.is_frame(&discarded) { GAP } else { pause };
             let silent = (self.line.lock().last + pause).max(Instant::now() + TURN);
             match timeout_at(silent.min(end), self.line.discard(&mut discarded)).await {
                 Ok(Ok(0)) => return Err(io::ErrorKind::UnexpectedEof.into()),
                 Ok(Ok(_)) => {}
                 Ok(Err(error)) => return Err(error),
-                // Noise without a pause.
+                // The line carries noise without a pause.
                 Err(_) if Instant::now() < silent => return Err(late()),
                 Err(_) => break,
             }
@@ -168,7 +170,7 @@ impl<T> SlaveContext for Link<T> {
     }
 }
 
-/// What a reply must contain to belong to a request.
+/// Content by which a reply is matched to its request.
 enum Expected {
     Words(u16),
     Bits(u16),
@@ -230,7 +232,7 @@ impl<T> Shared<T> {
 }
 
 impl<T: AsyncRead + Unpin> Shared<T> {
-    /// Waits for bytes, appends the first 260 of them to `to` and returns their number.
+    /// Waits for bytes and returns their number. Also appends the bytes to `to`, up to a length of 260.
     async fn discard(&self, to: &mut Vec<u8>) -> io::Result<usize> {
         let mut bytes = [0; 260];
         let mut buffer = ReadBuf::new(&mut bytes);
@@ -278,7 +280,7 @@ impl<T: AsyncWrite + Unpin> AsyncWrite for Shared<T> {
     }
 }
 
-/// A [`Link`] whose calls block.
+/// A [`Link`] with blocking calls.
 ///
 /// ```no_run
 /// use std::time::Duration;
@@ -300,11 +302,11 @@ pub struct BlockingLink<T> {
 }
 
 impl<T> BlockingLink<T> {
-    /// Runs `open`, which opens the stream and creates the link.
+    /// Creates a blocking link. `open` opens the stream and creates the link.
     ///
     /// # Errors
     ///
-    /// The errors of `open`, and those of the operating system.
+    /// Returns the errors of `open` and of the operating system.
     pub fn open(open: impl Future<Output = io::Result<Link<T>>>) -> io::Result<Self> {
         let runtime = Builder::new_current_thread().enable_all().build()?;
         let link = runtime.block_on(open)?;
@@ -313,11 +315,12 @@ impl<T> BlockingLink<T> {
 }
 
 impl BlockingLink<TcpStream> {
-    /// Connects to `device` with Modbus TCP. `timeout` bounds the connection, and each call as [`Link`] describes.
+    /// Connects to `device` with Modbus TCP. `timeout` limits the time to connect, and the time of each call as in
+    /// [`Link`].
     ///
     /// # Errors
     ///
-    /// The errors of the connection, and [`io::ErrorKind::TimedOut`] if it takes too long.
+    /// Returns the errors of the connection, or [`io::ErrorKind::TimedOut`] if the connection takes too long.
     pub fn tcp(address: SocketAddr, device: Slave, timeout: Duration) -> io::Result<Self> {
         Self::open(async {
             let stream = tokio::time::timeout(timeout, TcpStream::connect(address)).await;

@@ -132,9 +132,9 @@ impl Answer {
 /// A write access.
 pub(super) struct Writes {
     pieces: Pieces,
-    /// Whether parts of one register or bit use the function for a single one.
+    /// True if the function for a single register or bit writes parts of one register or bit.
     single: bool,
-    /// Whether function 22 changes only some bits of a register.
+    /// True if function 22 is used to change only some bits of a register.
     masks: bool,
 }
 
@@ -180,7 +180,7 @@ impl Writes {
             return Ok(self.coils(data));
         }
         if self.masks {
-            // Empty data encoded into 0xFFFF is the AND mask; the data encoded into 0 is the OR mask.
+            // The AND mask results from empty data encoded into 0xFFFF, and the OR mask from the data encoded into 0.
             let (mut kept, mut bits) = ([u16::MAX], [0]);
             register.encode(&[], &mut kept)?;
             register.encode(data, &mut bits)?;
@@ -231,7 +231,7 @@ fn takes(register: Register, data: &[u8]) -> bool {
     value & !mask(bits) == 0 || sign_extend(value & mask(bits), bits) as u64 & whole == value
 }
 
-/// The reply to a write: it repeats a part of the request.
+/// The expected reply to a write, which repeats a part of the request.
 pub(super) struct Echo(Option<Response>);
 
 impl Echo {

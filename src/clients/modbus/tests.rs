@@ -233,13 +233,13 @@ fn what_the_device_takes() {
     let mut device = limited(TableLimits { functions: &[3, 16], ..TableLimits::HOLDING });
     TORQUE.at(&mut device).write(-5).unwrap();
     assert_eq!(device.context().functions, [16]);
-    // Only function 6 is supported: it writes one register, although the caller prefers function 16.
+    // The device supports only function 6, which writes one register although the caller prefers function 16.
     let mut device = limited(TableLimits { functions: &[3, 6], ..TableLimits::HOLDING }).with_single_writes(false);
     TORQUE.at(&mut device).write(-5).unwrap();
     let refused = SPEED.at(&mut device).write(70_000);
     assert!(matches!(refused, Err(Error::Client(ModbusError::Function { function: 16, .. }))));
     assert_eq!(device.context().functions, [6]);
-    // The device can't read the registers, so a part of a register can't be written either.
+    // The device cannot read the registers, so a part of a register cannot be written either.
     let mut device = limited(TableLimits { functions: &[6, 16], ..TableLimits::HOLDING });
     for refused in [TORQUE.at(&mut device).read().map(|_| ()), UPPER.at(&mut device).write(1)] {
         let Err(Error::Client(error)) = refused else { panic!("it isn't readable") };

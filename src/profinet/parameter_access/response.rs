@@ -173,8 +173,8 @@ impl<'r> Values<'r> {
     ///
     /// # Errors
     ///
-    /// Returns [`ParameterError::Format`] if `T` can't read the format, or [`ParameterError::NoValue`] if there are too
-    /// few values.
+    /// Returns [`ParameterError::Format`] if `T` cannot read the format, or [`ParameterError::NoValue`] if there are
+    /// too few values.
     pub fn get<T: ParameterValue>(&self, place: usize) -> Result<T, ParameterError> {
         if !T::reads(self.format) {
             return Err(ParameterError::Format(self.format));

@@ -83,7 +83,7 @@ fn tell_size(device: &Device, data: &mut [u8; 8]) {
 /// The simulated device as an object dictionary for the SDO server.
 struct Dictionary<'d> {
     device: &'d mut Device,
-    /// Whether a simulated fault suppresses the reply.
+    /// True if a simulated fault suppresses the reply.
     is_lost: bool,
 }
 

@@ -76,7 +76,7 @@ pub(super) struct FieldModel {
     pub set: Doc,
     /// Name and mask of the field for the `Debug` layout.
     debug: String,
-    /// Whether `Debug` prints the value that the getter returns.
+    /// True if `Debug` prints the value that the getter returns.
     prints_value: bool,
     /// Row of the field in the documentation table of the bit field.
     row: Row,
@@ -429,7 +429,7 @@ impl Fields<'_, '_> {
         sentences.extend(marks(entry));
         docs::words(entry.documentation.as_deref(), &mut sentences);
         if let Some(access) = entry.access {
-            sentences.push(format!("Access rights: {}.", access.name()));
+            sentences.push(format!("Access rights: {}.", crate::facts::words::access_name(access)));
         }
         if let Some(availability) = &entry.availability {
             sentences.push(WORDS.availability(availability));
@@ -442,7 +442,7 @@ impl Fields<'_, '_> {
 /// The code of a field: its type and expressions.
 struct Code {
     ty: String,
-    /// Whether the type is an enumeration.
+    /// True if the type is an enumeration.
     is_named: bool,
     get: Doc,
     set: Doc,

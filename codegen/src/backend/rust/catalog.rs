@@ -135,7 +135,7 @@ fn paths(modules: &[(ModuleId, &Module)], names: &[String], outer: &str) -> Modu
     modules.iter().zip(names).map(|((id, _), name)| (*id, format!("{outer}::{name}::MODULE"))).collect()
 }
 
-/// Returns the name of a device or module in the description. If it has none, returns its Rust name.
+/// Returns the name of a device or module in the description. If the description has no name, returns the Rust name.
 fn title(original: &str, name: &str) -> String {
     let title = docs::escape(original);
     docs::sentence(if title.is_empty() { name } else { &title })

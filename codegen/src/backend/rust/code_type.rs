@@ -21,7 +21,7 @@ pub(super) struct CodeTypeModel {
     pub variants: Vec<CodeVariant>,
     /// Arms of the match that converts a code to its variant: pattern and variant.
     pub arms: Vec<(String, String)>,
-    /// Whether the rows cover all numbers of the integer.
+    /// True if the rows cover all numbers of the integer.
     pub complete: bool,
 }
 

@@ -34,7 +34,7 @@ pub(super) struct ModelItem {
     pub docs: String,
     /// Type of the handle, as written in the device's module.
     pub ty: Doc,
-    /// Whether the value has the type of an enumeration or bit field of the device.
+    /// True if the value has the type of an enumeration or bit field of the device.
     pub is_named: bool,
     pub range: Doc,
     pub initial: Doc,

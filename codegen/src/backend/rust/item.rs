@@ -35,9 +35,9 @@ pub(super) struct ItemModel {
     pub alias: String,
     /// Constructor call of the handle, without the type.
     pub constructor: Doc,
-    /// Whether the handle names the runtime.
+    /// True if the handle names the runtime.
     pub names_runtime: bool,
-    /// Whether a literal may be close to a mathematical constant. Clippy reports such literals.
+    /// True if a literal may be close to a mathematical constant. Clippy reports such literals.
     pub real: bool,
     /// Object address on the bus of the PDOs.
     pub object: Option<(u16, u8)>,

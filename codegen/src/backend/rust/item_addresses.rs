@@ -29,11 +29,11 @@ pub(super) struct ItemAddresses<'i> {
     routes: [Route<'i>; 6],
     /// Number of bits of the value if it is a part of a register.
     bits: u32,
-    /// Whether the value is a sequence of bytes.
+    /// True if the value is a sequence of bytes.
     is_bytes: bool,
-    /// Whether the value is a text with 16-bit characters. Each register contains the number of one character.
+    /// True if the value is a text with 16-bit characters. Each register contains the number of one character.
     is_wide: bool,
-    /// Whether the value is a signed number.
+    /// True if the value is a signed number.
     is_signed: bool,
 }
 

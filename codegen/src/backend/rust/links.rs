@@ -138,7 +138,7 @@ pub(super) struct Links {
     messages: HashMap<MessageId, String>,
     /// For each item, the names of the constants of composite numbers that contain it.
     wholes: HashMap<ItemId, Vec<String>>,
-    /// Whether the device's type has methods.
+    /// True if the device's type has methods.
     pub has_methods: bool,
 }
 
@@ -223,23 +223,23 @@ impl Links {
         }
     }
 
-    /// Returns a sentence about the items that use the type at this position. The sentence is empty if none of them has
-    /// a handle.
+    /// Returns a sentence about the items that use the type at this position. The sentence is empty if no item has a
+    /// handle.
     pub fn users(&self, position: u32, doc_module: DocModule<'_>) -> String {
         let users = self.users.get(&position).map_or(&[][..], Vec::as_slice);
         let paths = users.iter().filter_map(|id| Some(self.handles.get(id)?.constant.as_str()));
         sentence("Type of the values of", &paths.collect::<Vec<_>>(), doc_module)
     }
 
-    /// Returns the elements that the documentation of an item's accessor links to: its constant, its type, and the PDOs
-    /// that map it.
+    /// Returns the sentences that link the documentation of an item's accessor to the constant and the type of the
+    /// item, and to the PDOs that map it.
     pub fn related_to_method(&self, entry: &NamedItem<'_>, ty: Option<&str>, doc_module: DocModule<'_>) -> String {
         let constant = self.path(entry.id.into()).map(|path| format!("Constant: {}.", doc_module.whole(path)));
         self.related(entry, [constant, values(ty, doc_module)], doc_module)
     }
 
-    /// Returns the elements that the documentation of an item's constant links to: its accessor, its type, and the PDOs
-    /// that map it.
+    /// Returns the sentences that link the documentation of an item's constant to the accessor and the type of the
+    /// item, and to the PDOs that map it.
     pub fn related_to_constant(&self, entry: &NamedItem<'_>, ty: Option<&str>, doc_module: DocModule<'_>) -> String {
         let method = self.handles.get(&entry.id).and_then(|handle| handle.method.as_ref());
         let link = |path: &String| if doc_module.is_of(path) { doc_module.whole(path) } else { doc_module.code(path) };
@@ -252,7 +252,8 @@ impl Links {
         let carriers: Vec<String> = carriers.into_iter().flatten().map(|name| format!("pdo::{name}")).collect();
         let carriers: Vec<&str> = carriers.iter().map(String::as_str).collect();
         let wholes = self.wholes.get(&entry.id).into_iter().flatten();
-        let wholes = sentence("Part of", &wholes.map(String::as_str).collect::<Vec<_>>(), doc_module);
+        let wholes: Vec<&str> = wholes.map(String::as_str).collect();
+        let wholes = sentence("Part of the composite number", &wholes, doc_module);
         let last = [wholes, sentence("Mapped in", &carriers, doc_module)];
         first.into_iter().flatten().chain(last).filter(|sentence| !sentence.is_empty()).collect::<Vec<_>>().join(" ")
     }
@@ -282,11 +283,12 @@ fn sentence(start: &str, paths: &[&str], doc_module: DocModule<'_>) -> String {
         path.split_once("::").map_or(path, |(_, name)| name).to_owned()
     };
     let shown: Vec<String> = paths.iter().take(LISTED).map(|path| doc_module.code_as(&name(path), path)).collect();
-    let more = match paths.len() {
-        all if all > LISTED => format!(" and {} more", all - LISTED),
-        _ => String::new(),
+    let list = match (paths.len(), shown.as_slice()) {
+        (all, _) if all > LISTED => format!("{} and {} more", shown.join(", "), all - LISTED),
+        (_, [first @ .., last]) if !first.is_empty() => format!("{} and {last}", first.join(", ")),
+        _ => shown.concat(),
     };
-    format!("{start} {}{more}.", shown.join(", "))
+    format!("{start} {list}.")
 }
 
 #[cfg(test)]

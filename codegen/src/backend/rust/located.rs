@@ -33,13 +33,13 @@ impl<'a> Located<'a> {
         located
     }
 
-    /// Returns two noun phrases for items with handles: one to follow "every", and one with an article.
+    /// Returns two noun phrases for items with handles: one to follow "every", and one to follow an adjective.
     pub fn handles(&self) -> [&'static str; 2] {
         let has_objects = addressable(self).next().is_some();
         match (self.registers.is_empty(), has_objects) {
-            (true, _) => ["entry of the object dictionary", "an entry"],
-            (false, true) => ["register and every entry of the object dictionary", "a register or an entry"],
-            (false, false) => ["register", "a register"],
+            (true, _) => ["entry of the object dictionary", "entry"],
+            (false, true) => ["register and every entry of the object dictionary", "register or entry"],
+            (false, false) => ["register", "register"],
         }
     }
 }

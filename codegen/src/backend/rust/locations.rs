@@ -19,7 +19,7 @@ fn maker(at: usize) -> String {
 pub(super) struct Locations {
     /// The default location type. Handles with the default type do not state their type.
     pub usual: Buses,
-    /// Whether some items have another location type.
+    /// True if some items have another location type.
     pub several: bool,
     /// All location types of items, without repetitions.
     each: BTreeSet<Buses>,

@@ -76,7 +76,7 @@ pub(super) struct PatternModel {
     pub bits: String,
     pub mask: String,
     pub value: String,
-    /// Whether the mask covers all bits of the integer.
+    /// True if the mask covers all bits of the integer.
     pub is_whole: bool,
 }
 

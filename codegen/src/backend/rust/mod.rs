@@ -74,10 +74,10 @@ use scope::Scope;
 /// `lexibus::interface::VERSION`.
 pub const INTERFACE_VERSION: u32 = 1;
 
-/// Returns the Rust module for all of `catalog`; `None` if it describes nothing that code can be generated for.
+/// Returns the Rust module for `catalog`. Returns `None` if the catalog has no element for which code can be generated.
 ///
-/// A single device is the module itself. Several devices are one module each. Modules of modular devices are next to
-/// them.
+/// The content of a single device is at the top level. If there are several devices, each has its own module. Modules
+/// of modular devices are next to the modules of the devices.
 pub fn emit_catalog(catalog: &Catalog, options: &RustOptions) -> Option<String> {
     let file = catalog.files.first()?;
     #[cfg(feature = "gsdml")]
@@ -130,7 +130,7 @@ fn calls_of(context: &Context<'_>, item: &Item, path: &str) -> Vec<String> {
     calls.into_iter().filter(|(exists, _)| *exists).map(line).collect()
 }
 
-/// Returns the name of the device's type, which also names its file, if no other name was chosen.
+/// Returns the default name of the device's type. The generated file has the same name.
 pub fn device_name(device: &Device, file: &FileInfo) -> String {
     device_names::device_name(device, file, None)
 }
@@ -140,7 +140,8 @@ pub fn module_name(device: &Device, file: &FileInfo) -> String {
     device_names::module_name(device, file)
 }
 
-/// Returns the name of the file for an input with this stem: its words in snake case; `None` if it has no words.
+/// Returns the file name for an input with this stem: the words of the stem in snake case. Returns `None` if the stem
+/// has no words.
 pub fn file_name(stem: &str) -> Option<String> {
     device_names::stem_name(stem)
 }

@@ -50,11 +50,11 @@ pub(super) struct Model {
     pub title: String,
     /// Identity of the device. `None` for a module of a modular device.
     pub identity: Option<IdentityModel>,
-    /// Whether the device's type has accessor methods.
+    /// True if the device's type has accessor methods.
     pub has_accessors: bool,
     /// Location type of the handles. If there are several types, this one covers all buses.
     pub location: String,
-    /// Whether the handles have several location types.
+    /// True if the handles have several location types.
     pub has_locations: bool,
     /// Location types that are not part of the runtime: name, documentation and fields.
     pub locations: Vec<(String, String, Vec<Doc>)>,
@@ -62,7 +62,7 @@ pub(super) struct Model {
     pub makers: Vec<(String, Vec<String>, String, Doc)>,
     /// Windows through which some items are accessed.
     pub windows: Vec<WindowModel>,
-    /// Two noun phrases for items with handles: one to follow "every", and one with an article.
+    /// Two noun phrases for items with handles: one to follow "every", and one to follow an adjective.
     pub handles: [&'static str; 2],
     pub types: Types,
     pub code_tables: Vec<CodeTableModel>,
@@ -89,14 +89,14 @@ pub(super) struct Model {
     pub pdos: Vec<PdoModel>,
     /// PDOs with a changeable mapping.
     pub remappable: Vec<RemappableModel>,
-    /// Whether PDOs have views within a process image.
+    /// True if PDOs have views within a process image.
     pub has_views: bool,
     pub ethercat: Option<EtherCatModel>,
     /// Value of the constant `MODULE`. `None` for a device.
     pub module: Option<Doc>,
     pub table: Option<Vec<EntryModel>>,
     pub table_feature: Option<String>,
-    /// Whether the file has other devices or modules. Other devices and modules may re-export definitions of this one.
+    /// True if the file has other devices or modules. Other devices and modules may re-export definitions of this one.
     pub is_one_of_several: bool,
     /// Definitions that earlier devices or modules of the file already contain.
     pub reexports: Vec<Reexport>,

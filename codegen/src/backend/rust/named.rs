@@ -15,7 +15,7 @@ pub(super) struct Types {
     /// Bit fields with the positions of their definitions.
     pub bit_fields: Vec<(u32, BitFieldModel)>,
     pub machines: Vec<MachineModel>,
-    /// Whether the device has bit fields. Bit fields that an earlier device defines are included.
+    /// True if the device has bit fields. Bit fields that an earlier device defines are included.
     pub has_bit_fields: bool,
 }
 

@@ -20,7 +20,7 @@ pub(super) struct ObjectModel {
     pub constants: String,
     pub items: Vec<ItemModel>,
     pub is_module: bool,
-    /// Whether the device re-exports the definition from an earlier device of the file.
+    /// True if the device re-exports the definition from an earlier device of the file.
     pub is_reexported: bool,
     pub method_allow: Option<String>,
 }

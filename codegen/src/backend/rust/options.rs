@@ -1,6 +1,6 @@
 //! Options of the generated Rust code.
 
-/// Whether a part of the output is generated.
+/// Specifies whether a part of the output is generated.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Presence {
     /// The part is generated.
@@ -15,13 +15,13 @@ pub enum Presence {
 /// Options of the generated Rust code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RustOptions {
-    /// Name of the device's type; derived from the name of the product if it is `None`.
+    /// Name of the device's type. If it is `None`, the name is derived from the product name.
     pub device_name: Option<String>,
     /// Path of the runtime crate.
     pub runtime: String,
-    /// Whether to generate a device type with an accessor method for every entry.
+    /// True to generate a device type with an accessor method for every entry.
     pub accessors: bool,
-    /// Whether to generate a struct for every PDO.
+    /// True to generate a struct for every PDO.
     pub pdos: bool,
     /// Static table of all entries, for tools.
     pub table: Presence,

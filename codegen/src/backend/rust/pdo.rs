@@ -50,7 +50,7 @@ pub(super) struct PdoModel {
     pub covered: String,
     pub cob_id: Option<String>,
     pub configuration: Vec<String>,
-    /// Whether the default COB-ID contains a CAN identifier.
+    /// True if the default COB-ID contains a CAN identifier.
     pub has_identifier: bool,
 }
 
@@ -75,7 +75,7 @@ pub(super) struct FieldModel {
     cut: Option<String>,
     pub offset: u32,
     pub bits: u32,
-    /// Whether the field is longer than a word. Such a field is copied as bytes. The unused bits of its last byte are
+    /// True if the field is longer than a word. Such a field is copied as bytes. The unused bits of its last byte are
     /// 0.
     pub long: bool,
 }
@@ -142,7 +142,7 @@ fn identifier(value: &Value) -> String {
 
 /// Returns the documentation of a PDO's view.
 fn view_docs(context: &Context<'_>, pdo: &Pdo, name: &str) -> Vec<String> {
-    vec![title(context, pdo), String::new(), format!("The layout is that of [`pdo::{name}`](super::pdo::{name}).")]
+    vec![title(context, pdo), String::new(), format!("The view has the fields of [`pdo::{name}`](super::pdo::{name}).")]
 }
 
 /// Methods of the struct. A field may have the same name as a method.

@@ -160,7 +160,7 @@ pub(super) struct AccessPath<'i> {
     pub resized: Option<u8>,
     /// Allowed values on the bus, and whether the item is signed.
     pub limited: Option<(&'i Limits, bool)>,
-    /// Whether the narrower one of the item's number and the number on the bus is signed.
+    /// True if the narrower one of the item's number and the number on the bus is signed.
     pub is_signed: bool,
 }
 
@@ -212,7 +212,7 @@ fn ranges(limits: &Limits) -> Vec<String> {
 pub(super) struct Route<'i> {
     pub read: Option<AccessPath<'i>>,
     pub write: Option<AccessPath<'i>>,
-    /// Whether the item is readable and writable. This bus may allow only reading or only writing.
+    /// True if the item is readable and writable. This bus may allow only reading or only writing.
     pub is_partial: bool,
 }
 

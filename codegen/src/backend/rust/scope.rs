@@ -51,7 +51,7 @@ impl<'a> Scope<'a> {
         self.groups.get(position)
     }
 
-    /// Returns the bus of a PDO. The result is the only bus of the PDO, or the bus of the device.
+    /// Returns the bus of a PDO. If the PDO is on several buses, returns the bus of the device.
     pub fn bus_of(&self, pdo: &Pdo) -> ObjectBus {
         match pdo.buses {
             Some(ObjectBuses::COE) => ObjectBus::CoE,

@@ -8,7 +8,7 @@ const TARGET: Object = Object::new(0x607A, 2);
 fn message(kind: u8, service: u8, sdo: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::from([sdo.len() as u8 + 2, 0, 0, 0, 0, kind, 0, service << 4]);
     bytes.extend(sdo);
-    // Unused part of the mailbox.
+    // Fill the unused part of the mailbox.
     bytes.resize(64, 0xEE);
     bytes
 }
@@ -31,7 +31,7 @@ fn requests_to_write() {
     assert_eq!((expedited.command(), sent), (Command::Short, 3));
     assert_eq!(expedited.head(), [10, 0, 0, 0, 0, 3, 0, 0x20, 0x27, 0x7A, 0x60, 2, 1, 2, 3, 0]);
 
-    // The whole value, a part of it, and an empty value, which has a length too.
+    // Downloads of a whole value, of a part of a value, and of an empty value, which also has a length.
     let (normal, sent) = download(TARGET, true, &[0; 20], 128);
     assert_eq!((normal.command(), sent), (Command::Normal, 20));
     assert_eq!(normal.head(), [30, 0, 0, 0, 0, 3, 0, 0x20, 0x31, 0x7A, 0x60, 2, 20, 0, 0, 0]);
@@ -62,7 +62,7 @@ fn values() {
     assert_eq!(Answer::parse(&bytes), Answer::Upload { object: TARGET, size: None, data: &[7, 8, 9, 10] });
     let bytes = answer(&[0x41, 0x7A, 0x60, 2, 5, 0, 0, 0, 1, 2, 3, 4, 5]);
     assert_eq!(Answer::parse(&bytes), Answer::Upload { object: TARGET, size: Some(5), data: &[1, 2, 3, 4, 5] });
-    // The first part of a value.
+    // The reply contains the first part of a value.
     let bytes = answer(&[0x41, 0x7A, 0x60, 2, 9, 0, 0, 0, 1, 2]);
     assert_eq!(Answer::parse(&bytes), Answer::Upload { object: TARGET, size: Some(9), data: &[1, 2] });
 }
@@ -93,14 +93,14 @@ fn what_comes_unasked() {
     let bytes = message(3, 1, &[0x10, 0x32, 0x05, 1, 2, 3, 4, 5]);
     let emergency = Emergency { code: 0x3210, register: 5, vendor: [1, 2, 3, 4, 5] };
     assert_eq!(Answer::parse(&bytes), Answer::Emergency(emergency));
-    // Ethernet over EtherCAT, and a reply of the SDO information service.
+    // Messages of Ethernet over EtherCAT and of the SDO information service are ignored.
     assert_eq!(Answer::parse(&message(2, 3, &[0; 8])), Answer::Foreign);
     assert_eq!(Answer::parse(&message(3, 8, &[0; 8])), Answer::Foreign);
 }
 
 #[test]
 fn mailbox_errors() {
-    // Protocol 0, type 1, code 2: the protocol isn't supported.
+    // Protocol 0, type 1 and code 2 mean that the protocol isn't supported.
     assert_eq!(Answer::parse(&[4, 0, 0, 0, 0, 0, 1, 0, 2, 0]), Answer::MailboxError(2));
     assert_eq!(Answer::parse(&[2, 0, 0, 0, 0, 0, 1, 0]), Answer::Malformed);
 }
@@ -109,7 +109,7 @@ fn mailbox_errors() {
 fn what_is_no_message() {
     assert_eq!(Answer::parse(&[]), Answer::Malformed);
     assert_eq!(Answer::parse(&[0; 128]), Answer::Malformed);
-    // A mailbox error of another type, a wrong length, and messages that are too short.
+    // A mailbox error of another type, a wrong length, and messages that are too short are invalid.
     assert_eq!(Answer::parse(&message(0, 3, &[0x4B, 0x7A, 0x60, 2, 7, 8, 0, 0])), Answer::Malformed);
     assert_eq!(Answer::parse(&[255, 255, 0, 0, 0, 3, 0, 0x30, 0x4B]), Answer::Malformed);
     for length in 0..8 {

@@ -64,10 +64,10 @@ impl Buses {
     pub fn titles(self) -> String {
         let present = RouteBus::ALL.iter().zip(self.0).filter(|(_, kind)| *kind != RouteKind::Absent);
         let titles: Vec<&str> = present.map(|(bus, _)| bus.title()).collect();
-        if titles.is_empty() {
-            "no bus".to_owned()
-        } else {
-            titles.join(", ")
+        match titles.as_slice() {
+            [] => "no bus".to_owned(),
+            [title] => (*title).to_owned(),
+            [first @ .., last] => format!("{} and {last}", first.join(", ")),
         }
     }
 }

@@ -10,7 +10,7 @@ pub(super) struct Field<'i> {
     pub first: u32,
     pub bits: u32,
     pub ty: Option<Type>,
-    /// Whether the field is an output, that is, data that the device receives.
+    /// True if the field is an output, that is, data that the device receives.
     pub is_output: bool,
     big_endian: bool,
 }

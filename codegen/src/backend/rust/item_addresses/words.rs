@@ -101,6 +101,6 @@ impl Field<'_> {
             _ if self.bits == 1 => format!("bit {bit} of byte {byte}"),
             _ => format!("{} bits from bit {bit} of byte {byte}", self.bits),
         };
-        format!("{bits} of the image {}", escape(self.image))
+        format!("{bits} of the process image {}", escape(self.image))
     }
 }

@@ -17,9 +17,12 @@ pub(super) fn sentence(context: &Context<'_>, message: &Message, doc_module: Doc
         Completion::Reply => format!("The device replies when the command is completed{late}."),
         Completion::Delayed(milliseconds) => format!("The command is completed after {milliseconds} ms."),
         Completion::Polled { item, in_reply, .. } => {
-            let when = if *in_reply { "The reply contains this value" } else { "Read this value with another message" };
             let item = context.link(item, doc_module).unwrap_or_else(|| docs::escape(item));
-            format!("{item} indicates when the command is completed. {when}.")
+            let source = match *in_reply {
+                true => format!("The reply contains {item}."),
+                false => format!("Read {item} with another message."),
+            };
+            format!("{item} indicates when the command is completed. {source}")
         }
     })
 }

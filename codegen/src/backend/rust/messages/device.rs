@@ -23,7 +23,7 @@ pub(in crate::backend::rust) struct CallModel {
     pub arguments: Vec<String>,
     /// Expression that creates the message.
     pub build: Doc,
-    /// Whether the arguments have a lifetime.
+    /// True if the arguments have a lifetime.
     pub borrows: bool,
     pub deprecated: Option<String>,
     pub is_selector: bool,

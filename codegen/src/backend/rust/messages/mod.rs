@@ -34,7 +34,7 @@ pub(super) struct ProtocolModel {
     pub framing_docs: Vec<String>,
     pub max_data: u32,
     pub derives: Vec<String>,
-    /// Whether requests contain a station number.
+    /// True if requests contain a station number.
     pub has_station: bool,
     pub rules: Vec<RuleModel>,
     pub messages: Vec<MessageModel>,
@@ -59,7 +59,7 @@ pub(super) struct MessageModel {
     /// Type of the reply that refuses the request.
     pub refusal: String,
     pub completion: Doc,
-    /// Whether this request determines the meaning of other requests.
+    /// True if this request determines the meaning of other requests.
     pub is_selector: bool,
     /// Effects of the command in each state.
     pub outcomes: Vec<OutcomesModel>,
@@ -298,10 +298,10 @@ impl Maker<'_, '_> {
         sentences.extend(message.side_effects.iter().map(|effect| docs::sentence(&docs::escape(effect))));
         sentences.extend(message.after.iter().map(|other| {
             let other = self.context.link(other, doc_module).unwrap_or_else(|| docs::escape(other));
-            format!("The message has this meaning after {other}.")
+            format!("The message has this meaning only after {other} was sent.")
         }));
         if message.by_default {
-            sentences.push("This meaning also applies after power-on.".to_owned());
+            sentences.push("The message also has this meaning after power-on.".to_owned());
         }
         let link = |id, name: &str| self.context.link_to(id, name, doc_module);
         sentences

@@ -103,7 +103,7 @@ fn documentation(
     let one = |outcome: &Outcome| match outcome {
         Outcome::Unchanged => "state unchanged".to_owned(),
         Outcome::Refused => "refused".to_owned(),
-        Outcome::States(to) => to.iter().map(|name| link(name)).collect::<Vec<_>>().join(", "),
+        Outcome::States(to) => to.iter().map(|name| link(name)).collect::<Vec<_>>().join(", then "),
     };
     let cell = |cell: &StateOutcome| {
         let mut words = Vec::new();

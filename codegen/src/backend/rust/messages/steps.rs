@@ -13,11 +13,11 @@ pub(in crate::backend::rust) struct Statements {
     pub read: Vec<Doc>,
     /// Name and value of each field. The values are calculated from the data that was read.
     pub build: Vec<(String, Doc)>,
-    /// Whether the statements for writing use the request.
+    /// True if the statements for writing use the request.
     pub writes_request: bool,
-    /// Whether the statements for reading use the request.
+    /// True if the statements for reading use the request.
     pub reads_request: bool,
-    /// Whether the statements use the station number.
+    /// True if the statements use the station number.
     pub uses_station: bool,
 }
 

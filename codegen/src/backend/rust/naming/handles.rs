@@ -31,7 +31,7 @@ pub(in crate::backend::rust) struct NamedObject<'a> {
     pub group: &'a Group,
     position: u32,
     pub name: String,
-    /// Whether the object is a module with several values. If not, its only value has the object's name.
+    /// True if the object is a module with several values. If not, its only value has the object's name.
     pub is_module: bool,
     pub entries: Vec<NamedItem<'a>>,
 }

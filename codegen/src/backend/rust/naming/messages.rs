@@ -31,7 +31,7 @@ fn base_names(message: &Message) -> MessageNames {
 /// The path of a message, relative to the device's module.
 pub(in crate::backend::rust) struct MessagePath {
     pub id: MessageId,
-    /// Whether the message is a request. If not, only the device sends the message.
+    /// True if the message is a request. If not, only the device sends the message.
     pub is_request: bool,
     pub path: String,
 }

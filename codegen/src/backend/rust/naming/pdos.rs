@@ -130,8 +130,8 @@ fn names_by_source(scope: &Scope<'_>, is_named: impl Fn(&Pdo) -> bool, numbers: 
     names::unique(&name_requests, &reserved, Case::Pascal)
 }
 
-/// Names that are used in the generated code of PDOs. Also type names that would make clippy mistake a method for a
-/// constructor.
+/// Reserved names: those used in the generated code of PDOs, and type names that would make clippy mistake a method for
+/// a constructor.
 const RESERVED: [&str; 13] =
     ["Self", "Result", "Ok", "Err", "Option", "Some", "None", "AsRef", "AsMut", "B", "At", "New", "Unpack"];
 

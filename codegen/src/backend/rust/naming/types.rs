@@ -57,7 +57,8 @@ pub(in crate::backend::rust) struct TypeNames<'a> {
     pub machines: Vec<NamedMachine<'a>>,
 }
 
-/// Names of the prelude that the module uses. Also names that would make clippy mistake a method for a constructor.
+/// Reserved names: names of the prelude that the module uses, and names that would make clippy mistake a method for a
+/// constructor.
 const RESERVED: [&str; 9] = ["Self", "Option", "Result", "Unknown", "Some", "None", "Default", "New", "FromRaw"];
 
 impl<'a> TypeNames<'a> {

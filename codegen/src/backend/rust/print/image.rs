@@ -6,7 +6,7 @@ use crate::backend::rust::ethercat::{ImageField, ImageModel};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::reexport::Section;
 
-const ERROR: &str = "Fails if `data` has fewer bytes than the image.";
+const ERROR: &str = "Returns an error if `data` has fewer bytes than the image.";
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let images = model.ethercat.as_ref().map_or(&[][..], |ethercat| &ethercat.images);

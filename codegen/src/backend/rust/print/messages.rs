@@ -10,7 +10,7 @@ use crate::backend::rust::model::Model;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let Some(protocol) = &model.protocol else { return };
-    code.doc("Requests and replies.");
+    code.doc("Requests and replies of the message protocol.");
     if protocol.has_real_limits() {
         line!(code, "#[allow(clippy::approx_constant)]");
     }
@@ -362,7 +362,7 @@ pub(super) fn methods(code: &mut Code, model: &Model) {
         code.doc(
             "Requests that determine the meaning of later requests. `select` sends such a request and returns a driver",
         );
-        code.doc("with the later requests.");
+        code.doc("with methods for the later requests.");
         open!(code, "impl<C> ", name, "<C> {");
         calls(&|call| call.is_selector && call.after.is_none(), code);
         if let Some(default) = &protocol.by_default {

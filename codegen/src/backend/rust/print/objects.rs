@@ -70,7 +70,7 @@ fn handle_types(code: &mut Code, model: &Model) {
     let parameter = seq!["L = ", model.location];
     let stop = Stop;
     for alias in &model.aliases {
-        code.doc(&format!("Handle of {noun} that is {}.", alias.text));
+        code.doc(&format!("Handle of a {} {noun}.", alias.text));
         let (parameters, location) = match model.has_locations {
             true => (generic!(alias.name, "V", parameter), "L"),
             false => (generic!(alias.name, "V"), model.location.as_str()),
@@ -81,7 +81,7 @@ fn handle_types(code: &mut Code, model: &Model) {
         line!(code, "type ", name, " = ", list(&format!("{access}<"), value, ">"), ";");
     }
     for alias in model.aliases.iter().filter(|_| model.has_accessors) {
-        code.doc(&format!("Access to {noun} that is {}.", alias.text));
+        code.doc(&format!("Accessor of a {} {noun}.", alias.text));
         let name = seq![alias.name, "Access"];
         let (parameters, location) = match model.has_locations {
             true => (generic!(name, "'c", "C", "V", parameter), "L"),
@@ -104,7 +104,7 @@ pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &
     }
     object.items.iter().for_each(|item| handle(code, item, "super::"));
     if model.has_accessors {
-        code.doc(&format!("Access to the entries of {}", object.heading));
+        code.doc(&format!("Accessors of the entries of {}", object.heading));
         open!(code, "pub struct Accessors<'c, C> {");
         // Methods of the device call the constructor. If the file has several devices, methods of any device may call
         // the constructor.

@@ -72,7 +72,7 @@ fn pack(code: &mut Code, pdo: &PdoModel) {
 
 fn unpack(code: &mut Code, pdo: &PdoModel) {
     let about = "Decodes the fields of the PDO. Bytes after the mapped objects are ignored.";
-    code.docs_with_error(about, "Fails if `data` has fewer bytes than the PDO.");
+    code.docs_with_error(about, "Returns an error if `data` has fewer bytes than the PDO.");
     line!(code, "#[inline]");
     open!(code, "pub ", pdo.constant, "fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
     open!(code, "let Some(data) = data.first_chunk::<", pdo.length, ">() else {");

@@ -7,7 +7,7 @@ pub(super) fn write(code: &mut Code, procedures: &[ProcedureModel]) {
     if procedures.is_empty() {
         return;
     }
-    code.doc("Sequences of writes. Send them in this order with `SdoWrite::send`.");
+    code.doc("Sequences of SDO writes. Send the writes of a sequence in order with `SdoWrite::send`.");
     open!(code, "pub mod procedures {");
     code.use_runtime();
     for procedure in procedures {

@@ -10,8 +10,8 @@ use crate::backend::rust::reexport::Section;
 pub(super) fn write(code: &mut Code, model: &Model) {
     let types = &model.types;
     let heading = match types.has_bit_fields {
-        false => "Named values.",
-        true => "Named values and bits.",
+        false => "Enumerations of named values.",
+        true => "Enumerations of named values, and bit fields with named bits.",
     };
     let names_runtime = (!types.is_empty()).then(|| types.names_runtime());
     section::write(code, model, Section::Types, heading, names_runtime, |code| {
@@ -31,7 +31,7 @@ pub(in crate::backend::rust) fn enumeration(code: &mut Code, enumeration: &Enume
         line!(code, variant.name, ",");
     }
     if enumeration.complete.is_none() {
-        code.doc("A number without a variant of its own.");
+        code.doc("A number that no other variant represents.");
         line!(code, "Unknown(", native, "),");
     }
     code.close("}");
@@ -158,7 +158,7 @@ fn commands(code: &mut Code, patterns: &PatternsModel) {
     code.close("}");
     if let Some((bits, method)) = &patterns.bits {
         open!(code, "impl ", bits, " {");
-        code.doc("Returns a copy in which `command` has set and cleared its bits.");
+        code.doc("Returns a copy that encodes `command`. All bits outside the mask of the command are unchanged.");
         line!(code, "#[must_use]");
         let command = seq!["command: ", patterns.name];
         open!(code, call!(seq!["pub const fn ", method], "self", command), " -> Self {");

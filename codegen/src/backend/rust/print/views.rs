@@ -6,7 +6,7 @@ use crate::backend::rust::model::Model;
 use crate::backend::rust::pdo::PdoModel;
 use crate::backend::rust::reexport::Section;
 
-const ERROR: &str = "Fails if `data` ends before the end of the PDO.";
+const ERROR: &str = "Returns an error if `data` ends before the end of the PDO.";
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     if !model.has_views {

@@ -27,7 +27,7 @@ pub(in crate::backend::rust) struct SubmoduleModel<'a> {
     pub f_record: Option<FRecordModel>,
     /// Elements of the record list, sorted by transfer sequence.
     pub record_list: Vec<Doc>,
-    /// Whether any field is an enumeration.
+    /// True if any field is an enumeration.
     pub uses_values: bool,
 }
 
@@ -90,7 +90,7 @@ fn submodule_docs(
     lines
 }
 
-/// Returns the length of the cyclic data, including an F message trailer.
+/// Returns the length of the cyclic data, including an F-message trailer.
 fn length(data: Option<&IoData>) -> String {
     let Some(data) = data else { return "None".to_owned() };
     let length = u64::from(data.image.length) + u64::from(data.image.overhead);

@@ -38,7 +38,7 @@ pub(in crate::backend::rust) struct FieldModel {
     /// Position and type of the field, as cells of a documentation table.
     cells: [String; 2],
     pub ty: String,
-    /// Whether the type is an enumeration.
+    /// True if the type is an enumeration.
     pub is_enumeration: bool,
     /// Attribute of the field.
     pub attribute: Option<String>,
@@ -72,8 +72,7 @@ pub(super) fn model(
     };
     let image = &data.image;
     let mut docs = vec![format!("{name}: {title}."), String::new()];
-    let consistency =
-        if data.consistent { "all of which are consistent" } else { "with consistency only within each item" };
+    let consistency = if data.consistent { "consistent as a whole" } else { "consistent only within each data item" };
     let length = super::docs::bytes(image.length);
     docs.push(format!("{length} of user data, {consistency}{}.", trailer(image.overhead)));
     docs.extend(table(&fields, &["pack", "unpack"], |_| String::new()));
@@ -108,7 +107,7 @@ pub(super) fn table<'f>(
 fn trailer(bytes: u32) -> String {
     match bytes {
         0 => String::new(),
-        length => format!(", followed by an F message trailer of {}", docs::bytes(length)),
+        length => format!(", followed by an F-message trailer of {}", docs::bytes(length)),
     }
 }
 

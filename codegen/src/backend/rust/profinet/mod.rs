@@ -29,7 +29,7 @@ pub(super) use values::Enumeration;
 /// All device access points of a file, ready to be printed.
 pub(super) struct FileModel<'a> {
     pub access_points: Vec<DapModel<'a>>,
-    /// Whether the file has a single device access point. If so, its content is at the top level of the output.
+    /// True if the file has a single device access point. If so, its content is at the top level of the output.
     pub is_single: bool,
     pub modules: Vec<ModuleModel<'a>>,
     pub submodules: Vec<SubmoduleModel<'a>>,

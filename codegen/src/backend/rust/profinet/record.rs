@@ -45,7 +45,7 @@ pub(in crate::backend::rust) struct RecordModel {
     pub constants: Vec<ConstantModel>,
     /// Statements that check the values of the fields.
     pub checks: Vec<Doc>,
-    /// Whether a literal may be close to a mathematical constant. Clippy reports such literals.
+    /// True if a literal may be close to a mathematical constant. Clippy reports such literals.
     pub has_real: bool,
 }
 
@@ -54,7 +54,7 @@ pub(in crate::backend::rust) struct ConstantModel {
     pub name: String,
     pub docs: Vec<String>,
     pub ty: String,
-    /// Whether the type is an enumeration.
+    /// True if the type is an enumeration.
     pub is_enumeration: bool,
     pub value: Doc,
 }

@@ -44,7 +44,7 @@ fn unit(code: &mut Code, unit: &UnitModel) {
     code.doc("Length in bytes up to the end of the last field.");
     line!(code, "pub const LEN: usize = ", unit.length, ";");
     let first = "Decodes the fields of a structure. Bytes after the last field are ignored.";
-    code.docs_with_error(first, "Fails if `data` has fewer bytes than the structure.");
+    code.docs_with_error(first, "Returns an error if `data` has fewer bytes than the structure.");
     open!(code, "pub fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
     line!(code, "let data = rt::profinet::be::chunk::<", unit.length, ">(data)?;");
     let values = unit.fields.iter().map(|field| (field.name.as_str(), field.read.clone()));

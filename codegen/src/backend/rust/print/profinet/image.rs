@@ -4,7 +4,7 @@ use super::{fields, literal};
 use crate::backend::rust::code::{call, line, open, seq, Break, Code, Doc};
 use crate::backend::rust::profinet::ImageModel;
 
-const ERROR: &str = "Fails if `data` has fewer bytes than the user data.";
+const ERROR: &str = "Returns an error if `data` has fewer bytes than the user data.";
 
 pub(super) fn write(code: &mut Code, image: &ImageModel) {
     let name = image.name;

@@ -41,7 +41,7 @@ fn constants(code: &mut Code, record: &RecordModel) {
     line!(code, "pub const INDEX: u16 = ", hexadecimal(record.index, 4), ";");
     code.doc("Length in bytes.");
     line!(code, "pub const LEN: usize = ", record.length, ";");
-    code.doc("Position among the start-up records of the submodule; 0 means any position.");
+    code.doc("Position of the record among the start-up records of the submodule; 0 means any position.");
     line!(code, "pub const TRANSFER_SEQUENCE: u16 = ", record.transfer_sequence, ";");
     code.doc("Default content of the record.");
     line!(code, "pub const DEFAULT_BYTES: [u8; ", record.length, "] = *", record.default_bytes, ";");
@@ -58,7 +58,7 @@ fn constants(code: &mut Code, record: &RecordModel) {
 
 fn check(code: &mut Code, record: &RecordModel) {
     let first = "Checks that the device allows the values of all fields.";
-    code.docs_with_error(first, "Fails if a field has a value that the device does not allow.");
+    code.docs_with_error(first, "Returns an error if a field has a value that the device does not allow.");
     allow_real(code, record);
     open!(code, "pub fn check(&self) -> Result<(), rt::profinet::NotAllowed> {");
     code.lines(&record.checks);
@@ -68,7 +68,7 @@ fn check(code: &mut Code, record: &RecordModel) {
 
 fn encode(code: &mut Code, record: &RecordModel) {
     let first = "Returns the bytes of the record, which consist of constants and fields. All other bits are 0.";
-    code.docs_with_error(first, "Fails if a field has a value that the device does not allow.");
+    code.docs_with_error(first, "Returns an error if a field has a value that the device does not allow.");
     let function = call!("pub fn encode", "&self");
     open!(code, function, " -> Result<[u8; ", record.length, "], rt::profinet::NotAllowed> {");
     line!(code, "self.check()?;");
@@ -84,7 +84,7 @@ fn encode(code: &mut Code, record: &RecordModel) {
 
 fn decode(code: &mut Code, record: &RecordModel) {
     let first = "Decodes the fields of a record. Bytes after the record are ignored.";
-    code.docs_with_error(first, "Fails if `data` has fewer bytes than the record.");
+    code.docs_with_error(first, "Returns an error if `data` has fewer bytes than the record.");
     open!(code, "pub fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
     let data = if record.fields.is_empty() { "" } else { "let data = " };
     line!(code, data, "rt::profinet::be::chunk::<", record.length, ">(data)?;");
