@@ -16,7 +16,7 @@ use lexibus_drives::demo_drive::{objects, pdo, DemoDrive, ENTRIES};
 
 /// Maximum time to wait for a response.
 const PATIENCE: Duration = Duration::from_millis(500);
-/// Maximum number of steps or cycles.
+/// Maximum number of steps of the state machine, and of SYNC cycles.
 const MOST_STEPS: u32 = 100;
 
 type Drive = DemoDrive<Node<CanNode>>;
@@ -55,7 +55,7 @@ fn enable(drive: &mut Drive) -> Result<(), Box<dyn Error>> {
     Err("the drive doesn't reach Operation enabled".into())
 }
 
-/// Moves the drive with process data. RPDO 2 sends the target, and TPDO 2 returns the position. Both PDOs are
+/// Moves the drive with process data. RPDO 2 contains the target position, and TPDO 2 the actual position. Both are
 /// synchronized with SYNC.
 fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Error>> {
     for write in pdo::RxPdo2::configuration(id).iter().chain(&pdo::TxPdo2::configuration(id)) {
@@ -81,7 +81,7 @@ fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Err
     Err("the drive doesn't reach the target".into())
 }
 
-/// Returns a simulated drive that follows its controlword. Each controlword moves it a part of the distance.
+/// Returns a simulated drive. Each write of the controlword moves the enabled drive by a part of the distance.
 fn simulated_node(id: NodeId) -> Result<CanNode, Box<dyn Error>> {
     let mut device = Device::new(ENTRIES).with_node_id(id);
     device.set_initial(objects::STATUSWORD, Statusword::from_raw(0x40))?;

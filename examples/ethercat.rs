@@ -85,7 +85,7 @@ async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
             outputs.position_mode_mut().set_controlword(controlword);
             outputs.position_mode_mut().set_target_position(target);
         }
-        // An error if the inputs would be stale.
+        // `run` returns an error if the inputs would be stale.
         cycle.run(maindevice, &group).await?;
         let inputs = image::Inputs::unpack(&subdevice.inputs_raw())?.position;
         let state = inputs.statusword.state().ok_or("the statusword has no valid state")?;

@@ -77,7 +77,7 @@ fn turn(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     let (mut inputs, mut outputs) = (vec![0; inputs_len as usize], vec![0; outputs_len as usize]);
     plan.set_status(&mut outputs, IoStatus::GOOD)?;
     for cycle in 0..4 {
-        let half = 1 << 13; // let half = 1 << 13; // half the reference speed, which is 2^14
+        let half = 1 << 13; // half of the reference speed, which is 2^14
         let data = Outputs {
             on: cycle > 0,
             no_coast_stop: true,

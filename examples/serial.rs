@@ -65,7 +65,7 @@ mod unix {
     }
 
     fn talk(port: TTYPort) -> Result<(), Box<dyn error::Error>> {
-        // The line's buffer has room for start, end, and twice the bytes of data and checksum.
+        // The buffer of the line has space for start, end, and twice the bytes of data and checksum.
         let mut line: SerialLine<_, _, { 2 * (MAX_DATA + 1) + 2 }> = SerialLine::new(FromStd::new(port), FRAMING);
         let mut reply = [0; MAX_DATA];
         let length = line.exchange(&[NODE, STATE], &mut reply)?;
@@ -142,7 +142,7 @@ mod unix {
         fn serve(&mut self, port: &mut TTYPort) -> Result<(), std::io::Error> {
             let (mut decoder, mut data, mut frame) = (FRAMING.decoder(), [0; MAX_DATA], [0; 64]);
             let mut byte = [0];
-            // When the other end is closed, the pseudo-terminal returns an error or the end of the stream.
+            // After the client has closed the line, the pseudo-terminal returns an error or the end of the stream.
             while let Ok(1) = port.read(&mut byte) {
                 let Ok(Some(length)) = FRAMING.decode(&mut decoder, byte[0], &mut data) else { continue };
                 let reply = self.reply(&data[..length]);

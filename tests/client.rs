@@ -32,7 +32,7 @@ const PROGRAM: Item<Domain, Wo, OnCanOpen> =
 const COB_ID: Item<u32, Rw, OnCanOpen> =
     Item::new(OnCanOpen::canopen(0x1400, 1), "COB-ID", Range::Full, Initial::NodeId(0x200), "", Flags::NONE);
 
-/// A simulated device. The error of an access is the object that the device does not have.
+/// A simulated device: the value of each object. If an object has no value, a read fails with the object's address.
 #[derive(Default)]
 struct Memory(HashMap<Object, Vec<u8>>);
 

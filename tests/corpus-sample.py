@@ -7,20 +7,20 @@ LEXIBUS is the command-line program. The corpus is ../shared/corpus, next to the
 with status 1 if the list is stale, with status 0 if there is no corpus. --explain writes nothing and prints the features that
 each file was chosen for, and the features that only files above SIZE_LIMIT have: these are left to the full tests.
 
-A file is a set of features:
+Each file has a set of features:
 
 - `format`: the format and encoding that `lexibus info` reports, the folder and extension of the file, and the root of XML;
 - `code`: a diagnostic code that occurs, with every lint switched on;
 - `ir`: a part of the intermediate representation (`lexibus dump`) that isn't empty. Its name is the format family and the last
-  KEYS keys of its path, without list positions. The variants of an enumeration are parts of their own. Numbers and texts only
-  count as present. A type counts once, with its width if that is one of WIDTHS, wherever it is used (TYPES). IGNORED lists
-  keys that aren't read. Finer rules make the sample larger: a few large files have many rare combinations;
+  KEYS keys of its path, without list positions. Each variant of an enumeration is a separate part. For numbers and texts, only
+  their presence counts. A type is the same part wherever it is used (TYPES), with its width if WIDTHS contains the width.
+  The keys in IGNORED are not read. Finer rules would make the sample larger, because a few large files have many rare features;
 - `quirk`: a row of ../shared/QUIRKS.md that a regular expression finds in the text. A letter follows the row if the row has
   several forms.
 
 The sample is a greedy set cover. Each step takes the file with the most new features per cost, until every feature of a file
-up to SIZE_LIMIT is covered. The cost is the size plus FILE_COST. Then files are dropped, the largest first, if the others have
-all of their features. Last, every folder gets its MINIMUM of files.
+up to SIZE_LIMIT is covered. The cost is the size plus FILE_COST. Then the script drops files whose features all occur in other
+chosen files, the largest first. Finally, it adds files until each folder has its MINIMUM number of files.
 """
 import argparse
 import json
@@ -36,15 +36,15 @@ CORPUS = ROOT.parent / "shared" / "corpus"
 LIST = ROOT / "tests" / "corpus-sample.txt"
 NOT_DESCRIPTIONS = {"MANIFEST.tsv", "oracle.json"}
 MINIMUM = {"eds": 12, "esi": 8, "gsdml": 8}
-# Maximum size in bytes. Only the full tests read larger files, because a debug build needs longer for one of them than for ten
-# others.
+# Maximum size in bytes. Only the full tests read larger files, because a debug build needs longer for one large file than for ten
+# small ones.
 SIZE_LIMIT = 250_000
-# Number of bytes to add to the size of each file. It makes the script prefer a medium-sized file to many tiny ones.
+# Number of bytes that is added to the size of each file, so that the script prefers a medium-sized file to many tiny ones.
 FILE_COST = 50_000
 
 # Formats that share a front end, or that become the same part of the intermediate representation.
 FAMILIES = {"eds": "canopen", "dcf": "canopen", "xdd": "canopen", "esi": "ethercat", "gsdml": "profinet"}
-# Keys with positions and free text.
+# Keys that are not read, because their values are positions or free text.
 IGNORED = {"at", "documentation", "doubts", "extensions", "files", "header", "name_at", "names", "origin", "span", "step_spans",
            "translations", "units"}
 # Keys whose text is the name of an enumeration variant. The text of other keys is data.
@@ -56,9 +56,9 @@ TYPES = {"ty", "element", "alias", "base"}
 WIDTHS = {1, 8, 16, 24, 32, 64}
 KEYS = 5
 
-# Forms of the rows of QUIRKS.md, case-insensitive; `^` and `$` match at lines. Not in this table: rows with a diagnostic code,
-# rows that the encoding or the intermediate representation shows (E52, E84, X25, G01), and rows that no regular expression
-# recognizes: E38, E79, X26, X29.
+# Regular expressions for the forms of the rows of QUIRKS.md. They ignore case; `^` and `$` match the start and end of a line.
+# Not in this table: rows with a diagnostic code, rows that the encoding or the intermediate representation shows (E52, E84, X25,
+# G01), and rows that no regular expression recognizes (E38, E79, X26, X29).
 SECTION = r"^\[[0-9a-f]{4}(?:sub[0-9a-f]+)?\].*\n"
 NONZERO = r" *= *0*(x0*)?[1-9a-f]"
 QUIRKS = {

@@ -31,7 +31,7 @@ use lexibus_drives::eco::{self, codes, pdo, procedures};
 
 type Answer<T> = Result<T, Error<Infallible>>;
 
-/// Returns a download request with its confirmation.
+/// Returns an SDO download request and its confirmation.
 fn confirmed(request: [u8; 8]) -> ([u8; 8], [u8; 8]) {
     (request, [0x60, request[1], request[2], request[3], 0, 0, 0, 0])
 }
@@ -41,7 +41,7 @@ fn is_done(own: &mut Node<Script>) -> bool {
     own.port().is_done()
 }
 
-/// Checks the request that is sent when an item is written.
+/// Writes an item and checks the SDO request.
 #[track_caller]
 fn writes<V, A, L>(item: Item<V, A, L>, value: V::Native, request: [u8; 8])
 where
@@ -210,7 +210,7 @@ fn procedures_send_what_the_manual_lists() {
     let settings = [(0x6092, 1, 32, 6000), (0x60C2, 1, 8, 1), (0x6060, 0, 8, 7), (0x6040, 0, 16, 0x1F)];
     sends(&procedures::INTERPOLATE, &settings);
     // The sections "Esempio di configurazione dell'asse" and "Esempio posizionamento punto a punto" print these values
-    // for registers. The objects belong to the same items.
+    // for the registers of the same items.
     let motion = [(0x6092, 1, 32, 60), (0x6083, 0, 32, 100), (0x6084, 0, 32, 100), (0x6081, 0, 32, 1000)];
     let homing =
         [(0x6086, 0, 16, 0), (0x6098, 0, 8, 33), (0x607C, 0, 32, 0), (0x6099, 2, 32, 10), (0x609A, 0, 32, 100)];
@@ -250,7 +250,7 @@ where
 
 #[test]
 fn parameters_by_the_window_of_eight_bits() {
-    // Section "Lettura parametri drive". d1 is available when the address becomes 0 again.
+    // Section "Lettura parametri drive". When the device has reset the address to 0, the value of d1 is available.
     let mut own = node(&[
         confirmed([0x2F, 0x00, 0x20, 3, 1, 0, 0, 0]),
         ([0x40, 0x00, 0x20, 3, 0, 0, 0, 0], [0x4F, 0x00, 0x20, 3, 1, 0, 0, 0]),
@@ -303,7 +303,7 @@ fn parameters_and_registers_by_the_window_of_32_bits() -> Answer<()> {
     Ok(())
 }
 
-/// Tests the same access with the acknowledgement, by reading and writing the objects themselves.
+/// Tests direct access to the objects 0x2005 and 0x2006. The test polls their acknowledgement.
 #[test]
 fn the_window_of_32_bits_with_its_acknowledgement() -> Answer<()> {
     let address = |index, number| ([0x40, index, 0x20, 1, 0, 0, 0, 0], [0x4B, index, 0x20, 1, number, 0, 0, 0]);
@@ -404,7 +404,7 @@ fn the_mapping_of_the_example() {
 
 #[test]
 fn values_of_several_parameters() {
-    // Parameters P1 and P2 contain hundreds and units. H5 to H8 contain sign, ten thousands, hundreds and units.
+    // P1 and P2 contain the hundreds and units of a number. H5 to H8 contain sign, ten thousands, hundreds and units.
     assert_eq!(eco::PULSES_PER_TURN.split(4096), Ok([40, 96]));
     assert_eq!(eco::SPACE_OFFSET.join_signed(1, [12, 34, 56]), Ok(-123_456));
     let both: [Item<u16, Rw, _>; 2] = [objects::P1, objects::P2];

@@ -57,7 +57,7 @@ impl Client for Serial {
 
     fn read(&mut self, register: Register, buffer: &mut [u8]) -> Outcome<usize> {
         let value: u32 = match register.address {
-            // At the first read, homing is not yet completed.
+            // The first two reads report that homing is not yet completed.
             0x8005 => {
                 self.looked += 1;
                 if self.looked > 2 {
@@ -116,7 +116,7 @@ fn on_modbus() -> Outcome<()> {
     Ok(())
 }
 
-/// Saves by writing registers. The torque must be disabled.
+/// Saves all parameters by writing registers. Disables the torque first, as the manual requires.
 macro_rules! save {
     ($client:expr) => {{
         let client = $client;
@@ -139,7 +139,7 @@ fn saving_by_registers_on_modbus() -> Outcome<()> {
     Ok(())
 }
 
-/// Section "Secondo metodo di salvataggio", with 16-bit and 32-bit access. The address must accept only the printed
+/// Section "Secondo metodo di salvataggio", with 16-bit and 32-bit access. Both items must accept only the printed
 /// value.
 #[test]
 fn saving_by_an_address_on_modbus() -> Outcome<()> {
@@ -161,7 +161,7 @@ fn saving_by_an_address_on_modbus() -> Outcome<()> {
 struct Cyclically {
     before: [u8; 32],
     changes: Vec<(usize, String)>,
-    /// The number and the value in the window, for each cycle in which one of them changed.
+    /// The number and the value in the window for each cycle in which one of these two fields changed.
     pairs: Vec<String>,
 }
 
@@ -189,7 +189,7 @@ impl ImageClient for Cyclically {
             self.pairs.push(hex(&outputs[26..32]));
         }
         self.before.copy_from_slice(&outputs[..32]);
-        // The statusword reports a completed homing a few cycles later. The position follows the statusword.
+        // Homing is completed as soon as it is started, and in positioner mode. Bytes 3 to 6 are the actual position.
         let done = if self.before[1] == 0x43 || self.before[2] == 1 { 0x40 } else { 0 };
         inputs[..2].copy_from_slice(&[0, done]);
         inputs[3..7].copy_from_slice(&6000_i32.to_be_bytes());
@@ -210,8 +210,8 @@ fn cyclically() -> Cyclic<Cyclically, [u8; 33], [u8; 33]> {
     Cyclic::new(drive, place(), outputs, [0; 33])
 }
 
-/// Saves by writing registers through the process image. The section "Registri" lists the mode for all buses, but the
-/// manual has no example.
+/// Saves by writing registers through the process image. The section "Registri" lists the mode for saving for all
+/// buses, but the manual prints no example for PROFINET.
 #[test]
 fn saving_by_registers_on_profinet() -> Outcome<()> {
     let mut drive = cyclically();
@@ -229,7 +229,7 @@ fn on_profinet() -> Outcome<()> {
     let mut drive = cyclically();
     let position = configure_home_position!(&mut drive);
     assert_eq!(position, 6000);
-    // The window of the image is used for items that have no field.
+    // Items without a field in the image are accessed through the window of the image.
     let expected = [
         (26, "80 02"),
         (28, "00 00 00 3C"),
@@ -257,7 +257,7 @@ fn on_profinet() -> Outcome<()> {
     ];
     let changes = &drive.image().changes;
     assert_eq!(changes.iter().map(|(at, field)| (*at, field.as_str())).collect::<Vec<_>>(), expected);
-    // The number and the value must change in the same cycle. Otherwise, a variable would get the value of another one.
+    // The number and the value must change in the same cycle. Otherwise, the value would be written to a wrong item.
     let pairs = [
         "80 02 00 00 00 3C",
         "80 1B 00 00 00 00",

@@ -8,7 +8,7 @@ use lexibus::modbus::{Limits, RegisterClient};
 use lexibus::{Client, Error, Modbus, Register};
 
 lexibus::dictionary! {
-    /// The Eco with wire addresses for E3 = 9. The controller subtracts 1 from an address.
+    /// The Eco with the wire addresses for E3 = 9. A Siemens controller subtracts 1 from each address.
     #[allow(deprecated)]
     pub mod siemens = "dictionaries/eco.toml" { option: "register_base=siemens_plc", option: "parameter_base=siemens_plc" };
 }
@@ -59,7 +59,7 @@ fn the_second_map() -> Result<(), Error<Infallible>> {
     assert_eq!(drive.client().words, [0x0000, 0x03E8]);
     let asked = [(0x9C42, 1), (0xAC41, 2), (0xAC42, 2), (0x9C44, 1), (0xAC4A, 2)];
     assert_eq!(drive.client().asked, asked);
-    // Saving uses the same address in both maps.
+    // The address for saving is the same in both maps.
     drive.save_to_flash().write(0x0011)?;
     assert_eq!(drive.client().asked.last(), Some(&(0x3802, 1)));
     Ok(())

@@ -1,4 +1,4 @@
-//! Tests EtherCAT from the device description to the bytes. The process images and start-up commands were calculated by
+//! Tests the code that is generated for EtherCAT. The expected process images and start-up commands were calculated by
 //! hand. The bindings are generated from `data/coupler.esi.xml` (a modular coupler and a servo drive) and
 //! `data/gateway.esi.xml` (slot groups).
 
@@ -8,7 +8,7 @@ use lexibus::ethercat::{Assignment, AssignmentError, PlanError, SlotPlan, Transi
 use lexibus::{Client, CoE, Object, Pdo, SdoWrite};
 
 lexibus::dictionary! {
-    /// All devices of the file. Its warnings concern objects that only PDOs mention.
+    /// All devices of the file. The compiler warns about objects that only PDO entries describe.
     #[allow(deprecated)]
     pub mod io = "tests/data/coupler.esi.xml";
 }
@@ -223,7 +223,7 @@ fn modules_of_a_few_bits_are_read_and_written_where_the_plan_puts_them() {
     let plan = groups();
     let bit = |slot, index| plan.pdo(slot, index).unwrap().bit as usize;
     assert_eq!([0, 1, 2, 3].map(|slot| bit(slot, 0x1A00)), [0, 2, 6, 10]);
-    // The values of the modules, from last to first, are 10, 0110, 1010 and 01.
+    // The binary values of the modules, from the last to the first, are 10, 0110, 1010 and 01.
     let image = [0b1010_1001, 0b0000_1001];
     let two = |slot| bits::modules::bit_2::view::Inputs::at(image, bit(slot, 0x1A00)).unwrap();
     let four = |slot| bits::modules::bit_4::view::Inputs::at(image, bit(slot, 0x1A00)).unwrap().state().get();
@@ -388,7 +388,7 @@ fn items_have_the_types_of_the_dictionary() {
     assert_eq!(*objects::motor::CURRENT_LIMIT.range(), lexibus::Range::Between(1, 500));
     assert_eq!(*objects::motor::CURRENT_LIMIT.initial(), lexibus::Initial::Value(100));
     assert!(objects::CONTROLWORD.flags().contains(lexibus::Flags::RPDO));
-    // An object that only a PDO mentions must also have bindings.
+    // An object that only a PDO entry describes must also have bindings.
     assert_eq!(objects::object_2100::MODE.location().coe, Object { index: 0x2100, sub_index: 2 });
     let mut drive = sv_1::Sv1::new(Recorder::default());
     assert!(drive.motor().current_limit().write(501).is_err());

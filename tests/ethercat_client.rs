@@ -33,7 +33,7 @@ use servo::{image, objects, pdo, view, DemoServo};
 
 type Group<S = PreOp> = SubDeviceGroup<4, 64, DefaultLock, S>;
 
-/// Runs `work` concurrently with a simulated segment. The timeouts are long enough for a busy machine.
+/// Runs `work` concurrently with a simulated segment. The timeouts are long enough for a machine under load.
 fn with_segment<F: Future>(
     subdevices: Vec<SubDevice>,
     work: impl FnOnce(&'static MainDevice<'static>) -> F,
@@ -61,7 +61,7 @@ fn with_segment<F: Future>(
     })
 }
 
-/// Returns a SubDevice and its servo. The test can inspect the servo.
+/// Returns a SubDevice and the servo in it, which a test can inspect.
 fn servo() -> (SubDevice, Rc<RefCell<Servo>>) {
     let servo = Rc::new(RefCell::new(Servo::new()));
     (SubDevice::new(&servo::DEVICE, servo.clone()), servo)
@@ -162,8 +162,8 @@ fn what_the_device_refuses() {
         let message = read(client, 0x5FFF, 0).await.unwrap_err().to_string();
         assert_eq!(message, "the device refused: 0x06020000: the object doesn't exist in the dictionary");
 
-        // The value exceeds the buffer in a transfer with one message and in a transfer with several. The next transfer
-        // must work.
+        // The value is longer than the buffer, in a transfer of one message and in a segmented transfer. The next
+        // transfer must succeed.
         let label = Object { index: 0x2011, sub_index: 0 };
         for length in [20, 200] {
             client.write(label, &vec![b'x'; length]).await.unwrap();
@@ -267,7 +267,7 @@ fn a_mapping_is_written_in_its_order_and_in_pre_operational() {
         let group = pre_op(maindevice).await;
         let mut drive = drive(maindevice, &group, 0);
         let client = drive.client();
-        // The device rejects writes of entries before the count is 0, writes to a fixed mapping, and unknown objects.
+        // The device rejects writes of entries unless the count is 0, writes to a fixed mapping, and unknown objects.
         let entry = 0x6064_0020_u32.to_le_bytes();
         assert_eq!(write(client, 0x1A02, 1, &entry).await, Err(Error::Abort(AbortCode(0x0601_0003))));
         assert_eq!(write(client, 0x1A00, 0, &[0]).await, Err(Error::Abort(AbortCode::READ_ONLY)));
@@ -386,14 +386,14 @@ fn stale_inputs_are_an_error() {
         let cycle = Cycle::of(maindevice, &group);
         assert_eq!(cycle, Cycle::expecting(6));
         assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
-        // The second SubDevice doesn't map its inputs any more: FMMU 1, activate.
+        // The second SubDevice stops mapping its inputs when FMMU 1 is deactivated.
         let activate = EscMemory::new(0x061C, 1);
         second.write(activate, &[0]).await.unwrap();
         let missing = CycleError::WorkingCounter { expected: 6, actual: 5 };
         assert_eq!(cycle.run(maindevice, &group).await, Err(missing));
         second.write(activate, &[1]).await.unwrap();
         assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
-        // The first SubDevice leaves Operational: AL control.
+        // A write to AL control switches the first SubDevice to Safe-Operational.
         first.write(EscMemory::new(0x0120, 2), &[4, 0]).await.unwrap();
         let state = CycleError::State { subdevice: 0, state: SubDeviceState::SafeOp };
         assert_eq!(cycle.run(maindevice, &group).await, Err(state));
@@ -414,7 +414,7 @@ fn a_lost_mailbox_reply_is_requested_again() {
             lost.set(count);
             assert_eq!(drive.target_position().read_async().await, Ok(100 + count as i32));
         }
-        // Too many replies are lost. The next request is right.
+        // A read fails if four replies are lost. The next read must return the right value.
         lost.set(4);
         assert!(matches!(drive.target_position().read_async().await, Err(Error::Client(_))));
         lost.set(0);
@@ -422,7 +422,7 @@ fn a_lost_mailbox_reply_is_requested_again() {
     });
 }
 
-/// The drive without a mailbox.
+/// The description of the servo without its mailbox.
 static MUTE: Device = Device { mailbox: Mailbox::NONE, sync_managers: &[], ..servo::DEVICE };
 
 #[test]

@@ -55,7 +55,7 @@ fn byte_by_byte() {
 fn framings() -> Vec<Delimited> {
     let mut all = Vec::new();
     for check in [Check::None, Check::Xor(0), Check::Sum(7), Check::Lrc(0), Check::Crc16(0xFFFF)] {
-        // The escaped byte is unchanged or combined with a number. One framing uses the same byte as start and end.
+        // A framing XORs escaped bytes with 0, 0xFF or 0x20. One framing has the same start and end byte.
         let framings = [
             Delimited::new(Some(0x02), 0x03).with_escape(0x10, 0x00, &[0x02, 0x03, 0x10]),
             Delimited::new(Some(0x02), 0x03).with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B]),

@@ -16,7 +16,7 @@ use std::process::Command;
 const TOLERATED: [(&str, &str, f64); 3] = [
     // Bytes 4 and 5 of the first PDO are stored separately, and LLVM extracts them from a word, not from a field.
     ("several_pdos", "pack", 1.0),
-    // The buffer has 8 bytes for all types. Results and errors have the same location, which costs a jump.
+    // The buffer has 8 bytes for all types. Results and errors have the same location, which costs a jump instruction.
     ("objects", "read", 2.0),
     // The value is converted to an enumeration that names most of its values.
     ("objects", "write_mode", 4.0),

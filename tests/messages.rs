@@ -58,7 +58,7 @@ impl Simulated {
                 self.shows_load = false;
                 SelectHeightReply.write(request, to)
             }
-            // Both polls have the same request data.
+            // Both polls have the same request data, so the last selection determines the reply.
             Request::PollLoad(_) if self.shows_load => PollLoadReply { status, load: 0x7FFF }.write(request, to),
             Request::PollLoad(_) => PollHeightReply { status, height: self.height }.write(request, to),
             Request::Write(write) => {

@@ -44,7 +44,7 @@ fn connected() -> (Device<Map>, Server, Inverter<Client>) {
     (device, server, inverter)
 }
 
-/// Returns words in a table of the device.
+/// Returns `count` words from a table of the device.
 fn words(device: &Device<Map>, table: lexibus::RegisterTable, address: u16, count: u16) -> Vec<u16> {
     device.with(|map| map.read_words(table, address, count)).expect("registers")
 }
@@ -53,7 +53,7 @@ fn words(device: &Device<Map>, table: lexibus::RegisterTable, address: u16, coun
 fn values_in_registers() {
     let (device, _server, mut inverter) = connected();
     assert_eq!(inverter.speed_setpoint().read().unwrap(), 1500);
-    // The items use the high word first, the low word first, and swapped bytes.
+    // These items have the high word first, the low word first, or swapped bytes.
     assert_eq!(inverter.distance().read_scaled().unwrap(), 1000.0);
     assert_eq!(inverter.energy().read().unwrap(), 0x1234_5678);
     assert_eq!(inverter.serial_number().read().unwrap(), 0x1122_3344);

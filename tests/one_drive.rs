@@ -38,7 +38,7 @@ fn now<F: Future>(future: F) -> F::Output {
     }
 }
 
-/// Returns the drive on CANopen. The window of the drive gives access to the registers.
+/// Returns a simulated drive on CANopen. Its window gives access to three registers.
 fn node() -> Device {
     let mut device = Device::new(ENTRIES);
     device
@@ -220,7 +220,7 @@ fn each_bus_has_its_own_width() {
     drive.mode().write(Modes::SaveParameters).unwrap();
     assert_eq!(drive.client().log, ["write 0x6060:00 [CE, FF]"]);
     assert_eq!(drive.mode().read(), Ok(Modes::SaveParameters));
-    // The item has 8 bits on CANopen. The mode for saving does not exist there, and reads use the window.
+    // The item has 8 bits on CANopen. On CANopen, the mode for saving does not exist, and reads use the window.
     let mut device = node();
     let mut drive = OneDrive::new(device.client::<CanOpen>());
     assert_eq!(drive.mode().write(Modes::SaveParameters), Err(Error::OutOfRange(OutOfRange)));
@@ -335,7 +335,7 @@ fn fields_of_one_cycle_go_out_together() {
     assert_eq!(drive.client().image().cycles, 0);
     drive.client().cycle().unwrap();
     assert_eq!((drive.actual_position().read(), drive.client().image().cycles), (Ok(5), 1));
-    // A window access takes time. Cycles must continue meanwhile.
+    // An access through the window takes several cycles. The cycles must continue during the access.
     drive.gain().write(9).unwrap();
     assert_eq!((drive.gain().read(), drive.client().image().cycles), (Ok(9), 9));
 }

@@ -1,5 +1,5 @@
-//! Tests PROFINET from the device description to the bytes. The bindings are generated from the files in `data`. The
-//! images and records were calculated by hand.
+//! Tests the code that is generated for PROFINET from the files in `data`. The expected process images and records were
+//! calculated by hand.
 #![cfg(feature = "macros")]
 
 lexibus::dictionary! {

@@ -1,5 +1,5 @@
-//! Tests routes to values other than a plain address. Blocking and asynchronous access must have the same effect on the
-//! bus.
+//! Tests routes to values, such as windows. Blocking and asynchronous access through a route must have the same effect
+//! on the bus.
 
 use std::collections::BTreeMap;
 use std::convert::Infallible;

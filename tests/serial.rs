@@ -26,14 +26,14 @@ fn framed(data: &[u8]) -> Vec<u8> {
     frame[..length].to_vec()
 }
 
-/// A line that ends at a drive or returns fixed replies.
+/// A serial line that is connected to a simulated drive or returns fixed replies.
 #[derive(Default)]
 struct Line {
     received: Vec<u8>,
     replies: VecDeque<u8>,
-    /// Whether a timeout follows the replies. If not, the end of the stream follows.
+    /// True if a timeout follows the replies. Otherwise, the end of the stream follows.
     is_late: bool,
-    /// Whether each write accepts only a single byte.
+    /// True if each write accepts only a single byte.
     slow: bool,
     drive: Option<Drive>,
 }
@@ -128,7 +128,7 @@ impl embedded_io_async::Write for AsyncLine {
     }
 }
 
-/// A protocol. The requests are `r` with a number, and `w` with a number and a value. The replies are `r` with a number
+/// The test protocol. The requests are `r` with a number, and `w` with a number and a value. The replies are `r` with a number
 /// and a value, `w` with a number, and `!` with a number. Values are big-endian.
 struct Messages;
 

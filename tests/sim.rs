@@ -296,7 +296,7 @@ fn values_of_every_kind() {
     assert_eq!(drive.motor_temperature().read(), Ok(36.5));
     assert_eq!(drive.position_actual_value().read(), Ok(i32::MIN));
     assert_eq!(drive.cob_id_emcy().read().map(|own| own.raw()), Ok(0x85));
-    // These are the bindings of another device.
+    // The constants in `objects` belong to another device.
     let device = drive.client().device();
     assert_eq!(device.get(vector_step::objects::RPOSTARG), Err(AbortCode::NO_OBJECT));
     assert_eq!(device.set_bytes(objects::ENCODER_COUNTS, &[0; 4]), Err(AbortCode::TOO_LONG));
@@ -368,7 +368,7 @@ fn parameters_are_stored() {
     assert_eq!(drive.client().device().bytes(Object::new(0x1010, 1)), Ok([1, 0, 0, 0].as_slice()));
 }
 
-/// An entry of a device that has no description.
+/// An entry without an address, from which the tests create other entries.
 const BLANK: Entry = Entry {
     object: None,
     register: None,
@@ -444,7 +444,7 @@ fn process_images_of_ethercat() {
     }
     let mut device = Device::new(&entries);
     let mut set = |index, sub_index, bytes: &[u8]| device.set_bytes(Object::new(index, sub_index), bytes).unwrap();
-    // Each of two PDOs contains a word, a gap of 8 bits and a byte.
+    // The first PDO contains a word and a gap of 8 bits. The second PDO contains a byte.
     for (index, mapped) in [(0x1600, [0x2000_0010_u32, 0x0000_0008]), (0x1601, [0x2001_0008, 0])] {
         set(index, 0, &[if index == 0x1600 { 2 } else { 1 }]);
         set(index, 1, &mapped[0].to_le_bytes());

@@ -155,7 +155,7 @@ fn places_of_modbus() {
 fn texts_in_registers() {
     let mut press = Press::new(Registers::default());
     let mut buffer = [0; 16];
-    // Each 16-bit character is a number in its own register.
+    // Each 16-bit character occupies one register.
     press.title().write("Äb", &mut buffer).unwrap();
     assert_eq!((press.client().words[&(HOLDING, 129)], press.client().words[&(HOLDING, 130)]), (0xC4, 0x62));
     assert_eq!(press.title().read_into(&mut buffer).unwrap(), "Äb");

@@ -1,4 +1,4 @@
-//! SDO transfers with a simulated node.
+//! Tests SDO transfers with a simulated node whose replies are delayed, lost or corrupted.
 
 use std::collections::HashMap;
 use std::convert::Infallible;
@@ -18,25 +18,25 @@ use crate::random::Random;
 
 const NODE: u8 = 5;
 const TIMEOUT: Duration = Duration::from_millis(500);
-/// Number of requests since the start, which the node counts itself.
+/// Object that contains the number of the current request.
 const COUNT: Object = Object::new(0x2000, 0);
-/// The same as a text of 20 bytes, which needs several segments.
+/// Object that contains the same number as a text of 20 bytes, which needs a segmented transfer.
 const TEXT: Object = Object::new(0x2001, 0);
 const SETPOINT: Object = Object::new(0x2002, 0);
 
-/// What happens to the replies to one request.
+/// Fault in the replies to one request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Fault {
     Nothing,
-    /// The replies arrive after this time.
+    /// The replies arrive with this delay.
     Late(Duration),
     Lost,
     Duplicated,
-    /// The replies have four bytes.
+    /// The replies are truncated to four bytes.
     Truncated,
-    /// Instead of the reply, replies about another object arrive all the time.
+    /// Replies about another object arrive repeatedly instead of the reply.
     Foreign,
-    /// Before the reply, a thousand frames of other nodes arrive.
+    /// A thousand frames of other nodes arrive before the reply.
     Noise,
 }
 
@@ -55,16 +55,16 @@ impl ObjectDictionary for Objects {
     }
 }
 
-/// A CAN bus with one node. Its time passes only while somebody waits.
+/// A CAN bus with one node. The simulated time advances only while a client waits for a frame.
 struct Bus {
     server: SdoServer<1024>,
     objects: Objects,
     now: Duration,
-    /// Frames with their times of arrival.
+    /// Frames that have not been received, with their arrival times.
     frames: Vec<(Duration, CanFrame)>,
     fault: Fault,
     aborts: usize,
-    /// Number of SYNC messages, which the node sends in its PDO.
+    /// Number of received SYNC messages. The node sends this number in its PDO.
     sample: u32,
 }
 
@@ -75,7 +75,7 @@ impl Bus {
         Self { server, objects, now: Duration::ZERO, frames: Vec::new(), fault: Fault::Nothing, aborts: 0, sample: 0 }
     }
 
-    /// Sets the values that the node counts.
+    /// Sets both objects that contain the number of the current request.
     fn count(&mut self, count: u32) {
         self.objects.0.insert(COUNT, count.to_le_bytes().to_vec());
         self.objects.0.insert(TEXT, text(count));
@@ -141,7 +141,7 @@ impl CanPort for Bus {
     }
 }
 
-/// The same bus, async. It can stay silent for ever.
+/// An asynchronous port of the bus. While `is_pending` is true, the port receives no frame.
 struct AsyncBus {
     bus: Bus,
     is_pending: bool,
@@ -183,7 +183,7 @@ fn node() -> Node<Bus> {
     Node::new(Bus::new(), NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT)
 }
 
-/// Returns the number of requests that failed. Panics at a wrong value.
+/// Sends `count` requests with random faults. Returns the number of failed requests, and panics if a value is wrong.
 fn requests(mut node: Node<Bus>, count: u32, mut fault: impl FnMut(&mut Random) -> Fault) -> u32 {
     let mut random = Random::new(28);
     let mut failed = 0;
@@ -286,7 +286,7 @@ fn a_dropped_transfer_is_aborted_and_the_next_one_is_right() {
 
 const PDO: CobId = CobId::from_node(0x180);
 
-/// Returns a node that has sent 200 PDOs, of which the buffer keeps 16 after a wait for another message.
+/// Returns a node that has sent 200 PDOs. While the client waits for another message, its buffer keeps 16 of them.
 fn behind() -> Node<Buffered<AsyncBus, 16>> {
     let mut bus = Bus::new();
     for _ in 0..200 {
@@ -310,7 +310,7 @@ fn a_pdo_after_clear_and_sync_is_new() {
         node.sync_async().await.expect("it is sent");
         let pdo = node.receive_pdo_async(PDO, TIMEOUT).await.expect("a PDO");
         assert_eq!(sample(pdo), 201);
-        // The same with a part of the PDOs in the buffer, and without blocking.
+        // Some of the PDOs are already in the buffer when `clear_async` is called.
         let mut node = behind();
         AsyncClient::read(&mut node, COUNT, &mut [0; 4]).await.expect("a value");
         node.port().clear_async().await?;
@@ -329,7 +329,7 @@ fn the_latest_pdo_is_the_newest_one() {
     let mut node = behind();
     assert_eq!(now(node.latest_pdo_async(PDO)).map(|pdo| pdo.map(sample)), Ok(Some(200)));
     assert_eq!(now(node.latest_pdo_async(PDO)), Ok(None));
-    // Some of the PDOs are in the buffer.
+    // Some of the PDOs are already in the buffer when `latest_pdo_async` is called.
     let mut node = behind();
     assert_eq!(now(node.heartbeat_async(Duration::ZERO)), Ok(None));
     assert_eq!(now(node.latest_pdo_async(PDO)).map(|pdo| pdo.map(sample)), Ok(Some(200)));
@@ -338,7 +338,7 @@ fn the_latest_pdo_is_the_newest_one() {
     assert_eq!(node.latest_pdo(PDO), Ok(None));
 }
 
-/// Returns the rows of the matrix for SDO transfers.
+/// Returns the rows for SDO transfers in the table of faults.
 pub fn rows() -> Vec<Row> {
     let faults = [
         ("late", Fault::Late(TIMEOUT + Duration::from_millis(100))),

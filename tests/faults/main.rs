@@ -1,4 +1,4 @@
-//! Clients on buses with faults, in simulated time. No fault gives a wrong value, and the next request is right.
+//! Tests clients on faulty buses in simulated time. No fault may produce a wrong value, and the next request must work.
 
 #[path = "../support/now.rs"]
 mod now;

@@ -1,4 +1,4 @@
-//! Each client with each fault: the result, the longest time, and that the next request is right. Prints a table.
+//! Tests each client with each fault. Prints a table with the result, its duration, and that of the next request.
 
 use std::fmt::{Debug, Write as _};
 use std::time::Duration;
@@ -7,20 +7,20 @@ use lexibus::Error;
 
 use crate::{can, modbus, serial};
 
-/// Result of a request with a fault, and of the next one without. Values are checked where the row is created.
+/// Results of a request with a fault and of the next request without. The code that creates a row checks the values.
 pub struct Row {
     pub client: &'static str,
     pub is_async: bool,
     pub fault: &'static str,
     pub result: &'static str,
     pub time: Duration,
-    /// Time of the next request, which has the right value.
+    /// Duration of the next request, which returned the right value.
     pub next: Duration,
     /// Timeout of the client.
     pub timeout: Duration,
 }
 
-/// Returns the name of a result. A right value is checked before.
+/// Returns the name of a result in the table. The caller has already checked the value.
 pub fn name<T, E: Debug>(result: &Result<T, Error<E>>) -> &'static str {
     match result {
         Ok(_) => "right value",
@@ -44,11 +44,11 @@ fn matrix() {
     }
     println!("{table}");
     for row in &rows {
-        // The discrete timers of `tokio` and the deadline of a read that has just begun.
+        // Tolerance for the resolution of `tokio` timers, and for a read that starts just before the deadline.
         let soon = Duration::from_millis(5);
         assert!(row.time <= 2 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.time);
         assert!(row.next <= 4 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.next);
     }
-    // Each client with each fault, blocking and async.
+    // Four clients and six faults, blocking and async.
     assert_eq!(rows.len(), 4 * 6 * 2);
 }

@@ -1,4 +1,4 @@
-//! Modbus RTU and TCP with a simulated device, in simulated time.
+//! Tests Modbus RTU and TCP with a simulated device whose replies are delayed, lost or corrupted, in simulated time.
 
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -16,7 +16,7 @@ use crate::random::Random;
 
 const DEVICE: u8 = 5;
 const TIMEOUT: Duration = Duration::from_millis(200);
-/// Number of requests since the start, in two registers.
+/// Two registers that contain the number of the current request.
 const COUNT: Register = Register::high_first(10, 2);
 const SETPOINT: Register = Register::holding(20);
 
@@ -29,10 +29,10 @@ enum Fault {
     Lost,
     Duplicated,
     Truncated,
-    /// Before the reply, one of another device or transaction.
+    /// A reply from another device (RTU) or to another transaction (TCP) arrives before the reply.
     Foreign,
     Noise,
-    /// Bytes without a pause, for a minute.
+    /// Noise arrives for a minute instead of the reply, one byte every 10 ms.
     EndlessNoise,
 }
 
@@ -60,7 +60,7 @@ fn frame(is_rtu: bool, transaction: [u8; 2], device: u8, data: &[u8]) -> Vec<u8>
     [&transaction[..], &[0, 0, high, low], &frame].concat()
 }
 
-/// Replies to requests of functions 3 and 6, one after the other.
+/// Simulates a device that answers requests with the functions 3 and 6.
 async fn serve(mut line: impl AsyncRead + AsyncWrite + Unpin, is_rtu: bool, world: Shared) {
     let mut request = vec![0; if is_rtu { 8 } else { 12 }];
     while line.read_exact(&mut request).await.is_ok() {
@@ -115,7 +115,7 @@ fn blocking(is_rtu: bool, world: &Shared) -> ModbusClient<BlockingLink<DuplexStr
     ModbusClient::new(link.expect("a link"))
 }
 
-/// Reads or writes once. Panics at a wrong value.
+/// Sends one read or write request. Panics if the value is wrong.
 async fn request<C: AsyncClient<Bus = lexibus::Modbus>>(
     device: &mut C,
     world: &Shared,
@@ -194,7 +194,7 @@ async fn after_each_fault_the_next_request_is_right() {
     }
 }
 
-/// A pseudo-terminal in real time, as far as a busy machine allows.
+/// Tests a pseudo-terminal in real time. On a machine under load, additional requests may time out.
 #[cfg(unix)]
 #[tokio::test]
 async fn late_replies_on_a_pseudo_terminal() {
@@ -245,7 +245,7 @@ fn blocking_calls_after_a_late_reply() {
     }
 }
 
-/// A context of `tokio-modbus` alone keeps the late reply. This is why [`Link`] exists.
+/// Shows why [`Link`] exists: without it, `tokio-modbus` keeps a late reply, and all later requests fail.
 #[tokio::test(start_paused = true)]
 async fn contexts_without_a_link_are_out_of_step() {
     let world = world();
@@ -263,7 +263,7 @@ async fn contexts_without_a_link_are_out_of_step() {
     assert_eq!(failed, 10, "each call gets the reply to the one before");
 }
 
-/// Returns the rows of the matrix for Modbus.
+/// Returns the rows for Modbus in the table of faults.
 pub fn rows() -> Vec<Row> {
     let faults = [
         ("late", Fault::Late(TIMEOUT)),
@@ -290,7 +290,7 @@ pub fn rows() -> Vec<Row> {
 
 type Twice = ((&'static str, Duration), Duration);
 
-/// Returns the name and the time of a request with a fault, and the time of the next one, which is right.
+/// Returns the result and duration of a request with a fault, and the duration of the next request, which must succeed.
 fn twice(is_rtu: bool, world: &Shared, fault: Fault) -> Twice {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().start_paused(true).build();
     runtime.expect("a runtime").block_on(async {
@@ -314,7 +314,7 @@ fn blocking_twice(is_rtu: bool, world: &Shared, fault: Fault) -> Twice {
     });
     let mut device = ModbusClient::new(link.expect("a link"));
     let handle = handle.expect("the runtime of the link");
-    // The simulated time of the link.
+    // Returns the simulated time in the runtime of the link.
     let now = || {
         let _guard = handle.enter();
         Instant::now()

@@ -1,6 +1,6 @@
-//! Reproducible random numbers.
+//! Reproducible pseudo-random numbers.
 
-/// Generator of random numbers (xorshift).
+/// Generator of pseudo-random numbers (xorshift).
 pub struct Random(u64);
 
 impl Random {
@@ -8,7 +8,7 @@ impl Random {
         Self(seed | 1)
     }
 
-    /// Returns a number below `end`.
+    /// Returns a pseudo-random number below `end`.
     pub fn below(&mut self, end: u64) -> u64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;

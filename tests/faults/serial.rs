@@ -1,4 +1,4 @@
-//! Serial lines with a simulated device, in simulated time.
+//! Tests serial lines with a simulated device whose replies are delayed, lost or corrupted, in simulated time.
 
 use std::cell::Cell;
 use std::collections::VecDeque;
@@ -24,7 +24,7 @@ const FRAMING: Delimited = Delimited::new(Some(0x02), 0x03)
     .with_check(Check::Crc16(0xFFFF))
     .with_max_data(20);
 
-/// Timeout of a read of the stream, and of an exchange.
+/// Timeout of a read from the stream, and of a whole exchange.
 const TIMEOUT: Duration = Duration::from_millis(100);
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,10 +35,10 @@ enum Fault {
     /// The reply arrives twice.
     Duplicated,
     Truncated,
-    /// Instead of the reply, a frame whose check is wrong.
+    /// A frame with a wrong checksum arrives instead of the reply.
     Foreign,
     Noise,
-    /// Bytes without a pause, for a minute.
+    /// Noise arrives for a minute instead of the reply, one byte every 10 ms.
     EndlessNoise,
 }
 
@@ -63,7 +63,7 @@ fn reply(count: u32, fault: Fault) -> Vec<(Duration, u8)> {
     }
 }
 
-/// A stream whose reads time out, with a device that replies to each frame with the number of the request.
+/// A stream with a read timeout, and a device that answers each frame with the number of the request.
 struct Port {
     now: Rc<Cell<Duration>>,
     bytes: VecDeque<(Duration, u8)>,
@@ -137,7 +137,7 @@ fn blocking() -> (SerialLine<Port, Delimited, 64, impl FnMut() -> Duration>, Rc<
     (SerialLine::new(port, FRAMING).with_time(move || clock.get(), TIMEOUT), now)
 }
 
-/// Exchanges once. Panics at a wrong reply.
+/// Performs one exchange. Panics if the reply is wrong.
 fn once<T: lexibus::Clock>(line: &mut SerialLine<Port, Delimited, 64, T>, count: u32, fault: Fault) -> Outcome {
     (line.stream().count, line.stream().fault) = (count, fault);
     let mut reply = [0; 20];
@@ -188,7 +188,7 @@ fn after_each_fault_the_next_request_is_right() {
     }
 }
 
-/// A stream of `tokio`, and a byte that was read to see whether bytes are waiting.
+/// A `tokio` stream, and a byte that `read_ready` has already read from it.
 struct AsyncPort(DuplexStream, Option<u8>);
 
 impl embedded_io::ErrorType for AsyncPort {
@@ -311,7 +311,7 @@ async fn after_a_dropped_exchange_the_next_one_is_right() {
     once_async(&mut line, &world, 2, Fault::Nothing).await.expect("the reply");
 }
 
-/// Returns the rows of the matrix for serial lines.
+/// Returns the rows for serial lines in the table of faults.
 pub fn rows() -> Vec<Row> {
     let faults = [
         ("late", Fault::Late(Duration::from_millis(150))),

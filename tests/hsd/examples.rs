@@ -65,7 +65,7 @@ fn the_limit_of_a_way_is_the_motors() {
 
 #[test]
 fn acceleration_in_steps() {
-    // Section "Quantizzazione SM137": 430 mm/s² are 1343.75 turns/s². This contains 17 steps of 78.125 turns/s², that
+    // Section "Quantizzazione SM137": 430 mm/s² are 1343.75 turns/s². The motor uses 17 steps of 78.125 turns/s², that
     // is, 425 mm/s².
     let wanted = MACHINE.mm_per_s2_to_rev_per_s2(430.0);
     let steps = (wanted / 78.125).trunc();
@@ -76,7 +76,7 @@ fn acceleration_in_steps() {
 
 #[test]
 fn speeds() {
-    // Section 3.8: -185 mm/min are -578.125 rpm, which is truncated. The text lacks the sign.
+    // Section 3.8: -185 mm/min are -578.125 rpm, which is truncated. The manual's text lacks the sign.
     let speed = MACHINE.mm_per_min_to_rpm(-185.0) as i16;
     assert_eq!((speed, sent(&CmdJogN { speed })), (-578, vec![1, 0x08, 0xE0, 0x00, 0xFD, 0xBE]));
     // Section 5.3: the same speed as a fraction of 8000 rpm.

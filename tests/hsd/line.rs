@@ -17,7 +17,7 @@ use super::motor::Motor;
 
 type Line = SerialLine<FromStd<TTYPort>, lexibus::framing::Delimited, 140>;
 
-/// Answers requests until the other end is closed. Sends noise before each reply.
+/// Simulates a motor that answers requests until the client closes the line. Sends noise before each reply.
 fn serve(mut port: TTYPort) {
     let (mut motor, mut decoder, mut data) = (Motor::default(), FRAMING.decoder(), [0; MAX_DATA]);
     let mut byte = [0];
@@ -34,7 +34,7 @@ fn serve(mut port: TTYPort) {
     }
 }
 
-/// Connects a motor to a serial line. The client waits for at most `patience`.
+/// Starts a simulated motor and returns the client's end of the line. `patience` is the client's read timeout.
 fn served(patience: Duration) -> TTYPort {
     let (mut near, mut far) = TTYPort::pair().expect("a pseudo-terminal");
     near.set_timeout(patience).expect("a time limit");
@@ -99,7 +99,7 @@ fn parameters_one_by_one_and_together() {
 fn refusals_and_silence() {
     let mut refusing = motor(5);
     assert!(matches!(refusing.cmd_reg().send(), Err(Failure::Refused(CmdNack { node: 5, .. }))));
-    // There is no motor with this number.
+    // No motor on the line has this node number.
     let reply = motor(6).cmd_get_ver().send().map(|reply| reply.version);
     assert!(matches!(reply, Err(Failure::Error(Error::Client(_)))), "{reply:?}");
 }

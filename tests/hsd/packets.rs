@@ -69,7 +69,7 @@ impl embedded_io_async::ErrorType for Pieces<'_> {
 impl embedded_io_async::Read for Pieces<'_> {
     async fn read(&mut self, buffer: &mut [u8]) -> Result<usize, Infallible> {
         if self.now.is_empty() {
-            // The task waits once before the second piece.
+            // Return `Pending` once before the second piece.
             poll_fn(|_| match self.later.take() {
                 Some(later) => {
                     self.now = later;
@@ -118,8 +118,8 @@ fn answer_in_pieces(first: &[u8], second: &[u8]) -> Vec<u8> {
     reply[..length].to_vec()
 }
 
-/// Checks all single-bit errors. The packet must be lost or unchanged, but never become another one. The next packet
-/// must be decoded.
+/// Checks all single-bit errors. A damaged packet must be rejected or decoded unchanged, but never decoded as another
+/// packet. The next packet must be decoded.
 fn damage_is_found(data: &[u8]) {
     let (frame, next) = (framed(data), framed(&[9, 8, 0]));
     for bit in 0..8 * frame.len() {

@@ -8,7 +8,7 @@ use lexibus_drives::hsd::types::State;
 fn commands_in_each_state() {
     assert_eq!(CmdJogN::OUTCOMES.of(State::Stopped), [Outcome::States(&[State::Jogging])]);
     assert_eq!(CmdJogN::OUTCOMES.accepts(State::Alarm), Some(false));
-    // The cell in the manual lists a sequence of states. The motor stays in the last one.
+    // The cell in the manual lists a sequence of states. The motor stays in the last state.
     assert_eq!(
         CmdAzz::OUTCOMES.of(State::Stopped),
         [Outcome::Refused, Outcome::States(&[State::Homing, State::Stopping, State::Stopped])]

@@ -1,6 +1,6 @@
 //! Tests with servers of `pymodbus`, over TCP and RTU, with blocking and asynchronous clients.
 //!
-//! Each scenario is a macro. The tests use it for all four combinations.
+//! Each scenario is a macro, which the tests expand for all four combinations of transport and client.
 
 use std::net::SocketAddr;
 use std::time::Duration;
@@ -24,24 +24,24 @@ use registers::objects::{COILS, HIGH_I16, HIGH_U16, HIGH_U32, INPUT_U32, LOW_F32
 use registers::types::{Mode, Status, StatusDirection as Direction};
 use registers::Registers;
 
-/// Maximum time to wait for a response. Python is slow on a busy machine.
+/// Maximum time to wait for a response. The Python server replies slowly on a machine under load.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// The server's unit ID.
 const DEVICE: Slave = Slave(1);
 
-/// Bit rate of the serial line. RTU derives the silence between frames from it.
+/// Bit rate of the serial line. It determines the silent interval between RTU frames.
 const BAUD: u32 = 115_200;
 
 type Error = lexibus::Error<ModbusError>;
 
 impl Script {
-    /// Returns a value of the server. The library decodes it.
+    /// Returns the value with this name, which `pymodbus` decodes from the server's registers.
     fn at(&mut self, name: &str) -> Value {
         self.ask(json!({ "do": "get", "name": name }))
     }
 
-    /// Sets a value of the server. The library encodes it.
+    /// Sets the value with this name, which `pymodbus` encodes in the server's registers.
     fn put(&mut self, name: &str, value: Value) {
         self.ask(json!({ "do": "set", "name": name, "value": value }));
     }
@@ -59,7 +59,7 @@ fn over_tcp() -> Option<(Script, SocketAddr)> {
     Some((script, SocketAddr::from(([127, 0, 0, 1], port))))
 }
 
-/// Starts a server at one end of a serial line. The client uses the other end.
+/// Starts an RTU server on a simulated serial line. Returns the server and the line for the client.
 fn over_rtu() -> Option<(Script, Cable)> {
     let python = python()?;
     let cable = Cable::open();
@@ -124,7 +124,7 @@ macro_rules! exchange {
     )*};
 }
 
-/// Checks texts in both directions.
+/// Writes texts and compares them on the server, then sets texts on the server and reads them.
 macro_rules! exchange_texts {
     ($way:ident, $script:ident, $device:ident, $($place:ident)*) => {$(
         for text in ["a", "bc", "def", "nineteen characters", "exactly 20 letters, "] {
@@ -195,7 +195,7 @@ macro_rules! parts_and_meanings {
         $script.put("status", json!(0b0110));
         let status = $way!($device.status(), read)?;
         assert_eq!((status.running(), status.fault(), status.direction()), (false, true, Direction::Forward));
-        // The data after the three words must not change.
+        // The word after the three written words must not change.
         $script.put("words_305", json!(0x1111_2222_3333_4444_u64));
         assert_eq!($way!($device.three_words(), read)?, 0x1111_2222_3333);
         $way!($device.three_words(), write 0xFEDC_BA98_7654)?;
@@ -232,7 +232,7 @@ macro_rules! other_tables {
     };
 }
 
-/// Checks that refusals of the server become exceptions.
+/// Checks that the client reports the exceptions of the server.
 macro_rules! refusals {
     ($way:ident, $script:ident, $device:ident) => {
         let refused: [Result<(), Error>; 5] = [
@@ -249,7 +249,7 @@ macro_rules! refusals {
             );
             assert!(is_exception, "{refused:?}");
         }
-        // The next request must work.
+        // The next request must succeed.
         assert_eq!($way!($device.protected(), read)?, 0);
     };
 }

@@ -1,7 +1,7 @@
 """A server of `pymodbus`: python modbus_server.py tcp, or python modbus_server.py rtu TTY.
 
-The table below describes the registers a second time, by hand; the test compares it with the bindings of `registers.toml`. The
-library's own functions convert numbers to registers for the commands of the test (talk.py).
+The handwritten table PLACES describes the registers again. The tests compare it with the bindings that are generated from
+`registers.toml`. `pymodbus` converts numbers to registers for the commands of the test (talk.py).
 """
 
 import asyncio

@@ -12,16 +12,16 @@ use nix::pty::openpty;
 use nix::sys::termios::{cfmakeraw, tcgetattr, tcsetattr, SetArg};
 use nix::unistd::ttyname;
 
-/// One end of a serial line. Another process can open the other end through its path.
+/// The master end of a pseudo-terminal. Another process can open the slave end by its path.
 pub struct Pty {
     near: File,
-    /// The other end of the line. This end stays open because the line breaks if no process has it open.
+    /// The slave end. It is kept open, because the line breaks if no process has the slave end open.
     far: OwnedFd,
     path: PathBuf,
 }
 
 impl Pty {
-    /// Opens a pseudo-terminal in raw mode, which transfers bytes unchanged.
+    /// Opens a pseudo-terminal in raw mode, in which bytes are transferred unchanged.
     pub fn open() -> Self {
         let ends = openpty(None, None).expect("a pseudo-terminal");
         let mut settings = tcgetattr(&ends.slave).expect("settings");
@@ -31,7 +31,7 @@ impl Pty {
         Self { near: ends.master.into(), far: ends.slave, path }
     }
 
-    /// Returns the path of the other end.
+    /// Returns the path of the slave end.
     pub fn path(&self) -> &str {
         self.path.to_str().expect("UTF-8")
     }
@@ -59,15 +59,15 @@ impl Pty {
     }
 }
 
-/// A serial line with a terminal at each end, like a cable between two computers.
+/// A serial line between two pseudo-terminals, like a cable between two computers.
 pub struct Cable {
     ends: [PathBuf; 2],
-    /// The other ends of both terminals. Closing them ends the threads that copy the bytes.
+    /// Slave ends of both pseudo-terminals. Closing them ends the threads that copy the bytes.
     _far: [OwnedFd; 2],
 }
 
 impl Cable {
-    /// Opens a pseudo-terminal in raw mode, which transfers bytes unchanged.
+    /// Opens two pseudo-terminals and starts the threads that copy the bytes between them.
     pub fn open() -> Self {
         let (left, right) = (Pty::open(), Pty::open());
         let both = |pty: &Pty| (pty.near.try_clone().expect("a handle"), pty.near.try_clone().expect("a handle"));
@@ -77,7 +77,7 @@ impl Cable {
         Self { ends: [left.path, right.path], _far: [left.far, right.far] }
     }
 
-    /// Returns the paths of both terminals.
+    /// Returns the paths of both slave ends.
     pub fn ends(&self) -> [&str; 2] {
         [&self.ends[0], &self.ends[1]].map(|path| path.to_str().expect("UTF-8"))
     }

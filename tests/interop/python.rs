@@ -13,7 +13,7 @@ use serde_json::Value;
 #[path = "../support/python.rs"]
 mod finder;
 
-/// Maximum time to wait for an answer. Python starts slowly on a busy machine.
+/// Maximum time to wait for an answer. Python starts slowly on a machine under load.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// The folder that contains these tests.

@@ -19,5 +19,5 @@ def serve(commands, ready=True):
         command = json.loads(line)
         try:
             say({"ok": commands[command.pop("do")](**command)})
-        except Exception as error:  # The test reports it.
+        except Exception as error:  # The test reports the error.
             say({"error": f"{type(error).__name__}: {error}"})

@@ -25,7 +25,7 @@ pub struct Drive {
     pub response: Vec<u8>,
     /// Number of reads before the response is available.
     pub delay: u32,
-    /// Whether the record is empty until the response is available. If not, reads return an error until then.
+    /// True if the record is empty until the response is available. Otherwise, reads return an error until then.
     pub is_empty: bool,
 }
 

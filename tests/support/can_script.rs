@@ -10,7 +10,7 @@ use lexibus::NodeId;
 /// The remaining requests with their responses.
 pub struct Script {
     left: VecDeque<([u8; 8], [u8; 8])>,
-    /// Whether the next request has been sent and its response has not been read.
+    /// True if the next request has been sent but its response has not been read.
     is_asked: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The SDO server behind the mailbox (ETG.1000.6 5.6.2): expedited, normal and segmented transfers, and complete
+//! The SDO server of the mailbox (ETG.1000.6 5.6.2): expedited, normal and segmented transfers, and complete
 //! access.
 
 use lexibus::{AbortCode, Emergency};

@@ -47,11 +47,11 @@ pub struct Controller {
     count: u64,
     /// The last value written to AL control if the firmware has not yet processed it.
     pub request: Option<u8>,
-    /// Whether process data have been exchanged since the last run of the firmware.
+    /// True if process data have been exchanged since the last run of the firmware.
     pub exchanged: bool,
     /// The last message that the master read from the mailbox.
     last: Vec<u8>,
-    /// How many of the next reads of the mailbox are lost on their way back.
+    /// Number of mailbox reads whose replies will be lost.
     pub lost_reads: Rc<Cell<u32>>,
 }
 

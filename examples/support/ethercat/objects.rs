@@ -43,7 +43,7 @@ impl<D: Dictionary> Dictionary for Rc<RefCell<D>> {
     }
 }
 
-/// Gives access to a simulated device like its mailbox does.
+/// Gives access to the objects of a simulated device, as its mailbox does.
 impl Dictionary for Device {
     fn read(&mut self, index: u16, sub_index: u8) -> Result<Vec<u8>, u32> {
         let object = Object::new(index, sub_index);

@@ -57,7 +57,7 @@ impl Segment {
 
     /// Passes a frame through all SubDevices.
     fn pass(&mut self, frame: &mut [u8]) {
-        // The first SubDevice sets this bit of the source address. The bit tells the master that the frame has
+        // The first SubDevice sets this bit of the source address, so that the master recognizes a frame that has
         // returned.
         frame[6] |= 0x02;
         let mut datagrams = frame.get_mut(HEADERS..).unwrap_or_default();

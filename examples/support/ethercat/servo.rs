@@ -4,7 +4,7 @@ use lexibus::sim::{Device, ItemAddress};
 use lexibus::{AbortCode, Emergency, Object};
 
 use super::objects::Dictionary;
-// These are the bindings in the program that simulates the servo.
+// Each program that simulates the servo defines these bindings in its module `servo`.
 use crate::servo::types::{Controlword, Statusword};
 use crate::servo::{objects, ENTRIES};
 

@@ -52,8 +52,8 @@ impl SubDevice {
         }
     }
 
-    /// Returns how many of the next mailbox reads are lost after the device has emptied its mailbox. Set it to simulate
-    /// lost replies.
+    /// Returns the number of mailbox reads whose replies will be lost. Set the number to simulate lost replies. A read
+    /// whose reply is lost also empties the mailbox.
     #[allow(dead_code)]
     pub fn lost_reads(&self) -> Rc<Cell<u32>> {
         self.controller.lost_reads.clone()
@@ -91,7 +91,7 @@ impl SubDevice {
         }
     }
 
-    /// Checks the settings of the mailboxes against the device description. Returns an AL status code.
+    /// Checks the settings of the mailboxes against the device description. Returns an AL status code, or 0.
     fn check_mailbox(&self) -> u16 {
         let purposes = [SyncManagerPurpose::MailboxOut, SyncManagerPurpose::MailboxIn];
         let mut mailboxes = self.device.sync_managers.iter().filter(|own| purposes.contains(&own.purpose));
@@ -109,7 +109,7 @@ impl SubDevice {
         }
     }
 
-    /// Checks the lengths of the sync managers against the assigned PDOs. Returns an AL status code.
+    /// Checks the lengths of the sync managers against the assigned PDOs. Returns an AL status code, or 0.
     fn check_process_data(&self) -> u16 {
         let wrong = self.device.sync_managers.iter().filter(|own| own.carries_data()).find(|own| {
             let set = self.controller.manager(own.number);

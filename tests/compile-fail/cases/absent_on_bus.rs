@@ -1,4 +1,4 @@
-//! An item without a Modbus register can't be read through a Modbus client.
+//! An item without a Modbus register cannot be read through a Modbus client.
 
 use lexibus::{Client, Error, Flags, Initial, Item, Modbus, OnCanOpen, Range, Register, Ro};
 

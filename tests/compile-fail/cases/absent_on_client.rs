@@ -1,4 +1,4 @@
-//! An item of a device with several buses can't be read through a client of a bus that the item isn't on.
+//! A function for any Modbus client can read only the items of a device that have a Modbus register.
 
 use lexibus::{Client, Flags, Item, Modbus, OnCanOpenAndCoE, OnCanOpenCoEAndModbus, Register, Ro};
 

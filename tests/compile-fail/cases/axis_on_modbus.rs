@@ -1,4 +1,4 @@
-//! Rules for further axes apply to objects, not to registers.
+//! Items of an axis cannot be read on Modbus, because the rules for axes derive object addresses only.
 
 use lexibus::{Axes, Axis, Client, Flags, Item, Modbus, OnCanOpenCoEAndModbus, Register, Ro};
 

@@ -1,4 +1,4 @@
-//! Items that can't be part of a Modbus block: write-only items, and items on other buses.
+//! Items that cannot be part of a Modbus block: write-only items, and items on other buses.
 
 use lexibus::modbus::RegisterClient;
 use lexibus::{Flags, Item, OnCanOpen, OnModbus, Register, Ro, Wo};

@@ -1,5 +1,5 @@
-//! Items that the Eco has only on some buses. The following error of the image isn't a register, an EtherCAT error
-//! code isn't on CANopen, and the address that saves on Modbus isn't an object.
+//! Items that the Eco has only on some buses: the following error has no Modbus register, the EtherCAT error codes have
+//! no CANopen object, and the Modbus register `save_to_flash` has no object.
 
 use lexibus::{CanOpen, Client, CoE, Modbus};
 use lexibus_drives::eco::{objects, Eco};

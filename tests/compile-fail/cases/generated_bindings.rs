@@ -1,4 +1,4 @@
-//! Names in the generated bindings of a drive, and the operations that they reject.
+//! Errors in the use of generated bindings: a write of a read-only object, a value of a wrong type, a misspelled name.
 
 use lexibus::{CanOpen, Client, Error, Object};
 use lexibus_drives::demo_drive::DemoDrive;

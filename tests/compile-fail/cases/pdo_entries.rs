@@ -1,4 +1,4 @@
-//! Objects that the device can map, but not into this PDO.
+//! Objects that cannot be mapped into a PDO: wrong direction, or a length that is not a multiple of the granularity.
 
 #[allow(non_camel_case_types)]
 mod device {

@@ -1,4 +1,4 @@
-//! CANopen configuration of PDOs without a COB-ID.
+//! CANopen configuration of an EtherCAT PDO, and of a PDO without a default COB-ID.
 
 #[allow(non_camel_case_types)]
 mod device {

@@ -1,4 +1,4 @@
-//! Mappings that exceed the capabilities of their PDO.
+//! Mappings that are too long for their PDO, have too many entries, or contain gaps that the device does not support.
 
 use lexibus_drives::{demo_drive, vector_step};
 

@@ -1,4 +1,4 @@
-//! Names that can't be mapped: an unknown object, an object that can't be mapped, an unknown PDO.
+//! Invalid names in mappings: an unknown object, an object that cannot be mapped, and an unknown PDO.
 
 lexibus::pdo! {
     pub struct Misspelt: lexibus_drives::demo_drive::pdo::RxPdo2 {

@@ -1,5 +1,5 @@
-//! A poll is unavailable before its selection is sent, and another selection can't be sent while the device is in
-//! use.
+//! A poll is unavailable before the request that selects it is sent. While the device with this selection is in use, no
+//! other selection can be sent.
 
 use lexibus::message::MessageClient;
 use lexibus_drives::hsd::HsdMotor;

@@ -1,4 +1,4 @@
-//! A write-only item can't be read.
+//! A write-only item cannot be read.
 
 use lexibus::{CanOpen, Client, Flags, Initial, Item, OnCanOpen, Range, Wo};
 

@@ -1,5 +1,5 @@
-//! Operations that a bus lacks: reading an output-only field, writing an input-only field, using a window on another
-//! bus or in a block.
+//! Unsupported operations: reading an output-only field, writing an input-only field, and using a window on another bus
+//! or in a block.
 
 use lexibus::modbus::RegisterClient;
 use lexibus::profinet::{Cyclic, ImageClient};

@@ -1,4 +1,4 @@
-//! Code generated for another version of the interface.
+//! Code that was generated for another version of the runtime's interface.
 
 const _: () = lexibus::interface::assert_version(lexibus::interface::VERSION + 1);
 

@@ -1,4 +1,4 @@
-//! An item without a scale has no physical value.
+//! An item without a scale has no methods for physical values, and `write` takes only raw values.
 
 use lexibus::{CanOpen, Client, Item, OnCanOpen, Rw, Scaled};
 

@@ -1,4 +1,4 @@
-//! A read-only item can't be written.
+//! A read-only item cannot be written.
 
 use lexibus::{CanOpen, Client, Flags, Initial, Item, OnCanOpen, Range, Ro};
 

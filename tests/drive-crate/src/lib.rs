@@ -23,7 +23,7 @@ mod tests {
     use super::by_macro::MacroPump;
     use super::pump::{self, pdo, Pump};
 
-    /// A simulated device.
+    /// A simulated device: the value of each object, by index and sub-index.
     #[derive(Default)]
     struct Memory(BTreeMap<(u16, u8), Vec<u8>>);
 

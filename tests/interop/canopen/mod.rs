@@ -28,7 +28,7 @@ lexibus::dictionary! {
     mod all_types = "tests/interop/all-types.toml";
 }
 
-/// Maximum time to wait for a frame. Python is slow on a busy machine.
+/// Maximum time to wait for a frame. The Python node replies slowly on a machine under load.
 pub const PATIENCE: Duration = Duration::from_secs(10);
 
 /// The node-ID.

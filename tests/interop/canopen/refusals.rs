@@ -1,4 +1,4 @@
-//! Tests refusals. The accessor must report the node's abort codes, and must not send values that it refuses itself.
+//! Tests refusals. The accessor must report the node's abort codes, and must not send values that it rejects itself.
 //!
 //! The library checks access rights, lengths, and whether objects exist. The script checks limits, which the library
 //! reads from the exported EDS.
@@ -11,7 +11,7 @@ use super::{start, Error, Node};
 
 const FILE: &str = "tests/interop/all-types.toml";
 
-/// An item that lacks the access rights and limits of its object.
+/// An item without the access rights and limits of its object, so that the node has to reject an invalid access.
 pub type Naive<V> = Item<V, Rw, OnCanOpen>;
 
 pub const fn naive<V: Fixed>(index: u16, sub_index: u8) -> Naive<V> {
@@ -62,7 +62,7 @@ fn rights() -> Result<(), Error> {
     assert_eq!(device.measured().read()?, -5);
     device.password().write(0xC0DE_CAFE)?;
     assert_eq!(script.get(0x2202, 0), 0xC0DE_CAFE_u32);
-    // Accessors with the correct access rights have no such methods.
+    // The generated accessors have no methods for these accesses.
     assert_aborted(naive::<u16>(0x2200, 0).at(device.client()).write(1), AbortCode::READ_ONLY);
     assert_aborted(naive::<i32>(0x2201, 0).at(device.client()).write(1), AbortCode::READ_ONLY);
     assert_aborted(naive::<u32>(0x2202, 0).at(device.client()).read(), AbortCode::WRITE_ONLY);
@@ -97,7 +97,7 @@ fn lengths() -> Result<(), Error> {
     script.set(0x2007, 0, json!(0x1234_5678));
     let short = naive::<u16>(0x2007, 0).at(device.client()).read();
     assert!(matches!(short, Err(Error::Length(error)) if (error.expected, error.actual) == (2, 4)), "{short:?}");
-    // The text exceeds the buffer. The next transfer must work.
+    // The text is longer than the buffer. The next transfer must succeed.
     script.set(0x2009, 0, json!("a text of thirty letters, say."));
     let long = device.visible_string().read_into(&mut [0; 10]).map(str::len);
     assert!(matches!(long, Err(Error::Length(error)) if (error.expected, error.actual) == (10, 30)), "{long:?}");

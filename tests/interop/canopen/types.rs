@@ -8,7 +8,7 @@ use super::{start, Error};
 
 const FILE: &str = "tests/interop/all-types.toml";
 
-/// Checks both directions: `$json` on the node must be equal to `$value` of the accessor.
+/// Writes `$value` and checks that the node contains `$json`. Then sets `$json` on the node and checks that it is read.
 macro_rules! exchange {
     ($script:ident, $device:ident, $($accessor:ident at $index:literal: [$($value:expr => $json:expr),* $(,)?];)*) => {$(
         $(

@@ -22,7 +22,7 @@ pub struct Around<'d> {
     pub spaces: &'d [CompactString],
     /// Buses of the objects.
     pub buses: &'d [ObjectBuses],
-    /// Whether items may be on any bus.
+    /// True if the items belong to a register table, in which items may be on any bus.
     pub is_table: bool,
 }
 
