@@ -1,4 +1,4 @@
-//! Checks the encoding in the XML declaration against the bytes of the file.
+//! Compares the encoding in the XML declaration with the bytes of the file.
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::source::{Encoding, FileId, Source, Span};
@@ -6,11 +6,11 @@ use crate::source::{Encoding, FileId, Source, Span};
 /// Replacement character for bytes that are invalid in the encoding.
 const REPLACEMENT: char = '\u{FFFD}';
 
-/// Reports bytes that are not in the encoding of the declaration or byte order mark.
+/// Reports bytes that do not match the encoding of the XML declaration or byte order mark.
 pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
     let Some((message, read_as)) = mismatch(source) else { return };
     let is_meant = |letter: char| if read_as.is_some() { !letter.is_ascii() } else { letter == REPLACEMENT };
-    // If the file has no such character, its bytes are the same in both encodings. UTF-16 differs from the first
+    // A file that contains only ASCII characters has the same bytes in both encodings. UTF-16 differs from the first
     // character on.
     let found = source.text().char_indices().find(|(_, letter)| is_meant(*letter));
     let found = found.or_else(|| source.text().char_indices().next().filter(|_| source.encoding() == Encoding::Utf16));
@@ -27,8 +27,8 @@ pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
     );
 }
 
-/// Returns the message and the encoding that was used instead. The encoding is `None` if some bytes could not be
-/// decoded.
+/// Returns the message of the diagnostic, and the encoding that was used instead. The encoding is `None` if some bytes
+/// could not be decoded.
 fn mismatch(source: &Source) -> Option<(&'static str, Option<&'static str>)> {
     const ANOTHER: &str = "the file is not in its declared encoding";
     // The default encoding is UTF-8 (XML 1.0, 4.3.3).

@@ -1,4 +1,4 @@
-//! Detects the format of a file by its content. Only the file name distinguishes EDS from DCF, which share all
+//! Detects the format of a file by its content. The file name decides between EDS and DCF, which have almost the same
 //! sections.
 
 use crate::diagnostics::{codes, Diagnostic};
@@ -6,10 +6,10 @@ use crate::ir::Format;
 use crate::source::{FileId, Source, Span};
 use crate::syntax::ini::{Document, Section};
 
-/// Number of bytes in which the root element or the first sections are searched.
+/// Number of bytes at the start of a file that are searched for the root element or the first sections.
 pub const LOOK_AHEAD: usize = 64 * 1024;
 
-/// Recognizes a register table by the name of the file or its first key.
+/// Recognizes a register table by its file name or its first key.
 pub(super) fn table(source: &Source) -> Option<Format> {
     let start = source.text().trim_start();
     let by_name = source.name().rsplit_once('.').is_some_and(|(_, extension)| extension.eq_ignore_ascii_case("toml"));
@@ -46,7 +46,7 @@ pub(super) fn eds(source: &Source) -> Option<Format> {
         Some("dcf") => Some(Format::Dcf),
         _ => None,
     };
-    // The first line of nearly every file shows its format.
+    // The first section usually identifies the format, which avoids parsing the whole file.
     if by_name.is_some() && starts_as_canopen(source.text()) {
         return by_name;
     }
@@ -126,19 +126,19 @@ fn local_name(name: &str) -> &str {
     name.rsplit(':').next().unwrap_or(name)
 }
 
-/// Returns whether an ISO 15745 profile describes a PROFINET device. A CANopen XDD has the same root element.
+/// Returns whether an ISO 15745 profile describes a PROFINET device. CANopen XDD files have the same root element.
 fn is_gsdml(text: &str) -> bool {
     let head = head(text);
     ["/GSDML/", "GSDML-DeviceProfile", "<DeviceAccessPointList"].iter().any(|mark| head.contains(mark))
 }
 
-/// Returns the first [`LOOK_AHEAD`] bytes of a text.
+/// Returns the first [`LOOK_AHEAD`] bytes of `text`.
 fn head(text: &str) -> &str {
     let end = (0..=LOOK_AHEAD.min(text.len())).rev().find(|&end| text.is_char_boundary(end)).unwrap_or(0);
     &text[..end]
 }
 
-/// Returns the name of the first element and its byte offset.
+/// Returns the name and the byte offset of the first element.
 fn root_element(text: &str) -> Option<(&str, usize)> {
     let mut at = 0;
     let head = head(text);
@@ -178,7 +178,7 @@ fn cip_section(document: &Document<'_>) -> Option<Span> {
     sections.find(|&section| is_cip(document.name(section))).map(|section| document.name_span(section))
 }
 
-/// Returns whether the first section is one that only CANopen files have.
+/// Returns whether the first section exists only in CANopen files.
 fn starts_as_canopen(text: &str) -> bool {
     let mut lines = text.split(['\n', '\r']).take(200).map(str::trim_start);
     let header = lines.find_map(|line| line.strip_prefix('['));

@@ -1,4 +1,4 @@
-//! The list of front ends and the function that reads a file with one of them.
+//! List of front ends, and the function that reads a file with one of them.
 
 use std::path::PathBuf;
 
@@ -7,15 +7,15 @@ use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, Format};
 use crate::source::{FileId, References, Source, Span};
 
-/// Result of reading a file.
+/// Result of reading a description file.
 pub(crate) struct Description {
-    /// The format; `None` if it was not recognized.
+    /// Format of the file; `None` if it was not recognized.
     pub format: Option<Format>,
-    /// The devices and modules; `None` if the file can't be used.
+    /// Devices and modules; `None` if the file cannot be used.
     pub catalog: Option<Catalog>,
-    /// Files that the description refers to and that were read.
+    /// Referenced files that were read.
     pub others: Vec<Source>,
-    /// Paths of referenced files that don't exist.
+    /// Paths of referenced files that do not exist.
     pub missing: Vec<PathBuf>,
 }
 
@@ -27,25 +27,25 @@ struct Input<'s> {
     file: FileId,
     /// Further names of `$NODEID` in formulas.
     node_id_aliases: &'s [String],
-    /// Choices for the options of a register table.
+    /// Choices for the options of a register table, as option name and choice.
     choices: &'s [(String, String)],
-    /// Files that the source refers to.
+    /// Access to the files to which the source refers.
     references: References<'s>,
 }
 
 type Read = fn(&mut Input<'_>, &mut Diagnostics) -> Option<Catalog>;
 
-/// A front end, with its feature and functions.
+/// Front end: cargo feature and functions.
 struct FrontEnd {
-    /// Returns the format if the file belongs to this front end.
+    /// Returns the format of a source that belongs to this front end.
     recognize: fn(&Source) -> Option<Format>,
-    /// The cargo feature that enables the front end.
+    /// Cargo feature that enables the front end.
     feature: &'static str,
-    /// The reader; `None` if the feature is disabled.
+    /// Reader of the front end; `None` if the feature is disabled.
     read: Option<Read>,
 }
 
-/// Returns the reader of a front end, or `None` if its feature is disabled.
+/// Expands to the reader of a front end, or to `None` if its feature is disabled.
 macro_rules! with_feature {
     ($feature:literal, $read:expr) => {{
         #[cfg(feature = $feature)]
@@ -56,7 +56,7 @@ macro_rules! with_feature {
     }};
 }
 
-/// All front ends. The first one that recognizes a file reads it.
+/// All front ends. The first front end that recognizes a file reads the file.
 const FRONT_ENDS: &[FrontEnd] = &[
     FrontEnd {
         recognize: detect::table,
@@ -98,7 +98,7 @@ const FRONT_ENDS: &[FrontEnd] = &[
 /// # Errors
 ///
 /// Returns one diagnostic if the file is an EtherNet/IP EDS, an unknown XML document, or another file that Lexibus
-/// can't read.
+/// cannot read.
 pub fn format(source: &Source, file: FileId) -> Result<Format, Box<Diagnostic>> {
     recognized(source, file).map(|(format, _)| format)
 }
@@ -139,7 +139,7 @@ pub(crate) fn read(
     Description { format: Some(if is_configuration { Format::Dcf } else { format }), catalog, others, missing }
 }
 
-/// Applies the overlay `source` to the devices or modules of `catalog` that it names.
+/// Applies the overlay `source` to the devices or modules in `catalog` that it selects.
 pub(crate) fn apply_overlay(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     #[cfg(feature = "table")]
     super::table::overlay::apply(source, file, catalog, diagnostics);
@@ -150,7 +150,7 @@ pub(crate) fn apply_overlay(source: &Source, file: FileId, catalog: &mut Catalog
     }
 }
 
-/// Returns the error for a file whose front end is disabled. `what` names the files that the feature reads.
+/// Returns the error for a file whose front end is disabled. `what` names the kind of files that the feature reads.
 pub(crate) fn without_feature(feature: &str, what: &str, file: FileId) -> Diagnostic {
     let message = format!("`lexibus-codegen` was built without the feature `{feature}`, which reads {what}");
     let help = format!("add it to the dependency: `lexibus-codegen = {{ …, features = [\"{feature}\"] }}`");

@@ -2,7 +2,7 @@
 
 use crate::ir::{Group, ObjectCode, Type, Value};
 
-/// Returns the type that the DEFTYPE or DEFSTRUCT `group` is an alias of, and its length in bits.
+/// Returns the type for which the DEFTYPE or DEFSTRUCT object `group` is an alias, and its length in bits.
 pub fn defined_type(group: &Group, index: u16, code: ObjectCode) -> (Type, Option<u32>) {
     let unknown = Type::Opaque(Some(u32::from(index)));
     let number = |sub| group.sub(sub).and_then(|item| item.default.as_ref()).and_then(Value::as_int);

@@ -1,16 +1,16 @@
-//! Checks settings of a CANopen device that EDS and XDD files share.
+//! Checks the network settings that EDS and XDD files have in common.
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::source::Span;
 
-/// Returns the data type code of a dummy entry such as `Dummy0007`. Ignores case.
+/// Returns the data type code of a dummy entry, such as 7 for `Dummy0007`, ignoring case.
 pub fn dummy_code(key: &str) -> Option<u8> {
     let digits = key.get(5..).filter(|_| key[..5].eq_ignore_ascii_case("Dummy"))?;
     let hexadecimal = digits.len() <= 4 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
     hexadecimal.then(|| u8::from_str_radix(digits, 16).ok()).flatten()
 }
 
-/// Reports a granularity above the 64 bits of a PDO.
+/// Reports a PDO mapping granularity of more than 64 bits, the length of a PDO.
 pub fn granularity(bits: u8, span: Span, diagnostics: &mut Diagnostics) {
     if bits > 64 {
         let message = format!("a granularity of {bits} bits exceeds the 64 bits of a PDO");

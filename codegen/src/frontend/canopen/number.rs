@@ -1,44 +1,44 @@
 //! Reads the numbers and `$NODEID` formulas of CiA 306, including nonstandard spellings in real files.
 
-/// Result of reading a text.
+/// Result of reading a text as a number or formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Number {
-    /// The parsed value.
+    /// Parsed number, formula or text.
     pub parsed: Parsed,
-    /// Departure from the grammar.
+    /// Deviation from the number grammar of CiA 306.
     pub quirk: Option<Quirk>,
 }
 
-/// A number, a formula, or neither.
+/// Number, `$NODEID` formula, or any other text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parsed {
-    /// A number.
+    /// Integer.
     Int {
         /// Value of the number.
         value: i128,
-        /// Whether the number was written as a bit pattern: hexadecimal and without a sign.
+        /// True if the number is hexadecimal and has no sign.
         hex: bool,
     },
     /// `$NODEID` plus this offset.
     NodeId(i128),
     /// Text with a `$` that is not a valid formula.
     UnknownFormula,
-    /// Anything else.
+    /// Text that is neither a number nor a formula.
     Text,
 }
 
-/// A departure from the grammar.
+/// Deviation from the number grammar of CiA 306.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quirk {
-    /// Octal because of a leading zero. In decimal it would be a different number.
+    /// Octal number with a leading zero. A decimal number with the same digits has a different value.
     Octal,
-    /// A leading zero that does not change the value, or digits that can't be octal.
+    /// Leading zero before digits that have the same value in octal and decimal, or that are not octal.
     LeadingZero,
     /// A hexadecimal suffix (`NNh`).
     HexSuffix,
     /// A C suffix (`U`, `L`, `UL`, `LL`, `ULL`).
     CSuffix,
-    /// A formula that does not start with `$NODEID`.
+    /// Formula that does not start with `$NODEID`.
     ReversedNodeId,
 }
 
@@ -57,7 +57,7 @@ impl Number {
 
     const TEXT: Number = Number { parsed: Parsed::Text, quirk: None };
 
-    /// Returns the value if the text is a number.
+    /// Returns the value of a number, or `None` for a formula or text.
     pub fn int(self) -> Option<i128> {
         match self.parsed {
             Parsed::Int { value, .. } => Some(value),
@@ -66,7 +66,7 @@ impl Number {
     }
 }
 
-/// Reads `text`, which must be trimmed. `aliases` are further names of `$NODEID`.
+/// Reads a number or formula. `text` must be trimmed; `aliases` are further names of `$NODEID`.
 pub fn parse(text: &str, aliases: &[String]) -> Number {
     if let Some(value) = plain(text).filter(|_| aliases.is_empty()) {
         return Number { parsed: Parsed::Int { value: value.into(), hex: is_plain_hex(text) }, quirk: None };
@@ -79,9 +79,8 @@ pub fn parse(text: &str, aliases: &[String]) -> Number {
     parse_number(text)
 }
 
-/// Returns the value of a number in one of the usual forms, which need no diagnostic. These are decimal digits
-/// without a leading zero, with an optional minus sign, or `0x` and hexadecimal digits. A number has at most 15
-/// digits.
+/// Returns the value of a plain number, which needs no diagnostic. Plain numbers are decimal digits without a leading
+/// zero, with an optional minus sign, or `0x` and hexadecimal digits. Plain numbers have at most 15 digits.
 #[inline]
 pub fn plain(text: &str) -> Option<i64> {
     let decimal = |digits: &[u8]| {
@@ -175,13 +174,13 @@ fn c_suffix(text: &str) -> Number {
     }
 }
 
-/// Reads digits without a sign or separator. Returns `None` if the value needs more than 120 bits.
+/// Reads digits in the base `radix`, without a sign or separator. Returns `None` if the value needs more than 120 bits.
 fn radix(digits: &str, radix: u32) -> Option<i128> {
     let bytes = digits.as_bytes();
     if bytes.is_empty() || bytes.len() > 40 {
         return None;
     }
-    // Nearly every number has at most 15 digits, and 128-bit arithmetic is slow.
+    // Most numbers have at most 15 digits and do not need 128-bit arithmetic, which is slow.
     if bytes.len() <= 15 {
         let mut value = 0u64;
         for &byte in bytes {

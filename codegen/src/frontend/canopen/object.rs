@@ -1,4 +1,4 @@
-//! Parts of an object that EDS and XDD files describe alike: object type, data type, number of sub-indices.
+//! Facts about an object that EDS and XDD files have in common: object type, data type, number of sub-indices.
 
 use super::deftype::defined_type;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
@@ -6,25 +6,25 @@ use crate::ir::{Access, Group, ObjectCode, Shape, Type, TypeDef};
 use crate::source::Span;
 use crate::text::brief;
 
-/// Names that a format uses for the parts of an object.
+/// Names of the parts of an object in a format.
 pub struct Terms {
-    /// Key of the number of sub-indices.
+    /// Key for the number of sub-indices.
     pub sub_number: &'static str,
     /// Name of the section or element that describes a sub-index.
     pub sub_object: &'static str,
-    /// Plural name of these sections or elements.
+    /// Name for several sections or elements that describe sub-indices.
     pub elements: &'static str,
-    /// Help text: how to declare objects with sub-indices.
+    /// Help text that explains how to declare objects with sub-indices.
     pub records: &'static str,
 }
 
-/// An object type as written.
+/// Object type as in the file.
 pub struct ObjectType<'t> {
-    /// The text.
+    /// Text of the object type.
     pub text: &'t str,
-    /// Number of the object type, if it is one.
+    /// Number of the object type, or `None` if the text is not a number.
     pub number: Option<i128>,
-    /// Span of the object type.
+    /// Span of the object type in the file.
     pub span: Span,
 }
 
@@ -44,8 +44,8 @@ impl ObjectType<'_> {
     }
 }
 
-/// Returns the object code of `index`. The sub-indices decide if the object type is missing or invalid. The
-/// diagnostic for a missing object type marks `span`.
+/// Returns the object code of the object `index`. If its object type is missing or invalid, the presence of sub-indices
+/// determines the code. The diagnostic for a missing object type marks `span`.
 pub fn object_code(
     index: u16,
     given: Option<&ObjectType<'_>>,
@@ -87,7 +87,7 @@ pub fn type_by_code(code: u32, span: Span, defined: Option<Type>, diagnostics: &
     Type::Opaque(Some(code))
 }
 
-/// Returns the access rights of an access type of CiA 306. Reports any other text.
+/// Returns the access rights for an access type of CiA 306. Reports any other text.
 pub fn access(text: &str, span: Span, diagnostics: &mut Diagnostics) -> Access {
     if let Some(access) = Access::from_cia306(text) {
         return access;
@@ -104,8 +104,8 @@ pub fn unknown_access(text: &str, span: Span, access: Access, help: &str, diagno
     diagnostics.push(found.label(format!("read as {}", access.name())).help(help));
 }
 
-/// Compares the announced number of sub-indices, written as `text`, with the number of described ones. Sub-index 0
-/// counts, 0xFF does not.
+/// Compares the announced number of sub-indices, written as `text`, with the number of described sub-indices. Sub-index
+/// 0 counts; sub-index 0xFF does not count.
 pub fn sub_number(
     group: &Group,
     announced: i128,
@@ -129,8 +129,8 @@ pub fn sub_number(
     diagnostics.push(found.fix(described.to_string()));
 }
 
-/// Adds the type that an object in the data type area defines to `types`, and returns its code and type. It is an
-/// alias of a basic type, or a number of bits of unknown meaning.
+/// Adds the type that an object in the data type area defines to `types`. Returns the code and the type. The type is an
+/// alias of a basic type, or raw bits.
 pub fn define_type(group: &Group, types: &mut Vec<TypeDef>, diagnostics: &mut Diagnostics) -> Option<(u32, Type)> {
     let (index, code) = (group.index()?, group.object_code()?);
     if !matches!(code, ObjectCode::DefType | ObjectCode::DefStruct) {

@@ -6,18 +6,18 @@ use crate::ir::{CompactString, Type, Value};
 use crate::source::Span;
 use crate::text::brief;
 
-/// Purpose of a value. It decides which diagnostics apply.
+/// Purpose of a value, which determines the diagnostics that apply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// A default value or a configured value.
+    /// Default value or configured value.
     Value,
-    /// A limit. Signed limits are often written as bit patterns.
+    /// Minimum or maximum. Signed limits are often written as bit patterns.
     Limit,
 }
 
-/// Converts texts to values and reports repairs.
+/// Converts texts to values, and reports repairs.
 pub struct Converter<'d> {
-    /// Receives the diagnostics.
+    /// List to which problems are reported.
     pub diagnostics: &'d mut Diagnostics,
     /// Further names of `$NODEID`.
     pub aliases: &'d [String],
@@ -45,7 +45,7 @@ impl Converter<'_> {
         })
     }
 
-    /// Returns the value of `text` if it is a plain number that fits the integer type. Such a number needs no
+    /// Returns the value of `text` if it is a plain number that fits the integer type `ty`. Plain numbers need no
     /// diagnostic.
     #[inline]
     pub fn plain_integer(&self, text: &str, ty: Type) -> Option<Value> {
@@ -61,7 +61,7 @@ impl Converter<'_> {
         fits.then(|| Value::Int(value.into()))
     }
 
-    /// Reads a number and reports departures from the grammar. Reports any other text and returns `None`.
+    /// Reads a number and reports deviations from the grammar. Reports any other text and returns `None`.
     pub fn number(&mut self, text: &str, span: Span) -> Option<Value> {
         let number = number::parse(text, self.aliases);
         self.quirk(number, text, span);
@@ -80,13 +80,13 @@ impl Converter<'_> {
         }
     }
 
-    /// Returns `text` without one surrounding pair of quotation marks.
+    /// Removes and reports one pair of quotation marks around `text`.
     pub fn unquoted<'t>(&mut self, text: &'t str, span: Span) -> &'t str {
         let inside = |text: &'t str| text.strip_prefix('"')?.strip_suffix('"');
         let Some(inner) = inside(text) else { return text };
         let found = Diagnostic::new(&codes::QUOTED_VALUE, span, "the text is in quotation marks")
             .label("one pair of quotation marks was removed");
-        // If two pairs surround the text, it is still in quotation marks after the fix.
+        // A fix is offered only if it removes all quotation marks.
         self.diagnostics.push(if inside(inner).is_some() {
             found.help("remove the quotation marks")
         } else {
@@ -109,7 +109,7 @@ impl Converter<'_> {
         }
     }
 
-    /// Checks a number against the range of its type. A bit pattern with the sign bit becomes a negative number.
+    /// Checks a number against the range of its type. A bit pattern with the sign bit set becomes a negative number.
     fn fit(&mut self, value: i128, hex: bool, text: &str, span: Span, ty: Type, role: Role) -> Value {
         let Some((low, high)) = ty.integer_range() else { return Value::Int(value) };
         if (low..=high).contains(&value) {
@@ -141,8 +141,8 @@ impl Converter<'_> {
         Value::Int(value)
     }
 
-    /// Reports a number with more hexadecimal digits than the type has. A digit may be doubled, or the type may be
-    /// too short.
+    /// Reports a number that has more hexadecimal digits than its type. A digit may be doubled, or the type may be too
+    /// short.
     fn digits(&mut self, text: &str, span: Span, ty: Type) {
         let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
         let (Some(digits), Some(bits)) = (digits, ty.bits()) else { return };
@@ -157,7 +157,7 @@ impl Converter<'_> {
         }
     }
 
-    /// Checks a formula for the node-IDs 1 to 127. Each result must fit the type.
+    /// Checks that the results of a `$NODEID` formula for the node-IDs 1 to 127 fit the type.
     fn fit_formula(&mut self, offset: i128, text: &str, span: Span, ty: Type) -> Value {
         if let Some((low, high)) = ty.integer_range() {
             if offset + 1 < low || offset + 127 > high {
@@ -168,7 +168,7 @@ impl Converter<'_> {
         Value::NodeId(offset)
     }
 
-    /// Reads a number with a zero fraction, such as `0.0`, for an integer type. Keeps any other text.
+    /// Reads a number with a zero fraction, such as `0.0`, for an integer type. Keeps any other text as text.
     fn fraction(&mut self, text: &str, span: Span, ty: Type) -> Value {
         if let Some((whole, fraction)) = text.split_once('.') {
             if !fraction.is_empty() && fraction.bytes().all(|byte| byte == b'0') {
@@ -236,13 +236,13 @@ impl Converter<'_> {
                 self.unknown_formula(text, span);
                 raw(text)
             }
-            // A formula with the node-ID can't give a real number.
+            // A node-ID formula results in an integer, not in a real number.
             _ => self.illegal(text, span, ty),
         }
     }
 
-    /// Reads a hexadecimal number for a real type. It is the bit pattern if it has exactly the digits of the type,
-    /// else the number itself.
+    /// Reads a hexadecimal number for a real type. A number with exactly the digits of the type is a bit pattern; any
+    /// other number is the value itself.
     fn real_bits(&mut self, digits: &str, text: &str, span: Span, bits: u32) -> Value {
         let ty = if bits == 32 { Type::Real32 } else { Type::Real64 };
         let Ok(pattern) = u64::from_str_radix(digits, 16) else { return self.illegal(text, span, ty) };
@@ -312,7 +312,7 @@ impl Converter<'_> {
         );
     }
 
-    /// Reports the departure of a number from the grammar.
+    /// Reports the deviation of a number from the grammar.
     pub fn quirk(&mut self, number: Number, text: &str, span: Span) {
         let Some(quirk) = number.quirk else { return };
         let (code, message): (&'static Code, String) = match quirk {
@@ -341,11 +341,11 @@ fn raw(text: &str) -> Value {
     Value::Raw(CompactString::from(text))
 }
 
-/// Reads a finite decimal real number. Rejects the words that Rust also accepts (`inf`, `nan`).
+/// Reads a finite decimal real number. Rejects the words `inf` and `nan`, which Rust accepts.
 fn finite(text: &str) -> Option<f64> {
     let numeric = text.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E'));
     let value = numeric.then(|| text.parse::<f64>().ok()).flatten().filter(|value| value.is_finite())?;
-    // Rejects a number other than zero that the type rounds to zero.
+    // A nonzero number that the type rounds to zero is rejected.
     let mantissa = text.split(['e', 'E']).next().unwrap_or(text);
     let is_zero = !mantissa.bytes().any(|byte| matches!(byte, b'1'..=b'9'));
     (value != 0.0 || is_zero).then_some(value)

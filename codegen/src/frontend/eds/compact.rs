@@ -1,5 +1,5 @@
-//! CompactSubObj: expands a description of equal sub-indices, and applies the sections that refine single
-//! sub-indices.
+//! Expands `CompactSubObj`, a description of sub-indices that differ only in their number, and applies the sections
+//! that refine single sub-indices.
 
 use super::keywords::{Raw, OF_A_VALUE};
 use super::lists;
@@ -11,7 +11,7 @@ use crate::ir::{Access, Binding, CompactString, Configured, Extensions, Group, I
 use crate::limits;
 use crate::syntax::ini::{Entry, Section};
 
-/// Adds each sub-index from 0 to `count` that has no section.
+/// Adds each sub-index from 0 to `count` that has no section in the file.
 pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, count: u8) {
     let Some(index) = group.index() else { return };
     let is_first_beyond = reader.derived_items <= limits::MAX_DERIVED_ITEMS;
@@ -34,7 +34,7 @@ pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, 
         item.origin = raw.origin;
         group.items.push(item);
     }
-    // All elements share the keywords of the object. They are read and reported once.
+    // All sub-indices share the keywords of the object, which are read and reported once.
     let template = reader.item(index, 1, raw, ObjectCode::Array);
     group.flags = template.flags;
     let bytes = copied(reader, raw, &template) + group.name.len();
@@ -51,14 +51,15 @@ pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, 
     group.items.sort_by_key(|item| item.object().map(|(_, sub)| sub));
 }
 
-/// Returns the number of text bytes that each element copies from the object.
+/// Returns the number of text bytes that each sub-index copies from its object.
 fn copied(reader: &Reader<'_, '_>, raw: &Raw, template: &Item) -> usize {
     let values = OF_A_VALUE.iter().filter_map(|&key| raw.get(key)).map(|entry| reader.doc.value(entry).len());
     let kept = template.extensions.iter().map(|extension| extension.key.len() + extension.value.len());
     values.chain(kept).sum()
 }
 
-/// Applies `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]`. Their keys are decimal sub-indices.
+/// Applies the sections `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` to the sub-indices of an object. The keys in
+/// these sections are decimal sub-indices.
 pub(super) fn refine(reader: &mut Reader<'_, '_>, group: &mut Group, index: u16, sections: &[(Refinement, Section)]) {
     for (refinement, section) in sections {
         let extensions = &mut group.extensions;

@@ -1,4 +1,4 @@
-//! Reads the sections about the file and the device.
+//! Reads the header sections, which describe the file and the device.
 
 use std::collections::BTreeMap;
 
@@ -54,7 +54,7 @@ fn by_kind(header: &[(SectionKind, Section)]) -> Vec<(SectionKind, Vec<Section>)
     kinds
 }
 
-/// Puts the section name before the keys of extensions, as `section/key`.
+/// Puts the name of the section before the keys of its extensions, as `section/key`.
 fn name_section(kind: SectionKind, extensions: &mut [Extension]) {
     for extension in extensions.iter_mut() {
         extension.key = compact_str::format_compact!("{}/{}", kind.name(), extension.key);
@@ -74,12 +74,12 @@ fn report_missing(reader: &mut Reader<'_, '_>, header: &[(SectionKind, Vec<Secti
     }
 }
 
-/// Finds `key` among `names`. Ignores case.
+/// Returns the position of `key` in `names`, ignoring case.
 fn position(names: &[&str], key: &str) -> Option<usize> {
     names.iter().position(|name| name.eq_ignore_ascii_case(key))
 }
 
-/// Reports a repeated key of a section. `seen` contains the earlier entry of each known key.
+/// Reports a key that a section repeats. `seen` contains the earlier entry of each known key.
 fn once(reader: &mut Reader<'_, '_>, seen: &mut [Option<Entry>], which: usize, entry: &Entry) {
     if let Some(earlier) = seen[which].replace(*entry) {
         reader.duplicate_key(&earlier, entry);
@@ -126,7 +126,7 @@ fn file_info(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Dev
     old_version(reader, sections, &device.header, seen[3].as_ref());
 }
 
-/// Reports each mandatory entry that is missing.
+/// Reports each mandatory entry that a section lacks.
 fn missing(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -276,7 +276,7 @@ fn device_info(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut D
     missing(reader, sections, &KEYS, &seen, &[0, 1, 3, 4]);
 }
 
-/// Reads a bit rate such as `BaudRate_250=1`. Returns false for any other key.
+/// Reads a bit rate such as `BaudRate_250=1`. Returns false if the key is not a bit rate.
 fn bit_rate(
     reader: &mut Reader<'_, '_>,
     entry: &Entry,
@@ -298,7 +298,7 @@ fn bit_rate(
     true
 }
 
-/// Reads the granularity in bits, from 1 to 64. It is a number, although some tools write it as a flag (E82).
+/// Reads the PDO mapping granularity, from 1 to 64 bits. Some tools write this number as a flag.
 fn granularity(reader: &mut Reader<'_, '_>, entry: &Entry) -> Option<u8> {
     let value = reader.unsigned(entry, 0xFF)?;
     network::granularity(value as u8, reader.doc.value_span(entry), reader.diagnostics);
@@ -320,7 +320,7 @@ fn dummy_usage(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut D
     canopen.dummies = (0..=u8::MAX).filter(|&code| usage[usize::from(code)]).collect();
 }
 
-/// Reads the entries `LineN` in the order of their numbers. Missing numbers add no line.
+/// Reads the entries `Line1`, `Line2` and so on in the order of their numbers. Missing numbers add no line.
 pub(super) fn comments(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -394,7 +394,7 @@ fn connected_modules(reader: &mut Reader<'_, '_>, sections: &[Section], device: 
     device.commissioning = Some(settings);
 }
 
-/// Reads the segments `TypeN`, `DirN`, `RangeN`, `PPOffsetN` (CiA 302-4, CiA 306-2).
+/// Reads the segments of dynamic channels: `TypeN`, `DirN`, `RangeN`, `PPOffsetN` (CiA 302-4, CiA 306-2).
 fn dynamic_channels(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -446,7 +446,7 @@ fn dynamic_channel(reader: &mut Reader<'_, '_>, fields: &[Option<Entry>; 4]) -> 
     segment
 }
 
-/// Reads `offset` or `offset, difference`.
+/// Reads an offset in the form `offset` or `offset, difference`.
 fn offsets(text: &str) -> Option<(i64, Option<i64>)> {
     let number = |text: &str| number::parse(text.trim(), &[]).int().and_then(|value| i64::try_from(value).ok());
     match text.split_once(',') {

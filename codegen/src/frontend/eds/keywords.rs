@@ -1,11 +1,11 @@
-//! The keywords of an object, and the entries of its sections by keyword.
+//! Keywords of an object, and the assignment of section entries to keywords.
 
 use super::reader::Reader;
 use crate::ir::Extensions;
 use crate::source::Origin;
 use crate::syntax::ini::{Entry, Section};
 
-/// A keyword of an object, and its position in [`Raw`].
+/// Keyword of an object. The discriminant is the position in [`Raw`].
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Key {
     ParameterName,
@@ -27,10 +27,10 @@ pub(super) enum Key {
     InvertedSrad,
 }
 
-/// Number of keywords.
+/// Number of keywords in [`Key`].
 const KEYS: usize = 17;
 
-/// Returns the keyword with the spelling `key`. Ignores case. Length and first letter leave at most two candidates.
+/// Returns the keyword that is spelled `key`, ignoring case. Length and first letter leave at most two candidates.
 fn keyword(key: &str) -> Option<Key> {
     let bytes = key.as_bytes();
     let (name, keyword) = match (bytes.len(), bytes.first()? | 0x20) {
@@ -56,7 +56,7 @@ fn keyword(key: &str) -> Option<Key> {
     (name == key || name.eq_ignore_ascii_case(key)).then_some(keyword)
 }
 
-/// Keywords of a single value. They have no meaning for an object whose values are in its sub-indices.
+/// Keywords that describe a single value, and have no meaning for an object whose values are in its sub-indices.
 pub(super) const OF_A_VALUE: [Key; 12] = [
     Key::DataType,
     Key::AccessType,
@@ -72,13 +72,13 @@ pub(super) const OF_A_VALUE: [Key; 12] = [
     Key::InvertedSrad,
 ];
 
-/// Keywords of an object with sub-indices. They have no meaning for a single value.
+/// Keywords that describe an object with sub-indices, and have no meaning for a single value.
 pub(super) const OF_MANY_VALUES: [Key; 2] = [Key::SubNumber, Key::CompactSubObj];
 
-/// The entries of a section by keyword.
+/// Entries of a section by keyword.
 pub(super) struct Raw {
     fields: [Option<Entry>; KEYS],
-    /// Keywords that only a sub-index extension of a module has.
+    /// Entries with keywords that only the sub-index extensions of modules have.
     pub(super) more: [Option<Entry>; 2],
     pub(super) extensions: Extensions,
     pub(super) origin: Origin,
@@ -96,7 +96,7 @@ impl Reader<'_, '_> {
         self.raw_with(sections, &[])
     }
 
-    /// Works like [`raw`](Self::raw), with up to two further keywords.
+    /// Assigns entries to keywords like [`raw`](Self::raw), with up to two further keywords.
     pub(super) fn raw_with(&mut self, sections: &[Section], more: &[&str]) -> Raw {
         let mut raw =
             Raw { fields: [None; KEYS], more: [None; 2], extensions: Extensions::new(), origin: Origin::default() };

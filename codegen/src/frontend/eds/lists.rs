@@ -1,4 +1,4 @@
-//! Reads the object lists and compares them with the described objects.
+//! Reads the object lists and compares them with the objects that the file describes.
 
 use super::reader::Reader;
 use super::sections::List;
@@ -7,7 +7,7 @@ use crate::ir::{Device, Extensions, Group};
 use crate::source::Span;
 use crate::syntax::ini::{Entry, Section};
 
-/// Contents of the object lists.
+/// Indices in the object lists of a file.
 #[derive(Default)]
 pub(super) struct Lists {
     listed: Vec<(u16, List, Span)>,
@@ -42,8 +42,8 @@ impl Lists {
     }
 }
 
-/// Reads the numbered entries (`1=`, `2=` …) of a list and checks their number against `count_key`. Sections of the
-/// same name form one list. The last entry applies if a number is repeated.
+/// Reads the numbered entries (`1=`, `2=` …) of a list, and compares their count with `count_key`. Sections with the
+/// same name form one list. If a number is repeated, the last entry applies.
 pub(super) fn numbered(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -72,8 +72,8 @@ pub(super) fn numbered(
 
 const NO_GAP: &str = "number the entries from 1 without a gap";
 
-/// Returns the entries of a list whose keys are sub-indices, each with its sub-index. The list may have gaps. Passes
-/// any other entry to `others`.
+/// Returns the entries of a list whose keys are sub-indices, each with its sub-index. Sub-indices may be missing.
+/// Passes all other entries to `others`.
 pub(super) fn by_sub_index(
     reader: &mut Reader<'_, '_>,
     section: &Section,
@@ -88,8 +88,8 @@ pub(super) fn by_sub_index(
     entries
 }
 
-/// Returns the entries with decimal keys in ascending order, and the entry with the key `count_key`. Empty entries
-/// and earlier duplicates are left out. Passes any other entry to `others`.
+/// Returns the entries with decimal keys in ascending order, and the entry with the key `count_key`. Leaves out empty
+/// entries and earlier duplicates. Passes all other entries to `others`.
 fn by_number(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -115,7 +115,7 @@ fn by_number(
         for pair in entries.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
             reader.duplicate_key(&pair[0].1, &pair[1].1);
         }
-        // The sort is stable. After the reversal, the last of several equal entries comes first.
+        // The stable sort keeps duplicates in file order. The reversal lets `dedup_by_key` keep the last one.
         entries.reverse();
         entries.dedup_by_key(|&mut (number, _)| number);
         entries.reverse();
@@ -124,8 +124,8 @@ fn by_number(
     (entries, count)
 }
 
-/// Returns whether `entry` announces the correct number of entries; reports it if not. In a list with a gap the
-/// number may be right and the numbering wrong, so the diagnostic has no fix.
+/// Returns whether `entry` announces the correct number of entries. Reports a wrong number. The diagnostic has no fix
+/// if the list has a gap, because the number may be right and the numbering wrong.
 pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count: usize, has_gap: bool) -> bool {
     let Some(announced) = reader.unsigned(entry, 0xFFFF) else { return true };
     let (key, text, span) = (reader.doc.key(entry), reader.doc.value(entry), reader.doc.value_span(entry));
@@ -146,21 +146,21 @@ pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count:
     true
 }
 
-/// A set of indices, stored as bits.
+/// Set of object indices, stored as bits.
 struct Indices {
-    /// Lowest index, divided by 64.
+    /// Minimum index, divided by 64.
     first: u16,
     words: Vec<u64>,
 }
 
 impl Indices {
-    /// Creates an empty set that can hold the indices `all`.
+    /// Creates an empty set with space for the indices `all`.
     fn new(all: impl Iterator<Item = u16> + Clone) -> Self {
         let first = all.clone().min().unwrap_or(0) / 64;
         Indices { first, words: vec![0; usize::from(all.max().unwrap_or(0) / 64 - first) + 1] }
     }
 
-    /// Adds `index`. Returns whether it was new.
+    /// Adds `index` to the set. Returns true if the set did not contain the index.
     fn insert(&mut self, index: u16) -> bool {
         let word = (index / 64).checked_sub(self.first).and_then(|word| self.words.get_mut(usize::from(word)));
         let Some(word) = word else { return false };
@@ -243,7 +243,7 @@ impl List {
     }
 }
 
-/// Returns the list to which an index belongs; `None` below 0x1000, which is the data type area.
+/// Returns the list to which an index belongs, or `None` for the data type area below 0x1000.
 fn belongs(index: u16) -> Option<List> {
     match index {
         0x0000..=0x0FFF => None,

@@ -1,15 +1,15 @@
 //! Converts EDS and DCF files (CiA 306-1) to IR.
 //!
-//! [`read`] processes the sections of a file in one pass. Header sections fill the device directly. The sections of
-//! objects are sorted by index first, because they may be anywhere in the file.
+//! [`read`] processes the sections of a file in one pass. Header sections fill the device directly. Object sections may
+//! have any order in the file, so they are sorted by index first.
 //!
 //! | file | subject |
 //! |---|---|
 //! | `sections` | kinds of sections by name |
 //! | `reader` | reads single entries |
 //! | `header` | `[FileInfo]`, `[DeviceInfo]`, `[DummyUsage]`, `[Comments]`, `[DeviceComissioning]`, `[DynamicChannels]` |
-//! | `lists` | the object lists, and their comparison with the objects |
-//! | `keywords` | the keywords of an object, and its entries by keyword |
+//! | `lists` | the object lists, and their comparison with the described objects |
+//! | `keywords` | the keywords of an object, and the assignment of entries to keywords |
 //! | `object` | an object and its sub-indices |
 //! | `compact` | CompactSubObj and the sections that refine it |
 //! | `modules` | modular devices |
@@ -35,9 +35,9 @@ use object::ObjectSections;
 use reader::Reader;
 use sections::{classify, Refinement, SectionKind};
 
-/// Reads the device that `source` describes. Repairs are reported to `diagnostics`.
+/// Reads the device that `source` describes. Reports repairs to `diagnostics`.
 ///
-/// Returns `None`, with an error, if the file has no CANopen section.
+/// Returns `None` and reports an error if the file has no CANopen section.
 pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut Diagnostics) -> Option<Catalog> {
     let doc = Document::parse(source.text(), file);
     report_encoding(source, file, diagnostics);
@@ -63,7 +63,7 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
                     "check that the file has [FileInfo], [DeviceInfo], object lists, and sections of objects such as [1000]",
                 ),
         );
-        // Syntax errors may be the reason for the missing sections.
+        // Syntax errors are reported because they may explain the missing sections.
         report_oddities(&doc, diagnostics);
         return None;
     }
@@ -81,18 +81,18 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
     Some(Catalog::of_device(device, modules))
 }
 
-/// Rank of refining sections, which follow the sections of sub-indices.
+/// Rank of the sections that refine sub-indices. These sections follow those that describe sub-indices.
 const REFINEMENT: u16 = 0x200;
 
-/// The sections of a file by subject.
+/// Sections of a file, grouped by subject.
 struct Sorted {
-    /// Sections of the header, in the order of the file.
+    /// Header sections, in the order of the file.
     header: Vec<(SectionKind, Section)>,
-    /// Index, rank and section, sorted by index and rank. Equal entries keep the order of the file.
+    /// Index, rank and section number of each object section, sorted by index and rank.
     objects: Vec<(u16, u16, u32)>,
-    /// Module number, part and section, sorted by module.
+    /// Module number, part and section of module sections, sorted by module number.
     modules: Vec<(u32, sections::ModulePart, Section)>,
-    /// Other sections, in the order of the file.
+    /// Unknown sections, in the order of the file.
     unknown: Vec<Section>,
 }
 
@@ -131,7 +131,7 @@ impl Sorted {
     }
 }
 
-/// Builds the objects from the sorted sections.
+/// Builds the objects of the device from the sorted sections.
 fn objects(reader: &mut Reader<'_, '_>, sorted: Vec<(u16, u16, u32)>, device: &mut Device) {
     let mut sections = ObjectSections::default();
     device.groups.reserve_exact(sorted.chunk_by(|one, other| one.0 == other.0).count());
@@ -178,12 +178,13 @@ fn illegal_name(reader: &mut Reader<'_, '_>, section: &Section, kind: SectionKin
     reader.diagnostics.push(diagnostic);
 }
 
-/// Keeps sections that CiA 306 does not define, as `section/key` extensions of the device.
+/// Stores the entries of sections that CiA 306 does not define as extensions of the device, with keys such as
+/// `section/key`.
 fn unknown_sections(reader: &mut Reader<'_, '_>, unknown: &[Section], device: &mut Device) {
     let mut seen: HashMap<String, &Section> = HashMap::new();
     for section in unknown {
         let name = reader.doc.name(section);
-        // CiA 306-1 defines [Tools]. It concerns only the tools that it names, so it is not reported.
+        // CiA 306-1 defines [Tools] for the tools that it names, so this section is not reported.
         if !name.eq_ignore_ascii_case("Tools") {
             reader.diagnostics.push(
                 Diagnostic::new(

@@ -15,7 +15,7 @@ use crate::source::Span;
 use crate::syntax::ini::{Entry, Section};
 use crate::text::count_of;
 
-/// The sections of a module.
+/// Sections of a module, grouped by part.
 #[derive(Default)]
 struct Parts {
     info: Vec<Section>,
@@ -26,7 +26,7 @@ struct Parts {
     extensions: BTreeMap<u16, Vec<Section>>,
 }
 
-/// Reads the modules. `sections` is sorted by module.
+/// Reads the modules of a device. `sections` is sorted by module number.
 pub(super) fn read(
     reader: &mut Reader<'_, '_>,
     sections: Vec<(u32, ModulePart, Section)>,
@@ -124,7 +124,7 @@ fn info(reader: &mut Reader<'_, '_>, sections: &[Section], module: &mut Module) 
     }
 }
 
-/// Returns the indices in a list, each with its entry.
+/// Returns the indices in an object list of a module, each with its entry.
 fn announced(reader: &mut Reader<'_, '_>, sections: &[Section], module: &mut Module) -> BTreeMap<u16, Entry> {
     reader.duplicate_sections(sections);
     let mut indices = BTreeMap::new();
@@ -155,7 +155,7 @@ fn missing(
     }
 }
 
-/// Reports an extension of a device object that has no sub-indices.
+/// Reports a module that extends a device object without sub-indices.
 fn extended_object(reader: &mut Reader<'_, '_>, index: u16, span: Span, device: &Device) {
     let Some(object) = device.object(index) else { return };
     if let Some(code) = object.object_code().filter(|code| !code.has_subs()) {
@@ -190,8 +190,8 @@ fn sub_extension(reader: &mut Reader<'_, '_>, index: u16, sections: &[Section]) 
     SubExtension { index, count, per, extends_object, template }
 }
 
-/// Returns the number of sub-indices that a module adds. If it is 0, the second value is the number of bits that the
-/// module adds to a common sub-index.
+/// Returns the number of sub-indices that a module adds. If this number is 0, the second value is the number of bits
+/// that the module adds to a common sub-index.
 fn sub_count(reader: &mut Reader<'_, '_>, raw: &Raw) -> (u16, Option<u16>) {
     let mut report = |span, message: String, label| {
         let help = "write the number of sub-indices, or `0;` and the number of bits";
@@ -225,7 +225,7 @@ fn obj_extend(reader: &mut Reader<'_, '_>, entry: &Entry) -> bool {
     value == Some(1)
 }
 
-/// Reads `n` or `n;m`.
+/// Reads a count in the form `n` or `n;m`.
 fn count(text: &str) -> Option<(u16, Option<u16>)> {
     let number = |text: &str| number::parse(text.trim(), &[]).int().and_then(|value| u16::try_from(value).ok());
     match text.split_once(';') {

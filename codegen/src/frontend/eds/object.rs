@@ -23,16 +23,16 @@ const TERMS: Terms = Terms {
     records: "write `ObjectType=0x9` for a RECORD, `ObjectType=0x8` for an ARRAY",
 };
 
-/// The sections of an object, collected from the whole file.
+/// Sections of an object, collected from the whole file.
 #[derive(Default)]
 pub(super) struct ObjectSections {
-    /// `[xxxx]`; several if the file repeats it.
+    /// Section `[xxxx]`, or several if the file repeats this section.
     pub object: Vec<Section>,
-    /// `[xxxxsubN]` with the sub-index.
+    /// Sections `[xxxxsubN]`, each with its sub-index.
     pub subs: Vec<(u8, Section)>,
-    /// `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]`.
+    /// Sections `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]`.
     pub refinements: Vec<(Refinement, Section)>,
-    /// `[xxxxObjectLinks]`
+    /// Section `[xxxxObjectLinks]`.
     pub links: Vec<Section>,
 }
 
@@ -114,7 +114,7 @@ impl<'a> Reader<'a, '_> {
             let mut item = self.item(index, 0, &raw, code);
             item.name = group.name.clone();
             item.at.name = group.name_at;
-            // The object has a single section, so the other entries are extensions of the object.
+            // An object without sub-indices has a single section, so its other entries are extensions of the object.
             group.extensions.append(&mut item.extensions);
             group.items = vec![item];
         }
@@ -122,7 +122,7 @@ impl<'a> Reader<'a, '_> {
         compact::refine(self, group, index, &sections.refinements);
     }
 
-    /// Keeps entries that have no meaning for this object, unless they are empty or 0.
+    /// Stores entries that have no meaning for this object as extensions, unless they are empty or 0.
     pub(super) fn unused(&mut self, raw: &Raw, keys: &[Key], extensions: &mut Extensions) {
         for &key in keys {
             let Some(entry) = raw.get(key) else { continue };
@@ -156,7 +156,7 @@ impl<'a> Reader<'a, '_> {
         self.peek_number(raw.get(Key::ObjectType)).is_none_or(|code| code == 7)
     }
 
-    /// Adds sub-index 0 to a VAR that has sub-indices but no sub-index 0. Its value is that of the VAR.
+    /// Adds a sub-index 0 with the value of the VAR to a VAR that has sub-indices but no sub-index 0.
     fn value_of_var(&mut self, group: &mut Group, index: u16, raw: &Raw) {
         let mut item = self.item(index, 0, raw, ObjectCode::Var);
         item.name = group.name.clone();
@@ -187,7 +187,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Returns the ObjectType, if it is present.
+    /// Returns the object type, or `None` if it is missing.
     fn object_type(&mut self, raw: &Raw) -> Option<ObjectType<'a>> {
         let (text, span) = self.fixed(raw.get(Key::ObjectType)?, Fixed::Number);
         if text.is_empty() {
@@ -218,7 +218,7 @@ impl<'a> Reader<'a, '_> {
         item.ty = ty.unwrap_or(Type::Opaque(None));
         item.access = self.access(raw, code, &mut item);
         if ty.is_none() {
-            // Without a data type it is unknown which bytes to write.
+            // A value without a data type has an unknown length, so it cannot be written.
             item.access = Access::ReadOnly;
         }
         item.mappable = self.mappable(raw.get(Key::PdoMapping), item.access, &mut item);
@@ -239,7 +239,7 @@ impl<'a> Reader<'a, '_> {
         item
     }
 
-    /// Adds the configured value and other entries of a DCF to an item.
+    /// Adds the DCF entries to an item: configured value, denotation and file names.
     fn configured(&mut self, raw: &Raw, item: &mut Item) {
         let keys = [Key::ParameterValue, Key::Denotation, Key::UploadFile, Key::DownloadFile];
         if keys.iter().all(|&key| raw.get(key).is_none()) {
@@ -259,8 +259,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Returns the value of an entry. Text types use the whole text; for other types a comment after the value is
-    /// removed.
+    /// Returns the value of an entry. A comment after the value is removed unless `ty` is a text type.
     pub(super) fn typed(&mut self, entry: Option<&Entry>, ty: Type, role: Role) -> Option<Value> {
         let entry = entry?;
         let text = self.doc.value(entry);
@@ -276,7 +275,8 @@ impl<'a> Reader<'a, '_> {
         self.converter().value(text, span, ty, role)
     }
 
-    /// Returns the DataType. Returns `None` if it is missing and the value needs one.
+    /// Returns the data type of an object or sub-index. Returns `None` if the data type is missing and the value needs
+    /// one.
     fn data_type(&mut self, raw: &Raw, code: ObjectCode, item: &mut Item) -> Option<Type> {
         let (text, span) = match raw.get(Key::DataType) {
             Some(entry) => self.fixed(entry, Fixed::Number),
@@ -286,7 +286,7 @@ impl<'a> Reader<'a, '_> {
         if text.is_empty() {
             return self.no_data_type(code, span);
         }
-        // A text that is not a number is reported by the converter.
+        // The converter reports a text that is not a number.
         let plain = number::plain(text).map(|number| Value::Int(number.into()));
         let number = plain.or_else(|| self.converter().number(text, span))?;
         match number.as_int().and_then(|number| u32::try_from(number).ok()) {
@@ -433,7 +433,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// Sorts extensions, which are collected by kind, into the order of the file.
+/// Sorts extensions, which were collected by kind, by their position in the file.
 pub(super) fn in_order_of_file(extensions: &mut [Extension]) {
     extensions.sort_by_key(|extension| extension.span.start);
 }

@@ -1,4 +1,4 @@
-//! State of reading a file, and functions that read single entries.
+//! Reader of a file, and functions that read single entries.
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::canopen::number::{self, Parsed};
@@ -12,36 +12,38 @@ pub(super) struct Reader<'a, 'd> {
     pub doc: &'a Document<'a>,
     pub diagnostics: &'d mut Diagnostics,
     pub aliases: &'d [String],
-    /// Types that the file defines, by code. Objects are read in the order of their indices, so types come first.
+    /// Types that the file defines, by data type code. Objects are read in the order of their indices, so types come
+    /// first.
     pub types: Vec<(u32, Type)>,
-    /// Targets of object links. They are checked after all objects are read.
+    /// Targets of object links, which are checked after all objects are read.
     pub link_spans: Vec<(u16, Span)>,
-    /// Sections that refine a missing object. They are kept as extensions of the device.
+    /// Sections that refine an object that the file does not describe. The entries of these sections become extensions
+    /// of the device.
     pub orphan_sections: Vec<Section>,
-    /// Number of modules that `[SupportedModules]` announces, and its span.
+    /// Number of modules that `[SupportedModules]` announces, and the span of the number.
     pub announced_modules: Option<(u32, Span)>,
     /// Number of items created from CompactSubObj and CompactPDO.
     pub derived_items: usize,
     /// Remaining number of text bytes that may be copied into derived elements.
     pub copies_left: usize,
     pub copies_exceeded: bool,
-    /// Comments after values, until the element that they belong to is complete.
+    /// Comments after values, until the element to which they belong is complete.
     pub comments: Extensions,
-    /// The first flag that is a hexadecimal number, and the number of such flags. They are reported once because
-    /// tools write all flags in the same way.
+    /// Span of the first flag that is a hexadecimal number, and the number of such flags. All such flags are reported
+    /// once, because a tool writes all flags in the same way.
     pub hex_flags: Option<(Span, usize)>,
 }
 
-/// Form of a value that is not free text. It decides which text may follow the value.
+/// Form of a value that is not free text. The form determines the text that may follow the value.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fixed {
-    /// A number or an access type. A comment after `;` is common.
+    /// Number or access type, often followed by a comment after `;`.
     Number,
-    /// A flag: 0 or 1 without further text.
+    /// Flag: 0 or 1, without further text.
     Flag,
 }
 
-/// Key of comments in the IR.
+/// Key of extensions that contain comments.
 const COMMENT: CompactString = CompactString::const_new(";");
 
 fn repeated(later: Span, key: &str) -> Diagnostic {
@@ -53,7 +55,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         Converter { diagnostics: self.diagnostics, aliases: self.aliases }
     }
 
-    /// Returns the value of an entry of fixed form without comments and quotation marks. Adds a comment to
+    /// Returns the value of an entry of fixed form, without comments and quotation marks. Adds the comments to
     /// `comments`.
     pub(super) fn fixed(&mut self, entry: &Entry, form: Fixed) -> (&'a str, Span) {
         let text = self.doc.value(entry);
@@ -63,7 +65,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.fixed_part(text, span, cut, form)
     }
 
-    /// Works like [`fixed`](Self::fixed) for a text with a comment mark at offset `mark`.
+    /// Reads a value like [`fixed`](Self::fixed), if `mark` is the offset of the first comment or quotation mark.
     #[cold]
     fn fixed_part(&mut self, text: &'a str, span: Span, mark: usize, form: Fixed) -> (&'a str, Span) {
         // A comment mark in quotation marks is part of the value.
@@ -83,11 +85,11 @@ impl<'a, 'd> Reader<'a, 'd> {
         let found = match (text.as_bytes()[cut], form) {
             (b'#', _) => Some((&codes::HASH_COMMENT, "there is a `#` comment after the value")),
             (_, Fixed::Flag) => Some((&codes::TRAILING_TEXT, "there is text after the value")),
-            // A comment line starts with `;`, and most tools end a number there.
+            // Most tools end a number at `;`, which starts a comment line in CiA 306.
             _ => None,
         };
         if let Some((code, message)) = found {
-            // Also marks the blanks before the comment.
+            // The span includes the blanks before the comment, so that the fix removes them.
             let marked = Span::new(rest.file, rest.start - (cut - kept.len()) as u32, rest.end);
             self.diagnostics
                 .push(Diagnostic::new(code, marked, message).label(format!("the value is `{kept}`")).fix(""));
@@ -98,14 +100,14 @@ impl<'a, 'd> Reader<'a, 'd> {
         }
     }
 
-    /// Moves the comments that were read to the element that they belong to.
+    /// Moves the collected comments to the extensions of their element.
     pub(super) fn take_comments(&mut self, extensions: &mut Extensions) {
         if !self.comments.is_empty() {
             extensions.append(&mut self.comments);
         }
     }
 
-    /// Reads a flag: 0, 1, or a word with the same meaning.
+    /// Reads a flag: 0, 1, or a word with the meaning of 0 or 1.
     pub(super) fn flag(&mut self, entry: &Entry) -> bool {
         match self.doc.value(entry) {
             "0" | "" => return false,
@@ -137,7 +139,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         value.unwrap_or(false)
     }
 
-    /// Reports all flags that are hexadecimal numbers in one diagnostic.
+    /// Reports all hexadecimal flags in one diagnostic.
     pub(super) fn report_hex_flags(&mut self) {
         let Some((span, count)) = self.hex_flags.take() else { return };
         let message = match count {
@@ -148,14 +150,14 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.diagnostics.push(Diagnostic::new(&codes::NOT_BOOLEAN, span, message).label(label));
     }
 
-    /// Reads a number without reporting its spelling, which another reading of the same entry reports.
+    /// Reads a number without reporting its spelling, which the regular reading of the entry reports.
     pub(super) fn peek_number(&self, entry: Option<&Entry>) -> Option<i128> {
         let text = self.doc.value(entry?);
         let text = text.split([';', '#']).next().unwrap_or("").trim().trim_matches('"');
         number::parse(text, &[]).int()
     }
 
-    /// Reads a number of 32 bits and reports any other text. Returns `None` for an empty value.
+    /// Reads a 32-bit number and reports any other text. Returns `None` for an empty value.
     pub(super) fn u32_of(&mut self, entry: &Entry) -> Option<u32> {
         self.unsigned(entry, u32::MAX)
     }
@@ -167,7 +169,7 @@ impl<'a, 'd> Reader<'a, 'd> {
             return None;
         }
         let number = number::parse(text, &[]);
-        // All tools read `001` as 1. They differ for `018` and `010`.
+        // All tools read `001` as 1, but they disagree about `018` and `010`.
         let harmless = number.quirk == Some(number::Quirk::LeadingZero) && number::is_octal(text);
         if !harmless {
             self.converter().quirk(number, text, span);
@@ -201,18 +203,18 @@ impl<'a, 'd> Reader<'a, 'd> {
         index
     }
 
-    /// Returns the decimal number in the key of a list entry.
+    /// Returns the decimal number in the key of a list entry, or `None` if the key is not a number.
     pub(super) fn key_number(&self, entry: &Entry) -> Option<u32> {
         let key = self.doc.key(entry);
         (key.len() <= 9 && key.bytes().all(|byte| byte.is_ascii_digit())).then(|| key.parse().ok()).flatten()
     }
 
-    /// Returns the span of the value of an entry; an empty span if there is no entry.
+    /// Returns the span of an entry's value, or an empty span if there is no entry.
     pub(super) fn span_of(&self, entry: Option<&Entry>) -> Span {
         entry.map_or(Span::default(), |entry| self.doc.value_span(entry))
     }
 
-    /// Reads a name: free text without one surrounding pair of quotation marks.
+    /// Reads a name into `name`: free text without one surrounding pair of quotation marks.
     pub(super) fn name(&mut self, entry: Option<&Entry>, name: &mut CompactString, at: &mut Span) {
         let Some(entry) = entry else { return };
         let (text, span) = (self.doc.value(entry), self.doc.value_span(entry));
@@ -220,11 +222,11 @@ impl<'a, 'd> Reader<'a, 'd> {
         *at = span;
     }
 
-    /// Keeps an entry that has no field in the IR, or a comment with at least one letter or digit.
+    /// Stores an entry for which the IR has no field as an extension, or a comment that contains a letter or digit.
     pub(super) fn extension(&mut self, entry: &Entry, extensions: &mut Extensions) {
         let (key, value, span) = (self.doc.key(entry), self.doc.value(entry), self.doc.value_span(entry));
         if self.doc.is_comment(entry) {
-            // A comment that is only a line of dashes is left out.
+            // A comment that is only a line of dashes is dropped.
             if value.bytes().any(|byte| byte.is_ascii_alphanumeric() || !byte.is_ascii()) {
                 extensions.push(Extension { key: COMMENT, value: value.into(), span });
             }
@@ -249,14 +251,14 @@ impl<'a, 'd> Reader<'a, 'd> {
         extensions.push(Extension { key: key.into(), value: value.into(), span });
     }
 
-    /// Reports that the file lacks a mandatory section.
+    /// Reports a mandatory section that the file lacks.
     pub(super) fn missing_section(&mut self, name: &str) {
         let file = self.doc.sections().first().map_or(Span::default(), |first| self.doc.name_span(first)).file;
         let message = format!("the section [{name}] is missing");
         self.diagnostics.push(Diagnostic::new(&codes::MISSING_SECTION, Span::new(file, 0, 0), message));
     }
 
-    /// Reports that a section, or several of the same name together, lack a mandatory entry.
+    /// Reports a mandatory entry that a section lacks. `sections` are all sections with the same name.
     pub(super) fn missing_entry(&mut self, sections: &[Section], key: &str) {
         let Some(section) = sections.first() else { return };
         if self.diagnostics.wants(&codes::MISSING_ENTRY) {
@@ -283,7 +285,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.diagnostics.push(found.note_at(self.doc.name_span(first), "first occurrence"));
     }
 
-    /// Keeps an entry of an undefined section as `section/key`.
+    /// Stores an entry of a section that CiA 306 does not define as an extension with the key `section/key`.
     pub(super) fn foreign(&mut self, section: &Section, entry: &Entry, extensions: &mut Extensions) {
         let name = self.doc.name(section);
         let key = if self.doc.is_comment(entry) { ";" } else { self.doc.key(entry) };
@@ -294,7 +296,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         }
     }
 
-    /// Returns whether `bytes` more bytes of text may be copied. Reports only the first refusal.
+    /// Returns whether another `bytes` bytes of text may be copied. Reports only the first refusal.
     pub(super) fn may_copy(&mut self, bytes: usize, span: Span) -> bool {
         if let Some(left) = self.copies_left.checked_sub(bytes) {
             self.copies_left = left;

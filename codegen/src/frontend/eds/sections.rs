@@ -12,20 +12,20 @@ pub(super) enum SectionKind {
     SupportedModules,
     ConnectedModules,
     DynamicChannels,
-    /// `[xxxx]`
+    /// Object section `[xxxx]`.
     Object(u16),
-    /// `[xxxxsubN]`
+    /// Sub-index section `[xxxxsubN]`.
     Sub(u16, u8),
-    /// `[xxxxName]`, `[xxxxValue]`, `[xxxxDenotation]`
+    /// Refining section `[xxxxName]`, `[xxxxValue]` or `[xxxxDenotation]`.
     Refinement(u16, Refinement),
-    /// `[xxxxObjectLinks]`
+    /// Object links section `[xxxxObjectLinks]`.
     Links(u16),
-    /// `[M<n>…]`
+    /// Module section `[M<n>…]`.
     Module(u32, ModulePart),
     Unknown,
 }
 
-/// The three object lists.
+/// Object list: mandatory, optional or manufacturer objects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum List {
     Mandatory,
@@ -33,7 +33,7 @@ pub(super) enum List {
     Manufacturer,
 }
 
-/// Kind of a `[xxxx…]` section that refines the sub-indices of a compact object.
+/// Kind of a section that refines the sub-indices of a compact object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Refinement {
     Name,
@@ -41,7 +41,7 @@ pub(super) enum Refinement {
     Denotation,
 }
 
-/// Part of the description of a module.
+/// Part of a module's description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ModulePart {
     Info,
@@ -61,7 +61,7 @@ const NAMED: [(&str, SectionKind); 12] = [
     ("MandatoryObjects", SectionKind::List(List::Mandatory)),
     ("OptionalObjects", SectionKind::List(List::Optional)),
     ("ManufacturerObjects", SectionKind::List(List::Manufacturer)),
-    // The standard misspells this name. Both spellings are accepted.
+    // CiA 306 misspells `DeviceCommissioning` in this way. The reader accepts both spellings.
     ("DeviceComissioning", SectionKind::Commissioning),
     ("DeviceCommissioning", SectionKind::Commissioning),
     ("SupportedModules", SectionKind::SupportedModules),
@@ -70,7 +70,7 @@ const NAMED: [(&str, SectionKind); 12] = [
 ];
 
 impl SectionKind {
-    /// Returns the name of a section that occurs at most once; empty for other kinds.
+    /// Returns the name of a section that occurs at most once, or an empty string for other kinds.
     pub(super) fn name(self) -> &'static str {
         NAMED.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
     }
@@ -96,7 +96,7 @@ fn classify_object(name: &str) -> Option<(SectionKind, bool)> {
         _ => (name, false),
     };
     let mut length = digits.bytes().take_while(u8::is_ascii_hexdigit).count();
-    // The first two letters of `Denotation` are hexadecimal digits, too.
+    // The letters `De` of `Denotation` are hexadecimal digits, too.
     if length == 6 && digits[4..].eq_ignore_ascii_case("Denotation") {
         length = 4;
     }

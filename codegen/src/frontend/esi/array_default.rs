@@ -1,4 +1,4 @@
-//! Splits the default value and limits of a whole array that its first element declares.
+//! Splits the default value and limits of a whole array, which some files declare on the first element.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -9,13 +9,13 @@ use super::object::RawSub;
 use super::types::Types;
 use crate::frontend::xml::Given;
 
-/// Selects the default value or a limit.
+/// Selects the field of a value to set: the default value, the minimum or the maximum.
 type Target<'a> = for<'i> fn(&'i mut RawInfo<'a>) -> &'i mut Option<RawValue<'a>>;
 
-/// Splits the values between the elements. The first element keeps its part; the other parts are returned by their
-/// position in `entries`.
+/// Splits the default value and limits of each array between its elements. The first element keeps its part. The other
+/// parts are returned by the position of their element in `entries`.
 ///
-/// `of_entry` contains the position of each entry's sub-item in the object.
+/// For each entry, `of_entry` contains the position of its sub-item in `subs`.
 pub(super) fn split<'a>(
     types: &mut Types<'_, 'a>,
     entries: &[Entry<'_, 'a>],
@@ -24,7 +24,7 @@ pub(super) fn split<'a>(
 ) -> HashMap<usize, RawInfo<'a>> {
     let mut parts: HashMap<usize, RawInfo<'a>> = HashMap::new();
     for (first, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.element == Some(1)) {
-        // Counts the following elements that have no sub-item in the object.
+        // Only the following elements without a sub-item in the object get a part of the value.
         let others = entries.iter().zip(of_entry).skip(first + 1);
         let others = others.take_while(|(other, sub)| std::ptr::eq(other.field, entry.field) && sub.is_none()).count();
         let Some(sub) = of_entry.get(first).copied().flatten().and_then(|at| subs.get_mut(at)) else { continue };
@@ -44,8 +44,8 @@ pub(super) fn split<'a>(
     parts
 }
 
-/// Returns the parts of `others` further elements with `digits` digits each. Returns none if the value is not that of
-/// a whole array.
+/// Shortens `whole` to the part of the first element and returns the parts of the `others` following elements. Each
+/// part has `digits` digits. Returns an empty list if `whole` does not have the length of the array.
 fn divide<'a>(whole: &mut RawValue<'a>, others: usize, digits: usize) -> Vec<RawValue<'a>> {
     let data = without_blanks(&whole.given);
     let text = data.text.as_ref();
@@ -57,7 +57,7 @@ fn divide<'a>(whole: &mut RawValue<'a>, others: usize, digits: usize) -> Vec<Raw
     (1..=others).map(|number| RawValue { form: Form::Data, given: part(&data, number, digits) }).collect()
 }
 
-/// Returns the text without blanks. Data may be wrapped over several lines.
+/// Returns the data without white space. Files may wrap long data over several lines.
 fn without_blanks<'a>(given: &Given<'a>) -> Given<'a> {
     let is_blank = |letter: char| letter.is_ascii_whitespace();
     let text = match given.text.contains(is_blank) {
@@ -67,7 +67,8 @@ fn without_blanks<'a>(given: &Given<'a>) -> Given<'a> {
     Given { text, span: given.span }
 }
 
-/// Returns a part of the data. It has its own span if the data is not wrapped.
+/// Returns the data of the element `number`, counted from 0. The span is that of the whole value if the data is
+/// wrapped.
 fn part<'a>(whole: &Given<'a>, number: usize, digits: usize) -> Given<'a> {
     let range = number * digits..(number + 1) * digits;
     let is_verbatim = whole.text.len() == (whole.span.end - whole.span.start) as usize;

@@ -1,27 +1,27 @@
-//! Limits for copies that short references cause: data types in objects, vendors and files in devices.
+//! Limits the copies of data types, vendors and referenced files, which short references can multiply.
 
 use crate::limits;
 
-/// Remaining number of items and bytes that may be added.
+/// Remaining number of items and text bytes that references may add.
 #[derive(Debug)]
 pub(super) struct Budget {
-    /// Items that have no element in the file.
+    /// Remaining number of items that may be created without an element in the file.
     items: usize,
-    /// Bytes of text that are copied into items.
+    /// Remaining number of text bytes that may be copied into items.
     bytes: usize,
     pub exceeded: bool,
 }
 
-/// Cost of an addition.
+/// Number of items and text bytes that a copy adds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cost {
     pub items: usize,
-    /// Bytes of text.
+    /// Number of text bytes.
     pub bytes: usize,
 }
 
 impl Cost {
-    /// Returns the cost of text without items.
+    /// Returns the cost of `bytes` bytes of text without an item.
     pub fn text(bytes: usize) -> Self {
         Cost { items: 0, bytes }
     }
@@ -37,12 +37,12 @@ impl Budget {
         }
     }
 
-    /// Extends the budget for a further file of `length` bytes.
+    /// Increases the budget for a further file of `length` bytes.
     pub fn extend(&mut self, length: usize) {
         self.bytes = self.bytes.saturating_add(length.saturating_mul(limits::MAX_COPIES_PER_BYTE));
     }
 
-    /// Returns whether the cost is within the budget, and subtracts it.
+    /// Subtracts `cost` from the budget. Returns false if the budget is too small or was exceeded before.
     pub fn take(&mut self, cost: Cost) -> bool {
         match (self.items.checked_sub(cost.items), self.bytes.checked_sub(cost.bytes)) {
             (Some(items), Some(bytes)) if !self.exceeded => {

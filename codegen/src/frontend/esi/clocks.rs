@@ -1,11 +1,11 @@
-//! Reads distributed clocks.
+//! Reads the settings of distributed clocks.
 
 use super::reader::Reader;
 use crate::frontend::xml::Read;
 use crate::ir::{ClockMode, ClockSyncManager, ClockTime, DistributedClocks};
 use crate::syntax::xml::Tag;
 
-/// Reads the element `Dc` of a device.
+/// Reads the `Dc` element of a device.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<DistributedClocks> {
     let mut clocks = DistributedClocks::default();
     reader.attributes_and_others(parent, [], &mut clocks.attributes)?;

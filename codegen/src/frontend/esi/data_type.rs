@@ -1,4 +1,4 @@
-//! Data types as written, before references are resolved.
+//! Data types as in the file, before references are resolved.
 
 use compact_str::format_compact;
 
@@ -12,11 +12,11 @@ use crate::source::Origin;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// A DataType element.
+/// Contents of a `DataType` element.
 #[derive(Default)]
 pub(super) struct RawType<'a> {
     pub name: Given<'a>,
-    /// Number of the data type in the dictionary.
+    /// Index of the data type in the object dictionary (element `Index`).
     pub code: Option<u32>,
     pub base: Given<'a>,
     pub bits: Option<u32>,
@@ -27,7 +27,7 @@ pub(super) struct RawType<'a> {
     pub origin: Origin,
 }
 
-/// An ArrayInfo element.
+/// Contents of an `ArrayInfo` element.
 #[derive(Default)]
 pub(super) struct Dimension {
     pub lower: i32,
@@ -35,7 +35,7 @@ pub(super) struct Dimension {
     pub origin: Origin,
 }
 
-/// A SubItem element of a DataType.
+/// Contents of a `SubItem` element of a data type.
 #[derive(Default)]
 pub(super) struct RawField<'a> {
     pub sub_index: Option<u16>,
@@ -47,11 +47,11 @@ pub(super) struct RawField<'a> {
     pub info: RawInfo<'a>,
     pub comment: Names<'a>,
     pub origin: Origin,
-    /// Bytes of text that are copied to each item of this sub-item.
+    /// Number of text bytes that each item of this sub-item copies.
     pub weight: usize,
 }
 
-/// Reads a DataType.
+/// Reads a `DataType` element.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawType<'a>) -> Read<()> {
     let start = reader.extensions.len();
     raw.origin = reader.origin(parent);
@@ -64,7 +64,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut 
             "Comment" => reader.name(&tag, &mut raw.comment)?,
             "ArrayInfo" => raw.dimensions.push(dimension(reader, &tag)?),
             "SubItem" => {
-                // The field is filled in place because it is large.
+                // The field is filled in the list to avoid a copy of the large struct.
                 raw.fields.push(RawField::default());
                 if let Some(last) = raw.fields.last_mut() {
                     field(reader, &tag, last)?;
@@ -76,7 +76,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut 
             _ => reader.unknown(&tag)?,
         }
     }
-    // Extensions of a dictionary have the name of their data type as a prefix.
+    // All data types share one list of extensions, so each key starts with the name of its data type.
     for extension in reader.extensions.iter_mut().skip(start) {
         extension.key = format_compact!("{}/{}", brief(&raw.name.text), extension.key);
     }
@@ -115,7 +115,7 @@ fn field<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawField<'
     Ok(())
 }
 
-/// Reads a value of an enumeration: EnumInfo, or an entry of a diagnosis list.
+/// Reads an enumeration value from an `EnumInfo` element or from an entry of a diagnosis list.
 pub(super) fn enum_value<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<EnumValue>> {
     let (mut names, mut comment) = (Names::default(), Names::default());
     let mut value = None;

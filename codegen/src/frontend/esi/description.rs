@@ -1,4 +1,4 @@
-//! Contents of a description, and its references to other files.
+//! Contents of a device description, and its references to other files.
 
 use std::collections::HashSet;
 
@@ -6,14 +6,14 @@ use crate::frontend::xml::Given;
 use crate::ir::{Catalog, CodeTable, PdoEntry};
 use crate::source::Span;
 
-/// Contents of a description, and the files that it refers to.
+/// Contents of a device description, and the files that it refers to.
 #[derive(Default)]
 pub(super) struct Description {
     pub catalog: Catalog,
     pub references: Vec<(Owner, Reference)>,
-    /// Types of entries that may be in the referenced files.
+    /// Types of PDO entries that the referenced files may define.
     pub entry_types: Vec<(Owner, EntryType)>,
-    /// Devices and modules to which a referenced file was not copied.
+    /// Devices and modules to which a referenced file was not copied because of the size limit.
     pub refused: HashSet<Owner>,
 }
 
@@ -29,15 +29,15 @@ impl Description {
 /// Expected content of a referenced file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Target {
-    /// Devices or modules (InfoReference).
+    /// Devices or modules (element `InfoReference`).
     Info,
-    /// Data types and objects (DictionaryFile).
+    /// Data types and objects (element `DictionaryFile`).
     Dictionary,
-    /// Messages (DiagFile).
+    /// Diagnosis messages (element `DiagFile`).
     Diagnosis,
 }
 
-/// Element to which the content of a file belongs.
+/// Element to which the content of a referenced file belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Owner {
     Catalog,
@@ -45,7 +45,7 @@ pub(super) enum Owner {
     Module(usize),
 }
 
-/// A file that the description refers to.
+/// Reference to another file, and the content that is expected in this file.
 #[derive(Clone, Debug)]
 pub(super) struct Reference {
     pub name: String,
@@ -64,16 +64,16 @@ impl Reference {
 pub(super) struct OtherFiles {
     pub files: Vec<Reference>,
     pub types: Vec<EntryType>,
-    /// Messages of a module. They apply to all modules.
+    /// Diagnosis messages of a module, which apply to all modules.
     pub messages: Vec<CodeTable>,
 }
 
-/// Type of a PDO entry that is missing in the dictionary of the device.
+/// Type of a PDO entry that the dictionary of its device or module does not define.
 #[derive(Debug)]
 pub(super) struct EntryType {
-    /// Span of the entry.
+    /// Span of the PDO entry.
     pub entry: Span,
-    /// The name of the type.
+    /// Name of the type.
     pub name: Given<'static>,
 }
 

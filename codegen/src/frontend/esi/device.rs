@@ -1,4 +1,4 @@
-//! Reads devices.
+//! Reads `Device` elements.
 
 use super::description::OtherFiles;
 use super::lower::lower;
@@ -11,7 +11,7 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{Device, EtherCatSettings, SyncManager};
 use crate::syntax::xml::Tag;
 
-/// Facts of a device that are collected until its end.
+/// Contents of a `Device` element that are collected until its end tag.
 #[derive(Default)]
 struct Parts<'a> {
     device: Device,
@@ -24,7 +24,7 @@ struct Parts<'a> {
     has_type: bool,
 }
 
-/// Reads a Device, and the files that it refers to.
+/// Reads a `Device` element. Also returns its references to other files.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Device, OtherFiles)> {
     let (mut parts, start) = (Parts::default(), reader.extensions.len());
     parts.device.origin = reader.origin(parent);

@@ -1,11 +1,11 @@
-//! Reads Info of a device: time limits, ports, electrical data.
+//! Reads the `Info` element of a device: time limits, ports, electrical data.
 
 use super::reader::Reader;
 use crate::frontend::xml::Read;
 use crate::ir::EtherCatSettings;
 use crate::syntax::xml::Tag;
 
-/// Reads the element `Info` of a device.
+/// Reads the `Info` element of a device into `settings`.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, settings: &mut EtherCatSettings) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         match tag.name {

@@ -1,4 +1,4 @@
-//! Reads diagnosis messages.
+//! Reads the diagnosis messages of a device, module or file.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -13,10 +13,11 @@ use crate::ir::{Buses, CodeRow, CodeTable, Documentation, LocalText, SharedList,
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
-/// Flags of a message, in the order of the columns.
+/// Names of the flags of a diagnosis message, in the order of the columns.
 const COLUMNS: [&str; 4] = ["DiagClass", "DiagReset", "DiagReaction", "DiagType"];
 
-/// Reads DiagMessages: a table of the messages, and a table for each list of numbers that their flags use.
+/// Reads a `DiagMessages` element. Returns a table of the messages, and a table for each list of codes that the flags
+/// use.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Vec<CodeTable>> {
     let origin = reader.origin(parent);
     let table = |name: &'static str, columns: &[&'static str]| CodeTable {
@@ -90,7 +91,8 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<Cod
     Ok(Some(CodeRow { printed, printed_cells, code, last, name, names, availability, documentation, cells }))
 }
 
-/// Returns a hexadecimal code (`#x8000`) in the notation of all outputs; empty for a decimal code.
+/// Returns a hexadecimal code such as `#x8000` in the notation of all outputs (`0x8000`). Returns an empty string for a
+/// decimal code.
 fn printed(text: &str, code: i128) -> CompactString {
     match text.trim_start().starts_with('#') {
         true => format!("0x{code:04X}").into(),
@@ -98,14 +100,14 @@ fn printed(text: &str, code: i128) -> CompactString {
     }
 }
 
-/// Number of previous elements in which a text in another language is searched.
+/// Maximum number of previous elements that are searched for a translation of the same text.
 const NEIGHBOURS: usize = 16;
 
-/// A title, and its text in the languages of the file.
+/// Title of a paragraph, and its text in each language.
 type Paragraph<'a> = (&'a str, Names<'a>);
 
 fn cause<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, paragraphs: &mut Vec<Paragraph<'a>>) -> Read<()> {
-    // The number of a cause has no meaning.
+    // The attribute `Idx` is read and dropped, because the number of a cause has no meaning.
     reader.attributes(parent, ["Idx"])?;
     let first = paragraphs.len();
     while let Some(tag) = reader.child(parent)? {
@@ -125,7 +127,7 @@ fn paragraph<'a>(
 ) -> Read<()> {
     let mut names = Names::default();
     reader.name(tag, &mut names)?;
-    // Several elements with the same name are one text in several languages.
+    // Elements with the same name are translations of one text if their languages differ.
     let is_other = |(title, texts): &&mut Paragraph<'_>| *title == tag.name && !texts.shares_language(&names);
     let first = first.max(paragraphs.len().saturating_sub(NEIGHBOURS));
     match paragraphs.iter_mut().skip(first).find(is_other) {
@@ -135,7 +137,7 @@ fn paragraph<'a>(
     Ok(())
 }
 
-/// Joins the paragraphs into one text, and into one text for each other language.
+/// Joins the paragraphs into one documentation text for each language.
 fn documentation(
     reader: &mut Reader<'_, '_>,
     paragraphs: &[Paragraph<'_>],
@@ -157,7 +159,7 @@ fn documentation(
         names.all().map(|local| (local.language, local.text)).collect()
     };
     let texts: Vec<_> = paragraphs.iter().map(by_language).collect();
-    // A paragraph without a translation is copied to each language.
+    // Each language gets a copy of every paragraph that has no translation, which the budget must allow.
     let affordable = reader.derive(Cost::text(languages.len().saturating_mul(text.len())), message);
     let in_language = |language: &CompactString| {
         let paragraphs =

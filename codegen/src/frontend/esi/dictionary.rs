@@ -1,4 +1,4 @@
-//! Dictionaries as written.
+//! Reads `Dictionary` elements, before references are resolved.
 
 use super::data_type::{self, RawType};
 use super::object::{self, RawObject, RawSub};
@@ -9,19 +9,19 @@ use crate::ir::CompactString;
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
-/// Contents of the dictionaries of a device or module. Data types may be after the objects that use them.
+/// Contents of the dictionaries of a device or module. A data type may come after the objects that use it.
 #[derive(Default)]
 pub(super) struct Dictionary<'a> {
     pub types: Vec<RawType<'a>>,
     pub objects: Vec<RawObject<'a>>,
-    /// The sub-items of all objects.
+    /// Sub-items of all objects.
     pub subs: Vec<RawSub<'a>>,
-    /// Symbols of units that the dictionary defines, by notation index.
+    /// Notation indices and symbols of the units that the dictionary defines.
     pub units: Vec<(u32, CompactString)>,
 }
 
 impl<'a> Dictionary<'a> {
-    /// Reads a Dictionary element and adds its contents.
+    /// Reads a `Dictionary` element and adds its contents.
     pub fn read(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
         while let Some(list) = reader.child(parent)? {
             match list.name {

@@ -1,4 +1,4 @@
-//! Reads a file.
+//! Reads the root element of a file.
 
 use super::budget::Budget;
 use super::description::{Description, OtherFiles};
@@ -16,7 +16,7 @@ use crate::source::{FileId, Source};
 use crate::syntax::xml::{Cursor, Tag};
 use crate::text::brief;
 
-/// Reads a file.
+/// Reads a file and adds its contents to `description`.
 pub(super) fn document(
     source: &Source,
     file: FileId,
@@ -46,7 +46,7 @@ pub(super) fn document(
     Ok(())
 }
 
-/// Reports and ignores content after the root element.
+/// Reports content after the root element and ignores it.
 fn after_root(reader: &mut Reader<'_, '_>) {
     loop {
         match reader.cursor.read() {
@@ -62,7 +62,7 @@ fn after_root(reader: &mut Reader<'_, '_>) {
     }
 }
 
-/// Reads a dictionary without a device.
+/// Reads the root element of a file that contains a dictionary but no device.
 fn dictionary_only<'a>(reader: &mut Reader<'a, '_>, root: &Tag<'a>, description: &mut Description) -> Read<()> {
     let origin = reader.origin(root);
     let mut device = Device { dictionary_only: true, origin, ..Device::default() };
@@ -78,7 +78,7 @@ fn dictionary_only<'a>(reader: &mut Reader<'a, '_>, root: &Tag<'a>, description:
     Ok(())
 }
 
-/// Reads diagnosis messages without a device.
+/// Reads the root element of a file that contains diagnosis messages but no device.
 fn messages_only<'a>(reader: &mut Reader<'a, '_>, root: &Tag<'a>, description: &mut Description) -> Read<()> {
     let [version] = reader.attributes(root, ["Version"])?;
     reader.note("EtherCATDiag@Version", &version);

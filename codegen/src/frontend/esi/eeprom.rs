@@ -1,11 +1,11 @@
-//! Reads the contents of the EEPROM, and registers of the slave controller.
+//! Reads the contents of the EEPROM, and register values of the slave controller.
 
 use super::reader::Reader;
 use crate::frontend::xml::Read;
 use crate::ir::{Eeprom, EtherCatSettings};
 use crate::syntax::xml::Tag;
 
-/// Reads Eeprom.
+/// Reads an `Eeprom` element.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Eeprom> {
     let [assign] = reader.attributes(parent, ["AssignToPdi"])?;
     let mut eeprom = Eeprom { assign_to_pdi: reader.flag(&assign), ..Eeprom::default() };
@@ -28,7 +28,7 @@ fn octets<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Vec<u8>> {
     Ok(reader.octets(&given).unwrap_or_default())
 }
 
-/// Reads a category: its number, and its content as bytes, text or number.
+/// Reads an EEPROM category: its number, and its content from bytes, text or a number.
 fn category<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<(u16, Vec<u8>)>> {
     let [preserve] = reader.attributes(parent, ["PreserveOnlineData"])?;
     reader.note("Category@PreserveOnlineData", &preserve);
@@ -52,7 +52,7 @@ fn category<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<(u
     Ok(number.map(|number| (number, data)))
 }
 
-/// Reads ESC. The elements are named after register addresses, such as `Reg0108`.
+/// Reads an `ESC` element. The child elements have the names of register addresses, such as `Reg0108`.
 pub(super) fn registers<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,

@@ -1,4 +1,4 @@
-//! Entries of an object: the values that its data type defines, and their sub-items in the object.
+//! Entries of an object, which its data type defines, and their assignment to the sub-items of the object.
 
 use std::collections::HashMap;
 
@@ -10,22 +10,22 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Type;
 use crate::text::brief;
 
-/// Number of sub-indices of an object, including 0.
+/// Number of possible sub-indices of an object, including sub-index 0.
 const SUB_INDICES: u32 = 256;
 
 /// Maximum number of diagnostics about repeated sub-indices of an object.
 const MAX_REPORTED: usize = 16;
 
-/// A value of an object, as its data type defines it.
+/// Value of an object as the object's data type defines it.
 pub(super) struct Entry<'t, 'a> {
     pub sub_index: u8,
     pub ty: Type,
     pub field: &'t RawField<'a>,
-    /// Number of the element if the field is an array.
+    /// Number of the array element, counted from 1; `None` if the field is not an array.
     pub element: Option<u32>,
 }
 
-/// Returns the entries of an object, sorted by sub-index. Each element of an array is an entry.
+/// Returns the entries of an object, sorted by sub-index. Each element of an array is a separate entry.
 pub(super) fn of_object<'t, 'a>(
     reader: &mut Reader<'_, '_>,
     types: &Types<'_, 'a>,
@@ -46,8 +46,8 @@ pub(super) fn of_object<'t, 'a>(
         }
         for number in 0..count {
             let Some(sub_index) = first.checked_add(number).and_then(|sub| u8::try_from(sub).ok()) else {
-                // Only the first such field is reported, because a type may have many and may be used by many
-                // objects.
+                // Only the first field beyond sub-index 255 is reported. A type may have many such fields, and many
+                // objects may use the type.
                 if !std::mem::replace(&mut is_reported, true) {
                     let message = "an object has at most 255 sub-indices after sub-index 0";
                     reader.report(&codes::SUB_INDEX_RANGE, field.origin.span, message, "left out");
@@ -74,7 +74,7 @@ fn span_of(
     let given = field.sub_index.map(u32::from);
     let Some((element, lower, count)) = types.elements(ty) else { return single(given.unwrap_or(next)) };
     let first = given.unwrap_or_else(|| u32::try_from(lower).unwrap_or(0).max(next));
-    // An array type of ETG.1000.6 is a single value. So is an array whose elements would overlap the next field.
+    // Array types of ETG.1000.6, and arrays whose elements would overlap the next field, are single values.
     let room = following.is_none_or(|following| u32::from(following) >= first.saturating_add(count));
     if field.ty.text.starts_with("ARRAY") || !room {
         return single(first);
@@ -111,17 +111,17 @@ fn sorted<'t, 'a>(
 
 /// Assignment of the sub-items of an object to the entries of its data type.
 pub(super) struct Matched {
-    /// Sub-item of each entry.
+    /// Position of each entry's sub-item in the object, if the object has one.
     pub of_entry: Vec<Option<usize>>,
-    /// Sub-items without an entry.
+    /// Positions of the sub-items that belong to no entry.
     pub extra: Vec<usize>,
 }
 
-/// Matches sub-items by name if all names occur in the type and are unique there. Otherwise matches them by position.
+/// Assigns each sub-item to the entry with the same name. Uses the position if the name is unknown or not unique.
 pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawSub<'_>]) -> Matched {
     let mut matched = Matched { of_entry: vec![None; entries.len()], extra: Vec::new() };
     let named = |entry: &Entry<'_, '_>, sub: &RawSub<'_>| sub.name.text == entry.field.name.text;
-    // Elements of an array have no names in the data type.
+    // The data type declares no names for array elements, so any name fits.
     let fits = |(entry, sub): (&Entry<'_, '_>, &RawSub<'_>)| entry.element.is_some() || named(entry, sub);
     if entries.iter().zip(subs).all(fits) && subs.len() <= entries.len() {
         (0..subs.len()).zip(&mut matched.of_entry).for_each(|(at, place)| *place = Some(at));
@@ -134,7 +134,7 @@ pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], s
         by_name.entry(entry.field.name.text.as_ref()).or_insert(at);
     }
     if by_name.len() < singles.len() && subs.len() == entries.len() {
-        // A sub-item with a repeated name can belong to several entries.
+        // A repeated name does not identify the entry.
         return by_position(reader, entries, subs);
     }
     let mut next = 0;
@@ -158,7 +158,7 @@ pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], s
     matched
 }
 
-/// Matches each sub-item of the object with the entry at the same position.
+/// Assigns each sub-item of the object to the entry at the same position.
 fn by_position(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawSub<'_>]) -> Matched {
     for (entry, sub) in entries.iter().zip(subs) {
         let (name, of_type) = (&sub.name.text, &entry.field.name.text);

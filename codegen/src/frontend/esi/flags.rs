@@ -1,4 +1,4 @@
-//! Flags of objects and sub-items: access, mapping, backup.
+//! Reads the flags of objects and sub-items: access rights, PDO mapping, backup.
 
 use super::reader::Reader;
 use crate::diagnostics::codes;
@@ -8,10 +8,10 @@ use crate::source::Span;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// Contents of the element Flags.
+/// Contents of a `Flags` element.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Flags {
-    /// Whether the element is present.
+    /// True if the file contains the element.
     pub given: bool,
     pub access: Option<Access>,
     pub access_at: Span,
@@ -20,7 +20,7 @@ pub(super) struct Flags {
     pub category: Option<Category>,
     pub backup: Option<bool>,
     pub setting: Option<bool>,
-    /// Flags that are rarely used.
+    /// Flags that few objects have.
     pub more: Option<Box<MoreFlags>>,
 }
 
@@ -31,7 +31,7 @@ pub(super) struct MoreFlags {
     pub write_states: Vec<CompactString>,
 }
 
-/// Reads the element Flags.
+/// Reads a `Flags` element.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Flags> {
     let mut flags = Flags { given: true, ..Flags::default() };
     while let Some(tag) = reader.child(parent)? {
@@ -91,7 +91,7 @@ fn access<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, flags: &mut Flags) -> 
     Ok(())
 }
 
-/// Returns the states in a list such as `PreOP_SafeOP`.
+/// Splits a list of EtherCAT states such as `PreOP_SafeOP`.
 fn states(given: &Given<'_>) -> Vec<CompactString> {
     given.text.split('_').filter(|state| !state.is_empty()).map(CompactString::from).collect()
 }
@@ -109,7 +109,7 @@ fn category(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<Category> 
     }
 }
 
-/// Reads the PDO mapping. R means that the item can be mapped into an RxPDO, T into a TxPDO.
+/// Reads a PDO mapping. `R` means that the item can be mapped into an RxPDO, `T` into a TxPDO.
 fn mapping(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<Mappable> {
     let mut mappable = Mappable::default();
     for letter in given.text.bytes() {
@@ -140,28 +140,28 @@ impl Flags {
         self.more.get_or_insert_default()
     }
 
-    /// Returns the number of bytes that a copy of the texts in these flags costs in the budget for copied facts.
+    /// Returns the cost in bytes of a copy of the texts in these flags.
     pub fn weight(&self) -> usize {
         let Some(more) = self.more.as_deref() else { return 0 };
         let states = more.read_states.iter().chain(&more.write_states);
         states.chain(&more.safety).map(|text| size_of::<CompactString>() + text.len()).sum()
     }
 
-    /// Returns the access rights of a sub-item; by default those of its object.
+    /// Returns the access rights of a sub-item, or those of its object if the sub-item declares none.
     pub fn access_or<'f>(&'f self, object: &'f Flags) -> (Option<Access>, Span) {
         let flags = if self.access.is_some() { self } else { object };
         (flags.access, flags.access_at)
     }
 
-    /// Returns the PDOs into which a sub-item can be mapped. A sub-item with flags but without a mapping is not
-    /// mappable. A sub-item without flags has the mapping of its object, except sub-index 0, which is not mappable.
+    /// Returns the PDOs into which a sub-item can be mapped. A sub-item with flags but without a PDO mapping cannot be
+    /// mapped. A sub-item without flags has the PDO mapping of its object, except sub-index 0, which cannot be mapped.
     pub fn mappable_or(&self, object: &Flags, sub_index: u8) -> (Mappable, Span) {
         let flags = if self.given || sub_index == 0 { self } else { object };
         (flags.mappable.unwrap_or_default(), flags.mappable_at)
     }
 
-    /// Returns storage, safety and states of a sub-item. Without flags, it has the storage of its object. By default,
-    /// it has the safety and states of its object.
+    /// Returns the storage, safety and access states of a sub-item. A sub-item without flags has the storage of its
+    /// object. A sub-item that declares no safety or access states has those of its object.
     pub fn behaviour_or(&self, object: &Flags) -> Option<Box<Behaviour>> {
         let stored = if self.given { self } else { object };
         let (backup, setting) = (stored.backup.unwrap_or(false), stored.setting.unwrap_or(false));

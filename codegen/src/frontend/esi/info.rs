@@ -10,7 +10,7 @@ use crate::ir::{Extension, Family, Header, LocalText};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
-/// Header of a file and its vendor.
+/// Header and vendor of a file.
 #[derive(Default)]
 struct Vendor<'a> {
     id: Given<'a>,
@@ -19,7 +19,7 @@ struct Vendor<'a> {
     header: Header,
 }
 
-/// Reads EtherCATInfo or EtherCATModule.
+/// Reads an `EtherCATInfo` or `EtherCATModule` element.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, description: &mut Description) -> Read<()> {
     let catalog = &mut description.catalog;
     let (first_device, first_module) = (catalog.devices.len(), catalog.modules.len());
@@ -69,7 +69,7 @@ fn read_list<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, description: &mut 
                 Ok(())
             })?;
         }
-        // The PDO templates in this list are read by the PDOs that use them.
+        // PDOs that refer to the templates in this list read the templates.
         "Pdos" => reader.skip(list)?,
         _ => reader.unknown(list)?,
     }
@@ -98,7 +98,7 @@ fn read_vendor<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, vendor: &mut V
     Ok(())
 }
 
-/// Sets the vendor of the devices and modules of a file. The vendor may be after them.
+/// Sets the vendor of all devices and modules of a file. The `Vendor` element may come after the devices and modules.
 fn identify(
     reader: &mut Reader<'_, '_>,
     root: Span,
@@ -140,7 +140,7 @@ fn identify(
     }
 }
 
-/// Reads a Group element: a family of devices.
+/// Reads a `Group` element, which describes a family of devices.
 fn family<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, description: &mut Description) -> Read<()> {
     let fields = reader.attributes(parent, ["SortOrder", "ParentGroup"])?;
     let [order, above] = &fields;

@@ -1,4 +1,4 @@
-//! Default value, limits and unit of a value as written, and its properties.
+//! Default value, limits, unit and properties of an object or sub-item, before conversion.
 
 use compact_str::format_compact;
 
@@ -9,11 +9,11 @@ use crate::ir::Extension;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// Default value, limits and unit of a value.
+/// Default value, limits, unit and display name of an object or sub-item.
 #[derive(Default)]
 pub(super) struct RawInfo<'a> {
     pub default: Option<RawValue<'a>>,
-    /// Limits, unit and display name, which few values have.
+    /// Limits, unit and display name, which few objects have.
     pub more: Option<Box<MoreInfo<'a>>>,
 }
 
@@ -25,7 +25,7 @@ pub(super) struct MoreInfo<'a> {
     pub display: Names<'a>,
 }
 
-/// A value and its notation.
+/// Value as in the file, and its notation.
 pub(super) struct RawValue<'a> {
     pub form: Form,
     pub given: Given<'a>,
@@ -36,14 +36,14 @@ pub(super) struct RawValue<'a> {
 pub(super) enum Form {
     /// Bytes in hexadecimal, in memory order.
     Data,
-    /// A number.
+    /// Decimal or hexadecimal number.
     Number,
-    /// A text.
+    /// Text in a string type.
     Text,
 }
 
 impl<'a> RawInfo<'a> {
-    /// Returns the number of bytes of text that a copy of this value needs.
+    /// Returns the number of text bytes that a copy of these values needs.
     pub fn weight(&self) -> usize {
         let length = |raw: &Option<RawValue<'a>>| raw.as_ref().map_or(0, |raw| raw.given.text.len());
         let of_more =
@@ -51,7 +51,7 @@ impl<'a> RawInfo<'a> {
         length(&self.default) + self.more.as_deref().map_or(0, of_more)
     }
 
-    /// Reads a child of Info, or of a SubItem of a data type.
+    /// Reads a child of an `Info` element, or of a data type's `SubItem` element.
     pub fn read(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<()> {
         let form = match tag.name {
             "DefaultData" | "MinData" | "MaxData" => Form::Data,
@@ -83,18 +83,18 @@ impl<'a> RawInfo<'a> {
         self.more.get_or_insert_default()
     }
 
-    /// Returns whether the value has neither a default value nor limits, a unit or a display name.
+    /// Returns whether there is no default value, limit, unit or display name.
     pub fn is_empty(&self) -> bool {
         self.default.is_none() && self.more.is_none()
     }
 }
 
-/// Reads Properties.
+/// Reads a `Properties` element.
 pub(super) fn properties<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
     reader.each(parent, "Property", property)
 }
 
-/// Keeps a Property under its name.
+/// Reads a `Property` element and stores its value as an extension with the name of the property.
 pub(super) fn property<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
     let (mut name, mut value) = (Given::default(), Given::default());
     let mut description = Names::default();

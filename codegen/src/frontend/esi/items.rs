@@ -1,4 +1,4 @@
-//! Converts objects and their data types to groups and items.
+//! Converts objects and their data types to groups and items of the IR.
 
 use compact_str::{format_compact, CompactString};
 
@@ -20,8 +20,8 @@ use crate::frontend::xml::Given;
 use crate::ir::{Access, Binding, Group, GroupKind, Item, ObjectCode, Quantity, Type};
 use crate::text::brief;
 
-/// Converts the objects of a dictionary to groups, sorted by index. Adds types that are only defined by their name to
-/// `types`.
+/// Converts the objects of a dictionary to groups, sorted by index. Adds types that only their name defines, such as
+/// `BITARR8`, to `types`.
 pub(super) fn build<'a>(
     reader: &mut Reader<'_, '_>,
     types: &mut Types<'_, 'a>,
@@ -110,7 +110,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         ty
     }
 
-    /// Builds the item of an object with a single value.
+    /// Builds the item of an object that has a single value.
     fn value(&mut self, reader: &mut Reader<'_, '_>, group: &Group, index: u16, raw: &RawObject<'a>, ty: Type) -> Item {
         let mut item = Item::new(Binding::coe(index, 0));
         item.name = group.name.clone();
@@ -146,7 +146,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
             if !reader.derive(cost, raw.origin.span) {
                 break;
             }
-            // The item is filled in place because it is large.
+            // The item is filled in the list to avoid a copy of the large struct.
             group.items.push(Item::new(Binding::coe(raw.index.unwrap_or(0), entry.sub_index)));
             if let Some(item) = group.items.last_mut() {
                 let part = parts.remove(&position).unwrap_or_default();
@@ -165,7 +165,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
     }
 
-    /// Keeps the Info of a record as a whole.
+    /// Stores the default value and limits of a whole record as extensions of the group.
     fn keep_whole(&self, raw: &RawObject<'a>, group: &mut Group) {
         let more = raw.info.more.as_deref();
         let limits = more.into_iter().flat_map(|more| [("Min", more.min.as_ref()), ("Max", more.max.as_ref())]);
@@ -215,8 +215,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
     }
 
-    /// Adds the sub-items of an object that its data type lacks. They follow the other entries and have the type of
-    /// the last one.
+    /// Adds the sub-items of an object that its data type does not define. These sub-items get the sub-indices after
+    /// the last entry, and the type of the last entry.
     fn extra(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -248,7 +248,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
     }
 
-    /// Adds the sub-items of an object whose type is not a record. They are numbered in the order of the file.
+    /// Adds the sub-items of an object whose type is not a record. The sub-indices follow the order of the file.
     fn untyped(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -273,7 +273,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
             if !reader.derive(Cost::text(raw.flags.weight()), sub.origin.span) {
                 break;
             }
-            // Sub-index 0 is the number of the other sub-indices.
+            // Sub-index 0 contains the number of the other sub-indices.
             let ty = if sub_index == 0 { Type::Unsigned(8) } else { Type::Opaque(None) };
             let item =
                 self.plain(reader, Binding::coe(raw.index.unwrap_or(0), sub_index), ty, &raw.flags, &raw.flags, sub);
@@ -283,7 +283,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         ObjectCode::Record
     }
 
-    /// Builds an item that the data type does not define.
+    /// Builds the item of a sub-item that the data type does not define.
     fn plain(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -303,7 +303,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         item
     }
 
-    /// Sets access and mapping. `sub_index` is `Some` for an entry of a record.
+    /// Sets the access rights, PDO mapping and storage of an item. `sub_index` is `Some` for an entry of a record.
     fn flags(&self, item: &mut Item, flags: &Flags, object: &Flags, sub_index: Option<u8>) {
         let (access, at) = flags.access_or(object);
         (item.access, item.at.access) = (access.unwrap_or(Access::ReadOnly), at);
@@ -314,8 +314,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         item.behaviour = flags.behaviour_or(object);
     }
 
-    /// Sets default value, limits, unit and display name. Facts of the object take precedence over those of the data
-    /// type.
+    /// Sets the default value, limits, unit and display name of an item. Values of the object take precedence over
+    /// values of the data type.
     fn info(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, raw: &RawInfo<'a>, of_type: Option<&RawInfo<'a>>) {
         let of_type = of_type.filter(|info| !info.is_empty());
         if raw.is_empty() && of_type.is_none() {
@@ -353,7 +353,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
     fn unit(&self, reader: &mut Reader<'_, '_>, given: &Given<'_>) -> CompactString {
         let number = number::parse(&given.text).and_then(|number| u32::try_from(number.value).ok());
         match number {
-            // A unit that the file defines may have a long symbol.
+            // A unit symbol that the file defines may be long, so the budget must allow each copy.
             Some(number) => unit::text(number, self.units)
                 .filter(|text| reader.derive(Cost::text(text.len()), given.span))
                 .unwrap_or_else(|| given.compact()),
@@ -364,7 +364,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
     }
 
-    /// Reports an object without access rights.
+    /// Reports an object for which the file does not declare access rights.
     fn access_given(&self, reader: &mut Reader<'_, '_>, group: &Group, flags: &Flags) {
         if flags.access.is_some() || !reader.diagnostics.wants(&codes::ESI_MISSING_ACCESS) {
             return;

@@ -1,4 +1,4 @@
-//! Converts the dictionary and the PDOs of a device or module to types, groups and process data.
+//! Converts the dictionary and the PDOs of a device or module to types, groups and process data of the IR.
 
 use super::description::{EntryType, OtherFiles, Target};
 use super::dictionary::Dictionary;
@@ -13,7 +13,7 @@ use crate::ir::{Group, PdoEntry, PdoEntryKind, ProcessData, Type, TypeDef};
 
 /// Lowers the data types and objects of a device or module, and the PDOs whose entries use these types.
 ///
-/// Types that may be in a file of `other_files` are resolved later.
+/// PDO entries whose type may be in a file of `other_files` are resolved later.
 pub(super) fn lower<'a>(
     reader: &mut Reader<'_, '_>,
     dictionary: Dictionary<'a>,
@@ -35,7 +35,7 @@ pub(super) fn lower<'a>(
     (types.into_defs(), groups)
 }
 
-/// Returns the type of an entry: the type that it names, or a type of its length in bits.
+/// Returns the type that a PDO entry names, or an integer type of the entry's length if it names none.
 fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Given<'_>, entry: &PdoEntry) -> Type {
     if given.is_empty() {
         return match u8::try_from(entry.bits) {
@@ -43,7 +43,7 @@ fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Gi
             _ => Type::Opaque(None),
         };
     }
-    // The type name of padding has no effect unless it is a basic type.
+    // The type name of a padding entry has no effect unless it is a basic type.
     if entry.kind == PdoEntryKind::Padding && type_name::basic(&given.text).is_none() {
         return Type::Opaque(None);
     }
@@ -52,7 +52,7 @@ fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Gi
     ty
 }
 
-/// Reports an entry whose length differs from the length `bits` of its type.
+/// Reports a PDO entry whose length differs from the length of its type, which is `bits`.
 pub(super) fn check_length(diagnostics: &mut Diagnostics, entry: &PdoEntry, ty: &Given<'_>, bits: Option<u32>) {
     match bits {
         Some(bits)

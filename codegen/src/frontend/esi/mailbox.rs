@@ -1,4 +1,4 @@
-//! Reads the mailbox: its protocols, and the commands that a master sends at start-up.
+//! Reads the mailbox of a device or module: its protocols and its start-up commands.
 
 use super::reader::Reader;
 use super::slot_index::SlotIndex;
@@ -7,7 +7,7 @@ use crate::frontend::xml::Read;
 use crate::ir::{Coe, CompactString, Extension, InitCommand, Mailbox, Protocol};
 use crate::syntax::xml::Tag;
 
-/// Reads the Mailbox of a device or module.
+/// Reads the `Mailbox` element of a device or module.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Mailbox> {
     let [data_link, real_time] = reader.attributes(parent, ["DataLinkLayer", "RealTimeMode"])?;
     let mut mailbox =
@@ -34,7 +34,7 @@ fn coe<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Coe> {
     let [info, assign, config, upload, complete, segmented, history] =
         reader.attributes(parent, NAMES)?.map(|given| reader.flag(&given));
     let others = reader.extensions_since(start);
-    // Extension keys have the form `CoE@EdsFile`. Attributes of a protocol need no element name.
+    // Extension keys have the form `CoE@EdsFile`. Attributes of a protocol omit the element name.
     let attribute = |extension: Extension| {
         let name = extension.key.rsplit('@').next().map(CompactString::from);
         (name.unwrap_or_default(), extension.value)
@@ -68,7 +68,7 @@ fn protocol<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Protocol>
             "InitCmd" => protocol.init_commands.push(init_command(reader, &tag)?),
             "DiagFile" => reader.note_text(&tag)?,
             "DiagMessages" => reader.keep(&tag)?,
-            // VoE may contain any element.
+            // A `VoE` element may contain any element.
             _ if parent.name == "VoE" => reader.keep(&tag)?,
             _ => reader.unknown(&tag)?,
         }

@@ -1,23 +1,23 @@
 //! Converts EtherCAT slave information (ESI, ETG.2000) to IR.
 //!
-//! Elements may be in any order, because real files do not follow the schema. A file is read once. Facts that depend
-//! on later elements are collected and resolved at the end of the common parent element. Examples are the data types
-//! of objects and the vendor of devices. Data types, objects and PDOs belong to one device or module. Referenced
-//! files are read at the end.
+//! The reader accepts elements in any order, because real files do not follow the schema. It reads each file once.
+//! Facts that depend on later elements are resolved at the end of the common parent element. Examples are the data
+//! types of objects and the vendor of devices. Data types, objects and PDOs belong to one device or module. Referenced
+//! files are read last.
 //!
 //! | file | subject |
 //! |---|---|
-//! | `read`, `document`, `references` | a description, a single file, and the files that it refers to (`description`) |
-//! | `reader`, `text`, `number`, `slot_index` | the state of reading; texts, numbers and indices of ETG.2000 |
-//! | `budget` | limits for copies that short references cause |
+//! | `read`, `document`, `references`, `description` | the main file, single files, and references to other files |
+//! | `reader`, `text`, `number`, `slot_index` | reader state; texts, numbers and indices of ETG.2000 |
+//! | `budget` | limits for the copies that short references cause |
 //! | `info` | the vendor, groups, lists of devices and modules |
 //! | `device`, `device_info`, `eeprom` | devices |
 //! | `sync`, `mailbox`, `clocks` | FMMUs and sync managers; the mailbox; distributed clocks |
 //! | `pdo`, `pdos`, `templates` | PDOs and their entries; PDO templates of old files |
-//! | `slots`, `modules` | slots, and the modules that fit |
+//! | `slots`, `modules` | slots, and the modules that fit into them |
 //! | `profile`, `diagnosis` | profiles, diagnosis messages |
 //! | `dictionary` | dictionaries as written: `data_type`, `object`, `info_value`, `flags` |
-//! | `lower` | dictionaries and PDOs to the IR: `types`, `items`, `entries`, `value`, `array_default` |
+//! | `lower` | conversion of dictionaries and PDOs to the IR: `types`, `items`, `entries`, `value`, `array_default` |
 
 mod array_default;
 mod budget;

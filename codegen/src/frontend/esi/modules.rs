@@ -19,7 +19,7 @@ use crate::ir::{
 use crate::limits;
 use crate::syntax::xml::Tag;
 
-/// Reads a Module, and the files that it refers to.
+/// Reads a `Module` element. Also returns its references to other files.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Module, OtherFiles)> {
     let start = reader.extensions.len();
     let mut module = Module { origin: reader.origin(parent), ..Module::default() };
@@ -72,7 +72,7 @@ fn module_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Modu
     Ok(())
 }
 
-/// Reads the start-up commands of a module. The supported protocols become extensions.
+/// Reads the mailbox of a module. Stores the start-up commands in `module`, and the supported protocols as extensions.
 fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module) -> Read<()> {
     let mailbox = mailbox::read(reader, tag)?;
     let mut keep = |key: CompactString, value: &str| {
@@ -100,7 +100,7 @@ fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module)
     Ok(())
 }
 
-/// Keeps the mailbox protocols except CoE.
+/// Passes the mailbox protocols of a module, except CoE, to `keep`, which stores them as extensions.
 fn protocols(mailbox: &Mailbox, keep: &mut impl FnMut(CompactString, &str)) {
     let flags = [("DataLinkLayer", mailbox.data_link_layer), ("RealTimeMode", mailbox.real_time)];
     for (name, _) in flags.into_iter().filter(|(_, is_set)| *is_set) {
@@ -120,7 +120,7 @@ fn protocols(mailbox: &Mailbox, keep: &mut impl FnMut(CompactString, &str)) {
     }
 }
 
-/// Finds the modules of the catalog that fit into the slots of each device.
+/// Adds the modules of the catalog that fit into the slots of each device.
 pub(super) fn plug(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     let Catalog { devices, modules, .. } = catalog;
     let known = Known::new(modules, diagnostics);
@@ -135,7 +135,7 @@ pub(super) fn plug(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The modules of a catalog by ident number and class.
+/// Positions of the modules in a catalog, by ident number and class.
 struct Known<'m> {
     by_ident: HashMap<u32, Vec<u32>>,
     by_class: HashMap<&'m CompactString, Vec<u32>>,
@@ -164,7 +164,8 @@ impl<'m> Known<'m> {
         known
     }
 
-    /// Adds the modules that fit into the slots of a device. Returns false if there are more than `left`.
+    /// Adds the modules that fit into the slots of a device, and subtracts their number from `left`. Returns false if
+    /// `left` is too small.
     fn plug(
         &self,
         device: &mut Device,
@@ -200,7 +201,7 @@ impl<'m> Known<'m> {
     }
 }
 
-/// Adds a range of slots. Merges it with the last range if they overlap or are adjacent.
+/// Adds a range of slot numbers. Merges the new range with the last range if the two overlap or are adjacent.
 fn push_range(numbers: &mut Numbers, first: u16, last: u16) {
     match numbers.0.last_mut() {
         Some(range) if range.1 >= first => range.1 = range.1.max(last),
@@ -209,7 +210,7 @@ fn push_range(numbers: &mut Numbers, first: u16, last: u16) {
     }
 }
 
-/// Reports a slot without a fitting module. The first such diagnostic of a file has a help text.
+/// Reports a slot into which no module fits. Only the first such diagnostic of a file has a help text.
 fn nothing_fits(device: &Device, slot: u16, is_first: bool, diagnostics: &mut Diagnostics) {
     let message = format!("no module of this description fits into slot {slot}");
     let found = Diagnostic::new(&codes::NO_MODULE_FITS, device.origin.span, message).label("the slot stays empty");

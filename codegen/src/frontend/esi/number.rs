@@ -6,13 +6,13 @@ use crate::frontend::xml::{Given, Read};
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// A number, and whether the number was written as a bit pattern.
+/// Number, and whether the file writes it as a bit pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Number {
     pub value: i128,
-    /// Whether the number is hexadecimal and without a sign.
+    /// True if the number is hexadecimal and has no sign.
     pub hex: bool,
-    /// How the notation deviates from ETG.2000.
+    /// Deviation of the notation from ETG.2000.
     pub fault: Option<Fault>,
 }
 
@@ -25,8 +25,8 @@ pub(super) enum Fault {
     TwoPrefixes,
 }
 
-/// Reads decimal digits with an optional sign, or hexadecimal digits after `#x`, `0x` or both. Digits with a letter
-/// are hexadecimal.
+/// Reads decimal digits with an optional sign, or hexadecimal digits after `#x`, `0x` or both. Digits without a prefix
+/// are hexadecimal if one of them is a letter.
 pub(super) fn parse(text: &str) -> Option<Number> {
     let bytes = text.as_bytes();
     if let Some(value) = decimal(bytes) {
@@ -44,7 +44,7 @@ pub(super) fn parse(text: &str) -> Option<Number> {
     hexadecimal(digits).map(|value| Number { value, hex: true, fault })
 }
 
-/// Reads a number that may have a sign.
+/// Reads the number after a sign: decimal digits, or hexadecimal digits with a prefix.
 fn signed(bytes: &[u8]) -> Option<i128> {
     match prefixed(bytes) {
         Some(digits) => hexadecimal(digits),
@@ -59,7 +59,7 @@ fn prefixed(bytes: &[u8]) -> Option<&[u8]> {
     }
 }
 
-/// Reads decimal digits. A number with more than 64 bits fits no field and is rejected.
+/// Reads an unsigned decimal number. Returns `None` for a number with more than 64 bits, which no field can contain.
 fn decimal(digits: &[u8]) -> Option<u64> {
     if digits.is_empty() {
         return None;
@@ -74,7 +74,7 @@ fn decimal(digits: &[u8]) -> Option<u64> {
 }
 
 fn hexadecimal(digits: &[u8]) -> Option<i128> {
-    // Leading zeros do not count.
+    // Leading zeros do not count toward the maximum of 16 digits.
     let zeros = digits.iter().take_while(|&&digit| digit == b'0').count();
     if digits.is_empty() || digits.len() - zeros > 16 {
         return None;
@@ -94,7 +94,8 @@ pub(super) fn nibble(digit: u8) -> Option<u8> {
 }
 
 impl<'a> Reader<'a, '_> {
-    /// Reads a number in any notation and reports nonstandard notations. The caller reports other text.
+    /// Reads a number in any notation, and reports nonstandard notations. Returns `None` for any other text, which the
+    /// caller reports.
     pub fn parse(&mut self, given: &Given<'_>) -> Option<Number> {
         let number = parse(&given.text)?;
         if let Some(fault) = number.fault {
@@ -113,7 +114,7 @@ impl<'a> Reader<'a, '_> {
         Some(number)
     }
 
-    /// Reads a number that fits `T` and reports any other text.
+    /// Reads a number of type `T`. Reports any other text and numbers that do not fit `T`.
     pub fn int<T: TryFrom<i128>>(&mut self, given: &Given<'_>, what: &str) -> Option<T> {
         if given.is_empty() {
             return None;
@@ -129,19 +130,19 @@ impl<'a> Reader<'a, '_> {
         value
     }
 
-    /// Reads the number in an element.
+    /// Reads an element that contains a number.
     pub fn number<T: TryFrom<i128>>(&mut self, tag: &Tag<'a>, what: &str) -> Read<Option<T>> {
         let given = self.text(tag)?;
         Ok(self.int(&given, what))
     }
 
-    /// Reads pairs of hexadecimal digits with optional blanks.
+    /// Reads hexadecimal bytes, which may contain white space.
     pub fn octets(&mut self, given: &Given<'_>) -> Option<Vec<u8>> {
         let digits = given.text.bytes().filter(|byte| !byte.is_ascii_whitespace());
         let count = digits.clone().count();
         let mut octets = Vec::with_capacity(count / 2 + 1);
         let mut high = None;
-        // If the number of digits is odd, the first digit is a byte.
+        // If the number of digits is odd, the first byte has only one digit.
         if count % 2 == 1 {
             high = Some(0);
         }

@@ -1,4 +1,4 @@
-//! Objects as written, with unresolved data types.
+//! Objects as in the file, before data types are resolved.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use crate::ir::Extensions;
 use crate::source::{Origin, Span};
 use crate::syntax::xml::Tag;
 
-/// An Object element.
+/// Contents of an `Object` element.
 #[derive(Default)]
 pub(super) struct RawObject<'a> {
     pub index: Option<u16>,
@@ -22,14 +22,14 @@ pub(super) struct RawObject<'a> {
     pub bits: Option<u32>,
     pub bits_at: Span,
     pub info: RawInfo<'a>,
-    /// Range of its sub-items in the list of the dictionary.
+    /// Range of the object's sub-items in the list of all sub-items of the dictionary.
     pub subs: Range<usize>,
     pub flags: Flags,
     pub extensions: Extensions,
     pub origin: Origin,
 }
 
-/// A SubItem element in the Info of an object.
+/// Contents of a `SubItem` element in the `Info` element of an object.
 #[derive(Default)]
 pub(super) struct RawSub<'a> {
     pub name: Given<'a>,
@@ -38,7 +38,7 @@ pub(super) struct RawSub<'a> {
     pub origin: Origin,
 }
 
-/// Reads an Object element and adds its sub-items to `subs`.
+/// Reads an `Object` element and adds its sub-items to `subs`.
 pub(super) fn read<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
@@ -88,7 +88,7 @@ fn info<'a>(
 ) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         if tag.name == "SubItem" {
-            // The sub-item is filled in place because it is large.
+            // The sub-item is filled in the list to avoid a copy of the large struct.
             subs.push(RawSub::default());
             if let Some(last) = subs.last_mut() {
                 sub_item(reader, &tag, last)?;
@@ -111,7 +111,7 @@ fn sub_item<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawSub<
                     raw.info.read(reader, &inner)?;
                 }
             }
-            // Some files omit the Info element around a single value.
+            // Some files omit the `Info` element around the description of a single value.
             _ => raw.info.read(reader, &tag)?,
         }
     }

@@ -7,23 +7,23 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{Oversampling, Pdo, PdoEntry, PdoEntryKind};
 use crate::syntax::xml::Tag;
 
-/// Contents of a PDO that are not fields of [`Pdo`].
+/// Contents of a PDO that are added to [`Pdo`] after its template is read.
 #[derive(Default)]
 pub(super) struct Content<'a> {
     pub index: Option<u16>,
     pub names: Names<'a>,
-    /// Type name of each entry.
+    /// Type name of each PDO entry.
     pub types: Vec<Given<'a>>,
 }
 
-/// A reference of a PDO to a template, with its channel.
+/// Reference of a PDO to a template, and the channel of the PDO.
 pub(super) struct Reference<'a> {
     pub name: Given<'a>,
     pub channel: u16,
     pub channel_given: Given<'a>,
 }
 
-/// Reads the elements of a PDO, or of the template of a channel.
+/// Reads the child elements of a PDO, or of a template for one channel.
 pub(super) fn content<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
@@ -54,7 +54,7 @@ pub(super) fn content<'a>(
     Ok(content)
 }
 
-/// Reads the attributes of a PDO or a template. Returns the template to which a PDO refers.
+/// Reads the attributes of a PDO or template. Returns the PDO's reference to a template, if it has one.
 pub(super) fn attributes<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, pdo: &mut Pdo) -> Read<Option<Reference<'a>>> {
     const NAMES: [&str; 13] = [
         "Fixed",
@@ -132,7 +132,8 @@ fn entry<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, channel: u16) -> Rea
     Ok((entry, ty))
 }
 
-/// Reads the name of a type. The IR has no fields for its scale and byte order.
+/// Reads the type name of a PDO entry. The scale and byte order become extensions because the IR has no fields for
+/// them.
 fn data_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Given<'a>> {
     let [scale, swap] = reader.attributes(tag, ["DScale", "SwapData"])?;
     reader.note("DataType@DScale", &scale);

@@ -9,16 +9,16 @@ use crate::ir::{Direction, Pdo, PdoEntry, ProcessData, Type};
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// The PDOs of a device or module. The types of their entries are resolved after the dictionary was read.
+/// PDOs of a device or module. The types of their entries are resolved after the dictionary is read.
 #[derive(Default)]
 pub(super) struct Pdos<'a> {
     pub list: Vec<Pdo>,
-    /// Type name of each entry, in the order of PDOs and entries.
+    /// Type name of each PDO entry, in the order of the PDOs and their entries.
     types: Vec<Given<'a>>,
 }
 
 impl<'a> Pdos<'a> {
-    /// Reads a RxPdo or TxPdo element.
+    /// Reads an `RxPdo` or `TxPdo` element.
     pub fn read(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
         let direction = if parent.name == "RxPdo" { Direction::Receive } else { Direction::Transmit };
         let (origin, start) = (reader.origin(parent), reader.extensions.len());
@@ -35,7 +35,7 @@ impl<'a> Pdos<'a> {
         (pdo.mapping_index, pdo.number) = (numbered.mapping_index, numbered.number);
         (pdo.name, pdo.names) = (names.name(), names.others());
         pdo.extensions = reader.extensions_since(start);
-        // A missing template is already reported.
+        // A missing template was already reported.
         if has_template {
             check(reader, parent, &pdo, index.is_some());
         }
@@ -44,7 +44,7 @@ impl<'a> Pdos<'a> {
         Ok(())
     }
 
-    /// Adds the PDOs to `data`, RxPDOs first. `resolve` returns the type of each entry.
+    /// Adds the PDOs to `data`, RxPDOs first. `resolve` returns the type of a PDO entry.
     pub fn finish(self, data: &mut ProcessData, mut resolve: impl FnMut(&Given<'a>, &PdoEntry) -> Type) {
         let mut list = self.list;
         let entries = list.iter_mut().flat_map(|pdo| &mut pdo.entries);
@@ -69,7 +69,8 @@ fn check(reader: &mut Reader<'_, '_>, tag: &Tag<'_>, pdo: &Pdo, has_index: bool)
     }
 }
 
-/// Completes a PDO from its template. Returns whether the file has the template; reports it if not.
+/// Adds the missing facts of a PDO from its template. Reports the reference and returns false if the file has no such
+/// template.
 fn complete<'a>(
     reader: &mut Reader<'a, '_>,
     reference: &Reference<'a>,
@@ -105,7 +106,7 @@ fn complete<'a>(
     Ok(true)
 }
 
-/// Reads a template for a channel.
+/// Reads a template for one channel.
 fn instance<'a>(
     reader: &mut Reader<'a, '_>,
     template: &Template,

@@ -13,17 +13,17 @@ use crate::syntax::xml::Tag;
 /// Contents of the profiles of a device or module.
 #[derive(Default)]
 pub(super) struct Profiles<'a> {
-    /// Numbers, without duplicates.
+    /// Profile numbers, without duplicates.
     pub numbers: Vec<u32>,
     seen: HashSet<u32>,
     pub dictionary: Dictionary<'a>,
     pub code_tables: Vec<CodeTable>,
-    /// Referenced files of the profiles, and unresolved types.
+    /// Files to which the profiles refer, and types that these files may define.
     pub other_files: OtherFiles,
 }
 
 impl<'a> Profiles<'a> {
-    /// Reads a Profile.
+    /// Reads a `Profile` element.
     pub fn read(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
         let [channel] = reader.attributes(parent, ["Channel"])?;
         reader.note("Profile@Channel", &channel);
@@ -49,7 +49,7 @@ impl<'a> Profiles<'a> {
         Ok(())
     }
 
-    /// Reads the profile of a channel.
+    /// Reads a `ChannelInfo` element, which describes the profile of a channel.
     fn channel(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
         let fields = reader.attributes(parent, ["OverwrittenByModule", "ChannelGroup"])?;
         let [overwritten, group] = &fields;

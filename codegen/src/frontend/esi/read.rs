@@ -8,10 +8,10 @@ use crate::diagnostics::Diagnostics;
 use crate::ir::Catalog;
 use crate::source::{FileId, References, Source};
 
-/// Reads the devices and modules that `source` describes, and the files that it refers to. Repairs are reported to
+/// Reads the devices and modules that `source` describes, and the files that it refers to. Reports repairs to
 /// `diagnostics`.
 ///
-/// Returns `None`, with one error, if the file is not well-formed.
+/// Returns `None` and reports one error if `source` is not well-formed.
 pub fn read(
     source: &Source,
     file: FileId,

@@ -1,4 +1,4 @@
-//! State of reading a file.
+//! State of the ESI reader, and its budget for copies.
 
 use super::budget::{Budget, Cost};
 use super::templates::Templates;
@@ -10,10 +10,10 @@ use crate::source::Span;
 
 pub(super) type Reader<'a, 'd> = xml::Reader<'a, 'd, Esi<'a, 'd>>;
 
-/// A text in several languages, each with its LcId if it has one.
+/// Text in several languages, each with its language identifier (`LcId`) if the file declares one.
 pub(super) type Names<'a> = xml::Names<'a, Lcid>;
 
-/// State of the ESI reader.
+/// State of the ESI reader in addition to that of the XML reader.
 pub(super) struct Esi<'a, 'd> {
     pub budget: &'d mut Budget,
     pub templates: &'d Templates<'a>,
@@ -42,7 +42,8 @@ impl xml::Language for Lcid {
 }
 
 impl Reader<'_, '_> {
-    /// Returns whether the cost is within the budget. Reports the first addition that exceeds the budget.
+    /// Subtracts `cost` from the budget for copies. Returns false if the budget is exceeded; only the first excess is
+    /// reported.
     pub fn derive(&mut self, cost: Cost, span: Span) -> bool {
         if self.format.budget.take(cost) {
             return true;

@@ -13,14 +13,14 @@ use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, CodeTable, Device, Extension, Group, Shape, Type, TypeDef, TypeId};
 use crate::source::{References, Source, Span};
 
-/// A file that was read, and the cost of a copy.
+/// Content of a referenced file, and the cost of a copy.
 struct Content {
     catalog: Catalog,
     dictionary: Cost,
     messages: Cost,
-    /// Whether the file was copied. The first copy is free because it is not larger than the file.
+    /// True if the content was copied. The first copy is free because it is not larger than the file.
     is_copied: bool,
-    /// Elements that have a copy.
+    /// Elements that already have a copy of the content.
     owners: HashSet<(Owner, Target)>,
 }
 
@@ -34,7 +34,7 @@ impl Content {
     }
 }
 
-/// Reads all files that `description` refers to directly or indirectly, each once.
+/// Reads all files that `description` refers to, directly or indirectly. Reads each file once.
 pub(super) fn follow(
     main: &Source,
     description: &mut Description,
@@ -43,10 +43,10 @@ pub(super) fn follow(
     budget: &mut Budget,
 ) {
     let main_name = Path::new(main.name()).file_name().map(|name| name.to_string_lossy().into_owned());
-    // Content of each file for later references; `None` if the file can't be used again.
+    // Content of each file for later references; `None` if later references cannot use the file.
     let mut files: HashMap<String, Option<Content>> = HashMap::new();
-    // A description with devices needs only the modules of referenced files. A description without devices is a list
-    // of files, and also needs their devices.
+    // A description with devices uses only the modules of referenced files. A description without devices is a list of
+    // files, and also uses their devices.
     let only_modules = !description.catalog.devices.is_empty();
     let mut is_reported = false;
     let mut queue: VecDeque<(Owner, Reference)> = std::mem::take(&mut description.references).into();
@@ -87,10 +87,10 @@ pub(super) fn follow(
     entry_types(description, diagnostics);
 }
 
-/// Resolves the types of entries with the types of referenced files.
+/// Resolves the types of PDO entries that referenced files define.
 fn entry_types(description: &mut Description, diagnostics: &mut Diagnostics) {
     let Description { catalog, entry_types, refused, .. } = description;
-    // The types of a file that was not copied are unknown.
+    // The types of a file that was not copied remain unknown.
     entry_types.retain(|(owner, _)| !refused.contains(owner));
     for of_owner in entry_types.chunk_by(|(one, _), (other, _)| one == other) {
         let found = match of_owner.first() {
@@ -127,13 +127,13 @@ fn entry_types(description: &mut Description, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the normalized name of a file, which identifies it.
+/// Returns the normalized file name, by which references to the same file are recognized.
 fn normal(name: &str) -> String {
     let name = name.trim().replace('\\', "/");
     name.trim_start_matches("./").to_owned()
 }
 
-/// Reads a file. Returns its content and its length in bytes.
+/// Reads a referenced file. Returns its contents, and its length in bytes.
 fn open(
     reference: &Reference,
     is_reported: &mut bool,
@@ -147,7 +147,7 @@ fn open(
             let message = format!("the file `{}` was not read: {refusal}", reference.name);
             let found = Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message);
             let found = found.label("the content of the file is missing");
-            // Only the first such diagnostic has the help text.
+            // Only the first unreadable file is reported with the help text.
             diagnostics.push(match std::mem::replace(is_reported, true) {
                 false => found.help("put the file in the folder of the description"),
                 true => found,
@@ -172,7 +172,7 @@ fn open(
     Some((read, length))
 }
 
-/// Adds a further description. Returns the references in it.
+/// Appends the contents of `read` to `description`. Returns the references in `read` to further files.
 fn join(description: &mut Description, read: Description) -> Vec<(Owner, Reference)> {
     let Description { catalog: mut other, references, entry_types, .. } = read;
     let catalog = &mut description.catalog;
@@ -191,7 +191,8 @@ fn join(description: &mut Description, read: Description) -> Vec<(Owner, Referen
     references.into_iter().map(|(owner, reference)| (moved(owner), reference)).collect()
 }
 
-/// Adds the dictionary or the messages of a file to the element that refers to it, once.
+/// Adds the dictionary or the diagnosis messages of a file to the element that refers to it, unless this was done
+/// before.
 fn attach(
     description: &mut Description,
     owner: Owner,
@@ -201,7 +202,7 @@ fn attach(
     budget: &mut Budget,
 ) {
     let is_dictionary = reference.target == Target::Dictionary;
-    // Messages of a module apply to all modules.
+    // Diagnosis messages of a module apply to all modules, so they belong to the catalog.
     let owner = if is_dictionary || matches!(owner, Owner::Device(_)) { owner } else { Owner::Catalog };
     if !content.owners.insert((owner, reference.target)) {
         return;
@@ -248,7 +249,8 @@ fn attach(
     }
 }
 
-/// Returns the cost of copying a dictionary from a file of `length` bytes. Items include the parts of types.
+/// Returns the cost of a copy of a dictionary from a file of `length` bytes. The fields and values of data types count
+/// as items.
 fn cost_of(dictionary: &Device, length: usize) -> Cost {
     let parts = |shape: &Shape| match shape {
         Shape::Record(fields) => fields.len(),
@@ -265,7 +267,8 @@ fn cost_of(dictionary: &Device, length: usize) -> Cost {
     Cost { items, bytes: length + extensions * size_of::<Extension>() }
 }
 
-/// Returns whether a file may be copied. The limit applies because many devices may refer to one large file.
+/// Returns whether the budget allows a copy of the file. The limit applies because many devices may refer to one large
+/// file.
 fn affordable(budget: &mut Budget, cost: Cost, reference: &Reference, diagnostics: &mut Diagnostics) -> bool {
     let affordable = budget.take(cost);
     if !affordable {

@@ -5,20 +5,20 @@ use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Read};
 use crate::syntax::xml::Tag;
 
-/// An index, and the numbers on which it depends.
+/// Index, and whether it depends on the slot, the slot group or the channel.
 #[derive(Default)]
 pub(super) struct SlotIndex<'a> {
     pub given: Given<'a>,
-    /// Whether the index depends on the slot.
+    /// True if the index depends on the slot.
     pub slot: bool,
-    /// Whether the index depends on the slot group.
+    /// True if the index depends on the slot group.
     pub group: bool,
-    /// Factor for the channel of a template.
+    /// Increment of the index per channel of a template.
     pub factor: Given<'a>,
 }
 
 impl<'a> SlotIndex<'a> {
-    /// Reads an index.
+    /// Reads an element that contains an index.
     pub fn read(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Self> {
         let [slot, group, factor] = reader.attributes(tag, ["DependOnSlot", "DependOnSlotGroup", "ChnFac"])?;
         let (slot, group) = (reader.flag(&slot), reader.flag(&group));

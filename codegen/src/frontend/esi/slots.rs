@@ -5,11 +5,11 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{CompactString, Extension, Fit, ModulePdoGroup, Slot, SlotRules};
 use crate::syntax::xml::Tag;
 
-/// Reads Slots. Slots are numbered from 0. A slot element for several modules describes as many slots.
+/// Reads a `Slots` element. Slots are numbered from 0. A `Slot` element for several modules counts as several slots.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, slots: &mut Vec<Slot>) -> Read<SlotRules> {
     let mut rules = rules(reader, parent)?;
     let first = slots.len();
-    // Missing increments of a slot are different from 0, so they are collected separately.
+    // A slot without an increment uses that of the `Slots` element, so increments are collected as options.
     let mut slot_increments = Vec::new();
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
@@ -36,7 +36,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, slots: &mu
     Ok(rules)
 }
 
-/// Returns the number of the slot after this one.
+/// Returns the number of the next slot.
 fn after(slot: &Slot) -> u16 {
     slot.number.saturating_add(slot.instances.1.max(1))
 }
@@ -76,7 +76,8 @@ fn increment(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<u16> {
     reader.int(given, "index increment")
 }
 
-/// Increments that a slot declares: object index and PDO index per slot, then object index and PDO index per group.
+/// Increments that a slot declares: object index and PDO index per slot, then object index and PDO index per slot
+/// group.
 type Increments = [Option<u16>; 4];
 
 fn slot<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Slot, Increments)> {

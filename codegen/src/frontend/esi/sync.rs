@@ -7,7 +7,7 @@ use crate::ir::{Direction, EtherCatSettings, Fmmu, Pdo, SyncManager, SyncManager
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// Reads a Fmmu.
+/// Reads an `Fmmu` element.
 pub(super) fn fmmu<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, settings: &mut EtherCatSettings) -> Read<()> {
     let [op_only, sm, su] = reader.attributes(tag, ["OpOnly", "Sm", "Su"])?;
     let fmmu = Fmmu {
@@ -20,7 +20,7 @@ pub(super) fn fmmu<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, settings: &mu
     Ok(())
 }
 
-/// Reads a Su.
+/// Reads an `Su` element, which describes a sync unit.
 pub(super) fn sync_unit<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, settings: &mut EtherCatSettings) -> Read<()> {
     const NAMES: [&str; 4] = ["SeparateSu", "SeparateFrame", "DependOnInputState", "FrameRepeatSupport"];
     let [separate, frame, state, repeat] = reader.attributes(tag, NAMES)?;
@@ -35,7 +35,7 @@ pub(super) fn sync_unit<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, settings
     Ok(())
 }
 
-/// Reads an Sm element. Its purpose is determined after all sync managers were read; see [`settle`].
+/// Reads an `Sm` element. [`settle`] determines the purpose after all sync managers are read.
 pub(super) fn sync_manager<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
@@ -70,7 +70,7 @@ pub(super) fn sync_manager<'a>(
     Ok(())
 }
 
-/// Determines the purpose of each sync manager. The sources are, in this order: its text, the PDOs that name it, its
+/// Determines the purpose of each sync manager from its text, or else from the PDOs that name it, or else from its
 /// control byte or position.
 pub(super) fn settle(
     reader: &mut Reader<'_, '_>,
@@ -78,7 +78,7 @@ pub(super) fn settle(
     pdos: &[Pdo],
 ) -> Vec<SyncManager> {
     use SyncManagerPurpose::{Inputs, MailboxIn, MailboxOut, Outputs};
-    // A device with a mailbox has four sync managers. The first two are for the mailbox.
+    // A device with a mailbox has four sync managers. The first two sync managers are for the mailbox.
     let has_mailbox = list.len() >= 4;
     let mut managers = Vec::with_capacity(list.len());
     for (position, (mut manager, given)) in list.into_iter().enumerate() {
@@ -116,7 +116,7 @@ pub(super) fn settle(
     managers
 }
 
-/// Returns the purpose that follows from the assigned PDOs, if all have the same direction.
+/// Returns the purpose of a sync manager according to its PDOs, if all of them have the same direction.
 fn by_pdos(number: u8, pdos: &[Pdo]) -> Option<SyncManagerPurpose> {
     let mut directions = pdos.iter().filter(|pdo| pdo.sync_manager == Some(number)).map(|pdo| pdo.direction);
     let first = directions.next()?;

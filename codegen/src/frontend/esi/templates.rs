@@ -22,18 +22,18 @@ pub(super) struct Templates<'a> {
 
 pub(super) struct Template {
     pub origin: Origin,
-    /// Entries and bytes that each use copies.
+    /// Number of entries and bytes that each reference to the template copies.
     pub cost: Cost,
-    /// Whether the diagnostics of the template are already reported.
+    /// True if the diagnostics of the template were already reported.
     pub used: Cell<bool>,
 }
 
 impl<'a> Templates<'a> {
-    /// Finds the templates of a file. They may be after the devices that use them. Errors are reported later, when
-    /// the file is read.
+    /// Finds the templates of a file before it is read, because a template may come after the devices that use it.
+    /// Ignores syntax errors, which the main reader reports.
     pub fn of(text: &'a str, file: FileId) -> Self {
         let mut templates = Templates { text, by_name: HashMap::new() };
-        // Newer files have no templates.
+        // Newer files have no templates, so a fast text search avoids parsing them twice.
         if memchr::memmem::find(text.as_bytes(), b"RefName").is_some() {
             let _ = templates.find(file);
         }
@@ -59,12 +59,12 @@ impl<'a> Templates<'a> {
         Ok(())
     }
 
-    /// Returns the template with this name.
+    /// Returns the template called `name`.
     pub fn get(&self, name: &str) -> Option<&Template> {
         self.by_name.get(name)
     }
 
-    /// Returns a cursor before a template.
+    /// Returns a cursor at the start of a template.
     pub fn cursor(&self, template: &Template) -> Cursor<'a> {
         Cursor::resume(self.text, template.origin)
     }

@@ -1,4 +1,4 @@
-//! Reads common elements: texts with a language, images, vendor-specific elements.
+//! Reads elements that have many parents: texts with a language, images, vendor-specific elements.
 
 use compact_str::format_compact;
 
@@ -9,7 +9,7 @@ use crate::ir::{CompactString, Extension};
 use crate::syntax::xml::{Event, Tag};
 
 impl<'a> Reader<'a, '_> {
-    /// Reads a text with its language.
+    /// Reads a text with its language and adds it to `names`.
     pub fn name(&mut self, tag: &Tag<'a>, names: &mut Names<'a>) -> Read<()> {
         let [given] = self.attributes(tag, ["LcId"])?;
         let lcid = number::parse(&given.text).and_then(|number| u32::try_from(number.value).ok());
@@ -23,15 +23,15 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Keeps the text of an element under its name.
+    /// Stores the text of an element as an extension with the element's name as the key.
     pub fn note_text(&mut self, tag: &Tag<'a>) -> Read<()> {
         let given = self.text(tag)?;
         self.note(tag.name, &given);
         Ok(())
     }
 
-    /// Keeps the children of VendorSpecific with their attributes and texts. Deeper elements have a meaning only for
-    /// the vendor's tool.
+    /// Stores the children of a `VendorSpecific` element as extensions, with attributes and texts. Deeper elements are
+    /// dropped because only the vendor's tool uses them.
     pub fn vendor_specific(&mut self, tag: &Tag<'a>) -> Read<()> {
         while let Some(child) = self.child(tag)? {
             self.keep_attributes(&child)?;
@@ -52,7 +52,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Keeps the size of an embedded image, or the name of an image file.
+    /// Stores the size of an embedded image, or the name of an image file, as an extension.
     pub fn image(&mut self, tag: &Tag<'a>) -> Read<()> {
         let given = self.text(tag)?;
         let value = if tag.name.contains("Data") {

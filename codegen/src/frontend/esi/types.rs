@@ -16,35 +16,35 @@ use crate::limits;
 use crate::source::{Origin, Span};
 use crate::text::brief;
 
-/// The types of a device, module or dictionary.
+/// Types of a device, module or dictionary.
 #[derive(Default)]
 pub(super) struct Types<'t, 'a> {
     raw: &'t [RawType<'a>],
     by_name: HashMap<&'t str, u32>,
     links: Links,
-    /// Type that a reference to each data type resolves to. Aliases of basic types are replaced by the basic type.
+    /// Type for each data type of the file; for the alias of a basic type, the basic type.
     meaning: Vec<Type>,
-    /// Types in the order of the file, followed by types that are only defined by their name.
+    /// Types in the order of the file, followed by types that only their name defines.
     defs: Vec<TypeDef>,
     made: HashMap<CompactString, Type>,
 }
 
-/// References between data types, as positions.
+/// References between data types, as positions in the dictionary.
 #[derive(Default)]
 struct Links {
     bases: Vec<Option<u32>>,
-    /// References of all fields, type by type.
+    /// Data types to which the fields refer, for all fields of all data types.
     fields: Vec<Option<u32>>,
-    /// Position of the first field of each type.
+    /// Position in `fields` of the first field of each type.
     first: Vec<usize>,
-    /// Whether a type contains itself or is nested too deeply.
+    /// For each data type, whether it contains itself or is nested too deeply.
     endless: Vec<bool>,
 }
 
 impl Links {
     fn new<'r>(raw: &'r [RawType<'_>], by_name: &HashMap<&str, u32>) -> Self {
         let mut links = Links::default();
-        // Adjacent fields often have the same type.
+        // The last name is kept because adjacent fields often have the same type.
         let mut last = ("", None);
         let mut find = |name: &'r str| {
             if last.0 != name {
@@ -54,7 +54,7 @@ impl Links {
         };
         for (at, ty) in raw.iter().enumerate() {
             let base = find(&ty.base.text);
-            // A basic type may name itself as its base.
+            // A basic type may name itself as its base type.
             let is_basic = base == Some(at as u32) && type_name::basic(&ty.name.text).is_some();
             links.bases.push(base.filter(|_| !is_basic));
             links.first.push(links.fields.len());
@@ -63,7 +63,7 @@ impl Links {
         links
     }
 
-    /// Returns the positions of the types that a type consists of.
+    /// Returns the positions of the data types that the data type at `at` refers to.
     fn parts(&self, at: usize) -> impl Iterator<Item = usize> + '_ {
         let start = self.first.get(at).copied().unwrap_or(0);
         let end = self.first.get(at + 1).copied().unwrap_or(self.fields.len());
@@ -75,7 +75,8 @@ impl Links {
         self.first.get(at).and_then(|first| self.fields.get(first + field).copied()).flatten()
     }
 
-    /// Returns the types in an order in which each type comes after its parts. Marks endless types.
+    /// Returns the data types in an order in which each type comes after the types that it refers to. Marks types that
+    /// contain themselves or are nested too deeply.
     fn order(&mut self) -> Vec<usize> {
         let count = self.bases.len();
         let (mut waiting, mut depth) = (vec![0usize; count], vec![0usize; count]);
@@ -116,7 +117,7 @@ impl Links {
 }
 
 impl<'t, 'a> Types<'t, 'a> {
-    /// Lowers all data types of `raw`.
+    /// Lowers all data types in `raw`.
     pub fn new(reader: &mut Reader<'_, '_>, raw: &'t [RawType<'a>]) -> Self {
         let mut types = Types { raw, by_name: HashMap::with_capacity(raw.len()), ..Types::default() };
         for (at, ty) in raw.iter().enumerate() {
@@ -189,12 +190,12 @@ impl<'t, 'a> Types<'t, 'a> {
         self.defined_by_name(reader, ty)
     }
 
-    /// Returns whether a type names itself as its base.
+    /// Returns whether a data type names itself as its base type.
     fn names_itself(&self, ty: &RawType<'_>) -> bool {
         ty.base.text == ty.name.text
     }
 
-    /// Lowers a data type that is only defined by its name, which is that of a basic type.
+    /// Lowers a data type that has no definition except the name of a basic type.
     fn defined_by_name(&mut self, reader: &mut Reader<'_, '_>, ty: &RawType<'_>) -> (Shape, Option<u32>) {
         let known = type_name::basic(&ty.name.text);
         let known = known.or_else(|| Some((type_name::by_code(ty.code?)?, Spelling::Standard)));
@@ -272,7 +273,8 @@ impl<'t, 'a> Types<'t, 'a> {
         (Shape::Array { element, dimensions }, bits.or(ty.bits))
     }
 
-    /// Returns an array for an alias with the suffix `ARR` whose length is a multiple of its base.
+    /// Returns an array type for an alias whose name ends with `ARR` and whose length is a multiple of the base type's
+    /// length.
     fn array_without_info(&self, reader: &mut Reader<'_, '_>, base: Type, ty: &RawType<'_>) -> Option<Shape> {
         let (size, element) = (ty.bits?, self.bits(base).filter(|&bits| bits > 0)?);
         let count = size / element;
@@ -292,7 +294,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Returns the base type of an enumeration.
+    /// Returns the integer type on which an enumeration is based.
     fn integer_base(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &RawType<'_>) -> Type {
         let by_size = |bits: Option<u32>| Type::Unsigned(bits.and_then(|bits| u8::try_from(bits).ok()).unwrap_or(32));
         let sensible = ty.bits.filter(|bits| (1..=64).contains(bits));
@@ -314,7 +316,8 @@ impl<'t, 'a> Types<'t, 'a> {
         unsigned
     }
 
-    /// Returns a part of a type. A part that would make the type endless becomes raw bytes.
+    /// Returns the type that the data type at `at` refers to as `part`. A reference that makes the data type endless
+    /// becomes raw bytes.
     fn part(&mut self, reader: &mut Reader<'_, '_>, at: usize, part: u32, given: &Given<'_>) -> Type {
         if self.links.is_endless(at) && self.links.is_endless(part as usize) {
             let message = format!("`{}` contains itself or is nested too deeply", brief(&given.text));
@@ -324,7 +327,7 @@ impl<'t, 'a> Types<'t, 'a> {
         self.meaning.get(part as usize).copied().unwrap_or(Type::Opaque(None))
     }
 
-    /// Returns the type that a name refers to.
+    /// Returns the type that the name in `given` refers to.
     pub fn resolve(&mut self, reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Type {
         match self.by_name.get(given.text.as_ref()) {
             Some(&at) => self.meaning.get(at as usize).copied().unwrap_or(Type::Opaque(None)),
@@ -332,12 +335,12 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Returns whether a name is that of a data type, or the standard name of a basic type.
+    /// Returns whether `name` is the name of a data type of the file, or the standard name of a basic type.
     pub fn knows(&self, name: &str) -> bool {
         self.by_name.contains_key(name) || matches!(type_name::basic(name), Some((_, Spelling::Standard)))
     }
 
-    /// Returns the record that a reference to a type resolves to.
+    /// Returns the data type behind `ty` if it is a record.
     pub fn record_of(&self, ty: Type) -> Option<&'t RawType<'a>> {
         let Type::Named(TypeId(at)) = ty else { return None };
         self.raw.get(at as usize).filter(|raw| !raw.fields.is_empty())
@@ -378,7 +381,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Returns the type that a name such as BITARR8 defines.
+    /// Returns the type that a name such as `BITARR8` defines.
     fn make(&mut self, name: &str, known: Basic) -> Type {
         if let Some(&ty) = self.made.get(name) {
             return ty;
@@ -398,7 +401,7 @@ impl<'t, 'a> Types<'t, 'a> {
         ty
     }
 
-    /// Returns a basic type with the length of the data type.
+    /// Returns the basic type `base` with the length that the data type `ty` declares.
     fn sized(&self, reader: &mut Reader<'_, '_>, base: Type, ty: &RawType<'_>) -> Type {
         let Some(bits) = ty.bits.filter(|&bits| bits > 0) else { return base };
         let bytes = Some(bits / 8).filter(|_| bits % 8 == 0);
@@ -422,7 +425,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Returns the length of a type in bits.
+    /// Returns the length of a type in bits, or `None` if it is unknown.
     pub fn bits(&self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(TypeId(at)) => self.defs.get(at as usize)?.bits,
@@ -432,7 +435,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Returns the basic type of the values of a type.
+    /// Returns the integer type of an enumeration or bit field. Returns any other type unchanged.
     pub fn underlying(&self, ty: Type) -> Type {
         let Type::Named(TypeId(at)) = ty else { return ty };
         match self.defs.get(at as usize).map(|def| &def.shape) {
@@ -441,13 +444,13 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Returns the types in the order of the file, followed by types that are only defined by their name.
+    /// Returns the types in the order of the file, followed by types that only their name defines.
     pub fn into_defs(self) -> Vec<TypeDef> {
         self.defs
     }
 }
 
-/// Reports a type name that is not in the tables of ETG.1000.6.
+/// Reports the name of a basic type that is not in the tables of ETG.1000.6.
 fn spelled(diagnostics: &mut Diagnostics, spelling: Spelling, name: &Given<'_>, ty: Type) {
     let code = match spelling {
         Spelling::Standard => return,
@@ -479,7 +482,7 @@ fn field_names(reader: &mut Reader<'_, '_>, fields: &[RawField<'_>]) {
     }
 }
 
-/// Names that occurred so far. A short list is searched linearly, which is faster; more names are in a map.
+/// Names that occurred so far. The first 16 names are in a list, which is fast to search. Further names are in a map.
 #[derive(Default)]
 struct Seen<'n> {
     few: SmallVec<[&'n Given<'n>; 16]>,
@@ -487,7 +490,7 @@ struct Seen<'n> {
 }
 
 impl<'n> Seen<'n> {
-    /// Returns the span of an earlier equal name. Adds the name if there is none.
+    /// Returns the span of an earlier name with the same text. Adds a new name to the set.
     fn insert(&mut self, name: &'n Given<'_>) -> Option<Span> {
         if let Some(same) = self.few.iter().find(|other| other.text == name.text) {
             return Some(same.span);
@@ -506,8 +509,7 @@ impl<'n> Seen<'n> {
     }
 }
 
-/// Returns lower bounds and numbers of elements. A missing number follows from BitSize.
-/// Reports the first sub-item that overlaps another, and the first beyond the end of the type.
+/// Reports the first sub-item that overlaps another sub-item, and the first sub-item that ends after the data type.
 fn check_layout(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, fields: &[Field]) {
     let end = |field: &Field| field.bit_offset.saturating_add(field.bits);
     let mut order: Vec<(&Field, &RawField<'_>)> =
@@ -541,6 +543,7 @@ fn extents(one: &Field, other: &Field) -> String {
     format!("{} and {}", bits(one), bits(other))
 }
 
+/// Returns the lower bound and size of each dimension. Calculates a missing size from `BitSize`.
 fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32>) -> Vec<(i32, u32)> {
     const MAX_DIMENSIONS: usize = 3;
     if let Some(more) = ty.dimensions.get(MAX_DIMENSIONS) {
@@ -583,7 +586,7 @@ fn bit_array(width: u8) -> Shape {
     Shape::BitField { base: Type::Unsigned(width), fields: (0..width).map(bit).collect() }
 }
 
-/// Returns the basic type that a name resembles, for a name without a data type.
+/// Returns the basic type for a type name that the file does not define. Reports nonstandard and unknown names.
 pub(super) fn guessed(diagnostics: &mut Diagnostics, name: &Given<'_>) -> Type {
     match type_name::basic(&name.text) {
         Some((Basic::Type(ty), spelling)) => {
@@ -597,7 +600,7 @@ pub(super) fn guessed(diagnostics: &mut Diagnostics, name: &Given<'_>) -> Type {
     }
 }
 
-/// Reports a name without a type.
+/// Reports a type name that has no definition.
 fn unresolved(diagnostics: &mut Diagnostics, name: &Given<'_>) {
     let message = format!("there is no data type `{}`", brief(&name.text));
     diagnostics.push(

@@ -1,4 +1,4 @@
-//! Converts default values and limits to the type of their item. They are bytes in memory order, numbers or texts.
+//! Converts default values and limits to the type of their item. A file writes each value as bytes, a number or a text.
 
 use std::cmp::Ordering;
 
@@ -9,14 +9,14 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{CompactString, Type, Value};
 use crate::text::{brief, count_of};
 
-/// Whether a value is a default value or a limit.
+/// Role of a value: default value or limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Default,
     Limit,
 }
 
-/// Converts a value to `ty`, which is not an alias or enumeration.
+/// Converts a value to the type `ty`, which must not be an alias or enumeration.
 pub(super) fn convert(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role) -> Option<Value> {
     match raw.form {
         Form::Data => data(reader, raw, ty),
@@ -25,7 +25,7 @@ pub(super) fn convert(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type,
     }
 }
 
-/// Converts bytes, least significant byte first.
+/// Converts hexadecimal bytes, least significant byte first.
 fn data(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Option<Value> {
     let bytes = reader.octets(&raw.given)?;
     match ty {
@@ -46,7 +46,7 @@ fn data(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Option<Val
     }
 }
 
-/// Decodes UTF-8, or ISO 8859-1 if the bytes are not valid UTF-8.
+/// Decodes bytes as UTF-8, or as ISO 8859-1 if they are not valid UTF-8.
 fn latin(bytes: &[u8]) -> CompactString {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.into(),
@@ -120,7 +120,7 @@ fn integer(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role
     if (low..=high).contains(&value) {
         return if ty == Type::Boolean { Value::Bool(value != 0) } else { Value::Int(value) };
     }
-    // A negative number can only be written as a bit pattern in hexadecimal.
+    // Hexadecimal notation can express a negative number only as a bit pattern.
     if number.hex && ty.is_signed() && value <= high - low {
         return Value::Int(value - (high - low + 1));
     }
@@ -137,7 +137,8 @@ fn integer(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role
     Value::Int(value)
 }
 
-/// Converts a text that is not an integer. A fraction of zero is dropped; other text is kept.
+/// Converts a text that is not an integer to an integer type. Drops a fraction of zero, and keeps any other text as
+/// text.
 fn fraction(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
     let given = &raw.given;
     let whole = given.text.split_once('.').filter(|(_, rest)| rest.bytes().all(|digit| digit == b'0'));
@@ -155,7 +156,7 @@ fn fraction(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value 
     Value::Raw(given.compact())
 }
 
-/// Converts a decimal number. Eight or sixteen hexadecimal digits are a bit pattern.
+/// Converts a number to a real type. Eight or sixteen hexadecimal digits are a bit pattern.
 fn real(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
     let given = &raw.given;
     let decimal = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E');

@@ -1,55 +1,55 @@
-//! The data types of GSDML and their lengths.
+//! Data types of GSDML and their lengths.
 
 use crate::ir::{TimeFormat, Type};
 
-/// Data type with a name in GSDML.
+/// Data type that GSDML defines by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum DataType {
-    /// A type of the IR.
+    /// Type that the IR has.
     Basic(Type),
-    /// A string with a length in bytes from the file.
+    /// String whose length in bytes is in the file.
     String(StringType),
-    /// A number with a defined meaning (PROFIdrive and process control profiles).
+    /// Number with a defined meaning (PROFIdrive and process control profiles).
     Number(&'static NumberType),
-    /// A value with its quality, or two values.
+    /// Value with its quality, or two values.
     Pair(&'static PairType),
-    /// Octets with a length from the file. The last octet is a status.
+    /// Octets whose number is in the file. The last octet is a status.
     OctetsWithStatus,
-    /// Trailer of a PROFIsafe message, with its length in bytes. It contains no user data.
+    /// Trailer of a PROFIsafe message, with its length in bytes. The trailer contains no user data.
     Trailer(u32),
-    /// One bit.
+    /// Single bit.
     Bit,
-    /// Several bits.
+    /// Range of bits.
     BitArea,
 }
 
-/// Type of a string.
+/// String type of GSDML.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StringType {
     Visible,
     Octet,
-    /// A string in another encoding or with a header. It is read as octets and keeps this type name.
+    /// String in another encoding or with a header. The string is read as octets; the type keeps this name.
     Named(&'static str),
 }
 
-/// A named number type.
+/// Numeric type with a name.
 #[derive(Debug, PartialEq)]
 pub(super) struct NumberType {
     pub name: &'static str,
     pub base: Type,
-    /// Physical value of 1 LSB, if the type defines it.
+    /// Physical value of 1 LSB, if the type defines this value.
     pub factor: Option<f64>,
 }
 
 impl Eq for NumberType {}
 
-/// Two values in one type.
+/// Type that consists of two values.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct PairType {
     pub name: &'static str,
     pub first: Type,
     pub second: Type,
-    /// Suffix of the second value's name.
+    /// Suffix for the name of the second value.
     pub suffix: &'static str,
 }
 
@@ -57,7 +57,7 @@ const fn number(name: &'static str, base: Type, factor: Option<f64>) -> NumberTy
     NumberType { name, base, factor }
 }
 
-/// Normalized values of PROFIdrive and fixed-point numbers of IEC 61158-6-10. 100 % is 2^14 for N2 and 2^30 for N4.
+/// Normalized values of PROFIdrive, and fixed-point numbers of IEC 61158-6-10. 100 % is 2^14 for N2 and 2^30 for N4.
 static NUMBERS: [NumberType; 13] = [
     number("N2", Type::Integer(16), Some(100.0 / 16_384.0)),
     number("N4", Type::Integer(32), Some(100.0 / 1_073_741_824.0)),
@@ -70,7 +70,7 @@ static NUMBERS: [NumberType; 13] = [
     number("D2", Type::Unsigned(16), None),
     number("R2", Type::Unsigned(16), None),
     number("Unipolar2.16", Type::Unsigned(16), None),
-    // Bit sequences are read as integers.
+    // The bit sequences V2 and L2 are read as plain integers.
     number("V2", Type::Unsigned(16), None),
     number("L2", Type::Unsigned(16), None),
 ];
@@ -89,7 +89,7 @@ static PAIRS: [PairType; 7] = [
     pair("Unsigned8_S", Type::Unsigned(8), "status"),
 ];
 
-/// Types of IEC 61158-6-10 and IEC 61131. Most data in GSDML files has one of them.
+/// Data types of IEC 61158-6-10 and IEC 61131, which most GSDML files use.
 static BASIC: [(&str, DataType); 31] = [
     ("Unsigned8", DataType::Basic(Type::Unsigned(8))),
     ("Unsigned16", DataType::Basic(Type::Unsigned(16))),
@@ -101,7 +101,7 @@ static BASIC: [(&str, DataType); 31] = [
     ("Integer64", DataType::Basic(Type::Integer(64))),
     ("Float32", DataType::Basic(Type::Real32)),
     ("Float64", DataType::Basic(Type::Real64)),
-    // One byte; bit 0 is the value.
+    // A Boolean value is one byte, whose bit 0 is the value.
     ("Boolean", DataType::Basic(Type::Boolean)),
     ("Bit", DataType::Bit),
     ("BitArea", DataType::BitArea),
@@ -126,12 +126,12 @@ static BASIC: [(&str, DataType); 31] = [
 ];
 
 impl DataType {
-    /// Returns the data type with this name.
+    /// Returns the data type called `name`.
     pub fn find(name: &str) -> Option<Self> {
         Self::all().find(|(other, _)| *other == name).map(|(_, ty)| ty)
     }
 
-    /// Returns the data type with this name and its correct spelling. Ignores case.
+    /// Returns the data type called `name`, ignoring case, and its correct spelling.
     pub fn find_in_any_case(name: &str) -> Option<(&'static str, Self)> {
         Self::all().find(|(other, _)| other.eq_ignore_ascii_case(name))
     }
@@ -144,7 +144,7 @@ impl DataType {
         BASIC.iter().copied().chain(numbers).chain(PAIRS.iter().map(|pair| (pair.name, DataType::Pair(pair))))
     }
 
-    /// Returns the length in bytes if the type defines it.
+    /// Returns the length in bytes, or `None` if the type does not define a length.
     pub fn bytes(self) -> Option<u32> {
         match self {
             DataType::Basic(Type::Boolean) => Some(1),

@@ -1,4 +1,4 @@
-//! Device access points: properties of a device, and the modules and submodules that fit.
+//! Reads device access points: the properties of a device, and the modules and submodules that fit.
 
 use compact_str::format_compact;
 
@@ -13,14 +13,14 @@ use crate::ir::{
 };
 use crate::syntax::xml::Tag;
 
-/// Default value of the maximum record length.
+/// Maximum record length in bytes if the file does not declare one.
 const RECORD_SIZE: u32 = 4068;
 
-/// Default value of the send clock factor: 1 ms.
+/// Send clock factor if the file does not declare one: 1 ms.
 const SEND_CLOCK: u16 = 32;
 
 impl<'a> Reader<'a, '_> {
-    /// Reads DeviceAccessPointList.
+    /// Reads a `DeviceAccessPointList` element.
     pub fn device_list(&mut self, list: &Tag<'a>, catalog: &mut Catalog) -> Read<()> {
         self.each(list, "DeviceAccessPointItem", |reader, tag| {
             let device = reader.device(tag, catalog)?;
@@ -113,7 +113,7 @@ impl<'a> Reader<'a, '_> {
                 Ok(())
             }
             "ApplicationRelations" => {
-                // In V1.0 and V2.0, the element is here.
+                // GSDML V1.0 and V2.0 define this element for the device access point, not for the interface.
                 let mut kept = Submodule::default();
                 self.application_relations(tag, Some(settings), &mut kept)?;
                 settings.attributes.append(&mut kept.attributes);
@@ -188,7 +188,7 @@ impl<'a> Reader<'a, '_> {
 }
 
 impl Info<'_> {
-    /// Adds the contents of ModuleInfo to a device access point.
+    /// Adds the contents of a `ModuleInfo` element to a device access point.
     fn of_device(self, device: &mut Device, attributes: &mut Attributes) {
         device.name = self.name;
         device.documentation = self.documentation;

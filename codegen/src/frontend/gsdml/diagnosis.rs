@@ -1,4 +1,4 @@
-//! Channel diagnosis, process alarms, user-structure diagnosis and the log book.
+//! Reads channel diagnosis, process alarms, user-structure diagnosis and the log book.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use crate::ir::{
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
 
-/// A list of codes: the attribute with the code, and names of the tables and columns.
+/// Names in a list of codes: the attribute with the code, the tables and their columns.
 struct List {
     code: &'static str,
     table: &'static str,
@@ -20,7 +20,7 @@ struct List {
     extended_columns: &'static [&'static str],
 }
 
-/// Channel errors. The first column of an extended error is its error type.
+/// Code list of channel errors. The table of extended errors begins with the error type of the parent.
 static CHANNEL_DIAGNOSIS: List = List {
     code: "ErrorType",
     table: "channel_diagnosis",
@@ -29,7 +29,7 @@ static CHANNEL_DIAGNOSIS: List = List {
     extended_columns: &["error_type", "maintenance_alarm_state", "api", "add_value"],
 };
 
-/// Reasons of process alarms. The first column of an extended reason is its reason.
+/// Code list of process alarms. The table of extended reasons begins with the reason of the parent.
 static PROCESS_ALARMS: List = List {
     code: "Reason",
     table: "process_alarms",
@@ -38,14 +38,14 @@ static PROCESS_ALARMS: List = List {
     extended_columns: &["reason", "maintenance_alarm_state", "api", "add_value"],
 };
 
-/// Rows of the codes and of the extended codes of a list.
+/// Rows for the codes and extended codes of a list.
 #[derive(Default)]
 struct Rows {
     codes: Vec<CodeRow>,
     extended: Vec<CodeRow>,
 }
 
-/// A code as written.
+/// Contents of an element that describes a code.
 #[derive(Default)]
 struct Code {
     code: Option<i128>,
@@ -57,12 +57,12 @@ struct Code {
 }
 
 impl<'a> Reader<'a, '_> {
-    /// Reads ChannelDiagList.
+    /// Reads a `ChannelDiagList` element.
     pub fn channel_diagnosis(&mut self, list: &Tag<'a>, catalog: &mut Catalog) -> Read<()> {
         self.code_list(list, &CHANNEL_DIAGNOSIS, catalog)
     }
 
-    /// Reads ChannelProcessAlarmList.
+    /// Reads a `ChannelProcessAlarmList` element.
     pub fn process_alarms(&mut self, list: &Tag<'a>, catalog: &mut Catalog) -> Read<()> {
         self.code_list(list, &PROCESS_ALARMS, catalog)
     }
@@ -84,9 +84,9 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Reads a code and its extended codes. For an extended code, `parent` is the code and API of its parent.
+    /// Reads a code and its extended codes. `parent` is the code and the API number of the parent of an extended code.
     fn code(&mut self, tag: &Tag<'a>, list: &'static List, parent: Option<(i128, u32)>, rows: &mut Rows) -> Read<()> {
-        // Some files have ErrorType instead of the reason.
+        // Some files have the attribute `ErrorType` instead of `Reason`.
         let names = [list.code, "MaintenanceAlarmState", "API", "ErrorType"];
         let [mut given, state, api, other] = self.attributes(tag, names)?;
         if given.is_missing() {
@@ -96,7 +96,7 @@ impl<'a> Reader<'a, '_> {
         let mut code = Code {
             code: self.unsigned16(&given, "code").map(i128::from),
             state: if state.is_missing() { "D".into() } else { state.compact() },
-            // An extended code has the API of its parent unless it declares one.
+            // An extended code belongs to the API of its parent unless it declares another API.
             api: self.unsigned(&api, u32::MAX, "API number").or(parent.map(|(_, api)| api)).unwrap_or(0),
             ..Code::default()
         };
@@ -127,7 +127,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Adds the additional values of a code to `text`, in the form `1 Unsigned16, 2 Float32`.
+    /// Appends the additional values of a code to `text`, in the form `1 Unsigned16, 2 Float32`.
     fn add_values(&mut self, list: &Tag<'a>, text: &mut String) -> Read<()> {
         self.each(list, "DataItem", |reader, tag| {
             let [id, data_type] = reader.attributes(tag, ["Id", "DataType"])?;
@@ -137,7 +137,7 @@ impl<'a> Reader<'a, '_> {
         })
     }
 
-    /// Reads LogBookEntryList. The code of a row is the whole status; ErrorCode2 is its last byte.
+    /// Reads a `LogBookEntryList` element. The code of a row is the complete status, whose last byte is `ErrorCode2`.
     pub fn log_book(&mut self, list: &Tag<'a>, catalog: &mut Catalog) -> Read<()> {
         let origin = self.origin(list);
         let mut rows = Vec::new();
@@ -181,7 +181,7 @@ impl<'a> Reader<'a, '_> {
         Ok(row)
     }
 
-    /// Reads UnitDiagTypeList.
+    /// Reads a `UnitDiagTypeList` element.
     pub fn unit_diagnoses(&mut self, list: &Tag<'a>, catalog: &mut Catalog) -> Read<()> {
         while let Some(tag) = self.child(list)? {
             match tag.name {
@@ -268,7 +268,7 @@ fn empty_row(code: i128) -> CodeRow {
     }
 }
 
-/// Returns whether an element of a list is a code.
+/// Returns whether an element of a list describes a code.
 fn is_code(element: &str) -> bool {
     const NAMES: [&str; 10] = [
         "ChannelDiagItem",

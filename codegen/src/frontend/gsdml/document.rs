@@ -1,4 +1,4 @@
-//! Reads a file.
+//! Reads a file and the main elements in it.
 
 use super::header::Header;
 use super::lists;
@@ -13,10 +13,9 @@ use crate::source::{FileId, Source};
 use crate::syntax::xml::{Cursor, Tag};
 use crate::text::brief;
 
-/// Reads the device access points, modules and submodules that `source` describes. Repairs are reported to
-/// `diagnostics`.
+/// Reads the device access points, modules and submodules that `source` describes. Reports repairs to `diagnostics`.
 ///
-/// Returns `None`, with one error, if the file is not well-formed or not a GSDML file.
+/// Returns `None` and reports one error if `source` is not well-formed or not a GSDML file.
 pub fn read(source: &Source, file: FileId, diagnostics: &mut Diagnostics) -> Option<Catalog> {
     declared_encoding::report(source, file, diagnostics);
     let mut reader = Reader::new(Cursor::new(source.text(), file), diagnostics, Gsdml::default());
@@ -39,7 +38,7 @@ pub fn read(source: &Source, file: FileId, diagnostics: &mut Diagnostics) -> Opt
     Some(catalog)
 }
 
-/// Contents of a file that were read.
+/// Contents of a file that were read so far.
 #[derive(Default)]
 struct Document<'a> {
     catalog: Catalog,
@@ -61,7 +60,7 @@ impl<'a> Document<'a> {
                 _ => reader.unknown(&tag)?,
             }
         }
-        // The content after the root element must be well-formed, too.
+        // The content after the root element must also be well-formed.
         while reader.cursor.read()?.is_some() {}
         if self.catalog.devices.is_empty() {
             let message = "the file does not describe a device access point";
@@ -87,7 +86,7 @@ impl<'a> Document<'a> {
         while let Some(tag) = reader.child(parent)? {
             match tag.name {
                 "Family" => self.header.family(reader, &tag)?,
-                // The element is misplaced, but its meaning is clear.
+                // The element has the wrong parent, but its meaning is clear.
                 "ApplicationProcess" => {
                     let message = "<ApplicationProcess> is not in <ProfileBody>";
                     reader.report(&codes::GSDML_VALUE, tag.name_span(), message, "read as a part of <ProfileBody>");

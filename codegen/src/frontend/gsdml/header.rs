@@ -1,4 +1,4 @@
-//! Header of a file: its name, schema version, vendor and family of devices.
+//! Header of a file: file name, schema version, vendor, and family of devices.
 
 use super::reader::Reader;
 use super::resolve::Resolver;
@@ -11,16 +11,16 @@ use crate::syntax::xml::Tag;
 /// Number of header text bytes that are copied to each device without using the copy budget.
 const MAX_FREE_TEXTS: usize = 1024;
 
-/// Facts that all devices of a file share.
+/// Facts that apply to all devices of a file.
 #[derive(Default)]
 pub(super) struct Header {
     vendor_id: Option<u32>,
     vendor_name: CompactString,
     device_id: Option<u32>,
-    /// Description of the family, with a placeholder for its text.
+    /// Description of the device family, with a placeholder for the text.
     description: Option<Box<Documentation>>,
     family: (CompactString, CompactString),
-    /// Version of the schema and its span.
+    /// Version of the GSDML schema, and the span of the version.
     version: Option<(CompactString, Span)>,
 }
 
@@ -35,7 +35,7 @@ impl Header {
         Ok(())
     }
 
-    /// Reads DeviceIdentity.
+    /// Reads a `DeviceIdentity` element.
     pub fn identity<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<()> {
         let [vendor, device] = reader.attributes(tag, ["VendorID", "DeviceID"])?;
         for (given, name) in [(&vendor, "VendorID"), (&device, "DeviceID")] {
@@ -53,14 +53,14 @@ impl Header {
         Ok(())
     }
 
-    /// Reads the child `Family` of DeviceFunction.
+    /// Reads the `Family` child of a `DeviceFunction` element.
     pub fn family<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<()> {
         let [main, product] = reader.attributes(tag, ["MainFamily", "ProductFamily"])?;
         self.family = (main.compact(), product.compact());
         reader.no_children(tag)
     }
 
-    /// Adds the shared facts to every device.
+    /// Adds the facts in the header to every device.
     pub fn apply(mut self, catalog: &mut Catalog, resolver: &mut Resolver<'_, '_>) {
         resolver.documentation(&mut self.description);
         let description = self.description.as_ref().map_or("", |documentation| documentation.text.as_str());
@@ -95,7 +95,7 @@ impl Header {
         }
     }
 
-    /// Compares the file name with the naming rule and the schema version.
+    /// Reports a file name that violates the naming rule or contradicts the schema version.
     pub fn check_file_name(&self, name: &str, file: FileId, diagnostics: &mut Diagnostics) {
         if !diagnostics.wants(&codes::GSDML_FILE_NAME) {
             return;
@@ -138,14 +138,14 @@ fn version_of_name(name: &str) -> Option<&str> {
     let rest = rest.strip_suffix(".xml").or_else(|| rest.strip_suffix(".XML"))?;
     let (version, rest) = rest.split_once('-')?;
     let digits = |text: &str, count| text.len() == count && text.bytes().all(|byte| byte.is_ascii_digit());
-    // The date is last or is followed by the time.
+    // The date is the last part of the name, or the time comes after the date.
     let (front, last) = rest.rsplit_once('-')?;
     let front = match (digits(last, 8), front.rsplit_once('-')) {
         (true, _) => front,
         (false, Some((front, date))) if digits(last, 6) && digits(date, 8) => front,
         _ => return None,
     };
-    // Vendor and device.
+    // The vendor and the device are separate parts of the name.
     let named = front.split_once('-').is_some_and(|(vendor, device)| !vendor.is_empty() && !device.is_empty());
     (is_version(version) && named).then_some(version)
 }

@@ -12,7 +12,7 @@ use crate::source::Origin;
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
-    /// Reads IOData.
+    /// Reads an `IOData` element.
     pub fn io_data(&mut self, parent: &Tag<'a>, submodule: &mut Submodule) -> Read<()> {
         let names = ["IOPS_Length", "IOCS_Length", "F_IO_StructureDescVersion", "F_IO_StructureDescCRC"];
         let [provider, consumer, version, crc] = self.attributes(parent, names)?;
@@ -86,7 +86,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Returns the length of a data item from the file, if the type needs one or the file declares it.
+    /// Returns the declared length of a data item, if its type needs one or the file declares one.
     fn item_length(&mut self, tag: &Tag<'a>, item: &DataItem, given: &Given<'a>) -> Option<u32> {
         let length = self.unsigned(given, u16::MAX.into(), "length in bytes");
         let fixed = item.found.and_then(DataType::bytes);
@@ -151,7 +151,7 @@ fn quality_bits(format: &str) -> u32 {
     }
 }
 
-/// A data item as written.
+/// Contents of a `DataItem` element.
 struct DataItem {
     name: CompactString,
     data_type: CompactString,
@@ -162,23 +162,23 @@ struct DataItem {
     origin: Origin,
 }
 
-/// A named bit.
+/// Named bit of a data item.
 struct Bit {
     offset: u32,
     name: CompactString,
     origin: Origin,
 }
 
-/// Consecutive data items.
+/// Fields of consecutive data items.
 #[derive(Default)]
 struct Layout {
     fields: Vec<PdoEntry>,
     items: Vec<IoItem>,
-    /// Current length in bits.
+    /// Length of the fields in bits so far.
     at: u32,
     /// Number of bytes at the end that are not user data.
     overhead: u32,
-    /// Positions and origins of the items for these bytes.
+    /// Positions and origins of the PROFIsafe trailers in `items`.
     trailers: Vec<(usize, Origin)>,
 }
 
@@ -227,8 +227,7 @@ impl Layout {
         }
     }
 
-    /// Converts the trailer of a safety message to data if other data follows it. A trailer must be the end of the
-    /// data.
+    /// Converts PROFIsafe trailers to data if other data items follow them. A trailer must be at the end of the data.
     fn trailers_to_data(&mut self, reader: &mut Reader<'_, '_>) {
         for (at, origin) in std::mem::take(&mut self.trailers) {
             let Some(item) = self.items.get_mut(at) else { continue };
@@ -250,7 +249,7 @@ impl Layout {
         self.overhead = 0;
     }
 
-    /// Adds a field of an item. `offset` is in bits from the start of the item.
+    /// Adds a field of a data item. `offset` is the bit offset of the field in the item.
     fn field(&mut self, item: &DataItem, name: CompactString, ty: Type, offset: u32, bits: u32) {
         let kind = if ty == Type::Opaque(None) { PdoEntryKind::Unknown } else { PdoEntryKind::Item };
         self.push(name, ty, kind, offset, bits, item.origin);
@@ -261,7 +260,7 @@ impl Layout {
         self.fields.push(PdoEntry { bit_offset, kind, name, ty, origin, ..PdoEntry::new(0, 0, bits) });
     }
 
-    /// Adds the bits of an item in ascending order, with padding between them.
+    /// Adds the named bits of a data item in ascending order, with padding between them.
     fn bits(&mut self, item: &DataItem, length: u32, reader: &mut Reader<'_, '_>) {
         let is_number = matches!(item.found, Some(DataType::Basic(Type::Unsigned(_) | Type::Integer(_))));
         let mut bits: Vec<(u32, &Bit)> =
@@ -292,7 +291,7 @@ impl Layout {
     }
 }
 
-/// Returns the position of a bit in an item. Numbers are big-endian, so their bit 0 is in the last byte.
+/// Returns the bit offset of a bit in its data item. Numbers are big-endian, so their bit 0 is in the last byte.
 fn position(bit: u32, length: u32, is_number: bool) -> u32 {
     if !is_number || bit >= length {
         return bit;

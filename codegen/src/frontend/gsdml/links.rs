@@ -1,4 +1,4 @@
-//! Identifiers of elements, and references to them. A reference may be before its element.
+//! Identifiers of elements, and references to them. A reference may come before its element.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -9,14 +9,14 @@ use crate::ir::{Catalog, ModuleId, ModuleUse, SlotNumbers, SubmoduleId, Submodul
 use crate::source::Span;
 use crate::text::brief;
 
-/// Kind of an element. Identifiers are unique within a kind.
+/// Kind of an element with an identifier. Identifiers are unique within a kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum ElementKind {
     AccessPoint,
     Module,
-    /// VirtualSubmoduleItem, InterfaceSubmoduleItem, and ports that cannot be removed.
+    /// Built-in submodule: `VirtualSubmoduleItem`, `InterfaceSubmoduleItem`, or a port that cannot be removed.
     BuiltIn,
-    /// An element of SubmoduleList.
+    /// Submodule in `SubmoduleList`.
     Pluggable,
     Value,
     Graphic,
@@ -24,7 +24,7 @@ pub(super) enum ElementKind {
 }
 
 impl ElementKind {
-    /// Returns the name of the element with the identifier.
+    /// Returns the name of the XML element that declares the identifier.
     fn element(self) -> &'static str {
         match self {
             ElementKind::AccessPoint => "DeviceAccessPointItem",
@@ -41,9 +41,9 @@ impl ElementKind {
 /// Element into which modules or submodules can be plugged.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Owner {
-    /// Position of a device access point.
+    /// Device access point at this position in the catalog.
     Device(usize),
-    /// Position of a module.
+    /// Module at this position in the catalog.
     Module(usize),
 }
 
@@ -52,7 +52,7 @@ pub(super) struct Links<'a> {
     ids: HashMap<(ElementKind, Cow<'a, str>), (u32, Span)>,
     modules: Vec<(usize, Given<'a>, SlotNumbers)>,
     submodules: Vec<(Owner, Given<'a>, SlotNumbers)>,
-    /// References whose targets must exist, but that the IR does not resolve.
+    /// References that are only checked: the target must exist, but the IR does not resolve the reference.
     others: Vec<(ElementKind, Given<'a>)>,
 }
 
@@ -75,7 +75,7 @@ impl<'a> Links<'a> {
         self.submodules.push((owner, target, places));
     }
 
-    /// Adds a reference whose target must exist, but that the IR does not resolve.
+    /// Adds a reference that is only checked, because the IR does not resolve it.
     pub fn mention(&mut self, kind: ElementKind, target: &Given<'a>) {
         self.others.push((kind, target.clone()));
     }
@@ -88,7 +88,7 @@ impl<'a> Links<'a> {
         found.map(|&(position, _)| position)
     }
 
-    /// Resolves all references.
+    /// Resolves all references, and reports missing targets.
     pub fn resolve(mut self, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
         for (device, target, places) in std::mem::take(&mut self.modules) {
             let module = self.find(ElementKind::Module, &target, diagnostics).map(ModuleId);
@@ -114,7 +114,7 @@ impl<'a> Links<'a> {
     }
 }
 
-/// Reports a reference to a missing element.
+/// Reports a reference to an element that does not exist.
 pub(super) fn unresolved(element: &str, target: &Given<'_>, diagnostics: &mut Diagnostics) {
     let message = format!("there is no {element} with the ID `{}`", brief(&target.text));
     diagnostics.push(

@@ -1,4 +1,4 @@
-//! Reads the lists of graphics and categories of a file.
+//! Reads the list of graphics and the list of categories.
 
 use super::links::ElementKind;
 use super::reader::Reader;
@@ -6,7 +6,7 @@ use crate::frontend::xml::Read;
 use crate::ir::{Catalog, CompactString, Extension, Family, Graphic, LocalText};
 use crate::syntax::xml::Tag;
 
-/// Reads GraphicsList.
+/// Reads a `GraphicsList` element.
 pub(super) fn graphics<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, catalog: &mut Catalog) -> Read<()> {
     reader.each(list, "GraphicItem", |reader, tag| {
         let [id, file] = reader.attributes(tag, ["ID", "GraphicFile"])?;
@@ -16,7 +16,7 @@ pub(super) fn graphics<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, catalog:
     })
 }
 
-/// Keeps a drawing as written.
+/// Stores the XML text of an embedded drawing as an extension.
 fn drawing<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<()> {
     reader.skip(tag)?;
     let range = tag.span.start as usize..reader.cursor.offset() as usize;
@@ -25,7 +25,7 @@ fn drawing<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<()> {
     Ok(())
 }
 
-/// Reads CategoryList.
+/// Reads a `CategoryList` element.
 pub(super) fn categories<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, catalog: &mut Catalog) -> Read<()> {
     reader.each(list, "CategoryItem", |reader, tag| {
         let origin = reader.origin(tag);

@@ -1,4 +1,4 @@
-//! Location and type of a value in a record or diagnosis, and the names of its values.
+//! Bit offset, length, type and enumeration of a value in a record or diagnosis.
 
 use super::data_type::DataType;
 use super::reader::Reader;
@@ -8,7 +8,7 @@ use crate::ir::Type;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// Position, length and type of a value.
+/// Bit offset, length and type of a value in a record or diagnosis.
 pub(super) struct Location {
     pub data_type: Option<DataType>,
     pub ty: Type,
@@ -17,7 +17,7 @@ pub(super) struct Location {
 }
 
 impl Location {
-    /// Returns the type of the raw number.
+    /// Returns the type of the raw value, without the scale of a named number type.
     pub fn number(&self) -> Type {
         match self.data_type {
             Some(DataType::Number(number)) => number.base,
@@ -27,7 +27,8 @@ impl Location {
 }
 
 impl<'a> Reader<'a, '_> {
-    /// Returns the location that the attributes DataType, ByteOffset, BitOffset, BitLength and Length describe.
+    /// Returns the location that the attributes `DataType`, `ByteOffset`, `BitOffset`, `BitLength` and `Length`
+    /// describe.
     pub fn location(&mut self, tag: &Tag<'a>, data_type: &Given<'a>, attributes: [&Given<'a>; 4]) -> Location {
         let [byte, bit, bits, length] = attributes;
         let byte = self.unsigned(byte, u32::MAX / 8 - 1, "byte offset").unwrap_or(0);
@@ -52,7 +53,7 @@ impl<'a> Reader<'a, '_> {
         Location { data_type, ty, bit_offset, bits }
     }
 
-    /// Returns the data type in `given`. Reports a type that GSDML does not define.
+    /// Returns the data type that `given` names. Reports a type that GSDML does not define.
     pub fn data_type(&mut self, tag: &Tag<'a>, given: &Given<'a>) -> Option<DataType> {
         if !self.require(tag, given, "DataType", "kept as raw bytes") {
             return None;
@@ -77,12 +78,12 @@ impl<'a> Reader<'a, '_> {
         similar.map(|(_, ty)| ty)
     }
 
-    /// Returns the enumeration of the ValueItem `target` for a value of type `ty`.
+    /// Returns the enumeration that the `ValueItem` called `target` defines for values of the type `ty`.
     pub fn named_values(&mut self, target: Given<'a>, ty: Type) -> Option<Type> {
         if target.is_missing() {
             return None;
         }
-        // A single bit with named values becomes an enumeration, too.
+        // A single bit with named values also becomes an enumeration.
         let base = if ty == Type::Boolean { Type::Unsigned(1) } else { ty };
         if matches!(base, Type::Integer(_) | Type::Unsigned(_)) {
             return Some(self.format.types.enumeration(target, base));

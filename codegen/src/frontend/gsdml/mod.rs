@@ -1,17 +1,18 @@
 //! Converts PROFINET device descriptions (GSDML V1.0 to V2.45) to IR.
 //!
-//! A file describes a family of devices. Each device access point becomes a [`Device`](crate::ir::Device). Modules
-//! and submodules belong to the catalog, because several devices can use them, and so do the types of their data. A
-//! file is read once, from top to bottom, directly into the IR. Many references are before their targets, and the
-//! texts are at the end of the file. References are therefore collected, and resolved at the end.
+//! A file describes a family of devices. Each device access point becomes a [`Device`](crate::ir::Device). Modules,
+//! submodules and the types of their data belong to the catalog, because several devices can use them. A file is read
+//! once, from top to bottom, directly into the IR. Many references come before their targets, and the texts are at the
+//! end of the file. References are therefore collected, and resolved at the end.
 //!
-//! Versions differ only in the elements and attributes that they define. This front end reads all versions in the
-//! same way. It keeps unknown elements and attributes, so that it can read files of later versions.
+//! GSDML versions differ only in the elements and attributes that they define. This front end reads all versions of
+//! GSDML in the same way. The front end also reads files of later versions, because unknown elements and attributes
+//! become extensions.
 //!
 //! | file | subject |
 //! |---|---|
 //! | `document`, `lists` | a file, and its lists of graphics and categories |
-//! | `reader` | the state of reading; identifiers, references to texts, required attributes |
+//! | `reader` | reader state; identifiers, references to texts, required attributes |
 //! | `number` | numbers, Boolean values and lists |
 //! | `text_references`, `text_list`, `resolve` | references to texts, the text list, and the resolution of references |
 //! | `links` | identifiers of elements, and references to them |

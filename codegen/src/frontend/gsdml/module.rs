@@ -1,4 +1,4 @@
-//! Reads modules.
+//! Reads the modules of a file.
 
 use super::links::{ElementKind, Owner};
 use super::module_info::{named_graphic, Info};
@@ -9,7 +9,7 @@ use crate::ir::{Catalog, Extension, Module};
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
-    /// Reads ModuleList.
+    /// Reads a `ModuleList` element.
     pub fn module_list(&mut self, list: &Tag<'a>, catalog: &mut Catalog) -> Read<()> {
         self.each(list, "ModuleItem", |reader, tag| {
             let module = reader.module(tag, catalog)?;
@@ -58,7 +58,7 @@ impl<'a> Reader<'a, '_> {
 }
 
 impl Info<'_> {
-    /// Adds the contents of ModuleInfo to a module.
+    /// Adds the contents of a `ModuleInfo` element to a module.
     fn of_module(self, module: &mut Module, attributes: &mut Attributes) {
         module.name = self.name;
         module.documentation = self.documentation;

@@ -1,4 +1,4 @@
-//! ModuleInfo and graphics, which modules, submodules and device access points share.
+//! Reads `ModuleInfo` and `Graphics` elements, which modules, submodules and device access points have.
 
 use compact_str::format_compact;
 
@@ -8,25 +8,25 @@ use crate::frontend::xml::{Attributes, Given, Read};
 use crate::ir::{CompactString, Documentation};
 use crate::syntax::xml::Tag;
 
-/// Contents of a ModuleInfo element.
+/// Contents of a `ModuleInfo` element.
 #[derive(Default)]
 pub(super) struct Info<'a> {
-    /// Placeholder of the name.
+    /// Placeholder for the name.
     pub name: CompactString,
     pub documentation: Option<Box<Documentation>>,
     pub vendor: Given<'a>,
     pub order: Given<'a>,
     pub hardware: Given<'a>,
     pub software: Given<'a>,
-    /// Category and family.
+    /// Attributes for the category and the family.
     pub attributes: Attributes,
 }
 
-/// Graphics, each with its kind.
+/// Kind and identifier of each graphic.
 pub(super) type Graphics = Vec<(CompactString, CompactString)>;
 
 impl<'a> Reader<'a, '_> {
-    /// Reads ModuleInfo.
+    /// Reads a `ModuleInfo` element.
     pub fn module_info(&mut self, parent: &Tag<'a>) -> Read<Info<'a>> {
         let mut info = Info::default();
         let [category, sub_category] = self.attributes(parent, ["CategoryRef", "SubCategory1Ref"])?;
@@ -54,7 +54,7 @@ impl<'a> Reader<'a, '_> {
         Ok(info)
     }
 
-    /// Reads Graphics.
+    /// Reads a `Graphics` element.
     pub fn graphics(&mut self, list: &Tag<'a>) -> Read<Graphics> {
         let mut graphics = Graphics::new();
         self.each(list, "GraphicItemRef", |reader, tag| {
@@ -69,7 +69,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// Returns a graphic as an attribute, for elements without a list of graphics in the IR.
+/// Converts a graphic to an attribute, for elements that have no list of graphics in the IR.
 pub(super) fn named_graphic(graphic: (CompactString, CompactString)) -> (CompactString, CompactString) {
     (format_compact!("GraphicItemRef@{}", graphic.0), graphic.1)
 }

@@ -1,4 +1,4 @@
-//! Reads the numbers, Boolean values and lists of GSDML.
+//! Reads the numbers, Boolean values and lists in GSDML files.
 
 use smallvec::SmallVec;
 
@@ -42,8 +42,8 @@ impl<'a> Reader<'a, '_> {
         self.unsigned(given, u16::MAX.into(), what).and_then(|value| u16::try_from(value).ok())
     }
 
-    /// Reads an ident number (`0x0000430A`) with any number of digits. Reports a missing prefix and still reads the
-    /// number.
+    /// Reads an ident number such as `0x0000430A`, with any number of digits. Reports a missing prefix, but still reads
+    /// the number.
     pub fn ident(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
         if given.is_missing() {
             return None;
@@ -68,13 +68,13 @@ impl<'a> Reader<'a, '_> {
         value
     }
 
-    /// Reads the required ident number of `tag`. Returns 0 if it is missing.
+    /// Reads the required ident number of `tag`. Returns 0 if the ident number is missing.
     pub fn required_ident(&mut self, tag: &Tag<'_>, given: &Given<'_>, name: &str) -> u32 {
         self.require(tag, given, name, "read as 0");
         self.ident(given, u32::MAX, "ident number").unwrap_or(0)
     }
 
-    /// Reads a list of numbers and ranges (`1..3 7`). Reports and ignores other parts.
+    /// Reads a list of numbers and ranges such as `1..3 7`. Reports and ignores all other parts.
     pub fn numbers(&mut self, given: &Given<'_>) -> Numbers {
         let mut list = SmallVec::new();
         let mut broken = None;
@@ -112,12 +112,12 @@ fn hex(text: &str) -> Option<u64> {
     u64::from_str_radix(digits, 16).ok()
 }
 
-/// Returns the tokens of a list `a;b;c`.
+/// Returns the parts of a list such as `a;b;c`.
 pub(super) fn tokens(text: &str) -> impl Iterator<Item = &str> {
     text.split(';').map(str::trim).filter(|token| !token.is_empty())
 }
 
-/// Reads a list of 32-bit numbers and ranges. Returns `None` for any other text.
+/// Reads a list of 32-bit numbers and ranges. Returns `None` if a part is neither.
 pub(super) fn wide_ranges(text: &str) -> Option<Vec<(i128, i128)>> {
     let number = |text: &str| text.parse::<u32>().ok().map(i128::from);
     let range = |part: &str| match part.split_once("..") {

@@ -8,7 +8,7 @@ use crate::ir::{Access, Behaviour, Binding, Item};
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
-    /// Reads a Ref element of the record `index`.
+    /// Reads a `Ref` element, which describes a parameter of the record `index`.
     pub fn parameter(&mut self, tag: &Tag<'a>, index: u16, item: &mut Item) -> Read<()> {
         const NAMES: [&str; 12] = [
             "ValueItemTarget",
@@ -60,7 +60,7 @@ impl<'a> Reader<'a, '_> {
             return Ok(());
         }
         if matches!(location.data_type, Some(DataType::String(_))) {
-            // Blanks around a text are part of it.
+            // Blanks around the default value of a string belong to the string.
             [given] = self.attributes_with_blanks(tag, ["DefaultValue"])?;
         }
         item.default = self.default_value(&given, location.number(), location.bits);

@@ -1,4 +1,4 @@
-//! State of reading a file, and functions for identifiers, text references and required attributes.
+//! State of the GSDML reader, and functions for identifiers, text references and required attributes.
 
 use super::links::{ElementKind, Links};
 use super::text_references::TextReferences;
@@ -11,7 +11,7 @@ use crate::text::brief;
 
 pub(super) type Reader<'a, 'd> = xml::Reader<'a, 'd, Gsdml<'a>>;
 
-/// State of the GSDML reader.
+/// State of the GSDML reader in addition to that of the XML reader.
 #[derive(Default)]
 pub(super) struct Gsdml<'a> {
     /// References to texts, which are at the end of the file.
@@ -20,7 +20,7 @@ pub(super) struct Gsdml<'a> {
     pub types: Types<'a>,
     /// Identifiers of elements, and references to them.
     pub links: Links<'a>,
-    /// Buffer for the parameters of a record. It is reused for each record.
+    /// Buffer for the parameters of a record, which is reused for each record.
     pub items: Vec<Item>,
 }
 
@@ -33,13 +33,13 @@ impl xml::Format for Gsdml<'_> {
 }
 
 impl<'a> Reader<'a, '_> {
-    /// Reports that an attribute or a child of `tag` is missing.
+    /// Reports that `tag` lacks the attribute or child `what`.
     pub fn missing(&mut self, tag: &Tag<'_>, what: &str, label: impl Into<String>) {
         let message = format!("<{}> has no {what}", brief(tag.name));
         self.report(&codes::GSDML_MISSING, tag.name_span(), message, label);
     }
 
-    /// Returns whether a required attribute is present; reports it if not.
+    /// Returns whether a required attribute is present. Reports a missing attribute.
     pub fn require(&mut self, tag: &Tag<'_>, given: &Given<'_>, name: &str, label: &str) -> bool {
         if given.is_missing() {
             self.missing(tag, name, label);
@@ -54,7 +54,7 @@ impl<'a> Reader<'a, '_> {
         Ok(given)
     }
 
-    /// Returns the placeholder for the required text of an element.
+    /// Returns the placeholder for the text that names an element. Reports a missing text.
     pub fn name(&mut self, tag: &Tag<'a>, given: Given<'a>) -> CompactString {
         if given.is_missing() {
             let message = format!("<{}> has no TextId", tag.name);
@@ -76,11 +76,11 @@ impl<'a> Reader<'a, '_> {
         Ok(Some(Box::new(Documentation { text, ..Documentation::default() })))
     }
 
-    /// Registers the identifier of the element `tag` at `position` in the catalog. The first element with an
-    /// identifier takes precedence.
+    /// Registers the identifier of the element `tag` at `position` in the catalog. If an identifier is repeated, the
+    /// first element takes precedence.
     pub fn register(&mut self, tag: &Tag<'a>, kind: ElementKind, id: &Given<'a>, position: usize) {
         if id.is_missing() {
-            // In V2.0, interfaces and ports have no ID, and nothing refers to them.
+            // Interfaces and ports of V2.0 have no identifier, and nothing refers to them.
             if kind != ElementKind::BuiltIn || tag.name == "VirtualSubmoduleItem" {
                 self.missing(tag, "ID", "nothing can refer to it");
             }

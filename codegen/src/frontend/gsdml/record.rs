@@ -1,4 +1,4 @@
-//! Reads parameter records: constants and menus.
+//! Reads parameter records, including constants and menus.
 
 use super::reader::Reader;
 use super::value::octets;
@@ -7,7 +7,7 @@ use crate::ir::{Binding, Group, GroupKind, Item, Menu, ObjectCode, Record, Submo
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
-    /// Reads RecordDataList.
+    /// Reads a `RecordDataList` element.
     pub fn record_data_list(&mut self, list: &Tag<'a>, submodule: &mut Submodule) -> Read<()> {
         while let Some(tag) = self.child(list)? {
             match tag.name {
@@ -19,7 +19,7 @@ impl<'a> Reader<'a, '_> {
                 _ => self.unknown(&tag)?,
             }
         }
-        // A sequence number of 0 means any order.
+        // The sequence number 0 means any order, so these records come last.
         let order = |group: &Group| match &group.kind {
             GroupKind::Record(record) if record.transfer_sequence > 0 => record.transfer_sequence,
             _ => u16::MAX,
@@ -49,13 +49,13 @@ impl<'a> Reader<'a, '_> {
         Ok(index.map(|_| group))
     }
 
-    /// Returns the required length of a record.
+    /// Reads the required length of a record. Returns 0 if the length is missing.
     pub fn record_length(&mut self, tag: &Tag<'a>, given: &Given<'a>) -> u32 {
         self.require(tag, given, "Length", "read as 0");
         self.unsigned(given, u32::MAX, "length").unwrap_or(0)
     }
 
-    /// Reads the contents of a record or of a vendor block.
+    /// Reads the children of a record or of a vendor block.
     pub fn record_body(
         &mut self,
         parent: &Tag<'a>,
@@ -67,7 +67,7 @@ impl<'a> Reader<'a, '_> {
         while let Some(tag) = self.child(parent)? {
             match tag.name {
                 "Ref" => {
-                    // The item is filled in place because it is large.
+                    // The item is filled in the list to avoid a copy of the large struct.
                     items.push(Item::new(Binding::Record { index: record.index, bit_offset: 0, bits: 0 }));
                     if let Some(item) = items.last_mut() {
                         self.parameter(&tag, record.index, item)?;
@@ -83,7 +83,7 @@ impl<'a> Reader<'a, '_> {
                 _ => self.unknown(&tag)?,
             }
         }
-        // Reserves the exact length because items are large.
+        // Items are large, so the group reserves only the exact length.
         group.items.reserve_exact(items.len());
         group.items.append(&mut items);
         self.format.items = items;

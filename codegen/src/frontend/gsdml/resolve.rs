@@ -1,4 +1,4 @@
-//! Replaces the placeholders of names and descriptions by texts.
+//! Replaces the placeholders in names and descriptions with texts.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
@@ -17,7 +17,7 @@ use crate::limits;
 use crate::source::Span;
 use crate::text::brief;
 
-/// Resolves all names and descriptions of a catalog.
+/// Replaces all placeholders in the names and descriptions of a catalog.
 pub(super) fn catalog(catalog: &mut Catalog, resolver: &mut Resolver<'_, '_>) {
     catalog.devices.iter_mut().for_each(|found| device(found, resolver));
     catalog.modules.iter_mut().for_each(|found| module(found, resolver));
@@ -109,14 +109,14 @@ fn unit_diagnosis(diagnosis: &mut UnitDiagnosis, resolver: &mut Resolver<'_, '_>
     }
 }
 
-/// Replaces placeholders by the texts that they refer to.
+/// Replaces placeholders with the texts to which they refer.
 pub(super) struct Resolver<'a, 'd> {
     pub list: TextList<'a>,
     references: TextReferences<'a>,
     pub diagnostics: &'d mut Diagnostics,
-    /// Texts with a suffix, by identifier and suffix.
+    /// Texts with a suffix, by text identifier and suffix.
     suffixed: HashMap<(Cow<'a, str>, CompactString), (CompactString, Texts)>,
-    /// References that were reported. Several elements of the IR may have the same reference.
+    /// Numbers of the missing references that were reported. Several elements of the IR may have the same reference.
     missing: HashSet<usize>,
     /// Remaining number of text bytes that may be copied.
     budget: usize,
@@ -134,7 +134,7 @@ impl<'a, 'd> Resolver<'a, 'd> {
         Resolver { list, references, diagnostics, suffixed: HashMap::new(), missing: HashSet::new(), budget }
     }
 
-    /// Resolves a name.
+    /// Replaces the placeholder in `name` with its text, and stores the translations in `names`.
     pub fn name(&mut self, name: &mut CompactString, names: &mut Texts) {
         let digits = name.bytes().take_while(u8::is_ascii_digit).count();
         let (placeholder, suffix) = name.split_at(digits);
@@ -178,13 +178,14 @@ impl<'a, 'd> Resolver<'a, 'd> {
         Some(found)
     }
 
-    /// Returns whether a text of this length may be copied again. The limit prevents a long text from being
-    /// multiplied by many references.
+    /// Subtracts `length` bytes from the budget for copied texts. The budget prevents many references from multiplying
+    /// a long text.
     fn spend(&mut self, length: usize, given: &Given<'_>) -> bool {
         self.spend_at(length, given.span)
     }
 
-    /// Returns whether a text of `length` bytes may be copied. Reports the first text that exceeds the limit.
+    /// Subtracts `length` bytes from the budget for copied texts. Returns false if the budget is too small, and reports
+    /// this once.
     pub fn spend_at(&mut self, length: usize, span: Span) -> bool {
         if let Some(rest) = self.budget.checked_sub(length) {
             self.budget = rest;
@@ -198,7 +199,7 @@ impl<'a, 'd> Resolver<'a, 'd> {
         false
     }
 
-    /// Resolves a description.
+    /// Replaces the placeholder in a description with its text and translations.
     pub fn documentation(&mut self, documentation: &mut Option<Box<Documentation>>) {
         let Some(documentation) = documentation else { return };
         let mut text = CompactString::from(documentation.text.as_str());
@@ -206,13 +207,13 @@ impl<'a, 'd> Resolver<'a, 'd> {
         documentation.text = text.into();
     }
 
-    /// Resolves a list of descriptions, which contains only placeholders, into all languages.
+    /// Replaces each placeholder in a list of descriptions with its text in all languages.
     pub fn descriptions(&mut self, descriptions: &mut Vec<LocalText>) {
         for LocalText { text: mark, .. } in std::mem::take(descriptions) {
             let (mut text, mut texts) = (mark.clone(), Texts::default());
             self.name(&mut text, &mut texts);
             descriptions.push(LocalText { language: "en".into(), text });
-            // Each translation is a separate copy.
+            // The translations are further copies, which the budget must allow.
             let given = mark.parse().ok().and_then(|at: usize| self.references.get(at)).cloned();
             let length = texts.iter().map(|local| local.text.len() + std::mem::size_of::<LocalText>()).sum();
             if given.is_some_and(|given| self.spend(length, &given)) {

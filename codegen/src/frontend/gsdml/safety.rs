@@ -1,4 +1,4 @@
-//! Reads parameters for functional safety (PROFIsafe).
+//! Reads the parameters for functional safety (PROFIsafe).
 
 use super::number;
 use super::reader::Reader;
@@ -7,16 +7,16 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{FParameter, FParameters, Submodule};
 use crate::syntax::xml::Tag;
 
-/// A parameter as the schema defines it.
+/// PROFIsafe parameter as the GSDML schema defines it.
 struct Known {
     name: &'static str,
-    /// Whether the parameter is mandatory in a record.
+    /// True if a record must contain the parameter.
     required: bool,
     default: &'static str,
     allowed: &'static str,
     changeable: bool,
     visible: bool,
-    /// Named values with their numbers in the record; empty if the values are numbers.
+    /// Named values and their numbers in the record; empty if the values are numbers.
     labels: &'static [(&'static str, i128)],
 }
 
@@ -38,7 +38,7 @@ impl Known {
     }
 }
 
-/// The parameters in the order of the schema, with their defaults.
+/// Parameters in the order of the schema, with their default values.
 static KNOWN: [Known; 12] = [
     known("F_Check_iPar", "NoCheck", "Check NoCheck", false).hidden().labels(&[("NoCheck", 0), ("Check", 1)]),
     known("F_SIL", "SIL3", "SIL1 SIL2 SIL3 NoSIL", true).labels(&[("SIL1", 0), ("SIL2", 1), ("SIL3", 2), ("NoSIL", 3)]),
@@ -47,7 +47,8 @@ static KNOWN: [Known; 12] = [
         ("2-Byte-CRC", 1),
         ("4-Byte-CRC", 2),
     ]),
-    // The only seed in GSDML is a clear bit. This follows from the checksums that vendors declare for their defaults.
+    // GSDML defines one seed, which is a cleared bit. The checksums that vendors declare for their default values prove
+    // this.
     known("F_CRC_Seed", "CRC-Seed24/32", "CRC-Seed24/32", false).optional().labels(&[("CRC-Seed24/32", 0)]),
     known("F_Passivation", "Device/Module", "Device/Module", false)
         .optional()
@@ -62,7 +63,7 @@ static KNOWN: [Known; 12] = [
 ];
 
 impl<'a> Reader<'a, '_> {
-    /// Reads F_ParameterRecordDataItem.
+    /// Reads an `F_ParameterRecordDataItem` element.
     pub fn f_record(&mut self, parent: &Tag<'a>, submodule: &mut Submodule) -> Read<()> {
         let origin = self.origin(parent);
         let names = ["Index", "TransferSequence", "F_ParamDescCRC", "F_SupportedParameters", "ChangeableWithBump"];
@@ -95,7 +96,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Adds the mandatory parameters that the file leaves out.
+    /// Adds the mandatory parameters that the file omits, with their default values.
     fn add_missing(&mut self, tag: &Tag<'a>, parameters: &mut Vec<FParameter>) {
         for known in KNOWN.iter().filter(|known| known.required) {
             if !parameters.iter().any(|parameter| parameter.name == known.name) {
@@ -155,7 +156,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// Returns a parameter with the facts of the schema.
+/// Returns a parameter with the values that the schema defines.
 fn by_schema(known: &Known) -> FParameter {
     let mut parameter = FParameter {
         name: known.name.into(),

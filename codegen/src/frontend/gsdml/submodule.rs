@@ -12,20 +12,20 @@ use crate::ir::{
 };
 use crate::syntax::xml::Tag;
 
-/// Subslot of the first interface.
+/// Subslot number of the first interface.
 const INTERFACE: u16 = 0x8000;
 
-/// Element with built-in submodules.
+/// Destination for the built-in submodules of an element.
 pub(super) struct Holder<'h> {
     /// Submodules of the catalog.
     pub submodules: &'h mut Vec<Submodule>,
-    /// Submodules of the element, with their subslots.
+    /// Submodules that the element uses, with their subslots.
     pub uses: &'h mut Vec<SubmoduleUse>,
-    /// Device settings that an interface declares.
+    /// Device settings that an interface may declare.
     pub settings: Option<&'h mut ProfinetSettings>,
 }
 
-/// Returns the kind of submodule that an element describes.
+/// Returns the kind of submodule that the element `element` describes.
 fn kind_of(element: &str) -> Option<SubmoduleKind> {
     match element {
         "VirtualSubmoduleItem" => Some(SubmoduleKind::Virtual),
@@ -37,7 +37,7 @@ fn kind_of(element: &str) -> Option<SubmoduleKind> {
 }
 
 impl<'a> Reader<'a, '_> {
-    /// Reads VirtualSubmoduleList or SystemDefinedSubmoduleList.
+    /// Reads a `VirtualSubmoduleList` or `SystemDefinedSubmoduleList` element.
     pub fn built_in(&mut self, list: &Tag<'a>, holder: &mut Holder<'_>) -> Read<()> {
         while let Some(tag) = self.child(list)? {
             let kind = match kind_of(tag.name) {
@@ -58,7 +58,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Reads SubmoduleList.
+    /// Reads a `SubmoduleList` element.
     pub fn submodule_list(&mut self, list: &Tag<'a>, submodules: &mut Vec<Submodule>) -> Read<()> {
         while let Some(tag) = self.child(list)? {
             match kind_of(tag.name) {
@@ -72,7 +72,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Reads a submodule. Returns it with the subslots in which it is built in.
+    /// Reads a submodule. Also returns the subslots in which the submodule is fixed.
     fn submodule(
         &mut self,
         parent: &Tag<'a>,
@@ -107,7 +107,7 @@ impl<'a> Reader<'a, '_> {
                 _ => self.unknown(&tag)?,
             }
         }
-        // In V1.0, virtual submodules have no name.
+        // Virtual submodules have no name in GSDML V1.0.
         let named = kind == SubmoduleKind::Virtual || !submodule.name.is_empty() || !info.name.is_empty();
         if !named {
             self.missing(parent, "name", "the name is left empty");
@@ -121,14 +121,14 @@ impl<'a> Reader<'a, '_> {
         Ok((submodule, fixed))
     }
 
-    /// Reads ApplicationRelations. Fields of the IR are filled from the first interface.
+    /// Reads an `ApplicationRelations` element. Only the first interface fills the fields of the IR.
     pub fn application_relations(
         &mut self,
         parent: &Tag<'a>,
         settings: Option<&mut ProfinetSettings>,
         submodule: &mut Submodule,
     ) -> Read<()> {
-        // The element of a further interface is kept as written.
+        // The element of a further interface becomes attributes of the submodule.
         let Some(settings) = settings.filter(|settings| settings.startup_modes.is_empty()) else {
             return self.keep_as_attributes(parent, &mut submodule.attributes);
         };
@@ -153,7 +153,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Reads UseableSubmodules.
+    /// Reads a `UseableSubmodules` element.
     pub fn useable_submodules(&mut self, list: &Tag<'a>, owner: Owner) -> Read<()> {
         let names = ["SubmoduleItemTarget", "AllowedInSubslots", "FixedInSubslots", "UsedInSubslots"];
         self.each(list, "SubmoduleItemRef", |reader, tag| {
@@ -166,13 +166,13 @@ impl<'a> Reader<'a, '_> {
         })
     }
 
-    /// Returns the slots or subslots in the attributes Allowed…, Fixed… and Used….
+    /// Reads the slot or subslot numbers in the attributes `Allowed…`, `Fixed…` and `Used…`.
     pub fn places(&mut self, given: [Given<'a>; 3]) -> SlotNumbers {
         let [allowed, fixed, used] = given.map(|given| self.numbers(&given));
         SlotNumbers { allowed, fixed, used }
     }
 
-    /// Reads SubslotList.
+    /// Reads a `SubslotList` element.
     pub fn subslot_list(&mut self, list: &Tag<'a>) -> Read<Vec<SubslotName>> {
         let mut subslots = Vec::new();
         self.each(list, "SubslotItem", |reader, tag| {
@@ -188,7 +188,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// Returns whether an element of a submodule is kept as attributes.
+/// Returns whether a child element of a submodule becomes attributes of the submodule.
 fn is_kept(element: &str) -> bool {
     const NAMES: [&str; 11] = [
         "IsochroneMode",
@@ -206,7 +206,7 @@ fn is_kept(element: &str) -> bool {
     NAMES.contains(&element)
 }
 
-/// Returns the default subslot of a kind of submodule.
+/// Returns the subslot in which a submodule of this kind is built in by default.
 fn default_subslot(kind: SubmoduleKind) -> u16 {
     match kind {
         SubmoduleKind::Interface => INTERFACE,
@@ -215,14 +215,14 @@ fn default_subslot(kind: SubmoduleKind) -> u16 {
     }
 }
 
-/// Adds attributes of an element within a submodule.
+/// Adds the attributes of a child element to a submodule, with the element's name as a prefix.
 fn add(element: &str, others: Attributes, submodule: &mut Submodule) {
     let named = others.into_iter().map(|(key, value)| (format_compact!("{element}@{key}"), value));
     submodule.attributes.extend(named);
 }
 
 impl Info<'_> {
-    /// Adds the contents of ModuleInfo to a submodule.
+    /// Adds the contents of a `ModuleInfo` element to a submodule.
     fn of_submodule(self, submodule: &mut Submodule) {
         if !self.name.is_empty() {
             submodule.name = self.name;

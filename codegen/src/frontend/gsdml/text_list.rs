@@ -23,38 +23,38 @@ pub(super) struct TextList<'a> {
     primaries: usize,
     languages: Vec<CompactString>,
     seen: HashMap<CompactString, Span>,
-    /// Entry that the next text probably belongs to. Languages list the same texts in the same order, and most
-    /// references have this order, too.
+    /// Position of the entry that the next text or reference probably belongs to. All languages and most references
+    /// have the same order.
     next: usize,
 }
 
 struct Entry<'a> {
     id: Cow<'a, str>,
-    /// Span of the identifier.
+    /// Span of the text identifier in the primary language, or in another language if the primary one lacks the text.
     span: Span,
     primary: Option<Cow<'a, str>>,
-    /// Positions of the first and last translation.
+    /// Positions of the first and the last translation.
     translations: Option<(usize, usize)>,
-    /// Text with its translations, after the first reference is resolved.
+    /// Text with its translations, which the first reference creates.
     finished: Option<(CompactString, Texts)>,
 }
 
 struct Translation<'a> {
     language: usize,
-    /// Span of the identifier in the list of the language.
+    /// Span of the text identifier in the list of the language.
     span: Span,
     text: Cow<'a, str>,
     next: Option<usize>,
 }
 
-/// A `Text` element of a list.
+/// `Text` element of a text list.
 struct Text<'a> {
     id: Given<'a>,
     value: Cow<'a, str>,
 }
 
 impl<'a> TextList<'a> {
-    /// Reads ExternalTextList.
+    /// Reads an `ExternalTextList` element.
     pub fn read(&mut self, reader: &mut Reader<'a, '_>, list: &Tag<'a>) -> Read<()> {
         while let Some(tag) = reader.child(list)? {
             match tag.name {
@@ -88,7 +88,7 @@ impl<'a> TextList<'a> {
     }
 
     fn language(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
-        // Each text of the language has a copy of the language name, so the name is shortened.
+        // The name of the language is copied for each text, so its length is limited.
         let name = CompactString::from(brief(&reader.single(parent, "lang")?.text));
         if let Some(&first) = self.seen.get(&name) {
             let message = format!("the language `{name}` has two lists of texts");
@@ -111,7 +111,7 @@ impl<'a> TextList<'a> {
         Ok(())
     }
 
-    /// Returns the entry with this identifier. Adds it if it is missing.
+    /// Returns the position of the entry with the identifier `id`. Adds a missing entry.
     fn entry(&mut self, id: Given<'a>) -> usize {
         let at = match self.entries.get(self.next) {
             Some(entry) if entry.id == id.text => self.next,
@@ -125,7 +125,7 @@ impl<'a> TextList<'a> {
         at
     }
 
-    /// Adds a translation. Returns the span of an earlier one in the same language.
+    /// Adds a translation to an entry. Returns the span of an earlier translation in the same language.
     fn translate(&mut self, at: usize, language: usize, span: Span, text: Cow<'a, str>) -> Option<Span> {
         let number = self.translations.len();
         let entry = self.entries.get_mut(at)?;
@@ -144,7 +144,7 @@ impl<'a> TextList<'a> {
         None
     }
 
-    /// Reports a language that has only `count` texts of the primary language.
+    /// Reports a language that translates only `count` texts of the primary language.
     fn report_missing(&self, diagnostics: &mut Diagnostics, tag: &Tag<'a>, language: usize, count: usize) {
         let missing = self.primaries.saturating_sub(count);
         if missing == 0 {
@@ -157,8 +157,8 @@ impl<'a> TextList<'a> {
             .label("the primary language is used instead");
         let last = |entry: &Entry<'a>| entry.translations.and_then(|(_, last)| self.translations.get(last));
         let translated = |entry: &Entry<'a>| last(entry).is_some_and(|last| last.language == language);
-        // The search is limited to the length of this list, because a file may have many languages with one text
-        // each.
+        // The search covers only as many entries as the language has texts. A file may have many languages with one
+        // text each.
         let mut near = self.entries.iter().take(count + 1);
         if let Some(first) = near.find(|entry| entry.primary.is_some() && !translated(entry)) {
             diagnostic = diagnostic.note_at(first.span, "first text without a translation");
@@ -166,7 +166,7 @@ impl<'a> TextList<'a> {
         diagnostics.push(diagnostic);
     }
 
-    /// Returns the text with this identifier and its translations.
+    /// Returns the text with the identifier `id`, and its translations.
     pub fn find(&mut self, id: &str) -> Option<(CompactString, Texts)> {
         let at = match self.entries.get(self.next) {
             Some(entry) if entry.id == id => self.next,
@@ -180,7 +180,7 @@ impl<'a> TextList<'a> {
         self.entries.get(at)?.finished.clone()
     }
 
-    /// Keeps unreferenced texts as extensions, and reports texts that the primary language lacks.
+    /// Stores unreferenced texts as extensions, and reports texts that are missing in the primary language.
     pub fn close(&self, diagnostics: &mut Diagnostics, extensions: &mut Extensions) {
         for entry in &self.entries {
             if entry.primary.is_none() {
@@ -209,10 +209,10 @@ impl<'a> TextList<'a> {
         extensions.extend(others.map(|(key, value)| Extension { key, value, span: entry.span }));
     }
 
-    /// Returns the text and its translations.
+    /// Returns the text of an entry, and its translations.
     fn finish(&self, entry: &Entry<'a>) -> (CompactString, Texts) {
         let mut texts = Vec::new();
-        // A language with two lists usually has all texts twice.
+        // If a language has two lists, both lists usually contain the same texts.
         let is_repeated = self.seen.len() < self.languages.len();
         let mut seen = HashSet::new();
         let mut chain = entry.translations;
@@ -246,7 +246,7 @@ fn read_text<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option<Text
         reader.unknown(tag)?;
         return Ok(None);
     }
-    // Blanks around a text are part of it.
+    // Blanks around a text belong to the text.
     let [id, value] = reader.attributes_with_blanks(tag, ["TextId", "Value"])?;
     reader.no_children(tag)?;
     if !reader.require(tag, &id, "TextId", "left out because references need an ID") {

@@ -1,7 +1,7 @@
 //! References to texts, which are at the end of a file.
 //!
-//! Before the text list is read, a name in the IR is a placeholder: the number of a reference. A blank and a suffix
-//! may follow the number. `resolve` replaces placeholders by texts.
+//! Before the text list is read, a name in the IR is a placeholder: the number of a reference. A blank and a suffix may
+//! follow the number. `resolve` replaces placeholders with texts.
 
 use compact_str::{format_compact, CompactString, ToCompactString};
 
@@ -12,7 +12,7 @@ use crate::frontend::xml::Given;
 pub(super) struct TextReferences<'a>(Vec<Given<'a>>);
 
 impl<'a> TextReferences<'a> {
-    /// Returns the reference with this number.
+    /// Returns the reference with the number `number`.
     pub fn get(&self, number: usize) -> Option<&Given<'a>> {
         self.0.get(number)
     }
@@ -27,6 +27,6 @@ impl<'a> TextReferences<'a> {
 
 /// Returns a placeholder for the text of `placeholder` followed by `suffix`.
 pub(super) fn with_suffix(placeholder: &str, suffix: &str) -> CompactString {
-    // The blank separates the suffix from the number, also if the placeholder is empty.
+    // The blank separates the suffix from the number, even if the placeholder is empty.
     format_compact!("{placeholder} {suffix}")
 }

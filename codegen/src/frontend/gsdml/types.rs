@@ -1,4 +1,4 @@
-//! Types of the catalog: named numbers and strings of GSDML, and the enumerations of its value list.
+//! Types of the catalog: named numbers and strings of GSDML, and the enumerations in the value list.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -16,15 +16,15 @@ pub(super) struct Types<'a> {
     defs: Vec<TypeDef>,
     /// Named types, by name and length in bytes.
     named: HashMap<(&'static str, u32), TypeId>,
-    /// Enumerations, by the identifier of the ValueItem and the base type.
+    /// Enumerations, by the identifier of their `ValueItem` element and their base type.
     enumerations: HashMap<(Cow<'a, str>, Type), TypeId>,
-    /// First reference to each enumeration.
+    /// First reference to each enumeration, with its base type.
     wanted: Vec<(Given<'a>, Type, TypeId)>,
     items: Vec<ValueItem>,
     by_id: HashMap<Cow<'a, str>, usize>,
 }
 
-/// An element of the value list.
+/// Contents of a `ValueItem` element.
 #[derive(Default)]
 pub(super) struct ValueItem {
     pub id: CompactString,
@@ -51,7 +51,7 @@ impl<'a> Types<'a> {
         Type::Named(id)
     }
 
-    /// Returns the type of a string with `bytes` bytes.
+    /// Returns the type for a string with `bytes` bytes.
     pub fn string(&mut self, string: StringType, bytes: u32) -> Type {
         match string {
             StringType::Visible => Type::VisibleString(Some(bytes)),
@@ -60,7 +60,7 @@ impl<'a> Types<'a> {
         }
     }
 
-    /// Returns the type of a named number.
+    /// Returns the type for a number with a defined meaning.
     pub fn number(&mut self, number: &NumberType) -> Type {
         let base = number.base;
         let bytes = base.bits().unwrap_or(0) / 8;
@@ -70,7 +70,7 @@ impl<'a> Types<'a> {
         })
     }
 
-    /// Returns a record type for two values.
+    /// Returns a record type with two fields.
     pub fn pair(&mut self, pair: &PairType) -> Type {
         let bits = pair.first_bits();
         self.named(pair.name, bits / 8 + 1, || {
@@ -80,12 +80,12 @@ impl<'a> Types<'a> {
         })
     }
 
-    /// Returns the number of elements of the value list that were read.
+    /// Returns the number of `ValueItem` elements that were read.
     pub fn value_items(&self) -> usize {
         self.items.len()
     }
 
-    /// Adds an element of the value list. The first element with an identifier takes precedence.
+    /// Adds a `ValueItem` element. If an identifier is repeated, the first element takes precedence.
     pub fn add_values(&mut self, id: &Given<'a>, item: ValueItem) {
         if !id.is_missing() {
             self.by_id.entry(id.text.clone()).or_insert(self.items.len());
@@ -93,7 +93,7 @@ impl<'a> Types<'a> {
         self.items.push(item);
     }
 
-    /// Returns the enumeration of the ValueItem `target` over `base`.
+    /// Returns the enumeration that the `ValueItem` called `target` defines over the integer type `base`.
     pub fn enumeration(&mut self, target: Given<'a>, base: Type) -> Type {
         let key = (target.text.clone(), base);
         if let Some(&id) = self.enumerations.get(&key) {
@@ -105,7 +105,7 @@ impl<'a> Types<'a> {
         Type::Named(id)
     }
 
-    /// Returns the types after the value list was read.
+    /// Resolves the enumerations and returns all types. The value list must have been read.
     pub fn finish(mut self, diagnostics: &mut Diagnostics) -> Vec<TypeDef> {
         let mut budget = limits::MAX_DERIVED_ITEMS;
         for (target, base, TypeId(id)) in std::mem::take(&mut self.wanted) {
@@ -114,7 +114,7 @@ impl<'a> Types<'a> {
                 unresolved("ValueItem", &target, diagnostics);
                 continue;
             };
-            // Each further type with the same values needs a copy of these values.
+            // Each further base type for the same `ValueItem` needs another copy of its values.
             let copies = if std::mem::replace(&mut item.used, true) { item.values.len() } else { 0 };
             let Some(rest) = budget.checked_sub(copies) else {
                 too_many(&target, diagnostics);
@@ -142,7 +142,7 @@ fn too_many(target: &Given<'_>, diagnostics: &mut Diagnostics) {
     diagnostics.push(diagnostic.label("the values have no names"));
 }
 
-/// Returns the type for an enumeration that nothing refers to.
+/// Returns the shortest integer type for the values of an enumeration to which nothing refers.
 fn narrowest(values: &[EnumValue]) -> Type {
     let least = values.iter().map(|value| value.value).min().unwrap_or(0);
     let greatest = values.iter().map(|value| value.last.unwrap_or(value.value)).max().unwrap_or(0);
@@ -152,7 +152,7 @@ fn narrowest(values: &[EnumValue]) -> Type {
 }
 
 impl DataType {
-    /// Returns the type of a single value and its length in bytes. `length` is the declared length.
+    /// Returns the IR type of a data type, and its length in bytes. `length` is the declared length.
     pub fn lower(self, length: Option<u32>, types: &mut Types<'_>) -> (Type, u32) {
         let bytes = self.bytes().or(length).unwrap_or(0);
         let ty = match self {

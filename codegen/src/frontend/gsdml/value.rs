@@ -1,4 +1,4 @@
-//! Reads default values and allowed values of parameters.
+//! Reads the default values and allowed values of parameters.
 
 use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic};
@@ -7,7 +7,7 @@ use crate::ir::{Limits, Type, Value};
 use crate::text::brief;
 
 impl<'a> Reader<'a, '_> {
-    /// Reads the default value of a parameter of type `ty`. Reports an invalid value and keeps it as text.
+    /// Reads the default value of a parameter of the type `ty`. Reports an invalid value and keeps it as text.
     pub fn default_value(&mut self, given: &Given<'_>, ty: Type, bits: u32) -> Option<Value> {
         let text = given.text.as_ref();
         let value = match ty {
@@ -49,7 +49,7 @@ impl<'a> Reader<'a, '_> {
         Some(Value::Int(value))
     }
 
-    /// Reports a number outside the range of the type.
+    /// Reports a number outside the range of its type.
     fn check_range(&mut self, given: &Given<'_>, value: i128, ty: Type) {
         let Some((low, high)) = ty.integer_range() else { return };
         if value < low || value > high {
@@ -66,7 +66,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Reads the allowed values of a parameter of type `ty`.
+    /// Reads the allowed values of a parameter of the type `ty`.
     pub fn allowed_values(&mut self, given: &Given<'_>, ty: Type) -> Limits {
         let mut limits = Limits::default();
         if given.is_missing() {
@@ -75,7 +75,7 @@ impl<'a> Reader<'a, '_> {
         let parse = match ty {
             Type::Boolean | Type::Integer(_) | Type::Unsigned(_) => integer_range,
             Type::Real32 | Type::Real64 => real_range,
-            // The IR has no allowed values for strings.
+            // The IR cannot express allowed values of strings.
             _ => {
                 self.note("AllowedValues", given);
                 return limits;
@@ -112,7 +112,7 @@ fn less(a: &Value, b: &Value) -> bool {
     }
 }
 
-/// Adds a range to the allowed values. The first range is stored only as minimum and maximum.
+/// Adds a range to the allowed values. The first range becomes only the minimum and maximum.
 fn add(limits: &mut Limits, first: Value, last: Value) {
     let (Some(low), Some(high)) = (&mut limits.low, &mut limits.high) else {
         (limits.low, limits.high) = (Some(first), Some(last));
@@ -138,7 +138,7 @@ fn boolean(text: &str) -> Option<Value> {
     }
 }
 
-/// Reads an integer. Returns also whether the text consists of decimal digits.
+/// Reads an integer in an allowed or default value. Also returns whether the text consists only of decimal digits.
 fn whole(text: &str) -> Option<(i128, bool)> {
     if let Ok(value) = text.parse::<i64>() {
         return Some((value.into(), true));
@@ -160,7 +160,7 @@ fn real(text: &str) -> Option<f64> {
     }
 }
 
-/// Reads octets in the form `0x01,0x02`.
+/// Reads octets such as `0x01,0x02`.
 pub(super) fn octets(text: &str) -> Option<Vec<u8>> {
     text.split(',').map(|octet| octet_of(octet.trim())).collect()
 }

@@ -1,4 +1,4 @@
-//! Reads the value list: named values of parameters.
+//! Reads the value list, which contains named values of parameters.
 
 use super::links::ElementKind;
 use super::reader::Reader;
@@ -8,7 +8,7 @@ use crate::ir::EnumValue;
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
-    /// Reads ValueList.
+    /// Reads a `ValueList` element.
     pub fn value_list(&mut self, list: &Tag<'a>) -> Read<()> {
         self.each(list, "ValueItem", Self::value_item)
     }
@@ -61,7 +61,7 @@ fn span_of_values(text: &str) -> Option<(i128, Option<i128>)> {
     }
 }
 
-/// Reads an integer. Also accepts a fraction of zero or hexadecimal digits.
+/// Reads an integer in a value list. Also accepts a fraction of zero, and hexadecimal digits.
 fn whole(text: &str) -> Option<i128> {
     let text = text.trim();
     if let Ok(value) = text.parse::<i64>() {

@@ -1,4 +1,4 @@
-//! Values of the format that have alternatives: a factor or a rule, values or bits.
+//! Reads keys whose value has alternative forms: a factor or a rule, values or bits.
 
 use toml::de::DeValue;
 
@@ -51,7 +51,7 @@ impl Read for ConditionValues {
     }
 }
 
-/// A literal, or the table of a condition.
+/// Literal, or the table of a condition.
 enum LiteralOrTable {
     Literal(Literal),
     Table(ConditionTable),

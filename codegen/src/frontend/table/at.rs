@@ -1,17 +1,17 @@
-//! Parts of the format: values with their span, entries in the order of the file, and alternatives.
+//! Common types of the format: values with their span, entries in the order of the file, and alternatives.
 
-/// A value and its span, in bytes of the file.
+/// Value with its span, in bytes of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct At<T> {
-    /// The value.
+    /// Value without its span.
     pub value: T,
-    /// First byte.
+    /// Offset of the first byte.
     pub start: u32,
-    /// One past the last byte.
+    /// Offset after the last byte.
     pub end: u32,
 }
 
-/// The entries of a table, in the order of the file.
+/// Entries of a table, in the order of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entries<T>(pub Vec<(At<String>, At<T>)>);
 
@@ -22,44 +22,44 @@ impl<T> Default for Entries<T> {
 }
 
 impl<T> Entries<T> {
-    /// Returns each key with its value.
+    /// Returns an iterator over the keys and their values.
     pub fn iter(&self) -> impl Iterator<Item = &(At<String>, At<T>)> {
         self.0.iter()
     }
 }
 
-/// A number, a text or a Boolean.
+/// Number, text or Boolean.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Literal {
-    /// `true`, `false`.
+    /// Boolean: `true` or `false`.
     Bool(bool),
-    /// An integer.
+    /// Integer.
     Int(i128),
-    /// A number with a fraction.
+    /// Number with a fraction.
     Real(f64),
-    /// A text.
+    /// Text.
     Text(String),
 }
 
-/// A text, or a table that contains the text and more.
+/// Text, or a table that contains the text and further keys.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TextOr<T> {
-    /// The text.
+    /// Text without further keys.
     Text(String),
-    /// The table.
+    /// Table with the text and further keys.
     Table(Box<T>),
 }
 
-/// `true`, `false` or a table.
+/// Boolean, or a table with further keys.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FlagOr<T> {
-    /// A Boolean.
+    /// Boolean: `true` or `false`.
     Flag(bool),
-    /// The table.
+    /// Table with further keys.
     Table(Box<T>),
 }
 
-/// One value, or a list of values.
+/// Single value, or a list of values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneOrMany<T>(pub Vec<T>);
 
@@ -71,7 +71,7 @@ impl<T> Default for OneOrMany<T> {
 
 #[cfg(test)]
 mod schema {
-    //! The JSON Schemas of these types.
+    //! JSON Schemas of the types in this file.
 
     use std::borrow::Cow;
 
@@ -111,7 +111,7 @@ mod schema {
         }
     }
 
-    /// Implements schemas that are inserted where they are used.
+    /// Implements JSON Schemas that are inserted at each use.
     macro_rules! inline {
         ($($name:ident $prefix:literal $inner:ident $schema:tt)*) => {$(
             impl<T: JsonSchema> JsonSchema for $name<T> {

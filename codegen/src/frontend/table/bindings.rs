@@ -1,4 +1,4 @@
-//! The addresses of a row: its register numbers in a space, its objects, and the addresses of other protocols.
+//! Addresses of a row: its register numbers in a space, its objects, and its addresses in other protocols.
 
 use smallvec::SmallVec;
 
@@ -17,7 +17,7 @@ use crate::ir::{Binding, Buses, Item, ObjectBuses, RegisterSpace, Type};
 use crate::limits;
 use crate::text::{brief, count_of};
 
-/// The number of items of a row, and the distance between their register numbers.
+/// Number of items of a row, and the distance between their register numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Repeat {
     pub count: u32,
@@ -81,9 +81,9 @@ impl Rows {
         Repeat { count, step: row.stride.unwrap_or_else(of_type) }
     }
 
-    /// Reports a list with more defaults than the row has items, and several items with one name.
+    /// Reports a list with more default values than the row has items, and a name that several items share.
     pub(super) fn each_has_one(&self, reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row, count: u32) {
-        // An array has a default for each of its elements.
+        // An array has a default value for each of its elements.
         let is_array = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).is_some_and(|ty| ty.elements.is_some());
         if let Some(given) = row.default.as_ref().filter(|given| given.value.0.len() > 1 && !is_array) {
             let defaults = given.value.0.len();
@@ -100,7 +100,7 @@ impl Rows {
         }
     }
 
-    /// Returns the number of bits of one register number in the space.
+    /// Returns the number of bits that one register number of the space addresses.
     fn unit(&self, space: Option<usize>) -> u32 {
         space.and_then(|at| self.spaces.get(at)).map_or(16, |space| u32::from(space.bits))
     }
@@ -155,7 +155,7 @@ impl Rows {
         bindings
     }
 
-    /// Returns the addresses that do not depend on a space.
+    /// Returns the addresses of a row that do not depend on a space.
     pub(super) fn other_addresses(
         &self,
         reader: &mut Reader<'_, '_>,
@@ -169,7 +169,7 @@ impl Rows {
         if let Some(given) = &row.esc {
             let length = row.length.as_ref().map(|length| length.value);
             let length = length.unwrap_or_else(|| bits.map_or(1, |bits| bits.div_ceil(8) as u16));
-            // The memory is addressed in bytes.
+            // The memory of the slave controller is addressed in bytes.
             let shift = named.number.saturating_mul(row.stride.unwrap_or(length.into()));
             match u16::try_from(u32::from(given.value).saturating_add(shift)) {
                 Ok(address) => bindings.push(Binding::EscMemory { address, length }),
@@ -189,7 +189,7 @@ impl Rows {
         bindings
     }
 
-    /// Reports that a row has no address, or none on the buses that it names.
+    /// Reports that a row has no address, or no address on the buses that it names.
     pub(super) fn no_address(&self, reader: &mut Reader<'_, '_>, space: Option<usize>, named: Named<'_>, row: &Row) {
         let key = brief(&named.key.value);
         let message = match (&row.reg, &row.buses, space.and_then(|at| self.spaces.get(at))) {
@@ -245,7 +245,7 @@ impl Rows {
         let unit = self.unit(space);
         if let (Some(last), Some(bits), 0) = (last, bits, number) {
             let (printed, needed) = ((last - first).saturating_add(1), bits.div_ceil(unit));
-            // The printed range is that of the first item, or of all items.
+            // The printed range may be that of the first item or that of all items.
             let all = repeat.step.saturating_mul(repeat.count - 1).saturating_add(needed);
             if ![needed, all, repeat.step.saturating_mul(repeat.count)].contains(&printed) {
                 let of_all = if repeat.count > 1 { format!(", or {all} for all items") } else { String::new() };
@@ -257,7 +257,7 @@ impl Rows {
                     .push(Diagnostic::new(&codes::REGISTER_SPAN, reader.span(reg), message).label("the type is used"));
             }
         }
-        // The register numbers give the length of a type that has none.
+        // The range of register numbers determines the length of a type without a length.
         let printed = last.map(|last| (last - first).saturating_add(1).saturating_mul(unit));
         let bits = bits.or(printed.filter(|_| repeat.count == 1));
         let bit_offset = row.part.as_ref().and_then(|part| self.part(reader, part, bits, unit));
@@ -270,7 +270,7 @@ impl Rows {
         })
     }
 
-    /// Returns the first bit of a part of a register.
+    /// Returns the first bit of `part`, the bits of a register that contain the value.
     fn part(&self, reader: &mut Reader<'_, '_>, part: &At<NumberOrText>, bits: Option<u32>, unit: u32) -> Option<u8> {
         let text = part.value.to_string();
         let Some((offset, count)) = notation::bits(&text) else {
@@ -346,7 +346,7 @@ impl Rows {
         found.and(self.buses)
     }
 
-    /// Returns the buses of the object of a row. A row without a bus for objects is reported.
+    /// Returns the buses of the object of a row. Reports a row without a bus that has objects.
     pub(super) fn object_buses(&self, reader: &mut Reader<'_, '_>, row: &Row, at: &At<impl Clone>) -> ObjectBuses {
         let objects = self.buses_of(reader, row).with_objects();
         if Buses::from(objects).is_empty() {

@@ -5,15 +5,15 @@ use std::sync::Arc;
 
 use super::at::At;
 
-/// Definitions in the order of the table. Rows look up definitions by name, so a lookup takes constant time. All devices that a
-/// profile completes share its definitions.
+/// Definitions in the order of the table, with a lookup by name in constant time. All devices that a profile completes share the
+/// same definitions.
 #[derive(Debug)]
 pub(super) struct ByName<T>(Arc<Lookup<T>>);
 
 #[derive(Debug)]
 struct Lookup<T> {
     all: Vec<(At<String>, T)>,
-    /// Positions in `all`, by name. The first definition of a name counts.
+    /// Positions in `all`, by name. If a name is repeated, the first definition counts.
     positions: HashMap<String, usize>,
 }
 
@@ -26,7 +26,7 @@ impl<T> ByName<T> {
         ByName(Arc::new(Lookup { all, positions }))
     }
 
-    /// Returns the definition of this name, with its span.
+    /// Returns the definition called `name`, with the span of its name.
     pub fn get(&self, name: &str) -> Option<&(At<String>, T)> {
         self.0.all.get(*self.0.positions.get(name)?)
     }
@@ -35,7 +35,7 @@ impl<T> ByName<T> {
         self.0.all.iter()
     }
 
-    /// Returns all names.
+    /// Returns the names of all definitions.
     pub fn names(&self) -> impl Iterator<Item = &At<String>> {
         self.0.all.iter().map(|(name, _)| name)
     }

@@ -1,4 +1,4 @@
-//! Reads codes with a meaning: alarms, emergency codes, abort codes.
+//! Reads tables of codes, such as alarms, emergency codes and abort codes.
 
 use std::collections::hash_map::{Entry, HashMap};
 
@@ -60,7 +60,8 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
     });
 }
 
-/// Returns the code of a row as the table writes it: `0x8700`, or `F125` with the prefix `F`. Decimal numbers give an empty text.
+/// Returns a code as the table writes it, such as `0x8700`, or `F125` with the prefix `F`. Returns an empty text for a decimal
+/// number without a prefix.
 fn printed(key: &str, prefix: &str) -> CompactString {
     let is_decimal = key.chars().all(|letter| letter.is_ascii_digit() || letter == '-');
     match prefix {
@@ -72,7 +73,8 @@ fn printed(key: &str, prefix: &str) -> CompactString {
     }
 }
 
-/// Returns the text of the cells that are hexadecimal. The list is empty if no cell is.
+/// Returns the texts of the hexadecimal cells in a row, and empty texts for its other cells. Returns an empty list if no cell is
+/// hexadecimal.
 fn printed_cells(reader: &Reader<'_, '_>, cells: &[At<Literal>]) -> Vec<CompactString> {
     let is_pattern = |cell: &At<Literal>| matches!(cell.value, Literal::Int(_)) && reader.is_pattern(cell);
     if !cells.iter().any(is_pattern) {
@@ -85,12 +87,12 @@ fn printed_cells(reader: &Reader<'_, '_>, cells: &[At<Literal>]) -> Vec<CompactS
     cells.iter().map(text).collect()
 }
 
-/// The first code for each combination of cells.
+/// First code for each combination of cells.
 #[derive(Default)]
 struct Distinct<'t>(HashMap<Vec<Cell<'t>>, &'t At<String>>);
 
 impl<'t> Distinct<'t> {
-    /// Returns an earlier code that has the cells of `row`, if the row has any.
+    /// Returns an earlier code with the same cells as `row`. Returns `None` if the row has no cells.
     fn before(&mut self, key: &'t At<String>, row: &'t CodeTableRow) -> Option<&'t At<String>> {
         let cells = row
             .cells
@@ -108,7 +110,7 @@ impl<'t> Distinct<'t> {
     }
 }
 
-/// A literal as a key of a map.
+/// Literal as a key of a hash map.
 #[derive(PartialEq, Eq, Hash)]
 enum Cell<'t> {
     Bool(bool),
@@ -118,20 +120,20 @@ enum Cell<'t> {
 }
 
 impl<'t> Cell<'t> {
-    /// Returns the key of a literal, or `None` for NaN, which is equal to nothing.
+    /// Returns the map key for a literal, or `None` for NaN, which equals no value.
     fn of(literal: &'t Literal) -> Option<Self> {
         Some(match literal {
             Literal::Bool(value) => Cell::Bool(*value),
             Literal::Int(value) => Cell::Int(*value),
             Literal::Real(value) if value.is_nan() => return None,
-            // The negative zero is equal to the positive one.
+            // Negative zero equals positive zero, so both need the same map key.
             Literal::Real(value) => Cell::Real((value + 0.0).to_bits()),
             Literal::Text(text) => Cell::Text(text),
         })
     }
 }
 
-/// Returns the models and firmware that have a code.
+/// Returns the models and firmware versions that have a code.
 fn availability(row: &CodeTableRow) -> Option<Box<Availability>> {
     let availability = Availability {
         models: row.models.iter().flatten().map(|model| model.value.as_str().into()).collect(),

@@ -7,7 +7,7 @@ use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Composite, Device, SubjectKind};
 
-/// Reads a composite.
+/// Reads a number that is split over several items.
 pub(super) fn composite(
     reader: &mut Reader<'_, '_>,
     name: &At<String>,

@@ -1,4 +1,4 @@
-//! Conditions for the existence of an element or for writing it: values of other items, models, firmware, buses.
+//! Conditions for the existence or for the writing of an element: values of other items, models, firmware versions, buses.
 
 use compact_str::CompactString;
 
@@ -11,16 +11,16 @@ use super::value;
 use crate::diagnostics::codes;
 use crate::ir::{Availability, Condition, ElementRef, Type};
 
-/// The availability of an element, as a table states it.
+/// Availability of an element as the table declares it.
 pub(super) struct GivenAvailability<'t> {
     pub models: Option<&'t Vec<At<String>>>,
-    /// The first firmware that has the element, and the first that does not.
+    /// First firmware version that has the element, and first firmware version that does not have it.
     pub versions: [Option<&'t str>; 2],
     pub replaced_by: Option<&'t str>,
     pub buses: Option<&'t Vec<At<String>>>,
 }
 
-/// Reads the condition of a bit or value, which depends on one item at most.
+/// Reads the condition of a bit or value, which may depend on one item only.
 pub(super) fn condition(
     reader: &mut Reader<'_, '_>,
     references: &mut References,
@@ -34,7 +34,7 @@ pub(super) fn condition(
     conditions(reader, references, given).into_iter().next()
 }
 
-/// Reads conditions on the values of other items.
+/// Reads conditions that compare the values of other items.
 pub(super) fn conditions(
     reader: &mut Reader<'_, '_>,
     references: &mut References,
@@ -60,7 +60,8 @@ pub(super) fn conditions(
     conditions
 }
 
-/// Reads the models, firmware versions and buses that have an element. Returns `None` if the element exists everywhere.
+/// Reads the models, firmware versions and buses that have an element. Returns `None` if all models, firmware versions and buses
+/// have the element.
 pub(super) fn availability(
     reader: &mut Reader<'_, '_>,
     references: &mut References,

@@ -1,4 +1,4 @@
-//! Applies `defaults` to rows.
+//! Applies the table `defaults` to rows.
 
 use toml::de::DeValue;
 
@@ -7,13 +7,13 @@ use super::tree::{Node, Reader};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::source::Span;
 
-/// Declares the keys of `defaults`, each with the field of a row that it sets.
+/// Declares the keys of `defaults`, each with the field that it sets in a row.
 macro_rules! inherited {
     ($($key:literal $field:ident)*) => {
         const INHERITED: &[&str] = &[$($key),*];
 
         impl Row {
-            /// Returns the row with `defaults` in place of missing values.
+            /// Returns the row, with the keys of `defaults` in place of missing keys.
             pub(super) fn or(mut self, defaults: &Row) -> Row {
                 $( if self.$field.is_none() { self.$field.clone_from(&defaults.$field); } )*
                 self
@@ -45,7 +45,7 @@ inherited! {
     "pdi" pdi
 }
 
-/// Keys that rows do not inherit.
+/// Keys that rows do not inherit from `defaults`.
 const NOT_INHERITED: &[&str] = &[
     "reg",
     "obj",
@@ -92,14 +92,14 @@ const NOT_INHERITED: &[&str] = &[
     "remove",
 ];
 
-/// Reads `[defaults]`.
+/// Reads the table `[defaults]`.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<Row> {
     let mut node = node;
     check(reader, &mut node);
     reader.piece(node)
 }
 
-/// Checks the `defaults` of a chapter.
+/// Checks the `defaults` table of a chapter.
 pub(super) fn of_chapter(reader: &mut Reader<'_, '_>, chapter: &mut Node<'_>) {
     if let DeValue::Table(table) = chapter.get_mut() {
         if let Some(node) = table.get_mut("defaults") {
@@ -108,7 +108,7 @@ pub(super) fn of_chapter(reader: &mut Reader<'_, '_>, chapter: &mut Node<'_>) {
     }
 }
 
-/// Removes and reports keys that rows do not inherit.
+/// Reports and removes keys that rows do not inherit from `defaults`.
 fn check(reader: &mut Reader<'_, '_>, node: &mut Node<'_>) {
     let DeValue::Table(table) = node.get_mut() else { return };
     let is_excluded = |key: &str| NOT_INHERITED.contains(&key) && !INHERITED.contains(&key);

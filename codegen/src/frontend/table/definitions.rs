@@ -1,4 +1,4 @@
-//! Units, enumerations and bit fields that rows refer to by name.
+//! Units, enumerations and bit fields to which rows refer by name.
 
 use std::collections::HashMap;
 
@@ -21,30 +21,30 @@ use crate::ir::{
 use crate::source::Origin;
 use crate::text::brief;
 
-/// The kind of a named definition.
+/// Kind of a named definition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum DefinitionKind {
     Enumeration,
     Bits,
 }
 
-/// The definitions of a table.
+/// Definitions in a table: enumerations, bit fields and units.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Definitions {
     pub enums: ByName<EnumTable>,
     pub bits: ByName<BitsTable>,
     pub units: ByName<UnitTable>,
-    /// The types made so far.
+    /// Types that were created so far.
     pub types: Vec<TypeDef>,
-    /// Ambiguities of definitions.
+    /// Ambiguities in the definitions.
     pub doubts: Doubts,
-    /// The types of each definition, one for each underlying integer type.
+    /// Types that were created for each definition, one for each underlying integer type.
     pub made: HashMap<(DefinitionKind, String), Vec<(Type, TypeId)>>,
-    /// Names that definitions use, with their spans.
+    /// Names to which definitions refer, with their spans.
     pub mentioned: References,
 }
 
-/// The facts about a definition as a whole.
+/// Name, documentation and origin of a definition.
 struct About<'t> {
     name: CompactString,
     doc: Option<&'t str>,
@@ -53,7 +53,7 @@ struct About<'t> {
 }
 
 impl Definitions {
-    /// Returns the type of a definition over the integer type `base`. A name without a definition is reported.
+    /// Returns the type of a named definition over the integer type `base`. Reports a name without a definition.
     pub fn named(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -66,7 +66,7 @@ impl Definitions {
         if let Some(&(_, id)) = made {
             return Some(Type::Named(id));
         }
-        // The type over the base of the definition has no suffix.
+        // The name of the type has no suffix if `base` is the base that the definition declares.
         let suffix = match self.base(reader, kind, &name.value) {
             Some(default_base) if default_base != base => base.integer_suffix(),
             _ => String::new(),
@@ -97,7 +97,7 @@ impl Definitions {
         Some(Type::Named(id))
     }
 
-    /// Returns the integer type that a definition names as its base.
+    /// Returns the integer type that a definition declares as its base.
     pub fn base(&self, reader: &mut Reader<'_, '_>, kind: DefinitionKind, name: &str) -> Option<Type> {
         let base = match kind {
             DefinitionKind::Enumeration => self.enums.get(name).and_then(|(_, table)| table.base.as_ref()),
@@ -120,7 +120,7 @@ impl Definitions {
         ty
     }
 
-    /// Returns the length of a type in bits, including named types, or `None` if it varies.
+    /// Returns the length of a basic or named type in bits, or `None` if the length varies.
     pub fn bits_of(&self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(TypeId(id)) => self.types.get(id as usize).and_then(|def| def.bits),
@@ -132,12 +132,12 @@ impl Definitions {
         }
     }
 
-    /// Creates the types of unused definitions, so that their errors are reported and they are part of the output.
+    /// Creates types for unused definitions, so that errors in them are reported and the output contains them.
     pub fn make_unused(&mut self, reader: &mut Reader<'_, '_>) {
         let enums = self.enums.names().map(|name| (DefinitionKind::Enumeration, name.clone()));
         let all: Vec<_> = enums.chain(self.bits.names().map(|name| (DefinitionKind::Bits, name.clone()))).collect();
         for (kind, name) in all {
-            // Creating another definition may have created this one.
+            // The creation of another definition may have created this type.
             if !self.made.contains_key(&(kind, name.value.clone())) {
                 let base = self.base(reader, kind, &name.value).unwrap_or(Type::Unsigned(16));
                 self.named(reader, kind, &name, base);
@@ -156,7 +156,7 @@ impl Definitions {
         About { name: name.value.as_str().into(), doc: table.doc(), cite: table.cited(), origin }
     }
 
-    /// Returns the type of an enumeration that a row contains.
+    /// Returns the type of an enumeration that a row defines.
     pub fn inline_values(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -169,7 +169,7 @@ impl Definitions {
         Type::Named(self.enumeration(reader, about, base, false, values))
     }
 
-    /// Returns the type of a bit field that a row contains.
+    /// Returns the type of a bit field that a row defines.
     pub fn inline_bits(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -366,7 +366,8 @@ impl Definitions {
     }
 }
 
-/// Returns the first bit and the number of bits of a key. A key may name the address of a byte and bits in this byte.
+/// Returns the first bit and the number of bits that a key names. The key may also be the address of a byte with bits in this
+/// byte.
 fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, base: Type, first: Option<u32>) -> Option<(u8, u8)> {
     let Some((byte, bits)) = key.value.split_once(':') else {
         let found = notation::bits(&key.value);
@@ -406,7 +407,7 @@ fn given_availability(value: &ValueTable) -> GivenAvailability<'_> {
     }
 }
 
-/// Reports an empty name of a value or bit.
+/// Returns whether the name of a value or bit is empty. Reports an empty name.
 fn nameless(reader: &mut Reader<'_, '_>, name: &str, key: &At<String>, owner: &str, what: &str) -> bool {
     let is_empty = name.trim().is_empty();
     if is_empty {
@@ -425,7 +426,7 @@ fn zone_name(zone: Zone) -> &'static str {
     }
 }
 
-/// Reports a name with a placeholder for a number that is not filled.
+/// Reports a name that contains a placeholder such as `{n}` without a value.
 pub(super) fn unfilled(reader: &mut Reader<'_, '_>, key: &At<String>, name: Option<&str>) {
     if let Some(name) = name.filter(|name| name.contains('{')) {
         let message = format!("the placeholder in the name `{}` has no value", brief(name));
@@ -434,7 +435,7 @@ pub(super) fn unfilled(reader: &mut Reader<'_, '_>, key: &At<String>, name: Opti
     }
 }
 
-/// Returns an integer type by its name. Any other name is reported.
+/// Returns the integer type called `name`. Reports any other name.
 pub(super) fn integer(reader: &mut Reader<'_, '_>, name: &At<String>) -> Option<Type> {
     let ty = types::named(&name.value).filter(|named| named.elements.is_none()).map(|named| named.ty);
     let integer = ty.filter(|ty| matches!(ty, Type::Unsigned(_) | Type::Integer(_)));

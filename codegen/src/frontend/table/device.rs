@@ -1,4 +1,4 @@
-//! Reads the head of a table: the device, its models, its axes.
+//! Reads the head of a table: device, manual, models, axes.
 
 use super::at::At;
 use super::buses;
@@ -13,7 +13,7 @@ use crate::ir::{
 };
 use crate::text::brief;
 
-/// Adds the facts of `[device]` to the device. Returns its buses.
+/// Adds the facts in `[device]` to the device. Returns the buses of the device.
 pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device: &mut Device) -> Buses {
     let head = &table.value;
     device.origin = reader.origin(table);
@@ -52,7 +52,7 @@ pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device:
     buses
 }
 
-/// Reads the node-ID range.
+/// Reads the range of valid node-IDs.
 fn node_ids(reader: &mut Reader<'_, '_>, given: &At<NumberOrText>) -> Option<(u8, u8)> {
     let range = match &given.value {
         NumberOrText::Number(number) => Some((i128::from(*number), i128::from(*number))),
@@ -68,7 +68,7 @@ fn node_ids(reader: &mut Reader<'_, '_>, given: &At<NumberOrText>) -> Option<(u8
     found
 }
 
-/// Reads the facts about the manual.
+/// Reads the table `[manual]`.
 pub(super) fn manual(reader: &mut Reader<'_, '_>, table: &At<ManualTable>) -> Box<Manual> {
     let manual = &table.value;
     let text = |text: &Option<String>| CompactString::from(text.as_deref().unwrap_or_default());
@@ -85,7 +85,7 @@ pub(super) fn manual(reader: &mut Reader<'_, '_>, table: &At<ManualTable>) -> Bo
     })
 }
 
-/// Returns the sections of a manual in order. A key that is not a number is reported.
+/// Returns the sections of a manual, sorted by their first page or line. Reports a key that is not a number.
 fn sections(reader: &mut Reader<'_, '_>, table: &ManualTable) -> Vec<ManualSection> {
     let mut sections = Vec::new();
     for (key, title) in table.sections.iter() {
@@ -104,7 +104,7 @@ fn sections(reader: &mut Reader<'_, '_>, table: &ManualTable) -> Vec<ManualSecti
     sections
 }
 
-/// Reads a model, or a version of the firmware.
+/// Reads a model or a firmware version.
 pub(super) fn model(reader: &mut Reader<'_, '_>, table: &At<ModelTable>, device: &mut Device) {
     let model = &table.value;
     let Some(name) = &model.name else {
@@ -133,7 +133,7 @@ pub(super) fn model(reader: &mut Reader<'_, '_>, table: &At<ModelTable>, device:
     });
 }
 
-/// Reads how the objects of further axes follow from those of the first one.
+/// Reads the rules that derive the objects of further axes from those of the first axis.
 pub(super) fn axes(reader: &mut Reader<'_, '_>, table: &At<AxesTable>, device: &mut Device) {
     let axes = &table.value;
     let origin = reader.origin(table);

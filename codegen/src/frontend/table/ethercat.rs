@@ -1,4 +1,4 @@
-//! Reads the settings of an EtherCAT slave besides objects and PDOs: mailbox protocols and sync managers.
+//! Reads the EtherCAT settings of a table, except objects and PDOs: mailbox protocols and sync managers.
 
 use super::at::{At, FlagOr};
 use super::format::{CoeTable, EtherCatTable, SyncManagerTable};
@@ -6,7 +6,7 @@ use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Bus, Buses, Coe, Device, Mailbox, Protocol, SyncManager, SyncManagerPurpose};
 
-/// The words of `purpose`.
+/// Words for the key `purpose`.
 const PURPOSES: [(&str, SyncManagerPurpose); 4] = [
     ("mailbox_out", SyncManagerPurpose::MailboxOut),
     ("mailbox_in", SyncManagerPurpose::MailboxIn),
@@ -14,7 +14,7 @@ const PURPOSES: [(&str, SyncManagerPurpose); 4] = [
     ("inputs", SyncManagerPurpose::Inputs),
 ];
 
-/// Reads `[ethercat]`.
+/// Reads the table `[ethercat]`.
 pub(super) fn settings(reader: &mut Reader<'_, '_>, table: &At<EtherCatTable>, buses: Buses, device: &mut Device) {
     let settings_table = &table.value;
     if !buses.contains(Bus::EtherCat) {

@@ -1,4 +1,5 @@
-//! The register table format. `dictionaries/README.md` explains the keys to authors of tables. The doc comments become descriptions in the schema.
+//! Types of the register table format. `dictionaries/README.md` explains the keys to authors of tables. The doc comments become
+//! descriptions in the JSON Schema.
 
 use std::fmt;
 
@@ -8,7 +9,7 @@ use super::read::{self, Mistake, Node, Read};
 use super::schema;
 use super::tree::cited;
 
-/// Key of a field: its name, or the text after `=`.
+/// Expands to the key of a field: its name, or the text after `=`.
 macro_rules! key {
     ($field:ident) => {
         stringify!($field)
@@ -18,8 +19,8 @@ macro_rules! key {
     };
 }
 
-/// Declares tables of the format with their readers. Every key is optional, and unknown keys are errors. A field whose key is not a valid
-/// name has the key after `=`. Names after the table select groups of common keys.
+/// Declares tables of the format with their readers. Every key is optional, and unknown keys are errors. A field has the key
+/// after `=` if this key is not a valid Rust name. Words after the name of the table select groups of common keys.
 macro_rules! tables {
     ($(
         $(#[$attribute:meta])*
@@ -30,23 +31,23 @@ macro_rules! tables {
     )*};
 }
 
-/// Tables with a description.
+/// Tables that may have a description.
 pub(super) trait Documented {
     fn doc(&self) -> Option<&str>;
 }
 
-/// Tables with citations.
+/// Tables that may cite the manual.
 pub(super) trait Cited {
-    /// Returns the pages or lines as one text.
+    /// Returns the cited pages or lines as one text.
     fn cited(&self) -> Option<String>;
 }
 
-/// Tables with ambiguities.
+/// Tables that may record ambiguities in the manual.
 pub(super) trait Doubted: Cited {
     fn doubt_tables(&self) -> [Option<&OneOrMany<DoubtTable>>; 2];
 }
 
-/// Implements the traits of a table's key groups.
+/// Implements the traits for the key groups of a table.
 macro_rules! words {
     ($name:ident doc) => {
         impl Documented for $name {
@@ -72,7 +73,7 @@ macro_rules! words {
     ($name:ident $group:ident) => {};
 }
 
-/// Expands one table: adds its groups of common keys one by one.
+/// Declares one table, and adds its groups of common keys one by one.
 macro_rules! table {
     ({ meaning $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
@@ -191,7 +192,7 @@ impl Default for ConditionValues {
 /// Required values of other items, by item name.
 pub type Conditions = Entries<ConditionValues>;
 
-/// Row of an image or message field, with the keys that both have.
+/// Creates a row from an image field or message field, with the keys that both have.
 macro_rules! field_row {
     ($field:ident) => {
         Row {

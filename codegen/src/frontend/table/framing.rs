@@ -7,11 +7,11 @@ use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Device, Framing, Message};
 
-/// The words of `check`.
+/// Words for the key `check`.
 const CHECKS: [(&str, &str); 5] =
     [("xor", "xor"), ("sum", "sum"), ("lrc", "lrc"), ("crc8", "crc8"), ("crc16", "crc16")];
 
-/// Reads the delimiters and the checksum of frames.
+/// Reads the delimiters and the checksum of the frames of a protocol.
 pub(super) fn read(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, device: &mut Device) {
     bytes_of_framing(reader, table);
     let framing = &table.value;
@@ -41,14 +41,14 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, device
     }
 }
 
-/// Checks that the special bytes of the framing do not conflict.
+/// Reports conflicts between the special bytes of the framing.
 fn bytes_of_framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>) {
     let framing = &table.value;
     let special = [("start", framing.start), ("end", framing.end), ("escape", framing.escape)];
     let special: Vec<(&str, u8)> = special.into_iter().filter_map(|(name, byte)| Some((name, byte?))).collect();
     let mut problems = Vec::new();
     for (at, (name, byte)) in special.iter().enumerate() {
-        // Start and end may be the same byte, which then separates frames.
+        // The start byte and the end byte may be the same byte, which then separates frames.
         let same =
             special[..at].iter().find(|(other, other_byte)| other_byte == byte && (*other, *name) != ("start", "end"));
         problems.extend(same.map(|(other, _)| format!("`{other}` and `{name}` are both 0x{byte:02X}")));

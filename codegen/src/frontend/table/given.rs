@@ -1,4 +1,4 @@
-//! Reads the numbers of the machine that a device drives, and units that consist of them.
+//! Reads properties of the machine that a device drives, and machine units that depend on these properties.
 
 use super::at::At;
 use super::format::{GivenTable, MachineUnitTable};
@@ -9,7 +9,7 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{GivenNumber, MachineUnit, Type};
 use crate::text::brief;
 
-/// Reads a number of `[given]`.
+/// Reads a property in the table `[given]`.
 pub(super) fn number(
     reader: &mut Reader<'_, '_>,
     name: &At<String>,
@@ -35,7 +35,7 @@ pub(super) fn number(
     }
 }
 
-/// Reads the unit on the machine that `[units]` defines.
+/// Reads the machine unit of a unit in the table `[units]`.
 pub(super) fn unit(
     reader: &mut Reader<'_, '_>,
     table: &MachineUnitTable,

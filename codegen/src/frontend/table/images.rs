@@ -1,4 +1,4 @@
-//! Reads fixed process images: the positions of items, or of fields that no other part of the table has, in cyclic data.
+//! Reads fixed process images: the positions of items and of additional fields in the cyclic data.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -14,23 +14,23 @@ use crate::ir::{
 };
 use crate::text::brief;
 
-/// The position of a field.
+/// Position of a field in its image.
 struct FieldPosition {
     bit_offset: u32,
     bits: u32,
-    /// The type of the field, if it has one.
+    /// Type that the field declares, if any.
     ty: Option<Type>,
 }
 
-/// The items of the images that were read so far.
+/// Items of the images that were read so far.
 pub(super) struct Images {
-    /// Items that only images have, one group per image.
+    /// Items that only images have, with one group per image.
     groups: Vec<Group>,
-    /// The positions of the items of the device and of earlier images, by name. The first item of a name counts.
+    /// Positions of the items of the device and of earlier images, by name. If a name is repeated, the first item counts.
     positions: HashMap<CompactString, ItemPosition>,
 }
 
-/// The group and item number of an item of the device or of the images.
+/// Group and item number of an item in the device or in the images.
 #[derive(Clone, Copy)]
 enum ItemPosition {
     Device(usize, usize),
@@ -65,13 +65,13 @@ impl Images {
         self.groups.push(group);
     }
 
-    /// Inserts the groups of the images before all other groups, the last image first.
+    /// Inserts the groups of the images before the groups of the device, the last image first.
     pub fn finish(self, device: &mut Device) {
         device.groups.splice(..0, self.groups.into_iter().rev());
     }
 }
 
-/// Reads a process image. A field with the name of an item of the device is that item. Any other field becomes a new item.
+/// Reads a process image. A field with the name of an item of the device refers to this item. Any other field becomes a new item.
 pub(super) fn image(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
@@ -138,7 +138,7 @@ fn entry(item: &Item) -> PdoEntry {
     PdoEntry { kind: PdoEntryKind::Item, name: item.name.clone(), ty: item.ty, names: item.names.clone(), ..entry }
 }
 
-/// Returns the position of an item in the image. If the field has no type, it has the length of the item.
+/// Returns the position in the image of a field that refers to an item. A field without a type has the length of the item.
 fn of_item(
     reader: &mut Reader<'_, '_>,
     rows: &Rows,
@@ -159,7 +159,7 @@ fn of_item(
     position(reader, &rows.definitions.types, key, field, ty)
 }
 
-/// Reads a field that is a new item, like a row with the keys that fields and rows share.
+/// Reads a field that defines a new item. The field is read as a row with the same keys.
 fn new_item(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
@@ -203,12 +203,12 @@ fn position(
     Some(FieldPosition { bit_offset, bits, ty: ty.filter(|_| field.ty.is_some()) })
 }
 
-/// Returns the bit after a field.
+/// Returns the bit offset after the end of a field.
 fn end(field: &PdoEntry) -> u64 {
     u64::from(field.bit_offset) + u64::from(field.bits)
 }
 
-/// The fields of an image by start, end and number. No two of them overlap.
+/// Fields of an image by start, end and number, without overlaps.
 #[derive(Default)]
 struct Fields(BTreeMap<(u64, u64, usize), PdoEntry>);
 
@@ -217,7 +217,7 @@ impl Fields {
         self.0.insert((field.bit_offset.into(), end(&field), self.0.len()), field);
     }
 
-    /// Returns whether a field is within its image and overlaps no other. Reports any other field.
+    /// Returns whether a field is within its image and does not overlap another field. Reports the error otherwise.
     fn is_free(&self, reader: &mut Reader<'_, '_>, key: &At<String>, entry: &PdoEntry, length: u32) -> bool {
         if end(entry) > u64::from(length) * 8 {
             let message = format!("`{}` ends after the {length} bytes of its image", brief(&key.value));

@@ -1,4 +1,4 @@
-//! Names and addresses that are in use. Each may belong to one item only.
+//! Names and addresses that are in use. Each name or address may belong to only one item.
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
@@ -12,32 +12,32 @@ use crate::ir::{Availability, Binding, Buses, Item, ObjectBuses, RegisterBinding
 use crate::source::Span;
 use crate::text::brief;
 
-/// The names and addresses in use, with the spans of their items.
+/// Names and addresses that are in use, with the spans of their items.
 #[derive(Default)]
 pub(super) struct InUse {
-    /// Numbers of chapters, by title.
+    /// Chapter numbers, by title.
     chapters: HashMap<CompactString, usize>,
-    /// Spans of names, by chapter and name.
+    /// Spans of item names, by chapter and name.
     names: HashMap<(usize, CompactString), Span>,
     addresses: HashMap<CompactString, Vec<Holder>>,
-    /// Registers, by space and first wire address.
+    /// Register ranges of items, by Modbus table and first wire address.
     registers: BTreeMap<(&'static str, u32), RegisterRange>,
-    /// Parts of registers, by address.
+    /// Items that occupy only some bits of a register, by register address.
     parts: HashMap<CompactString, Vec<Part>>,
 }
 
-/// An item at an address.
+/// Item that uses an address.
 struct Holder {
     span: Span,
     name: CompactString,
-    /// The item that has the same value under another name.
+    /// Name of the item that accesses the same value at another address.
     same_as: Option<CompactString>,
     availability: Option<Box<Availability>>,
     buses: Option<ObjectBuses>,
 }
 
 impl Holder {
-    /// Returns whether the items may share an address: no device has both on one bus, or one item shows the value of the other.
+    /// Returns whether both items may share an address: no device has both of them on one bus, or both access the same value.
     fn is_apart(&self, other: &Holder) -> bool {
         let is_same = |one: &Holder, other: &Holder| one.same_as.as_ref() == Some(&other.name);
         if is_same(self, other) || is_same(other, self) {
@@ -49,7 +49,7 @@ impl Holder {
     }
 }
 
-/// The registers of an item.
+/// Registers that an item occupies.
 struct RegisterRange {
     last: u32,
     name: CompactString,
@@ -57,7 +57,7 @@ struct RegisterRange {
     availability: Option<Box<Availability>>,
 }
 
-/// The first bit and the number of bits.
+/// First bit and number of bits.
 type Bits = (u8, u8);
 
 struct Part {
@@ -68,8 +68,8 @@ struct Part {
 }
 
 impl InUse {
-    /// Adds the name and addresses of a register's item. `part` holds the bits of an item that is a part of a register. A name may
-    /// occur once in a chapter.
+    /// Adds the name and the addresses of a register's item. `part` is set if the item occupies only some bits of the register. A
+    /// name must be unique in its chapter.
     pub fn register(&mut self, reader: &mut Reader<'_, '_>, chapter: &CompactString, item: &Item, part: Option<Bits>) {
         let next = self.chapters.len();
         let chapter = match self.chapters.get(chapter) {
@@ -91,7 +91,7 @@ impl InUse {
         }
     }
 
-    /// Adds the addresses of an item. Two items may share an address only if no device has both.
+    /// Adds the addresses of an item. Two items may share an address only if no device has both items.
     pub fn addresses(&mut self, reader: &mut Reader<'_, '_>, item: &Item) {
         for binding in &item.bindings {
             let Some(address) = address(binding) else { continue };
@@ -116,7 +116,7 @@ impl InUse {
         }
     }
 
-    /// Adds the registers of an item. Reports registers that another item has, too.
+    /// Adds the registers of an item. Reports registers that overlap those of another item.
     fn register_range(&mut self, reader: &mut Reader<'_, '_>, item: &Item, register: &RegisterBinding) {
         let (space, first) = (space_name(register.space), u32::from(register.address));
         let last = u32::from(register.last());
@@ -141,7 +141,7 @@ impl InUse {
         self.registers.insert((space, first), range);
     }
 
-    /// Adds the part of a register. Parts share an address, but no bits.
+    /// Adds an item that occupies only some bits of a register. Several items may share a register, but not the same bits.
     fn part(&mut self, reader: &mut Reader<'_, '_>, item: &Item, bits: Bits) {
         let Some(address) = item.bindings.iter().find_map(address) else { return };
         let parts = self.parts.entry(address.clone()).or_default();
@@ -163,7 +163,7 @@ impl InUse {
     }
 }
 
-/// Reports the second use of a name or an address.
+/// Reports the second use of a name or address.
 fn twice(reader: &mut Reader<'_, '_>, what: &str, item: &Item, first: Span, help: Option<&'static str>) {
     let found = Diagnostic::new(&codes::TABLE_DUPLICATE, item.at.name, format!("{what} occurs twice"));
     let found = found.note_at(first, "first use");
@@ -189,7 +189,7 @@ fn space_name(space: RegisterSpace) -> &'static str {
     }
 }
 
-/// Returns the text that identifies an address, or `None` if items may share the address.
+/// Returns a text that identifies an address, or `None` if items may share the address.
 fn address(binding: &Binding) -> Option<CompactString> {
     Some(match binding {
         Binding::Object { index, sub_index, .. } => format_compact!("object 0x{index:04X}:{sub_index}"),

@@ -1,4 +1,4 @@
-//! Reads default, limits and allowed values of a row, and reports contradictions between them.
+//! Reads the default value, limits and allowed values of a row, and reports contradictions between them.
 
 use super::at::{At, Literal, OneOrMany};
 use super::format::Row;
@@ -10,7 +10,7 @@ use crate::ir::{excluded, Access, Item, Limits, Shape, Type, TypeId, Value};
 use crate::source::Span;
 
 impl Rows {
-    /// Adds the default, limits and allowed values of a row to the item.
+    /// Adds the default value, limits and allowed values of a row to its item.
     pub(super) fn values(&self, reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, row: &Row) {
         let (base, count) = self.element(item.ty);
         let mut row_limits = Limits::default();
@@ -39,7 +39,7 @@ impl Rows {
         }
     }
 
-    /// Returns the basic type of a value, and the number of elements of an array.
+    /// Returns the basic type of a value or array element, and the number of elements if the type is an array.
     fn element(&self, ty: Type) -> (Type, Option<u32>) {
         let base = self.definitions.underlying(ty);
         let Type::Named(TypeId(id)) = base else { return (base, None) };
@@ -60,7 +60,7 @@ fn exclude(reader: &mut Reader<'_, '_>, span: Span, message: String) {
     );
 }
 
-/// Reads the default of a row, or the item's element of a list of defaults.
+/// Reads the default value of a row, or the element for this item in a list of default values.
 fn default(reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, given: &At<OneOrMany<Literal>>, base: Type) {
     let list = &given.value.0;
     let at = if list.len() > 1 { named.number as usize } else { 0 };
@@ -75,7 +75,7 @@ fn default(reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, given
     item.at.default = reader.span(&literal);
 }
 
-/// Reads the defaults of an array, one for each element. The item keeps the first one.
+/// Reads the default values of an array, one for each element. The item stores only the first one.
 fn elements(
     reader: &mut Reader<'_, '_>,
     item: &mut Item,
@@ -92,7 +92,7 @@ fn elements(
     }
     let each = reader.each(list, (given.start, given.end));
     let values: Vec<Value> = each.iter().map(|literal| value::value(reader, literal, base)).collect();
-    // The first value is checked as the default of the item.
+    // The first value is checked later, as the default value of the item.
     for ((value, given), number) in values.iter().zip(&each).zip(1..).skip(1) {
         if let Some(reason) = excluded(limits, value) {
             exclude(reader, reader.span(given), format!("the default {value} of element {number} is {reason}"));
@@ -103,7 +103,7 @@ fn elements(
     item.at.default = span;
 }
 
-/// Reads the allowed values. The separate limits must not exclude any of them.
+/// Reads the allowed values. Reports allowed values that the minimum or maximum of the row excludes.
 fn allowed(reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row, base: Type, limits: &mut Limits) {
     let Some(given) = &row.allowed else { return };
     let span = reader.span(given);
@@ -122,11 +122,11 @@ fn allowed(reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row, base: Type, 
     item.limits.allowed.clone_from(&limits.allowed);
 }
 
-/// Checks that the writable values are among the allowed ones.
+/// Reports writable values that are not allowed values.
 fn writable(reader: &mut Reader<'_, '_>, row: &Row, base: Type, limits: &Limits) {
     let Some(given) = &row.writable else { return };
     for literal in reader.each(&given.value, (given.start, given.end)) {
-        // Invalid values are reported when the item stores them.
+        // Invalid values are reported later, when the item stores the list.
         let Some((first, last)) = value::range(reader, &literal, base) else { continue };
         let is_one = first == last;
         for value in [Some(first), Some(last).filter(|_| !is_one)].into_iter().flatten() {
@@ -138,7 +138,8 @@ fn writable(reader: &mut Reader<'_, '_>, row: &Row, base: Type, limits: &Limits)
     }
 }
 
-/// Reads the fixed value, which sets both limits and the default. Reports other values of the row that differ.
+/// Reads the fixed value, which sets the default value and both limits. Reports other values of the row that differ from the
+/// fixed value.
 fn fixed(reader: &mut Reader<'_, '_>, item: &mut Item, given: &At<Literal>, row: &Row, base: Type, limits: &Limits) {
     let (value, span) = (value::value(reader, given, base), reader.span(given));
     if let Some(reason) = excluded(limits, &value) {

@@ -1,4 +1,4 @@
-//! Lints that depend on the notation of a table: digits, printed objects next to register numbers, patterns of states.
+//! Lints that depend on the notation of a table: digits, printed objects next to register numbers, state patterns.
 
 use super::at::{At, Entries, Literal, TextOr};
 use super::format::{MachineTable, NumberOrText, PatternTable, Row};
@@ -10,10 +10,11 @@ use crate::ir::{Type, Value};
 use crate::source::Span;
 use crate::text::brief;
 
-/// The minimum number of rows with a register number and its object. From this number on, the lint expects an object in each row.
+/// Minimum number of rows that print both a register number and its object. From this number on, the lint expects an object in
+/// each row.
 const PRINTED: usize = 3;
 
-/// Checks the digits of a number, and its value, against its type.
+/// Checks the digits and the value of a number against its type.
 pub(super) fn number(reader: &mut Reader<'_, '_>, given: &At<Literal>, value: &Value, ty: Type) {
     let span = reader.span(given);
     capital(reader, span);
@@ -33,7 +34,7 @@ pub(super) fn number(reader: &mut Reader<'_, '_>, given: &At<Literal>, value: &V
     range(reader, value, ty, span);
 }
 
-/// Reports `0X`. TOML has no numbers with this prefix, but a text may contain it.
+/// Reports a number that begins with `0X`. TOML has no numbers with this prefix, but a text may contain it.
 fn capital(reader: &mut Reader<'_, '_>, span: Span) {
     let text = reader.source.slice(span).trim_matches(['"', '\'']);
     if text.starts_with("0X") {
@@ -43,10 +44,10 @@ fn capital(reader: &mut Reader<'_, '_>, span: Span) {
     }
 }
 
-/// The help for a wrong number of digits.
+/// Help text for a wrong number of digits.
 const DIGITS: &str = "compare both with the manual: a digit was doubled or lost, or the type is wrong";
 
-/// Reports the key of a value or of a range if it has more digits than its type. Types below 8 bits are not checked.
+/// Reports a key for values that has more digits than the type of the values. Types below 8 bits are not checked.
 pub(super) fn key(reader: &mut Reader<'_, '_>, given: &At<String>, base: Type) {
     let Some(bits) = base.bits().filter(|&bits| bits >= 8) else { return };
     let needed = bits.div_ceil(4) as usize;
@@ -76,7 +77,7 @@ pub(super) fn range(reader: &mut Reader<'_, '_>, value: &Value, ty: Type, span: 
     });
 }
 
-/// Returns the digits of a hexadecimal number, with or without quotation marks.
+/// Returns the digits of a hexadecimal number, which may be in quotation marks.
 fn hexadecimal(text: &str) -> Option<String> {
     let text = text.trim_matches(['"', '\'']);
     let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))?;
@@ -100,7 +101,7 @@ pub(super) fn index<T>(reader: &mut Reader<'_, '_>, given: &At<T>) {
     }
 }
 
-/// Returns what is wrong with the digits of an index, or of the bounds of a range.
+/// Returns a description of the wrong digits in an index or range, or `None` if the digits are correct.
 pub(super) fn digits_of_index<T>(reader: &Reader<'_, '_>, given: &At<T>) -> Option<String> {
     let text = reader.source.slice(reader.span(given)).trim_matches(['"', '\'']);
     let mut indices = text.split(':').next().unwrap_or_default().split("..");
@@ -108,14 +109,14 @@ pub(super) fn digits_of_index<T>(reader: &Reader<'_, '_>, given: &At<T>) -> Opti
     Some(format!("the index `0x{}` has {} digits instead of 4", brief(&digits), digits.len()))
 }
 
-/// The maximum distance between the register numbers of neighbors in one block.
+/// Maximum distance between the register numbers of neighboring rows in one block.
 const BLOCK: u64 = 16;
 
-/// The help for an object that does not follow from its register number.
+/// Help text for an object that does not follow from its register number.
 pub(super) const FORMULA: &str = "keep the number that the neighboring rows support, add a `doubt`, \
                                   and allow this code on the row";
 
-/// The register number and the object of a row that has both, and the object of the rule.
+/// Register number and object of a row that prints both, and the object according to the rule of the space.
 struct Printed {
     span: Span,
     number: i64,
@@ -138,7 +139,7 @@ impl Printed {
         Some(Printed { span: reader.span(obj), number, index, rule: rule.map(|(index, _)| index.into()) })
     }
 
-    /// Returns whether the register numbers are in one block. The objects of different blocks may have different offsets.
+    /// Returns whether both register numbers are in one block. The objects of different blocks may have different offsets.
     fn is_near(&self, other: &Printed) -> bool {
         self.number.abs_diff(other.number) <= BLOCK
     }
@@ -148,7 +149,7 @@ impl Printed {
     }
 }
 
-/// Reports a printed object that does not follow from those of the neighboring rows, unless these follow the rule of the space.
+/// Reports a printed object that does not follow from the neighboring rows, unless these rows follow the rule of the space.
 pub(super) fn series(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)], space: Option<&Space>) {
     let printed: Vec<_> = rows.iter().filter_map(|(_, row)| Printed::new(reader, &row.value, space)).collect();
     for (at, row) in printed.iter().enumerate() {
@@ -176,7 +177,7 @@ pub(super) fn series(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)]
     }
 }
 
-/// Reports rows without an object in a chapter whose other rows have the object of the rule.
+/// Reports rows without an object in a chapter whose other rows print objects according to the rule of the space.
 pub(super) fn unprinted(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)], space: Option<&Space>) {
     let printed = rows.iter().filter_map(|(_, row)| Printed::new(reader, &row.value, space));
     if printed.filter(|row| row.rule == Some(row.index)).count() < PRINTED {
@@ -228,7 +229,7 @@ fn patterns(reader: &mut Reader<'_, '_>, list: &Entries<PatternTable>, what: &st
                 reader
                     .diagnostics
                     .push(found.note_at(reader.span(other_key), format!("the other {}", what.trim_end_matches('s'))));
-                // One report per pattern is enough. The number of pairs is quadratic.
+                // Each pattern is reported only once, because the number of pairs is quadratic.
                 break;
             }
         }

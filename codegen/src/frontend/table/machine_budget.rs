@@ -1,5 +1,5 @@
-//! Limits the size of the state machines of a device. A transition from any state is written for each state, and the texts of a
-//! row are copied for each of its states.
+//! Limits the size of the state machines of a device. A transition from any state is copied for each state, and the texts of a
+//! matrix row are copied for each state of the row.
 
 use std::collections::HashMap;
 use std::fmt::Debug;
@@ -14,7 +14,7 @@ use crate::ir::Device;
 use crate::limits::{MAX_MACHINE_ROWS, ROW_BYTES_PER_ITEM};
 use crate::text::brief;
 
-/// The unused part of [`MAX_MACHINE_ROWS`].
+/// Remaining part of [`MAX_MACHINE_ROWS`].
 pub(super) struct MachineBudget(usize);
 
 impl MachineBudget {
@@ -22,7 +22,7 @@ impl MachineBudget {
         MachineBudget(MAX_MACHINE_ROWS)
     }
 
-    /// Subtracts the size of a machine from the budget. If the limit is exceeded, reports the machine and returns `false`.
+    /// Subtracts the size of a state machine from the budget. Returns `false` and reports the machine if the limit is exceeded.
     pub fn take(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -45,7 +45,7 @@ impl MachineBudget {
     }
 }
 
-/// Returns the size of a machine in rows.
+/// Returns the size of a state machine in rows.
 fn weight(table: &MachineTable, device: &Device) -> usize {
     let states = match table.states.as_ref().map(|states| &states.value) {
         Some(TextOr::Table(patterns)) => patterns.iter().count(),
@@ -68,7 +68,7 @@ fn weight(table: &MachineTable, device: &Device) -> usize {
     [1, states, table.commands.iter().count(), matrix].into_iter().chain(transitions).fold(0, usize::saturating_add)
 }
 
-/// Returns the size of a table of commands and states in rows, with the copied names of states and notes.
+/// Returns the size of a state-command matrix in rows, including copies of the names of states and of notes.
 fn of_matrix(table: &MatrixTable) -> usize {
     let rows = table.rows.iter().count().saturating_mul(copy(&table.states));
     let notes = table.notes.iter().map(|(name, text)| (name.value.as_str(), text.value.len() / ROW_BYTES_PER_ITEM));

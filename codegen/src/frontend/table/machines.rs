@@ -17,8 +17,8 @@ fn text(at: &At<String>) -> CompactString {
     at.value.as_str().into()
 }
 
-/// Reads a state machine. Reports transitions with unknown states or commands. A command may be a message. Returns `false` if the
-/// machine exceeds `budget`: then no further machine may be read.
+/// Reads a state machine. Reports transitions with unknown states or commands; a command may be a message. Returns `false` if the
+/// machine exceeds `budget`. The caller must then ignore all further machines.
 pub(super) fn machine(
     reader: &mut Reader<'_, '_>,
     name: &At<String>,
@@ -66,7 +66,7 @@ pub(super) fn machine(
     true
 }
 
-/// Returns whether the text names a field of the reply to a message: `Message.field`.
+/// Returns whether a text names a field in the reply to a message, as in `Message.field`.
 fn is_field_of_reply(device: &Device, text: &str) -> bool {
     text.rsplit_once('.').is_some_and(|(message, field)| {
         let reply = device.messages.iter().find(|known| known.name == message).map(|known| known.reply.as_slice());
@@ -77,7 +77,7 @@ fn is_field_of_reply(device: &Device, text: &str) -> bool {
     })
 }
 
-/// Reads a row of transitions: one transition for each state that it leaves.
+/// Reads a row of transitions. Returns one transition for each state that the row names as `from`.
 fn transition(reader: &mut Reader<'_, '_>, given: &At<TransitionTable>, names: &Names<'_>) -> Vec<Transition> {
     let row = &given.value;
     let from: Vec<&String> = row.from.iter().flat_map(|list| &list.value.0).collect();
@@ -106,7 +106,7 @@ fn transition(reader: &mut Reader<'_, '_>, given: &At<TransitionTable>, names: &
     }
 }
 
-/// Reads a sequence of steps.
+/// Reads a procedure, which is a sequence of steps.
 pub(super) fn procedure(
     reader: &mut Reader<'_, '_>,
     name: &At<String>,
@@ -141,7 +141,7 @@ pub(super) fn procedure(
     });
 }
 
-/// The message for an invalid combination of keys in a step.
+/// Message for a step with an invalid combination of keys.
 const STEP: &str =
     "a step must be one of: `write` with `value` (and `mask`) or `argument`; `read`; `wait` with `value` (and \
                     `mask`, `timeout`); `delay`; `send`; `exchange`; `manual`";

@@ -18,7 +18,7 @@ use crate::ir::{
 use crate::limits;
 use crate::text::brief;
 
-/// The maximum depth of nested repeated fields.
+/// Maximum depth of nested repeated fields.
 const MAX_DEPTH: usize = 4;
 
 fn text(at: &At<String>) -> CompactString {
@@ -43,7 +43,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, file: &mut Table<'a>, rows: 
     spaces(reader, tables, device, &mut rows.references);
 }
 
-/// Reads the spaces whose numbers are parameter numbers.
+/// Reads the spaces whose register numbers are parameter numbers.
 fn spaces<'t>(
     reader: &mut Reader<'_, '_>,
     tables: impl Iterator<Item = (&'t At<String>, &'t SpaceTable)>,
@@ -66,7 +66,7 @@ fn spaces<'t>(
     }
 }
 
-/// Returns the end of a message, including its fields and examples.
+/// Returns the end of a message in the file, including its fields and examples.
 fn end(table: &At<MessageTable>) -> u32 {
     let message = &table.value;
     let fields = message.request.iter().chain(&message.reply).map(|field| field.end);
@@ -74,7 +74,7 @@ fn end(table: &At<MessageTable>) -> u32 {
     fields.chain(frames).fold(table.end, u32::max)
 }
 
-/// Reads a request and its reply. `names` holds the names of earlier messages.
+/// Reads a request and its reply. `names` contains the names of earlier messages.
 fn message(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
@@ -134,14 +134,14 @@ fn message(
     });
 }
 
-/// Reports the first message beyond the maximum number.
+/// Reports the first message that exceeds the maximum number of messages.
 fn too_many(reader: &mut Reader<'_, '_>, table: &At<MessageTable>) {
     let message = format!("the table has more than {} messages", limits::MAX_MESSAGES);
     let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, reader.span(table), message);
     reader.diagnostics.push(found.label("this message and those after it are left out"));
 }
 
-/// Reports lengths that are counted from a field that the frame does not have.
+/// Reports a `counts` key that names a field which the frame does not have.
 fn counted(reader: &mut Reader<'_, '_>, fields: &[MessageField], tables: &[At<FieldTable>]) {
     let echoes = fields.iter().filter_map(|field| match field {
         MessageField::Echo { field, .. } => Some(field),
@@ -155,7 +155,7 @@ fn counted(reader: &mut Reader<'_, '_>, fields: &[MessageField], tables: &[At<Fi
     }
 }
 
-/// Reads example frames of the manual.
+/// Reads an example frame of the manual.
 fn example(reader: &mut Reader<'_, '_>, given: &At<ExampleTable>, doubts: &mut Doubts) -> MessageExample {
     let example = &given.value;
     let origin = reader.origin(given);
@@ -179,7 +179,7 @@ fn availability(message: &MessageTable) -> Availability {
     }
 }
 
-/// Collects the names that a message uses.
+/// Adds the names to which a message refers to the list `all`.
 fn references(message: &MessageTable, all: &mut References) {
     let messages = [&message.after, &message.error, &message.replaced_by];
     all.extend(messages.into_iter().flatten().map(|name| (name.clone(), "message")));
@@ -202,7 +202,7 @@ fn completion(
         },
         TextOr::Table(table) => match (&table.poll, table.delay) {
             (Some(item), None) => {
-                // The part after a dot is a bit of the item or field.
+                // The part after a dot is a bit of the item or field, so it is not looked up.
                 let whole = item.value.split('.').next().unwrap_or_default();
                 if !replies.iter().any(|field| field == whole) {
                     let name = At { value: whole.to_owned(), start: item.start, end: item.end };
@@ -242,11 +242,11 @@ pub(super) fn field_names(fields: &[MessageField]) -> Box<dyn Iterator<Item = &C
     }))
 }
 
-/// Reads the fields of a message.
+/// Reads the fields of a request or reply.
 struct Fields<'r, 's, 'd> {
     reader: &'r mut Reader<'s, 'd>,
     rows: &'r mut Rows,
-    /// The values in the request, which fields of the reply may echo.
+    /// Names of the values in the request, which fields of the reply may repeat.
     request: Vec<CompactString>,
 }
 
@@ -325,7 +325,7 @@ impl Fields<'_, '_, '_> {
         Some(fixed.unwrap_or(MessageField::Rest))
     }
 
-    /// Checks the printed byte numbers of fields, up to the first field without a fixed length.
+    /// Compares the printed byte numbers of fields with their positions, up to the first field without a fixed length.
     fn numbers(&mut self, list: &[At<FieldTable>], fields: &[MessageField]) {
         if list.len() != fields.len() {
             return;
@@ -352,7 +352,7 @@ impl Fields<'_, '_, '_> {
         }
     }
 
-    /// Returns the length of a field in bits, if it is fixed.
+    /// Returns the length of a field in bits, or `None` if the length is not fixed.
     fn bits(&self, field: &MessageField) -> Option<u32> {
         match field {
             MessageField::Constant(bytes) => Some(bytes.len() as u32 * 8),
@@ -374,7 +374,7 @@ impl Fields<'_, '_, '_> {
         MessageField::Echo { field: text(echo), bytes }
     }
 
-    /// Reads the first and last of a range of bytes.
+    /// Reads a range of bytes. Returns its first and its last byte number.
     fn bytes<T: TryFrom<i128> + PartialOrd>(&mut self, given: &At<NumberOrText>) -> Option<(T, T)> {
         let range = notation::range(&given.value.to_string());
         let found = range.and_then(|(first, last)| Some((T::try_from(first).ok()?, T::try_from(last).ok()?)));
@@ -387,7 +387,7 @@ impl Fields<'_, '_, '_> {
         found
     }
 
-    /// Reads fixed bits: an unsigned integer of less than 64 bits, and its value.
+    /// Reads a field of fixed bits: an unsigned integer type of less than 64 bits, and the value.
     fn fixed(&mut self, fixed: &At<Literal>, field: &At<FieldTable>) -> Option<MessageField> {
         let ty = field.value.ty.as_ref().and_then(|ty| types::named(&ty.value)).map(|named| named.ty);
         let Some(ty @ Type::Unsigned(bits @ 1..=63)) = ty else {
@@ -408,7 +408,7 @@ impl Fields<'_, '_, '_> {
         }
     }
 
-    /// Returns the length of a code in bits: that of the type, or 16 if the field has none.
+    /// Returns the length of a parameter number in bits: that of the field's type, or 16 if the field has no type.
     fn code_bits(&mut self, field: &At<FieldTable>) -> u8 {
         let Some(ty) = &field.value.ty else { return 16 };
         match types::named(&ty.value).map(|named| named.ty) {
@@ -421,7 +421,7 @@ impl Fields<'_, '_, '_> {
         }
     }
 
-    /// Reads a value in a message like a row, with the keys that fields and rows share.
+    /// Reads a field that contains a value. The field is read as a row with the same keys.
     fn typed(&mut self, field: &At<FieldTable>, name: &At<String>) -> Option<MessageField> {
         let given = &field.value;
         let row = Row { offset: given.offset, fixed: given.fixed.clone(), ..field_row!(given) };
@@ -444,7 +444,7 @@ impl Fields<'_, '_, '_> {
     }
 }
 
-/// Reads a byte order such as `CDAB`: the bytes in the order of the wire, with `A` as the most significant one.
+/// Reads a byte order such as `CDAB`, which lists the bytes in the order of the wire. `A` is the most significant byte.
 fn byte_order(reader: &mut Reader<'_, '_>, order: &At<String>) -> Vec<u8> {
     let bytes: Vec<u8> = order.value.bytes().map(|letter| letter.wrapping_sub(b'A')).collect();
     let mut sorted = bytes.clone();

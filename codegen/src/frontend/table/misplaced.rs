@@ -5,10 +5,10 @@ use super::format::{NumberOrText, Row};
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 
-/// Keys, whether a row has them, and why they have no effect.
+/// Keys, each with whether the row has the key, and the reason why the key has no effect.
 type Misplaced<'r> = &'r [(&'r str, bool, &'r str)];
 
-/// Checks a row of `[chapters.registers]` of a table.
+/// Checks a row in `[chapters.registers]` of a register table.
 pub(super) fn register(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row>) {
     let register = &row.value;
     report(
@@ -27,7 +27,7 @@ pub(super) fn register(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<R
     everywhere(reader, key, register);
 }
 
-/// Checks a row of `[chapters.objects]` of a table.
+/// Checks a row in `[chapters.objects]` of a register table.
 pub(super) fn object(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row>) {
     let object = &row.value;
     let repeats = object.count.is_some() || object.max_count.is_some() || object.stride.is_some();
@@ -72,7 +72,7 @@ fn everywhere(reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row) {
     );
 }
 
-/// Checks a row of an overlay or a profile, which cannot change addresses.
+/// Checks a row of an overlay or profile, which cannot change addresses.
 pub(super) fn overlay(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row>) {
     let patch = &row.value;
     let repeats = patch.count.is_some() || patch.max_count.is_some() || patch.stride.is_some();
@@ -99,7 +99,7 @@ fn report(reader: &mut Reader<'_, '_>, key: &At<String>, list: Misplaced<'_>) {
     }
 }
 
-/// Returns the first key of a row that describes a value, which an object with sub-entries does not have.
+/// Returns the first key of a row that describes a value. An object with sub-entries has no value.
 pub(super) fn of_value(row: &Row) -> Option<&'static str> {
     macro_rules! first {
         ($($key:literal $field:ident)*) => {

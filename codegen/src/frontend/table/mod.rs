@@ -2,25 +2,25 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | `format`, `at`, `alternatives`, `read` | the tables of the format, their parts, and how both are read |
-//! | `tree` | reads the text into those tables, and reports errors with their spans; options |
-//! | `notation`, `types`, `value`, `units`, `words` | numbers, ranges and addresses as text; type names; literals; unit symbols; words for access rights and others |
-//! | `definitions`, `given` | units, enumerations, bit fields; numbers of the machine |
+//! | `format`, `at`, `alternatives`, `read` | the tables of the format, their common types, and the readers of both |
+//! | `tree` | parses the file into these tables, and reports errors with their spans; options |
+//! | `notation`, `types`, `value`, `units`, `words` | numbers, ranges and addresses as text; type names; literals; unit symbols; words for access rights and other facts |
+//! | `definitions`, `given` | units, enumerations, bit fields; properties of the machine |
 //! | `scale` | conversion of raw values to physical values |
-//! | `conditions`, `variants` | conditions for elements; differences between models and buses |
+//! | `conditions`, `variants` | conditions for elements; differences between models or buses |
 //! | `references`, `numbered` | names that refer to other elements, and register numbers in place of names |
 //! | `repeats`, `machine_budget` | limits on the items that rows produce, and on the size of state machines |
 //! | `in_use` | names and addresses that are in use |
 //! | `buses`, `spaces`, `windows` | sets of buses; the addresses of a register on each bus |
-//! | `rows`, `bindings`, `limits`, `registers`, `objects` | items and objects of rows; their addresses; defaults, limits and allowed values |
-//! | `defaults`, `misplaced` | values that rows inherit; keys that have no effect in their row |
+//! | `rows`, `bindings`, `limits`, `registers`, `objects` | items and objects of rows; their addresses; default values, limits and allowed values |
+//! | `defaults`, `misplaced` | keys that rows inherit; keys that have no effect in their row |
 //! | `device` | the head: device, models, axes |
 //! | `process`, `images` | process data: PDOs, fixed process images |
-//! | `code_tables`, `machines`, `states`, `outcomes`, `messages`, `framing` | codes; state machines and procedures; their states; effects of commands in each state; messages and their frames |
+//! | `code_tables`, `machines`, `states`, `outcomes`, `messages`, `framing` | codes; state machines and procedures; states; state-command matrices; messages and their frames |
 //! | `composites` | numbers that are split over several items |
-//! | `overlay` | tables that change the objects of another file |
+//! | `overlay` | tables that change the objects of another description |
 //! | `lints`, `summary` | checks of the notation; comparison of a row with other sections of the manual |
-//! | `schema` | derives the JSON Schema of the format, in tests only; the file `schema/table.json` holds the result |
+//! | `schema` | derives the JSON Schema of the format in tests; the file `schema/table.json` contains the result |
 
 mod alternatives;
 mod at;
@@ -93,8 +93,8 @@ use tree::{Node, Reader};
 /// JSON Schema (draft 7) of register tables, which editors use to complete and check tables. `lexibus schema` prints it.
 pub const SCHEMA: &str = include_str!("../../../schema/table.json");
 
-/// Returns the unit symbol for another spelling of a unit, such as `°C` for `degC` and `rpm` for `1/min`. Returns `None` if the
-/// spelling is unknown.
+/// Returns the symbol of a unit for another spelling of the unit, such as `°C` for `degC` and `rpm` for `1/min`. Returns `None`
+/// if the spelling is unknown.
 ///
 /// ```
 /// use lexibus_codegen::frontend::table::usual_unit;
@@ -118,10 +118,10 @@ pub fn is_unit(symbol: &str) -> bool {
     units::is_known(symbol)
 }
 
-/// The supported version of the format.
+/// Supported version of the format.
 const VERSION: u32 = 1;
 
-/// The keys of a table in the order in which they are read: referenced elements come first.
+/// Keys of a table in the order in which they are read: elements come before the elements that refer to them.
 const KEYS: [&str; 25] = [
     "lexibus",
     "device",
@@ -150,9 +150,9 @@ const KEYS: [&str; 25] = [
     "frames",
 ];
 
-/// Reads the device that a table describes. `chosen` holds the choices of its options.
+/// Reads the device that a table describes. `chosen` contains the choices for the options of the table.
 ///
-/// Returns `None` if the table does not describe a device. The reason is then reported as an error.
+/// Returns `None` and reports an error if the table does not describe a device.
 pub fn read(
     source: &Source,
     file: FileId,
@@ -195,7 +195,7 @@ pub fn read(
     for (name, given) in table.named::<format::GivenTable>(&mut reader, "given") {
         device.given.push(given::number(&mut reader, &name, &given, &mut rows.references));
     }
-    // The fields of images and messages have types, as rows do.
+    // Images and messages need the same state as rows, because their fields have types.
     table.frames(&mut reader, &mut rows, &mut device);
     rows.definitions.make_unused(&mut reader);
     device.types = std::mem::take(&mut rows.definitions.types);
@@ -208,7 +208,7 @@ pub fn read(
     Some(Catalog { devices: vec![device], ..Catalog::default() })
 }
 
-/// The parts of a file by their key.
+/// Parts of a file by their top-level key.
 struct Table<'a> {
     parts: Vec<(At<String>, Option<Node<'a>>)>,
     options: Vec<(At<String>, OptionTable)>,
@@ -216,7 +216,7 @@ struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    /// Parses a file, and replaces the options with the chosen values.
+    /// Parses a file, and replaces each option with the chosen value.
     fn new(reader: &mut Reader<'a, '_>, chosen: &[(String, String)]) -> Option<Self> {
         let mut parts: Vec<_> =
             tree::sorted(reader.parse()?).into_iter().map(|(key, node)| (key, Some(node))).collect();
@@ -266,19 +266,19 @@ impl<'a> Table<'a> {
         self.parts.iter_mut().find(|(name, _)| name.value == key)?.1.take()
     }
 
-    /// Reads the table of a key.
+    /// Reads the table below the key `key`.
     fn take<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Option<At<T>> {
         let node = self.node(key)?;
         let (start, end) = (node.span().start as u32, node.span().end as u32);
         Some(At { value: reader.piece(node)?, start, end })
     }
 
-    /// Returns the elements of an array of tables.
+    /// Returns the elements of the array of tables below the key `key`.
     fn nodes(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<Node<'a>> {
         self.node(key).map(|node| reader.elements(node, key)).unwrap_or_default()
     }
 
-    /// Reads the elements of an array of tables.
+    /// Reads the elements of the array of tables below the key `key`.
     fn list<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<At<T>> {
         let nodes = self.nodes(reader, key);
         nodes
@@ -290,18 +290,18 @@ impl<'a> Table<'a> {
             .collect()
     }
 
-    /// Returns the tables below a key, with their names.
+    /// Returns the tables below the key `key`, with their names.
     fn entries(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<(At<String>, Node<'a>)> {
         self.node(key).map(|node| reader.entries(node, key)).unwrap_or_default()
     }
 
-    /// Reads the tables below a key, with their names.
+    /// Reads the tables below the key `key`, with their names.
     fn named<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<(At<String>, T)> {
         let entries = self.entries(reader, key);
         entries.into_iter().filter_map(|(name, node)| Some((name, reader.piece(node)?))).collect()
     }
 
-    /// Returns the state that rows need: definitions, spaces and defaults.
+    /// Reads the state that rows need: definitions, spaces and default values.
     fn rows(&mut self, reader: &mut Reader<'a, '_>, buses: Buses) -> Rows {
         let definitions = Definitions {
             units: ByName::new(self.named(reader, "units")),
@@ -328,7 +328,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Reads the elements with fields: process images and messages.
+    /// Reads the elements that have fields: process images and messages.
     fn frames(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
         let mut images = images::Images::new(device);
         for image in self.list(reader, "images") {
@@ -351,7 +351,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Reads the elements without items: axes, PDOs, codes, sequences.
+    /// Reads the elements that describe no items: axes, PDOs, codes, sequences.
     fn rest(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
         if let Some(axes) = self.take::<format::AxesTable>(reader, "axes") {
             let models = axes.value.models.iter().flatten();
@@ -459,10 +459,10 @@ fn chapter<'a>(
     (!group.items.is_empty() || says_something).then_some(group)
 }
 
-/// The rows of a chapter's registers, or of its objects.
+/// Rows of a chapter's registers or objects, with their keys.
 type RowList = Vec<(At<String>, At<Row>)>;
 
-/// Reads the rows of a chapter one by one, so that an error in one row does not affect the others.
+/// Separates the rows of a chapter from its other keys, so that an error in one row does not affect the others.
 fn divide<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<(RowList, RowList, Node<'a>)> {
     let mut node = node;
     let span = node.span();
@@ -487,7 +487,7 @@ fn divide<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<(RowList, R
     Some((registers, objects, node))
 }
 
-/// Reports names that rows and sequences use and that have no definition.
+/// Reports names in rows and sequences that have no definition.
 fn resolve(reader: &mut Reader<'_, '_>, rows: &Rows, device: &Device) {
     let all = rows.references.iter().chain(&rows.definitions.mentioned);
     references::resolve(reader, all.map(|(name, what)| (name, *what)), device, &rows.numbered);

@@ -1,6 +1,6 @@
 //! Notation of numbers, ranges and addresses in register tables: integers, register numbers, objects, bits.
 
-/// The help for a key or value that is not an object.
+/// Help text for a key or value that is not an object.
 pub(super) const OBJECT_HELP: &str =
     "write an index such as `0x6040`, a sub-index such as `\"0x1018:1\"`, or a range such as `\"0x1400..0x1403:1\"`";
 
@@ -26,7 +26,7 @@ pub(super) fn integer(text: &str) -> Option<i128> {
     Some(if negative { -value } else { value })
 }
 
-/// Reads an integer, or the first and last of a range (`3..7`).
+/// Reads a range such as `3..7`, or a single integer. Returns the first and the last value.
 pub(super) fn range(text: &str) -> Option<(i128, i128)> {
     match text.split_once("..") {
         Some((first, last)) => Some((integer(first)?, integer(last.trim_start_matches('='))?)),
@@ -34,8 +34,8 @@ pub(super) fn range(text: &str) -> Option<(i128, i128)> {
     }
 }
 
-/// Reads the first and last register number as manuals print them: `63`, `63-64`, and `10099-100`, where the end omits the leading
-/// digits of the start.
+/// Reads the first and the last register number as manuals print them: `63`, `63-64`, or `10099-100`. The end of a range may omit
+/// the leading digits of the start.
 pub(super) fn registers(text: &str) -> Option<(u32, u32)> {
     let Some((first, last)) = text.split_once(['-', '–']) else {
         let number = u32::try_from(integer(text)?).ok()?;
@@ -47,18 +47,18 @@ pub(super) fn registers(text: &str) -> Option<(u32, u32)> {
     if end >= start {
         return Some((start, end));
     }
-    // The end has the leading digits of the start, or the next ones if it would be below the start.
+    // The end has the leading digits of the start, or the next higher ones if it would otherwise be below the start.
     let modulus = 10u32.checked_pow(u32::try_from(last.len()).ok()?)?;
     let end = (start / modulus * modulus).checked_add(end)?;
     Some((start, if end < start { end.checked_add(modulus)? } else { end }))
 }
 
-/// The objects and sub-indices that a key of `[chapters.objects]` names.
+/// Objects and sub-indices that a key of `[chapters.objects]` names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Objects {
     /// First and last index.
     pub indices: (u16, u16),
-    /// First and last sub-index; `None` for the objects themselves.
+    /// First and last sub-index; `None` if the key names whole objects.
     pub subs: Option<(u8, u8)>,
 }
 
@@ -81,7 +81,7 @@ pub(super) fn objects(text: &str) -> Option<Objects> {
     in_order.then_some(Objects { indices, subs })
 }
 
-/// Reads the first bit and the number of bits: `7`, `3-2`, `2..3`, `[2..3]`.
+/// Reads a range of bits: `7`, `3-2`, `2..3`, `[2..3]`. Returns the first bit and the number of bits.
 pub(super) fn bits(text: &str) -> Option<(u8, u8)> {
     let text = text.trim().trim_start_matches('[').trim_end_matches(']');
     let (one, other) = match text.split_once("..").or_else(|| text.split_once('-')) {
@@ -92,7 +92,7 @@ pub(super) fn bits(text: &str) -> Option<(u8, u8)> {
     (high < 64).then_some((low, high - low + 1))
 }
 
-/// Returns `text` with the values of `{n}`, `{n+1}` and `{sub}` inserted.
+/// Returns `text` with values in place of the placeholders `{n}`, `{n+1}` and `{sub}`.
 pub(super) fn filled(text: &str, number: u32, sub: Option<u8>) -> String {
     let mut filled = String::with_capacity(text.len());
     let mut pieces = text.split('{');

@@ -1,4 +1,4 @@
-//! Register numbers in place of item names, or in texts, as manuals print them: "replaced by register 10015".
+//! Register numbers that manuals print instead of item names or in texts: "replaced by register 10015".
 
 use std::collections::BTreeSet;
 
@@ -11,17 +11,17 @@ use crate::ir::{texts, Device};
 use crate::source::Span;
 use crate::text::brief;
 
-/// The maximum number of items that a message lists for a range.
+/// Maximum number of items that a message lists for a range of register numbers.
 const MAX_LISTED: usize = 4;
 
-/// An item with its first and last register number.
+/// Item with its first and last register number.
 pub(super) struct Numbered {
     pub first: u32,
     pub last: u32,
     pub name: CompactString,
 }
 
-/// Reports a name that is a register number or a range of them. Returns `false` if it is neither.
+/// Reports a register number or a range of register numbers in place of an item name. Returns `false` for any other text.
 pub(super) fn report(reader: &mut Reader<'_, '_>, list: &[Numbered], text: &str, span: Span) -> bool {
     let Some((first, last)) = notation::registers(text).filter(|_| !list.is_empty() && !text.starts_with("0x")) else {
         return false;
@@ -46,12 +46,13 @@ pub(super) fn report(reader: &mut Reader<'_, '_>, list: &[Numbered], text: &str,
     true
 }
 
-/// Reports registers that texts mention by number and that the table does not have.
+/// Reports register numbers in texts that belong to no register of the table.
 pub(super) fn mentioned(reader: &mut Reader<'_, '_>, list: &[Numbered], device: &Device) {
     if list.is_empty() {
         return;
     }
-    // The ranges, sorted by first number. The end of each range becomes the maximum of all ends so far, so one comparison decides.
+    // Ranges sorted by first number. The end of each range is raised to the maximum of all ends before it. A number then exists
+    // if the last range that starts at or below the number includes it.
     let mut ranges: Vec<(u32, u32)> = list.iter().map(|item| (item.first, item.last)).collect();
     ranges.sort_unstable();
     let mut last = 0;
@@ -72,7 +73,8 @@ pub(super) fn mentioned(reader: &mut Reader<'_, '_>, list: &[Numbered], device: 
     }
 }
 
-/// Returns the numbers after the word for a register: `register 10015`, `registro 10086-87`.
+/// Returns the register numbers in a text. A word such as `register` precedes each of them: `register 10015`, `registro
+/// 10086-87`.
 fn mentions(text: &str) -> impl Iterator<Item = u32> + '_ {
     const WORDS: [&str; 4] = ["register", "registers", "registro", "registri"];
     let words = text.split(|c: char| c.is_whitespace() || matches!(c, '(' | ')' | '<' | '>'));

@@ -13,10 +13,10 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Access, Binding, Group, Item, ObjectCode, Type};
 use crate::text::brief;
 
-/// The objects of a table, by index.
+/// Objects of a table, by index.
 pub(super) type Dictionary = BTreeMap<u16, Group>;
 
-/// Adds the objects or sub-entries of a row of `[chapters.objects]`.
+/// Adds the objects or sub-entries that a row of `[chapters.objects]` describes.
 pub(super) fn add(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
@@ -38,7 +38,7 @@ pub(super) fn add(
     rows.allow(reader, key, row);
     super::lints::index(reader, key);
     let complete = match objects.subs {
-        // The facts about an object as a whole are not those of a value, so it inherits no defaults.
+        // A row for an object as a whole describes no value, so it inherits no defaults.
         None if row.value.ty.is_none() && has_no_value(&row.value) => row.value.clone(),
         _ => rows.complete(reader, key, &row.value, chapter),
     };
@@ -55,7 +55,7 @@ pub(super) fn add(
     }
 }
 
-/// Returns the objects of a row, or only the first one if the table has too many items.
+/// Returns the objects of a row, or only the first one if the table exceeds the limit for items.
 fn affordable(reader: &mut Reader<'_, '_>, rows: &mut Rows, objects: Objects, row: &Row, key: &At<String>) -> Objects {
     let ((first, last), subs) = (objects.indices, objects.subs);
     let of_each = subs.map_or(1, |(first, last)| u32::from(last - first) + 1);
@@ -66,13 +66,13 @@ fn affordable(reader: &mut Reader<'_, '_>, rows: &mut Rows, objects: Objects, ro
     Objects { indices: (first, first), subs: subs.map(|(first, _)| (first, first)) }
 }
 
-/// Returns whether a row only names an object whose values are its sub-entries.
+/// Returns whether a row describes an object as a whole, whose values are its sub-entries.
 fn has_no_value(row: &Row) -> bool {
     let has_subs = row.code.as_ref().is_some_and(|code| matches!(code.value.as_str(), "array" | "record"));
     has_subs && row.bits.is_none() && row.values.is_none()
 }
 
-/// A row with its key, and the same row with the inherited defaults.
+/// Row with its key, and a copy of the row with the inherited defaults.
 #[derive(Clone, Copy)]
 struct GivenRow<'r> {
     key: &'r At<String>,
@@ -125,7 +125,7 @@ fn head(
     dictionary.insert(index, group);
 }
 
-/// Reports placeholders in a name that are not filled.
+/// Reports a placeholder in the name of a row that has no value.
 fn unfilled_name(reader: &mut Reader<'_, '_>, row: &Row, number: u32, sub: Option<u8>) {
     if let Some(name) = row.name.as_ref().filter(|_| number == 0) {
         super::definitions::unfilled(reader, name, Some(&notation::filled(&name.value, number, sub)));
@@ -198,7 +198,7 @@ fn item(
     item
 }
 
-/// Adds the further addresses in a row of an object: its register, and addresses of other protocols.
+/// Adds the further addresses in the row of an object: a register, and addresses in other protocols.
 fn further_addresses(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,

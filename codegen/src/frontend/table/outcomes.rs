@@ -1,4 +1,4 @@
-//! Reads the effects of commands in each state: the manual's table of commands and states of a machine.
+//! Reads the state-command matrix of a state machine: the outcome of each command in each state.
 
 use std::collections::HashSet;
 
@@ -14,11 +14,11 @@ use crate::ir::{
 use crate::source::Span;
 use crate::text::{brief, count_of};
 
-/// The names that transitions and cells may use: states of the machine, its commands, and the messages of the device.
+/// Names that transitions and cells may use: states and commands of the machine, and messages of the device.
 pub(super) struct Names<'n> {
     states: HashSet<&'n str>,
     commands: HashSet<&'n str>,
-    /// States and commands in the order of the source.
+    /// States and commands in the order of the file.
     listed: [Vec<&'n str>; 2],
 }
 
@@ -31,14 +31,14 @@ impl<'n> Names<'n> {
         Names { states: set(&states), commands: set(&commands), listed: [states, commands] }
     }
 
-    /// Reports a state that does not exist.
+    /// Reports the name of a state that does not exist.
     pub fn state(&self, reader: &mut Reader<'_, '_>, name: &str, span: Span) {
         if !self.states.contains(name) {
             reader.unresolved("state", name, span, self.listed[0].iter().copied());
         }
     }
 
-    /// Reports a command that does not exist.
+    /// Reports the name of a command that does not exist.
     pub fn command(&self, reader: &mut Reader<'_, '_>, name: &str, span: Span) {
         if !self.commands.contains(name) {
             reader.unresolved("command", name, span, self.listed[1].iter().copied());
@@ -46,7 +46,7 @@ impl<'n> Names<'n> {
     }
 }
 
-/// Reads the rows of the table.
+/// Reads the rows of a state-command matrix.
 pub(super) fn read(
     reader: &mut Reader<'_, '_>,
     table: &MatrixTable,
@@ -63,7 +63,7 @@ pub(super) fn read(
     rows
 }
 
-/// Returns the ambiguities of the table and of its rows, all of them about this machine.
+/// Returns the ambiguities of a state-command matrix and of its rows, marked as ambiguities of the machine.
 pub(super) fn doubts(reader: &mut Reader<'_, '_>, table: &At<MatrixTable>, machine: &str) -> Doubts {
     let mut found = reader.doubts_about(&table.value, reader.origin(table), SubjectKind::Machine, machine, "");
     for (name, row) in table.value.rows.iter() {
@@ -119,7 +119,7 @@ fn row(
     }
 }
 
-/// Reads the effects in a cell, and their documentation.
+/// Reads the outcomes in a cell, and their documentation.
 fn cell(
     reader: &mut Reader<'_, '_>,
     table: &MatrixTable,
@@ -151,7 +151,7 @@ fn cell(
     (outcomes(reader, &to.value, reader.span(to), names), documentation)
 }
 
-/// Reads `same`, `refused`, `?` or a sequence of states, and alternatives with `or` between them.
+/// Reads the outcomes in a cell: `same`, `refused`, `?`, or a sequence of states. The word `or` separates alternatives.
 fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names<'_>) -> Vec<Outcome> {
     if text.trim() == "?" {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! Reads the process data that a table describes.
+//! Reads the process data of a table.
 
 use super::at::At;
 use super::buses;
@@ -10,15 +10,15 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Device, Direction, Entries, Item, ItemNames, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, Type};
 use crate::text::brief;
 
-/// The maximum number of PDOs of a device in one direction (CiA 301 7.5.2.35).
+/// Maximum number of PDOs of a device in one direction (CiA 301 7.5.2.35).
 const MAX_EXCLUDED: usize = 512;
 
-/// Reads a direction, as seen from the device.
+/// Reads a PDO direction, as seen from the device.
 pub(super) fn direction(reader: &mut Reader<'_, '_>, given: Option<&At<String>>) -> Option<Direction> {
     reader.word(given?, "direction", &[("rx", Direction::Receive), ("tx", Direction::Transmit)])
 }
 
-/// The objects and items that entries of PDOs may name.
+/// Objects and items to which PDO entries may refer.
 pub(super) struct Targets<'d> {
     device: &'d Device,
     entries: Entries<'d>,
@@ -30,13 +30,13 @@ impl<'d> Targets<'d> {
         Targets { device, entries: Entries::new(&device.groups), names: ItemNames::new(&device.groups) }
     }
 
-    /// Returns the first item with this name, or the item at this path.
+    /// Returns the first item called `name`, or the item at the path `name`.
     fn by_name(&self, name: &str) -> Option<&'d Item> {
         self.names.by_name(name).or_else(|| self.names.by_path(name))
     }
 }
 
-/// Reads a PDO.
+/// Reads an element of `[[pdos]]`.
 pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &Targets<'_>) -> Option<Pdo> {
     let given = &table.value;
     let direction = direction(reader, given.direction.as_ref());
@@ -94,7 +94,7 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &T
     Some(pdo)
 }
 
-/// Compares the lengths that the manual prints with the length of the entries.
+/// Compares the lengths of a PDO that the manual prints with the length of the entries.
 fn printed_lengths(reader: &mut Reader<'_, '_>, table: &PdoTable, pdo: &Pdo) {
     let Some(printed) = &table.length else { return };
     let (index, bits) = (pdo.mapping_index, pdo.bits());
@@ -105,7 +105,7 @@ fn printed_lengths(reader: &mut Reader<'_, '_>, table: &PdoTable, pdo: &Pdo) {
     }
 }
 
-/// Reads an entry: `0x6040:0/16`, `item`, `item/16`, `pad/8`, `? name/16`, `? name/i16`.
+/// Reads a PDO entry: `0x6040:0/16`, `item`, `item/16`, `pad/8`, `? name/16`, `? name/i16`.
 fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) -> Option<PdoEntry> {
     let (what, length) = match text.value.rsplit_once('/') {
         Some((what, length)) => (what.trim(), Some(length)),

@@ -7,33 +7,33 @@ use toml::de::{DeInteger, DeString, DeTable, DeValue};
 
 use super::at::{At, Entries, FlagOr, Literal, OneOrMany, TextOr};
 
-/// A value of the file.
+/// TOML value with its byte range.
 pub(super) type Node<'a> = Spanned<DeValue<'a>>;
 
-/// A type that can be read from a TOML value.
+/// Type that can be read from a TOML value.
 pub(super) trait Read: Sized {
-    /// Reads a value.
+    /// Reads a TOML value as this type.
     fn read(node: &Node<'_>) -> Result<Self, Mistake>;
 }
 
-/// Why a value cannot be read.
+/// Error in a TOML value.
 #[derive(Debug)]
 pub(super) struct Mistake {
-    /// First byte, and one past the last.
+    /// Byte range of the error in the file.
     pub span: Range<usize>,
     pub kind: MistakeKind,
 }
 
 #[derive(Debug)]
 pub(super) enum MistakeKind {
-    /// A key that the table does not have.
+    /// Key that the table does not have, and the keys that it has.
     UnknownKey { key: String, known: &'static [&'static str] },
     /// Any other error, as a message.
     Value(String),
 }
 
 impl Mistake {
-    /// A value of the wrong type.
+    /// Creates the error for a value of the wrong type.
     pub fn ty(node: &Node<'_>, expected: &str) -> Self {
         let found = match node.get_ref() {
             DeValue::String(text) => format!("string {text:?}"),
@@ -57,7 +57,7 @@ impl Mistake {
     }
 }
 
-/// Returns the entries of a table. `expected` is the message for any other value.
+/// Returns the entries of a table. `expected` is the error message for any other value.
 pub(super) fn table<'n, 'a>(node: &'n Node<'a>, expected: &str) -> Result<&'n DeTable<'a>, Mistake> {
     match node.get_ref() {
         DeValue::Table(table) => Ok(table),
@@ -65,7 +65,7 @@ pub(super) fn table<'n, 'a>(node: &'n Node<'a>, expected: &str) -> Result<&'n De
     }
 }
 
-/// Returns a key with its span.
+/// Returns a key of a table with its span.
 pub(super) fn key(key: &Spanned<DeString<'_>>) -> At<String> {
     let span = key.span();
     At { value: key.get_ref().to_string(), start: span.start as u32, end: span.end as u32 }
@@ -79,7 +79,7 @@ fn decimal(number: &DeInteger<'_>) -> String {
     integer(number).map_or_else(|| number.to_string(), |number| number.to_string())
 }
 
-/// Returns a value as a number, or `None` if it is not a number.
+/// Returns a TOML value as a number, or `None` if it is not a number.
 pub(super) fn number(node: &Node<'_>) -> Option<f64> {
     match node.get_ref() {
         DeValue::Integer(number) => integer(number).map(|number| number as f64),
@@ -153,7 +153,7 @@ impl<T: Read> Read for Entries<T> {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
         let entry = |(key, value): (&Spanned<DeString<'_>>, &Node<'_>)| Ok((self::key(key), At::read(value)?));
         let mut list = table(node, "a table")?.iter().map(entry).collect::<Result<Vec<_>, Mistake>>()?;
-        // The parser sorts entries by name.
+        // The parser sorts entries by name, so the order of the file must be restored.
         list.sort_by_key(|(key, _)| key.start);
         Ok(Entries(list))
     }
@@ -188,7 +188,7 @@ impl<T: Read> Read for FlagOr<T> {
     }
 }
 
-/// Returns a value as a literal, or `None` if it is a date, a list or a table.
+/// Returns a TOML value as a literal, or `None` if it is a date, a list or a table.
 pub(super) fn literal(node: &Node<'_>) -> Option<Literal> {
     match node.get_ref() {
         DeValue::Boolean(flag) => Some(Literal::Bool(*flag)),

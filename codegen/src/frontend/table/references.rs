@@ -12,16 +12,16 @@ use crate::ir::{Device, Entries, GroupKind, ItemNames, Shape};
 use crate::text::brief;
 use crate::text::glob;
 
-/// Names with their spans, and what they refer to: `item`, `model`, `constant`, `message`, `procedure`.
+/// Names with their spans, and the kinds of elements to which they refer: `item`, `model`, `constant`, `message`, `procedure`.
 pub(super) type References = Vec<(At<String>, &'static str)>;
 
-/// The kind of element that most names refer to.
+/// Kind of element to which most names refer.
 pub(super) const ITEM: &str = "item";
 
-/// The kinds of elements that can show that a command is complete: items, and fields of replies.
+/// Kinds of elements that may indicate the completion of a command: items, and fields of replies.
 pub(super) const ITEM_OR_FIELD: &str = "item or field";
 
-/// Reports names without a definition, and names that several chapters have.
+/// Reports names without a definition, and names of items that several chapters contain.
 pub(super) fn resolve<'r>(
     reader: &mut Reader<'_, '_>,
     references: impl Iterator<Item = (&'r At<String>, &'static str)>,
@@ -31,7 +31,7 @@ pub(super) fn resolve<'r>(
     let known = Known::new(device);
     let mut seen = HashSet::new();
     for (name, kind) in references {
-        // Each row that uses a unit or a space repeats its names.
+        // The names in a unit or space occur again for each row that uses the unit or space.
         if !seen.insert((name.start, name.value.as_str(), kind)) {
             continue;
         }
@@ -61,13 +61,13 @@ struct Known<'d> {
     entries: Entries<'d>,
     names: ItemNames<'d>,
     items: HashSet<&'d str>,
-    /// The chapters that have an item, by the item's name.
+    /// Titles of the chapters that contain an item, by the item's name.
     chapters: HashMap<&'d str, Vec<&'d str>>,
-    /// The names of each of `KINDS`, collected at the first lookup.
+    /// Names of the elements of each kind in `KINDS`, collected at the first lookup.
     others: [OnceCell<HashSet<&'d str>>; KINDS.len()],
 }
 
-/// Elements whose names are separate from the names of items.
+/// Kinds of elements whose names are separate from the names of items.
 const KINDS: [&str; 5] = ["constant", "given number", "message", "procedure", "state"];
 
 impl<'d> Known<'d> {
@@ -120,7 +120,7 @@ impl<'d> Known<'d> {
     }
 }
 
-/// Returns the states of a device: those of its machines, and the values of its enumerations, which may report a state.
+/// Returns the states of a device: those of its state machines, and the values of its enumerations, which may report a state.
 fn states(device: &Device) -> impl Iterator<Item = &str> {
     let machines = device.machines.iter().flat_map(|machine| machine.states.iter().map(|state| state.name.as_str()));
     let values = device.types.iter().flat_map(|definition| match &definition.shape {

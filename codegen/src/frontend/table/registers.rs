@@ -11,7 +11,7 @@ use crate::diagnostics::codes;
 use crate::ir::Item;
 use crate::text::brief;
 
-/// Returns the items of a row of `[chapters.registers]`.
+/// Returns the items that a row of `[chapters.registers]` describes.
 pub(super) fn items(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,

@@ -11,11 +11,11 @@ use crate::ir::Value;
 use crate::limits::{MAX_DERIVED_ITEMS, MAX_FREE_ROW_BYTES, MAX_LISTED_VALUES, ROW_BYTES_PER_ITEM};
 use crate::source::Span;
 
-/// The number of items that may still be created.
+/// Budget for the items that rows create.
 pub(super) struct Repeats {
-    /// Items; `None` after the excess was reported.
+    /// Remaining number of items; `None` after the first excess was reported.
     left: Option<usize>,
-    /// The size of the defaults of the file and of the chapter, in items.
+    /// Sizes of the defaults of the file and of the chapter, as numbers of items.
     defaults: [usize; 2],
 }
 
@@ -24,23 +24,23 @@ impl Repeats {
         Repeats { left: Some(MAX_DERIVED_ITEMS), defaults: [of_file.map_or(0, items), 0] }
     }
 
-    /// Starts a chapter.
+    /// Sets the defaults of the current chapter.
     pub fn chapter(&mut self, defaults: Option<&Row>) {
         self.defaults[1] = defaults.map_or(0, items);
     }
 
-    /// Returns whether a row may inherit the defaults.
+    /// Returns whether a row may inherit the defaults of the file and of its chapter.
     pub fn inherit(&mut self, reader: &mut Reader<'_, '_>, span: Span) -> bool {
         self.take(reader, self.defaults.iter().sum(), span)
     }
 
-    /// Returns whether a row may use a unit, whose texts it copies.
+    /// Returns whether a row may use a unit, because the row copies the texts of the unit.
     pub fn unit(&mut self, reader: &mut Reader<'_, '_>, units: &ByName<UnitTable>, name: &str, span: Span) -> bool {
         let items = units.get(name).map_or(0, |(_, unit)| beyond(length(unit)));
         self.take(reader, items, span)
     }
 
-    /// Returns whether a row with this key may describe `count` items.
+    /// Returns whether the row `key` may describe `count` items.
     pub fn repeat(&mut self, reader: &mut Reader<'_, '_>, key: &str, row: &Row, count: u32, span: Span) -> bool {
         let each = || 1 + items(row) + beyond(key.len()) + expanded(row);
         count < 2 || self.take(reader, (count as usize - 1).saturating_mul(each()), span)
@@ -51,7 +51,7 @@ impl Repeats {
         count < 2 || self.take(reader, (count - 1).saturating_mul(items(row)), span)
     }
 
-    /// Subtracts a number of items. Reports the first row that exceeds the limit.
+    /// Subtracts a number of items from the budget. Reports the first row that exceeds the limit.
     fn take(&mut self, reader: &mut Reader<'_, '_>, items: usize, span: Span) -> bool {
         if items == 0 {
             return true;
@@ -71,12 +71,12 @@ impl Repeats {
     }
 }
 
-/// Returns the size of a row in items, in addition to the item itself.
+/// Returns the size of the texts in a row as a number of items.
 fn items(row: &Row) -> usize {
     beyond(length(row))
 }
 
-/// Returns the size in items of the value ranges that each item stores value by value.
+/// Returns the size of the value ranges that each item stores value by value, as a number of items.
 fn expanded(row: &Row) -> usize {
     let has_range =
         |list: &[Literal]| list.iter().any(|literal| matches!(literal, Literal::Text(text) if text.contains("..")));
@@ -90,12 +90,13 @@ fn expanded(row: &Row) -> usize {
         / ROW_BYTES_PER_ITEM
 }
 
-/// Returns the number of items that a text of `length` bytes counts as.
+/// Returns the number of items to which a text of `length` bytes corresponds.
 fn beyond(length: usize) -> usize {
     length.saturating_sub(MAX_FREE_ROW_BYTES) / ROW_BYTES_PER_ITEM
 }
 
-/// Returns the approximate length of a value. Its span is unsuitable: that of a table with a header ends after the header.
+/// Returns the approximate length of a value. The span cannot be used, because the span of a table with a header ends after the
+/// header.
 pub(super) fn length(of: &impl Debug) -> usize {
     struct Count(usize);
     impl Write for Count {
@@ -105,7 +106,7 @@ pub(super) fn length(of: &impl Debug) -> usize {
         }
     }
     let mut count = Count(0);
-    // Counting cannot fail.
+    // Writing to the counter cannot fail.
     let _ = write!(count, "{of:?}");
     count.0
 }

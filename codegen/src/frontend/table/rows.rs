@@ -21,38 +21,38 @@ use crate::ir::{
 use crate::source::Span;
 use crate::text::brief;
 
-/// The common state of all rows while they are read.
+/// State that all rows share while they are read.
 pub(super) struct Rows {
     pub definitions: Definitions,
     pub spaces: Vec<Space>,
-    /// The Modbus requests that the device supports.
+    /// Modbus requests that the device supports.
     pub modbus: Vec<ModbusTable>,
     pub buses: Buses,
     pub defaults: Option<Row>,
-    /// Names that rows use, with what they refer to.
+    /// Names to which rows refer, with the kinds of elements.
     pub references: References,
-    /// The items with register numbers.
+    /// Items that have register numbers.
     pub numbered: Vec<Numbered>,
-    /// Diagnostics that a row allows.
+    /// Diagnostics that rows and definitions allow, with the spans in which they are allowed.
     pub allowed: Vec<(Span, &'static Code)>,
-    /// Statements of other sections about objects that have sub-entries.
+    /// Statements of other sections about objects that have sub-entries, by the index of the object.
     pub summaries: Vec<(u16, Summaries)>,
-    /// The limit on the items that rows create and the texts that they copy.
+    /// Limit for the items that rows create, and for the texts that they copy.
     pub repeats: Repeats,
 }
 
-/// The name of an item, its number among the items of its row, and the span of the row.
+/// Name of an item, its number among the items of its row, and the span of the row.
 #[derive(Clone, Copy)]
 pub(super) struct Named<'k> {
     pub name: &'k str,
     pub key: &'k At<String>,
     pub number: u32,
-    /// The end of the row.
+    /// End of the row in the file.
     pub end: u32,
 }
 
 impl Rows {
-    /// Returns the row with the defaults of its chapter and of the file.
+    /// Returns the row with the defaults of its chapter and of the file applied.
     pub fn complete(&mut self, reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row, chapter: Option<&Row>) -> Row {
         let row = row.clone();
         if !self.repeats.inherit(reader, reader.span(key)) {
@@ -62,12 +62,12 @@ impl Rows {
         self.defaults.as_ref().map_or(row.clone(), |defaults| row.or(defaults))
     }
 
-    /// Allows the diagnostics in `allow` of a row.
+    /// Allows the diagnostics that the key `allow` of a row names.
     pub fn allow(&mut self, reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row>) {
         self.allow_in(reader, Span::new(reader.file, key.start, row.end), &row.value.allow);
     }
 
-    /// Allows the diagnostics in `allow` of definitions, at their names and in their contents.
+    /// Allows the diagnostics that the key `allow` of definitions names, for their names and contents.
     pub fn allow_of_definitions(&mut self, reader: &mut Reader<'_, '_>) {
         fn whole<T>(reader: &Reader<'_, '_>, name: &At<String>, entries: &Entries<T>) -> Span {
             let spans = entries.iter().map(|(key, value)| (key.start, value.end));
@@ -84,7 +84,7 @@ impl Rows {
         }
     }
 
-    /// Allows the diagnostics in `allow` of an element that is not a row.
+    /// Allows the diagnostics that the key `allow` of another element names.
     pub fn allow_at(&mut self, reader: &mut Reader<'_, '_>, at: (u32, u32), names: &Option<Vec<At<String>>>) {
         self.allow_in(reader, Span::new(reader.file, at.0, at.1), names);
     }
@@ -101,7 +101,7 @@ impl Rows {
         }
     }
 
-    /// Reports missing access rights of an item.
+    /// Reports an item without access rights.
     pub fn no_access(&self, reader: &mut Reader<'_, '_>, named: Named<'_>) {
         let message = format!("`{}` has no access rights", brief(named.name));
         let diagnostic = Diagnostic::new(&codes::ACCESS_NOT_GIVEN, reader.span(named.key), message);
@@ -110,7 +110,7 @@ impl Rows {
             .push(diagnostic.label("read-only").help("add `access` to the row, or to `defaults` for all rows"));
     }
 
-    /// Returns the type of a row. A missing type is an error.
+    /// Returns the type of a row. Reports a missing type as an error.
     pub fn ty(&mut self, reader: &mut Reader<'_, '_>, named: Named<'_>, row: &Row) -> Option<Type> {
         let written = row.ty.as_ref().and_then(|ty| {
             let found = types::named(&ty.value);
@@ -148,7 +148,7 @@ impl Rows {
         })
     }
 
-    /// Returns the bit field or enumeration of a row over its integer type.
+    /// Returns the bit field or enumeration of a row over the row's integer type.
     pub fn meaning(&mut self, reader: &mut Reader<'_, '_>, named: Named<'_>, row: &Row, base: Type) -> Option<Type> {
         let origin = reader.origin(named.key);
         if let (Some(_), Some(values)) = (&row.bits, &row.values) {
@@ -190,7 +190,7 @@ impl Rows {
         Type::Named(id)
     }
 
-    /// Adds the facts of a row to its item. A row of an overlay has few facts.
+    /// Adds the facts of a row to its item. A row of an overlay contains only the facts that it changes.
     pub fn fill(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -222,7 +222,7 @@ impl Rows {
         }
     }
 
-    /// Checks a printed length, unless it is that of an address. A length from the defaults is that of addresses.
+    /// Compares the `length` of a row with the item's type, unless `length` belongs to the address `esc` or to `defaults`.
     fn length(&self, reader: &mut Reader<'_, '_>, item: &Item, named: Named<'_>, row: &Row) {
         let Some(length) = row.length.as_ref().filter(|_| row.esc.is_none()) else { return };
         let is_in_row = named.key.start <= length.start && length.end <= named.end;
@@ -245,13 +245,13 @@ impl Rows {
             item.access = reader.word(access, "access right", &known).unwrap_or(item.access);
             item.at.access = reader.span(access);
         }
-        // A reserved sub-index has no value to write, whatever access rights its row inherits.
+        // A reserved sub-index has no value to write, even if its row inherits write access.
         let is_object = item.object().is_some_and(|(_, sub)| sub > 0);
         if row.reserved == Some(true) && is_object && item.access.readable() && item.access.writable() {
             item.access = Access::ReadOnly;
             item.origins.set(Fact::Access, Some(FactOrigin::Rule(Rule::ReservedEntry)));
         }
-        // Modbus has no function that writes inputs.
+        // No Modbus function writes inputs.
         let is_input = |binding: &Binding| match binding {
             Binding::Register(register) => {
                 matches!(register.space, RegisterSpace::Input | RegisterSpace::DiscreteInput)
@@ -315,7 +315,7 @@ impl Rows {
         item.quantity = Some(Box::new(quantity));
     }
 
-    /// Reads a conversion that the manual prints as an example.
+    /// Reads an example of a conversion that the manual prints.
     fn conversion(&mut self, reader: &mut Reader<'_, '_>, given: &At<ConversionTable>) -> Conversion {
         let example = &given.value;
         if example.raw.is_none() || example.value.is_none() {
@@ -394,7 +394,7 @@ impl Rows {
             availability.replaced_by = Some(reader.reference(replaced));
             self.references.push((replaced.clone(), ITEM));
         }
-        // The addresses of the item show the other buses.
+        // The addresses of an item already show its other buses.
         let buses = row.buses.iter().flatten().filter_map(|bus| Bus::from_name(&bus.value)).collect::<Buses>();
         if buses.contains(Bus::Profinet) || buses.contains(Bus::Serial) {
             availability.buses = buses;
@@ -438,10 +438,10 @@ impl Rows {
     }
 }
 
-/// The value of `doc_from` for a text that only spells out the name of the element.
+/// Value of `doc_from` for a description that only spells out the printed name.
 const PRINTED_NAME: &str = "name";
 
-/// Returns the documentation of a row, with the origin of the text.
+/// Returns the documentation of a row, with the origin of its text.
 pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Box<Documentation>> {
     if let (Some(from), None) = (&row.doc_from, &row.doc) {
         reader.report(&codes::TABLE_VALUE, reader.span(from), "the row has `doc_from`, but no `doc`");
@@ -457,7 +457,7 @@ pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Bo
     documentation
 }
 
-/// Returns whether a row states that the manual names no bits or values: `bits = ""` or `enum = ""`.
+/// Returns whether a row states that the manual names no bits or values, with `bits = ""` or `enum = ""`.
 fn states_no_meaning(row: &Row) -> bool {
     matches!(&row.bits, Some(At { value: TextOr::Text(name), .. }) if name.is_empty())
         || matches!(&row.values, Some(At { value: TextOr::Text(name), .. }) if name.is_empty())

@@ -1,4 +1,4 @@
-//! Reads the conversion of raw values to physical values.
+//! Reads the scale that converts raw values to physical values.
 
 use super::at::At;
 use super::format::{ScaleRule, Scaling};
@@ -8,11 +8,11 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{ItemRef, Scale};
 use crate::source::Span;
 
-/// The maximum number of fractional bits.
+/// Maximum number of fractional bits.
 const MAX_FRACTION: u8 = 63;
 
-/// Reads a scale and the separate offset. Returns `None` if raw and physical values are equal. An invalid scale is reported, at
-/// the row if it has no span, and ignored.
+/// Reads a scale and the separate offset. Returns `None` if raw and physical values are equal. Reports and ignores an invalid
+/// scale. If the scale has no span, the span of the row is used.
 pub(super) fn read(
     reader: &mut Reader<'_, '_>,
     given: Option<&At<Scaling>>,
@@ -32,7 +32,7 @@ pub(super) fn read(
 
 const NO_OFFSET: &str = "the offset is not a finite number";
 
-/// Reads the scale of a variant. A factor of 1 counts as a scale, because it replaces that of the row.
+/// Reads the scale of a variant. A factor of 1 counts as a scale, because it replaces the scale of the row.
 pub(super) fn of_variant(
     reader: &mut Reader<'_, '_>,
     given: Option<&At<Scaling>>,
@@ -42,7 +42,7 @@ pub(super) fn of_variant(
     Some(found.unwrap_or(Scale::Linear { factor: 1.0, offset: 0.0 }))
 }
 
-/// Reads an explicit scale: `Some(None)` for a factor of 1, and `None` if it is invalid.
+/// Reads a scale that the table declares. Returns `Some(None)` for a factor of 1, and `None` for an invalid scale.
 fn explicit(
     reader: &mut Reader<'_, '_>,
     given: &At<Scaling>,
@@ -68,7 +68,7 @@ fn linear(factor: f64, offset: f64) -> Option<Scale> {
     (factor != 1.0 || offset != 0.0).then_some(Scale::Linear { factor, offset })
 }
 
-/// Checks a factor. With 0 or NaN, all raw values would be equal.
+/// Checks that a factor is finite and not 0. Otherwise, no raw value has a physical value.
 fn number(what: &str, factor: f64) -> Result<f64, String> {
     if factor.is_finite() && factor != 0.0 {
         return Ok(factor);
@@ -76,7 +76,7 @@ fn number(what: &str, factor: f64) -> Result<f64, String> {
     Err(format!("{what} is {factor}, so no raw value has a physical value"))
 }
 
-/// The key that defines each form of a rule, and the further keys of this form.
+/// Key that defines each form of a rule, and the further keys of this form.
 const FORMS: [(&str, &[&str]); 8] = [
     ("exponent", &["base", "fraction"]),
     ("reciprocal", &[]),

@@ -1,9 +1,9 @@
-//! The JSON Schema of the format, which editors use to complete and check tables.
+//! JSON Schema of the format, which editors use to complete and check tables.
 //!
 //! The module is compiled for unit tests only, so that the compiler does not depend on `schemars`. The test below compares the
 //! schema with the file [`super::SCHEMA`].
 //!
-//! `format` derives the schema. This module adds the words, the grammars of keys, and options in place of values.
+//! `format` derives the schema. This module adds the allowed words, the grammars of keys, and options in place of values.
 
 use std::path::Path;
 
@@ -15,13 +15,13 @@ use serde_json::{json, Map, Value};
 use super::format::Document;
 use crate::output::write_if_changed;
 
-/// The grammar of an integer in a key.
+/// Grammar of an integer in a key.
 const NUMBER: &str = r"(0[xX][0-9A-Fa-f_]+|0[bB][01_]+|0[oO][0-7_]+|[0-9][0-9_]*)";
 
-/// The grammar of an option in place of a value.
+/// Grammar of an option (`$name`) in place of a value.
 const OPTION: &str = r"^\$[a-z]";
 
-/// Returns the schema as text.
+/// Returns the schema of the format as JSON text.
 fn text() -> String {
     let mut settings = SchemaSettings::draft07();
     settings.transforms.insert(0, Box::new(RecursiveTransform(without_null)));
@@ -34,7 +34,7 @@ fn text() -> String {
     format!("{:#}\n", schema.as_value())
 }
 
-/// Removes `null`, which TOML does not have: optional keys are left out.
+/// Removes `null` from a schema. TOML has no `null`, so optional keys are left out.
 fn without_null(schema: &mut Schema) {
     let null = json!("null");
     if schema.get("default") == Some(&Value::Null) {
@@ -58,7 +58,7 @@ fn without_null(schema: &mut Schema) {
     }
 }
 
-/// Allows `"$name"`, the choice of an option, in place of a number or a Boolean.
+/// Allows an option (`"$name"`) in place of a number or Boolean.
 fn with_options(schema: &mut Schema) {
     let Some(Value::String(ty)) = schema.get("type") else { return };
     let is_fixed = schema.get("const").is_some();
@@ -70,7 +70,7 @@ fn with_options(schema: &mut Schema) {
     schema.insert("pattern".into(), OPTION.into());
 }
 
-/// Applies `change` to the schema of a text, or of the texts of a list.
+/// Applies `change` to the schema of a text, or of the texts in a list.
 fn texts(schema: &mut Schema, change: &mut dyn FnMut(&mut Map<String, Value>)) {
     let is_text = match schema.get("type") {
         Some(Value::String(ty)) => ty == "string",
@@ -85,7 +85,7 @@ fn texts(schema: &mut Schema, change: &mut dyn FnMut(&mut Map<String, Value>)) {
     }
 }
 
-/// Allows only the words in `words`, which is one text because the derive macro of `schemars` cannot parse a list of texts.
+/// Allows only the words in `words`. The words are one text, because the derive macro of `schemars` cannot parse a list of texts.
 pub(super) fn words(words: &'static str) -> impl FnMut(&mut Schema) {
     let words: Vec<&str> = words.split(' ').collect();
     move |schema| {
@@ -95,7 +95,7 @@ pub(super) fn words(words: &'static str) -> impl FnMut(&mut Schema) {
     }
 }
 
-/// Allows type names only.
+/// Allows only names of data types.
 pub(super) fn types(schema: &mut Schema) {
     let grammar = concat!(
         r"^((bool|[ui]([1-9]|[1-5][0-9]|6[0-4])|f32|f64|(str|wstr|bytes)( *\( *[0-9]+ *\))?",
@@ -106,7 +106,7 @@ pub(super) fn types(schema: &mut Schema) {
     });
 }
 
-/// Allows a number, or a text of this grammar, in which `#` is a number.
+/// Allows a number or a text with this grammar. In the grammar, `#` is a number.
 pub(super) fn notation(grammar: &'static str) -> impl FnMut(&mut Schema) {
     move |schema| {
         let grammar = format!(r"^ *({}|\$[a-z].*) *$", grammar.replace('#', NUMBER));
@@ -122,7 +122,7 @@ pub(super) fn notation(grammar: &'static str) -> impl FnMut(&mut Schema) {
     }
 }
 
-/// Allows keys of this grammar only, in which `#` is a number.
+/// Allows only keys with this grammar. In the grammar, `#` is a number.
 pub(super) fn keys(grammar: &'static str) -> impl FnMut(&mut Schema) {
     move |schema| grammar_of_keys(schema, &format!("^{}$", grammar.replace('#', NUMBER)))
 }
@@ -146,19 +146,19 @@ fn grammar_of_keys(schema: &mut Schema, grammar: &str) {
     }
 }
 
-/// Grammars of keys for objects, bits and values.
+/// Grammar of keys that name objects.
 pub(super) const OBJECTS: &str = r"#(\.\.=?#)?(:#(\.\.=?#)?)?";
 pub(super) const BITS: &str = r"\[?#((\.\.|-)#)?\]?";
 pub(super) const BITS_OF_BYTES: &str = r"(#:)?\[?#((\.\.|-)#)?\]?";
 pub(super) const VALUES: &str = r"[-+]?#(\.\.=?[-+]?#)?";
 
-/// The words of longer lists.
+/// Words for the names of buses.
 pub(super) const BUSES: &str = "canopen ethercat modbus profinet serial";
 pub(super) const PURPOSES: &str = "mailbox_out mailbox_in outputs inputs";
 pub(super) const CHECKS: &str = "xor sum lrc crc8 crc16";
 pub(super) const TRIGGERS: &str = "rising falling toggle self_clearing";
 
-/// Compares the schema with the file. Writes the file instead if the environment variable `LEXIBUS_BLESS` is `1`.
+/// Compares the derived schema with the file. Writes the file instead if the environment variable `LEXIBUS_BLESS` is `1`.
 #[test]
 fn the_file_has_the_derived_schema() {
     let derived = text();

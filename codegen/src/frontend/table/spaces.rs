@@ -10,27 +10,27 @@ use crate::diagnostics::codes;
 use crate::ir::{Binding, Bus, Buses, ModbusTable, ObjectBuses, RegisterBinding, RegisterSpace};
 use crate::source::Span;
 
-/// Bits of a register number, if the space has no `bits`.
+/// Number of bits per register number, if the space has no key `bits`.
 const REGISTER_BITS: u8 = 16;
 
-/// A space of register numbers.
+/// Space of register numbers, with the rules for addresses on each bus.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Space {
     pub name: String,
-    /// Bits of one register number.
+    /// Number of bits that one register number addresses.
     pub bits: u8,
     modbus: Option<Modbus>,
     canopen: Option<ObjectBase>,
     ethercat: Option<ObjectBase>,
     parameter: bool,
     esc: bool,
-    /// Whether a shorter value fills all bits of its registers.
+    /// True if a value that is shorter than its registers is extended to all bits.
     extend: bool,
     windows: Vec<Window>,
-    /// The text that the manual prints before each number on Modbus, and the minimum number of digits.
+    /// Prefix that the manual prints before each Modbus register number, and the minimum number of digits.
     pub prefix: CompactString,
     pub digits: u8,
-    /// Whether the word order is an assumption.
+    /// True if the word order is an assumption.
     pub is_order_assumed: bool,
 }
 
@@ -48,15 +48,15 @@ struct ObjectBase {
     sub_index: u8,
 }
 
-/// The register numbers of a row, and its word order.
+/// Register numbers of a row, and the word order of its value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Numbers {
     pub first: u32,
-    /// Bits of the value, if known.
+    /// Length of the value in bits, if known.
     pub bits: Option<u32>,
     pub low_word_first: Option<bool>,
     pub bytes_swapped: Option<bool>,
-    /// First bit of a part.
+    /// First bit of a value that occupies only a part of a register.
     pub bit_offset: Option<u8>,
 }
 
@@ -68,7 +68,7 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) ->
 fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> Space {
     let rule = table.modbus.as_ref();
     let modbus = rule.map(|rule| modbus(reader, rule));
-    // A register number in a table of bits is one bit.
+    // In the Modbus tables of coils and discrete inputs, a register number addresses one bit.
     let is_bit = modbus.is_some_and(|rule| matches!(rule.space, RegisterSpace::Coil | RegisterSpace::DiscreteInput));
     if table.extend && modbus.is_none_or(|_| is_bit) {
         let message = "`extend` applies to Modbus registers, which the space does not have";
@@ -90,7 +90,7 @@ fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> 
     }
 }
 
-/// Reads the Modbus requests that the device supports, by the Modbus tables of its spaces.
+/// Returns the Modbus requests that the device supports, according to the Modbus tables of its spaces.
 pub(super) fn modbus_tables(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) -> Vec<ModbusTable> {
     let mut found: Vec<ModbusTable> = Vec::new();
     for (name, rule) in tables.iter().filter_map(|(name, table)| Some((name, table.value.modbus.as_ref()?))) {
@@ -118,7 +118,7 @@ pub(super) fn modbus_tables(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceT
     found
 }
 
-/// Checks the limits of requests against those of the standard (MODBUS Application Protocol V1.1b3, 6.1 to 6.12).
+/// Compares the request limits of a space with those of the standard (MODBUS Application Protocol V1.1b3, 6.1 to 6.12).
 fn widths(reader: &mut Reader<'_, '_>, rule: &ModbusRule, space: RegisterSpace) {
     let (read, write, what) = match space {
         RegisterSpace::Coil | RegisterSpace::DiscreteInput => (2000, 1968, "bits"),
@@ -152,7 +152,7 @@ fn modbus(reader: &mut Reader<'_, '_>, rule: &ModbusRule) -> Modbus {
     }
 }
 
-/// Returns whether the less significant word comes first.
+/// Returns whether the less significant word comes first in the word order `order`.
 pub(super) fn word_order(reader: &mut Reader<'_, '_>, order: &At<String>) -> Option<bool> {
     reader.word(order, "word order", &[("high_first", false), ("low_first", true)])
 }
@@ -163,13 +163,13 @@ fn objects(rule: &ObjectRule) -> ObjectBase {
 }
 
 impl Space {
-    /// Returns index and sub-index of a register, if the space has a rule for objects.
+    /// Returns the index and sub-index for a register number, if the space has a rule for objects.
     pub fn object(&self, number: u32) -> Option<(u16, u8)> {
         let rule = self.canopen.or(self.ethercat)?;
         Some((u16::try_from(rule.index.checked_add(number.into())?).ok()?, rule.sub_index))
     }
 
-    /// Returns the addresses of a register on each bus. A register number without an address on a bus is reported.
+    /// Returns the addresses of a register on each bus. Reports a register number that has no address on a bus.
     pub fn bindings(&self, reader: &mut Reader<'_, '_>, numbers: Numbers, buses: Buses, span: Span) -> Vec<Binding> {
         let mut bindings = self.object_bindings(reader, numbers, buses, span);
         if let Some(rule) = self.modbus.filter(|_| buses.contains(Bus::Modbus)) {
@@ -215,12 +215,12 @@ impl Space {
             return None;
         };
         let bits = numbers.bits.unwrap_or(u32::from(self.bits));
-        // A table of bits counts bits. Modbus registers have 16 bits, whatever the bits of a register number.
+        // Coils and discrete inputs are bits. All other Modbus registers have 16 bits, even if a register number addresses more.
         let unit = match rule.space {
             RegisterSpace::Coil | RegisterSpace::DiscreteInput => 1,
             _ => 16,
         };
-        // A part of a register is written into it, and is not extended.
+        // A value that occupies only a part of a register is not extended.
         let extended = self.extend && unit > 1 && numbers.bit_offset.is_none();
         let bits = if extended { bits.next_multiple_of(self.bits.into()) } else { bits };
         let mut register = RegisterBinding {
@@ -232,7 +232,7 @@ impl Space {
             low_word_first: numbers.low_word_first.unwrap_or(rule.low_word_first),
             bytes_swapped: numbers.bytes_swapped.unwrap_or(rule.bytes_swapped),
             bit_offset: numbers.bit_offset,
-            // A register number of 32 bits is one address, but two registers.
+            // A register number that addresses 32 bits is one address, but two Modbus registers.
             words_per_address: if unit == 16 { (self.bits / 16).max(1) } else { 1 },
             extended,
         };

@@ -7,7 +7,7 @@ use crate::diagnostics::codes;
 use crate::ir::{Device, EnumValue, Pattern, Shape, Type, TypeRef};
 use crate::text::brief;
 
-/// Returns the base type and the values of the enumeration with this name.
+/// Returns the base type and the values of the enumeration called `name`.
 pub(super) fn enumeration<'d>(device: &'d Device, name: &str) -> Option<(Type, &'d [EnumValue])> {
     device.types.iter().filter(|definition| definition.name == name).find_map(|definition| match &definition.shape {
         Shape::Enumeration { base, values, .. } => Some((*base, &**values)),
@@ -15,7 +15,7 @@ pub(super) fn enumeration<'d>(device: &'d Device, name: &str) -> Option<(Type, &
     })
 }
 
-/// Reads the states of a machine: its patterns, or the values of an enumeration.
+/// Reads the states of a machine from bit patterns, or from the values of an enumeration.
 pub(super) fn states(
     reader: &mut Reader<'_, '_>,
     table: &MachineTable,
@@ -48,7 +48,7 @@ pub(super) fn states(
     (Some(TypeRef::new(name.as_str(), reader.span(given))), single.map(pattern).collect())
 }
 
-/// Reads bit patterns of states or commands. A pattern without mask or value is reported.
+/// Reads the bit patterns of states or commands. Reports a pattern without a mask or value.
 pub(super) fn patterns(reader: &mut Reader<'_, '_>, entries: &Entries<PatternTable>) -> Vec<Pattern> {
     let mut patterns = Vec::new();
     for (name, pattern) in entries.iter() {

@@ -1,4 +1,4 @@
-//! Compares a row with what other sections of the manual say about it.
+//! Compares a row with the statements of other sections of the manual about the row.
 
 use std::collections::BTreeMap;
 
@@ -13,10 +13,10 @@ use crate::ir::{Access, Group, Item, Mappable, ObjectCode, Texts, Type};
 use crate::source::Span;
 use crate::text::{brief, count_of};
 
-/// The statements of other sections about a row.
+/// Statements of other sections of the manual about a row.
 pub(super) type Summaries = At<OneOrMany<SummaryTable>>;
 
-/// Compares an item with the statements about its row.
+/// Compares an item with the statements of other sections about its row.
 pub(super) fn item(reader: &mut Reader<'_, '_>, definitions: &Definitions, given: &Summaries, item: &Item) {
     let is_domain = definitions.underlying(item.ty) == Type::Domain;
     for summary in &given.value.0 {
@@ -30,7 +30,8 @@ pub(super) fn item(reader: &mut Reader<'_, '_>, definitions: &Definitions, given
     }
 }
 
-/// Compares objects that have sub-entries. The statements apply to all sub-entries except sub-index 0.
+/// Compares objects that have sub-entries with the statements of other sections. The statements apply to all sub-entries except
+/// sub-index 0.
 pub(super) fn objects(
     reader: &mut Reader<'_, '_>,
     definitions: &Definitions,
@@ -69,7 +70,7 @@ fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, messa
     });
 }
 
-/// Compares the object code, if the summary has one.
+/// Compares the object code in a statement with that of the object, if the statement has one.
 fn code(reader: &mut Reader<'_, '_>, summary: &SummaryTable, described: ObjectCode) {
     let Some(given) = &summary.code else { return };
     let stated = reader.word(given, "object code", &OBJECT_CODES);
@@ -80,7 +81,7 @@ fn code(reader: &mut Reader<'_, '_>, summary: &SummaryTable, described: ObjectCo
     }
 }
 
-/// Compares the name, if the summary has one, with those of the row in all languages. Case and punctuation do not count.
+/// Compares the name in a statement, if it has one, with the names of the row in all languages. Ignores case and punctuation.
 fn names(reader: &mut Reader<'_, '_>, summary: &SummaryTable, name: &str, names: &Texts) {
     let Some(given) = &summary.name else { return };
     let plain =
@@ -92,7 +93,7 @@ fn names(reader: &mut Reader<'_, '_>, summary: &SummaryTable, name: &str, names:
     }
 }
 
-/// Compares an item with the summary. Returns whether anything differs. `subject` is the name of the item in messages.
+/// Compares an item with a statement. Returns whether they differ. `subject` is the name of the item in messages.
 fn of_item(
     reader: &mut Reader<'_, '_>,
     definitions: &Definitions,
@@ -150,7 +151,7 @@ fn of_item(
     found
 }
 
-/// Compares limits and default, if both the summary and the item have them.
+/// Compares the limits and default value in a statement with those of the item, if both have them.
 fn numbers(
     reader: &Reader<'_, '_>,
     summary: &SummaryTable,

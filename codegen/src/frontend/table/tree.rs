@@ -1,4 +1,4 @@
-//! Reads the text of a table into the types of `format`, and reports each error with its span.
+//! Reads the text of a file into the types of `format`, and reports each error with its span.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -20,30 +20,30 @@ use crate::limits::MAX_UNKNOWN_KEYS;
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::{brief, edit_distance, standard_and_clause};
 
-/// The maximum number of names that a message lists if no name is similar.
+/// Maximum number of names that a message lists if no name is similar.
 const MAX_LISTED: usize = 12;
 
-/// The number of diagnostics after which no names are suggested.
+/// Number of diagnostics after which messages suggest no names.
 const MAX_HELPED: usize = 1000;
 
-/// A range of bytes in the file: the first byte, and the byte after the last.
+/// Byte range in the file: offset of the first byte, and offset after the last byte.
 type ByteRange = (u32, u32);
 
-/// The state of reading one file.
+/// State of the table reader for one file.
 pub(super) struct Reader<'a, 'd> {
     pub source: &'a Source,
     pub file: FileId,
     pub diagnostics: &'d mut Diagnostics,
-    /// The manual's language.
+    /// Language of the manual.
     pub language: CompactString,
-    /// The standard that the file restates; empty in a description of a device.
+    /// Standard that the file restates; empty if the file describes a device.
     pub standard: CompactString,
-    /// The ranges of the elements of lists, by the ranges of the lists.
+    /// Byte ranges of the elements in each list, by the byte range of the list.
     pub lists: RefCell<HashMap<ByteRange, Rc<[ByteRange]>>>,
 }
 
 impl<'a, 'd> Reader<'a, 'd> {
-    /// Creates a reader of a file whose language and standard are not known yet.
+    /// Creates a reader for a file whose language and standard are not known yet.
     pub fn new(source: &'a Source, file: FileId, diagnostics: &'d mut Diagnostics) -> Self {
         let (language, standard, lists) = Default::default();
         Reader { source, file, diagnostics, language, standard, lists }
@@ -51,11 +51,11 @@ impl<'a, 'd> Reader<'a, 'd> {
 }
 
 impl<'a> Reader<'a, '_> {
-    /// Parses the file. Returns `None` if it is not valid TOML.
+    /// Parses the file and reports syntax errors. Returns `None` if the file is not valid TOML.
     pub fn parse(&mut self) -> Option<DeTable<'a>> {
         let source = self.source;
         let (table, errors) = DeTable::parse_recoverable(source.text());
-        // An error causes follow-up errors, of which those on the same line, or without a span, are not useful.
+        // A syntax error causes follow-up errors. Follow-up errors on the same line, or without a span, are not useful.
         let mut last_line = 0;
         for (position, error) in errors.iter().enumerate() {
             let span = self.range(error.span());
@@ -73,9 +73,9 @@ impl<'a> Reader<'a, '_> {
         errors.is_empty().then(|| table.into_inner())
     }
 
-    /// Reads a value. Errors are reported. Unknown keys are removed, so that the rest is read.
+    /// Reads a value as the type `T` and reports errors. Unknown keys are removed, so that the other keys can be read.
     pub fn piece<T: Read>(&mut self, mut node: Node<'a>) -> Option<T> {
-        // Each unknown key needs another attempt.
+        // Each attempt finds only one unknown key.
         for attempt in 0..=MAX_UNKNOWN_KEYS {
             let mistake = match T::read(&node) {
                 Ok(piece) => return Some(piece),
@@ -132,7 +132,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Reports an unknown key.
+    /// Reports a key that the table does not have.
     pub fn unknown_key(&mut self, key: &str, known: &[&str], span: Span) {
         let message = format!("unknown key `{}`", brief(key));
         let diagnostic = Diagnostic::new(&codes::UNKNOWN_TABLE_KEY, span, message);
@@ -147,7 +147,7 @@ impl<'a> Reader<'a, '_> {
         });
     }
 
-    /// Reports a name without a definition.
+    /// Reports a name that has no definition.
     pub fn unresolved<'n>(&mut self, what: &str, name: &str, span: Span, known: impl Iterator<Item = &'n str>) {
         let message = format!("no {what} has the name `{}`", brief(name));
         let diagnostic = Diagnostic::new(&codes::UNRESOLVED_NAME, span, message);
@@ -167,7 +167,7 @@ impl<'a> Reader<'a, '_> {
         self.diagnostics.push(Diagnostic::new(code, span, message));
     }
 
-    /// Reports an error, and what to do about it.
+    /// Reports an error with a help text.
     pub fn report_with_help(
         &mut self,
         code: &'static Code,
@@ -178,7 +178,7 @@ impl<'a> Reader<'a, '_> {
         self.diagnostics.push(Diagnostic::new(code, span, message).help(help));
     }
 
-    /// Returns the value of a word. Any other word is reported.
+    /// Returns the value for a word in `words`. Reports any other word.
     pub fn word<T: Copy>(&mut self, given: &At<String>, what: &str, words: &[(&str, T)]) -> Option<T> {
         let found = words.iter().find(|(word, _)| *word == given.value).map(|&(_, value)| value);
         if found.is_none() {
@@ -194,7 +194,7 @@ impl<'a> Reader<'a, '_> {
         Span::new(self.file, at.start, at.end)
     }
 
-    /// Creates a reference to the element with this name.
+    /// Creates a reference to the element called `name`.
     pub fn reference<Id>(&self, name: &At<String>) -> Reference<Id> {
         Reference::new(name.value.as_str(), self.span(name))
     }
@@ -203,7 +203,7 @@ impl<'a> Reader<'a, '_> {
         Origin { span: self.span(at), line: self.source.line_at(at.start) }
     }
 
-    /// Returns a span that can be shown: for an empty span, the character before it.
+    /// Returns a span that messages can show. An empty span is replaced with that of the character before it.
     fn visible(&self, span: Span) -> Span {
         let before =
             self.source.text().get(..span.start as usize).and_then(|text| text.trim_end().char_indices().last());
@@ -218,7 +218,7 @@ impl<'a> Reader<'a, '_> {
         Span::new(self.file, range.start as u32, range.end as u32)
     }
 
-    /// Returns the literals of the list in the range `whole`, each with its span.
+    /// Returns the literals of the list at the byte range `whole`, each with its span.
     pub fn each(&self, list: &[Literal], whole: ByteRange) -> Vec<At<Literal>> {
         let ranges = self.element_ranges(whole);
         let range = |at: usize| if ranges.len() == list.len() { ranges[at] } else { whole };
@@ -226,13 +226,13 @@ impl<'a> Reader<'a, '_> {
         list.iter().enumerate().map(at).collect()
     }
 
-    /// Returns the range of an element of a list with `length` elements.
+    /// Returns the byte range of the element `at` in a list with `length` elements.
     pub fn element_range(&self, length: usize, at: usize, whole: ByteRange) -> ByteRange {
         let ranges = self.element_ranges(whole);
         ranges.get(at).copied().filter(|_| ranges.len() == length).unwrap_or(whole)
     }
 
-    /// Returns the ranges of the elements of a list. Each item of a row needs them, so they are kept.
+    /// Returns the byte ranges of the elements of a list. The ranges are cached, because each item of a row needs them.
     fn element_ranges(&self, list: ByteRange) -> Rc<[ByteRange]> {
         let mut known = self.lists.borrow_mut();
         let find = || {
@@ -244,18 +244,18 @@ impl<'a> Reader<'a, '_> {
         Rc::clone(known.entry(list).or_insert_with(find))
     }
 
-    /// Returns whether messages still suggest names. After many diagnostics, comparing all names takes too long.
+    /// Returns whether messages still suggest names. After many diagnostics, the comparison of all names takes too long.
     pub fn helps(&self) -> bool {
         self.diagnostics.list().len() < MAX_HELPED
     }
 
-    /// Returns whether a number is hexadecimal or binary.
+    /// Returns whether the file writes a number in hexadecimal or binary.
     pub fn is_pattern<T>(&self, at: &At<T>) -> bool {
         let text = self.source.slice(self.span(at)).trim_start_matches(['"', '\'']);
         text.starts_with("0x") || text.starts_with("0X") || text.starts_with("0b")
     }
 
-    /// Returns the documentation of an element.
+    /// Returns the documentation of an element, from its description and citation.
     pub fn documentation(&self, doc: Option<&str>, cite: Option<String>) -> Option<Box<Documentation>> {
         if doc.is_none() && cite.is_none() {
             return None;
@@ -263,29 +263,29 @@ impl<'a> Reader<'a, '_> {
         let text = doc.unwrap_or_default().to_owned();
         let (cite, text_from) = match self.standard.as_str() {
             "" => (cite.map(CompactString::from), None),
-            // An element without a clause is in an element that has one.
+            // An element that cites no clause is part of an element that cites one.
             standard => (None, cite.map(|clause| FactOrigin::Standard(standard_and_clause(standard, &clause).into()))),
         };
         Some(Box::new(Documentation { text, cite, text_from: text_from.map(Box::new), ..Documentation::default() }))
     }
 
-    /// Returns a name in the manual's language.
+    /// Returns the original name of an element as a text in the language of the manual.
     pub fn original(&self, orig: Option<&str>) -> Texts {
         let language = || if self.language.is_empty() { "und".into() } else { self.language.clone() };
         orig.map(|text| LocalText { language: language(), text: text.into() }).into_iter().collect()
     }
 
-    /// Returns the documentation of a table.
+    /// Returns the documentation that a table contains.
     pub fn documentation_of(&self, table: &(impl Documented + Cited)) -> Option<Box<Documentation>> {
         self.documentation(table.doc(), table.cited())
     }
 
-    /// Returns the ambiguities of a table.
+    /// Returns the ambiguities that a table contains.
     pub fn doubts_of(&mut self, table: &impl Doubted, origin: Origin) -> Doubts {
         self.doubts(table.doubt_tables(), origin, table.cited().as_deref())
     }
 
-    /// Returns the ambiguities of a table that describes an element of the device.
+    /// Returns the ambiguities that a table contains, marked as those of an element of the device.
     pub fn doubts_about(
         &mut self,
         table: &impl Doubted,
@@ -325,26 +325,26 @@ pub(super) fn about(doubts: Doubts, kind: SubjectKind, name: &str, element: &str
     doubts.into_iter().map(about).collect()
 }
 
-/// Returns pages or lines as one text.
+/// Returns the cited pages or lines as one text.
 pub(super) fn cited(list: &super::at::OneOrMany<NumberOrText>) -> String {
     list.0.iter().map(NumberOrText::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the most similar of the known names, unless none is similar.
+/// Returns the most similar known name, or `None` if no name is similar.
 pub(super) fn similar<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
     let lower = brief(name).to_lowercase();
     let best = known.map(|other| (edit_distance(&lower, &other.to_lowercase()), other)).min()?;
     (best.0 * 3 <= lower.chars().count().max(3)).then_some(best.1)
 }
 
-/// Returns entries in the order of the file. The parser sorts them by name.
+/// Returns the entries of a table in the order of the file, because the parser sorts them by name.
 pub(super) fn sorted<'a>(table: DeTable<'a>) -> Vec<(At<String>, Node<'a>)> {
     let mut entries: Vec<_> = table.into_iter().map(|(key, value)| (read::key(&key), value)).collect();
     entries.sort_by_key(|(key, _)| key.start);
     entries
 }
 
-/// Returns the usual cause of an error in TOML.
+/// Returns a help text for the usual cause of a TOML syntax error.
 fn hint(message: &str) -> Option<&'static str> {
     let has = |part: &str| message.contains(part);
     match () {
@@ -361,7 +361,7 @@ fn first_line(message: &str) -> &str {
     message.lines().next().unwrap_or_default()
 }
 
-/// Removes the key at `span` from the tables of `value`, or renames it to `suggestion`. Returns whether the key was found.
+/// Removes the key at `span` from `value` and the tables in it, or renames it to `suggestion`. Returns whether the key was found.
 fn remove(value: &mut DeValue<'_>, span: Span, key: &str, suggestion: Option<&str>) -> bool {
     match value {
         DeValue::Table(table) => {
@@ -385,7 +385,7 @@ fn remove(value: &mut DeValue<'_>, span: Span, key: &str, suggestion: Option<&st
     }
 }
 
-/// Replaces `$name` with the chosen values.
+/// Replaces each text `$name` with the chosen value of the option `name`.
 pub(super) fn choose<'a>(value: &mut Node<'a>, chosen: &HashMap<String, DeValue<'a>>) {
     match value.get_mut() {
         DeValue::String(text) => {
@@ -399,7 +399,7 @@ pub(super) fn choose<'a>(value: &mut Node<'a>, chosen: &HashMap<String, DeValue<
     }
 }
 
-/// Returns the value of each option: the choice of the caller, otherwise the default.
+/// Returns the value of each option: the caller's choice, or the default choice of the option.
 pub(super) fn choices<'a>(
     reader: &mut Reader<'a, '_>,
     options: &[(At<String>, OptionTable, Node<'a>)],
@@ -424,7 +424,7 @@ pub(super) fn choices<'a>(
             let known = option.choices.iter().map(|(key, _)| key.value.as_str());
             reader.unresolved(&format!("choice of the option `{}`", name.value), choice, span, known);
         }
-        // The rest of the table can be read with any choice.
+        // After an unknown choice, the table is read with another choice to find further errors.
         if let Some(value) = value.or_else(|| choices?.values().next()) {
             values.insert(name.value.clone(), value.get_ref().clone());
         }
@@ -438,7 +438,7 @@ pub(super) fn choices<'a>(
     values
 }
 
-/// Reports texts `$name` that no option replaced.
+/// Reports a text `$name` that names no option.
 pub(super) fn undecided(reader: &mut Reader<'_, '_>, value: &Node<'_>, known: &[String]) {
     match value.get_ref() {
         DeValue::String(text) => {
@@ -455,7 +455,7 @@ pub(super) fn undecided(reader: &mut Reader<'_, '_>, value: &Node<'_>, known: &[
     }
 }
 
-/// Returns a literal as text.
+/// Returns the text of a literal.
 pub(super) fn text_of(literal: &Literal) -> String {
     match literal {
         Literal::Bool(value) => value.to_string(),

@@ -1,15 +1,16 @@
-//! Reads type names.
+//! Reads the names of data types.
 
 use crate::ir::Type;
 
-/// The type of a name, and the number of elements of an array.
+/// Type that a type name denotes, and the number of elements of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct NamedType {
     pub ty: Type,
     pub elements: Option<u32>,
 }
 
-/// Reads `u16`, `i32`, `f32`, `bool`, `str(25)`, `wstr(10)`, `bytes(6)`, times, `domain`, `?`, or an array such as `u16[10]`.
+/// Reads a type name: `u16`, `i32`, `f32`, `bool`, `str(25)`, `wstr(10)`, `bytes(6)`, `domain`, `?`, a time type, or an array
+/// such as `u16[10]`.
 pub(super) fn named(text: &str) -> Option<NamedType> {
     let text = text.trim();
     match text.strip_suffix(']').and_then(|rest| rest.split_once('[')) {
@@ -49,7 +50,7 @@ fn single(text: &str) -> Option<Type> {
     })
 }
 
-/// Returns the type name for another common name, or the most similar type name.
+/// Returns the type name for another common name of a type, or the most similar type name.
 pub(super) fn suggestion(text: &str) -> Option<&'static str> {
     let lower = text.to_lowercase().replace(['_', ' '], "");
     let (letters, digits) = lower.split_at(lower.find(|c: char| c.is_ascii_digit()).unwrap_or(lower.len()));
@@ -69,7 +70,7 @@ pub(super) fn suggestion(text: &str) -> Option<&'static str> {
     usual.or_else(|| super::tree::similar(text, NAMES.into_iter()))
 }
 
-/// The type names that suggestions and editors offer.
+/// Type names that suggestions and editors offer.
 pub(super) const NAMES: [&str; 18] = [
     "bool",
     "u8",

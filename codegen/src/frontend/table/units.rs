@@ -1,6 +1,6 @@
-//! Unit symbols.
+//! Known unit symbols, and other spellings of units.
 
-/// Symbols of single units: SI units and those of drives. Products, quotients and powers consist of them.
+/// Symbols of single units: SI units and units of drives. Other known units are products, quotients and powers of these symbols.
 const SYMBOLS: [&str; 90] = [
     "%", "%RH", "1", "A", "Ah", "Bd", "C", "F", "GHz", "H", "Hz", "J", "K", "MB", "MHz", "Mbit", "MΩ", "N", "Nm", "Pa",
     "V", "VA", "VAh", "W", "Wh", "bar", "bit", "byte", "cm", "count", "counts", "d", "dB", "deg", "g", "h", "in", "kA",
@@ -9,10 +9,10 @@ const SYMBOLS: [&str; 90] = [
     "Ω", "L", "hPa", "kPa", "kvar", "lm", "lx", "mL", "mS", "mg", "ml", "mol", "pH", "psi", "t", "dBm", "S",
 ];
 
-/// Symbols with `°` or `µ`.
+/// Unit symbols that contain `°` or `µ`.
 const SIGNS: [&str; 13] = ["°", "°C", "°F", "µs", "µA", "µm", "µV", "µH", "µF", "μs", "μm", "µS", "µg"];
 
-/// Returns whether the text is a unit symbol: `rev/s²`, `kg·m²`, `mNm/A`.
+/// Returns whether the text is a known unit symbol, such as `rev/s²`, `kg·m²` or `mNm/A`.
 pub(super) fn is_known(symbol: &str) -> bool {
     symbol.split(['/', '·']).all(|part| {
         let single = part.trim_end_matches(['²', '³']);
@@ -20,7 +20,7 @@ pub(super) fn is_known(symbol: &str) -> bool {
     })
 }
 
-/// Returns the symbol of a unit for another spelling of it.
+/// Returns the symbol of a unit for another spelling of the unit.
 pub(super) fn usual(text: &str) -> Option<&'static str> {
     const SPELLINGS: &[(&str, &[&str])] = &[
         (
@@ -66,7 +66,7 @@ pub(super) fn usual(text: &str) -> Option<&'static str> {
     ];
     let lower = text.to_lowercase();
     let known = SPELLINGS.iter().find(|(_, spellings)| spellings.contains(&lower.as_str()));
-    // The lower-case forms of V, A or W are not other units.
+    // The case of these symbols can be ignored, because the lower-case forms are not other units.
     let cased = ["V", "A", "W", "kW", "kWh", "Wh", "kV", "mV", "mA", "kVA", "VA", "Hz", "kHz", "var", "bar", "Nm"];
     let cased = || cased.into_iter().find(|symbol| symbol.to_lowercase() == lower && !matches!(text, "a" | "mw"));
     known.map(|&(symbol, _)| symbol).or_else(cased)

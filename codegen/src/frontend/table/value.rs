@@ -1,4 +1,4 @@
-//! Converts literals to values of a type.
+//! Converts literals in the file to values of a data type.
 
 use thin_vec::ThinVec;
 
@@ -11,7 +11,7 @@ use crate::limits::MAX_LISTED_VALUES;
 use crate::source::Span;
 use crate::text::brief;
 
-/// Converts a literal to a value of a type that is not an alias. An unsuitable literal is reported and kept as text.
+/// Converts a literal to a value of a type that is not an alias. Reports an unsuitable literal and keeps it as text.
 pub(super) fn value(reader: &mut Reader<'_, '_>, given: &At<Literal>, ty: Type) -> Value {
     let is_pattern = reader.is_pattern(given);
     match convert(&given.value, ty, is_pattern) {
@@ -59,14 +59,14 @@ pub(super) fn ranges(
     found
 }
 
-/// Returns the first and last value of an element of a list, or `None` if it is invalid.
+/// Returns the first and last value of a list element, or `None` if the element is invalid.
 pub(super) fn range(reader: &Reader<'_, '_>, literal: &At<Literal>, ty: Type) -> Option<(Value, Value)> {
     match &literal.value {
         Literal::Text(text) if has_numbers(ty) => {
             let (first, last) = notation::range(text)?;
             let is_pattern = text.contains("0x") || text.contains("0b");
             let one = |number| convert(&Literal::Int(number), ty, is_pattern).unwrap_or(Value::Int(number));
-            // Numbers in ascending order may be patterns of signed values in descending order.
+            // Bit patterns in ascending order may be signed values in descending order.
             let in_order = first <= last && one(first).as_int() <= one(last).as_int();
             in_order.then(|| (one(first), one(last)))
         }
@@ -74,7 +74,7 @@ pub(super) fn range(reader: &Reader<'_, '_>, literal: &At<Literal>, ty: Type) ->
     }
 }
 
-/// Returns whether the values of a type are numbers. An unknown type counts as numeric.
+/// Returns whether the values of a type are numbers. Values of an unknown type count as numbers.
 fn has_numbers(ty: Type) -> bool {
     matches!(ty, Type::Integer(_) | Type::Unsigned(_) | Type::Opaque(_) | Type::Boolean)
 }
@@ -100,7 +100,7 @@ pub(super) fn listed(reader: &mut Reader<'_, '_>, list: &[Literal], whole: (u32,
     values
 }
 
-/// Converts a literal to a value. `is_pattern`: the digits are a bit pattern, whose highest bit is the sign.
+/// Converts a literal to a value. If `is_pattern` is true, the digits are a bit pattern, whose highest bit is the sign.
 pub(super) fn convert(literal: &Literal, ty: Type, is_pattern: bool) -> Option<Value> {
     if let Literal::Text(text) = literal {
         return of_text(text, ty);
@@ -118,7 +118,7 @@ pub(super) fn convert(literal: &Literal, ty: Type, is_pattern: bool) -> Option<V
     })
 }
 
-/// Returns the value of a number, or of a bit pattern, in a type.
+/// Returns the value of a number or bit pattern in the type `ty`.
 pub(super) fn integer(value: i128, ty: Type, is_pattern: bool) -> i128 {
     match ty {
         Type::Integer(bits) => signed(value, bits, is_pattern),
@@ -126,7 +126,7 @@ pub(super) fn integer(value: i128, ty: Type, is_pattern: bool) -> i128 {
     }
 }
 
-/// Returns the value of a number. A bit pattern with the sign bit set is negative.
+/// Returns the value of a number. A bit pattern is negative if its sign bit is set.
 fn signed(value: i128, bits: u8, is_pattern: bool) -> i128 {
     let modulus = 1i128 << bits.min(64);
     if is_pattern && value >= modulus / 2 && value < modulus {
@@ -152,7 +152,7 @@ fn of_text(text: &str, ty: Type) -> Option<Value> {
     }
 }
 
-/// Reads `$NODEID`, `$NODEID+0x80`, `0x80+$NODEID`.
+/// Reads a node-ID formula: `$NODEID`, `$NODEID+0x80`, `0x80+$NODEID`.
 fn node_id(text: &str) -> Option<i128> {
     let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
     let rest = match (text.strip_prefix("$NODEID"), text.strip_suffix("+$NODEID")) {
@@ -166,7 +166,7 @@ fn node_id(text: &str) -> Option<i128> {
     notation::integer(rest)
 }
 
-/// Reads `01 02`, `0x01,0x02`, `0102`.
+/// Reads bytes: `01 02`, `0x01,0x02`, `0102`.
 fn octets(text: &str) -> Option<Vec<u8>> {
     let digits = text.replace("0x", "").replace([' ', ',', ':'], "");
     if !digits.is_ascii() || !digits.len().is_multiple_of(2) {

@@ -1,4 +1,4 @@
-//! Reads the differences of an item between models, or between buses.
+//! Reads the differences of an item between models or between buses.
 
 use thin_vec::ThinVec;
 
@@ -17,7 +17,7 @@ impl Rows {
         let Some(list) = &row.variants else { return };
         let base = self.definitions.underlying(item.ty);
         item.variants = list.iter().map(|given| self.variant(reader, given, base)).collect();
-        // A type of another length occupies another number of registers.
+        // On Modbus, a type of another length occupies a different number of registers.
         let Some(bits) = item.type_on(Bus::Modbus).bits().filter(|_| item.type_on(Bus::Modbus) != item.ty) else {
             return;
         };
@@ -75,7 +75,7 @@ impl Rows {
         found
     }
 
-    /// Returns the type of a variant: an integer of another length.
+    /// Returns the type of a variant, which must be an integer of another length.
     fn other_type(&self, reader: &mut Reader<'_, '_>, given: &At<String>, base: Type) -> Option<Type> {
         let is_integer = |ty: &Type| matches!(ty, Type::Integer(1..=64) | Type::Unsigned(1..=64) | Type::Boolean);
         let found = types::named(&given.value).filter(|named| named.elements.is_none()).map(|named| named.ty);
@@ -89,7 +89,7 @@ impl Rows {
     }
 }
 
-/// Returns the limits of a variant. The minimum and maximum of the allowed values are limits, too.
+/// Returns the limits of a variant. The allowed values also determine a minimum and a maximum.
 fn limits(low: Option<Value>, high: Option<Value>, allowed: ThinVec<(Value, Value)>) -> Limits {
     let compare = |one: &&Value, other: &&Value| match (one.as_int(), other.as_int()) {
         (Some(one), Some(other)) => one.cmp(&other),

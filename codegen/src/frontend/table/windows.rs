@@ -1,4 +1,4 @@
-//! Reads windows: items through which the values of a space are accessed by number.
+//! Reads windows: items through which the driver accesses the values of a space by register number.
 
 use super::at::{At, Entries, TextOr};
 use super::buses;
@@ -9,7 +9,7 @@ use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Binding, Buses, IndirectBinding, WindowSide};
 
-/// A window of a space.
+/// Window of a space.
 #[derive(Clone, Debug)]
 pub(super) struct Window {
     buses: Buses,
@@ -111,7 +111,7 @@ pub(super) fn references(tables: &Entries<SpaceTable>) -> References {
     found
 }
 
-/// Returns the windows through which number `first` of the space is accessed on these buses.
+/// Returns the windows through which the register number `first` of the space is accessed on these buses.
 pub(super) fn bindings<'w>(
     space: &'w str,
     windows: &'w [Window],

@@ -2,7 +2,7 @@
 
 use crate::ir::{Access, Mappable, ObjectCode};
 
-/// The words of `access`: access rights.
+/// Words for access rights, in the key `access`.
 pub(super) const ACCESSES: [(&str, Access); 6] = [
     ("ro", Access::ReadOnly),
     ("rw", Access::ReadWrite),
@@ -12,7 +12,7 @@ pub(super) const ACCESSES: [(&str, Access); 6] = [
     ("rww", Access::ReadWriteOutput),
 ];
 
-/// The words of `pdo`: directions of PDOs.
+/// Words for PDO directions, in the key `pdo`.
 pub(super) const DIRECTIONS: [(&str, Mappable); 4] = [
     ("rx", Mappable { rpdo: true, tpdo: false }),
     ("tx", Mappable { rpdo: false, tpdo: true }),
@@ -20,7 +20,7 @@ pub(super) const DIRECTIONS: [(&str, Mappable); 4] = [
     ("no", Mappable { rpdo: false, tpdo: false }),
 ];
 
-/// The words of `code`: object codes.
+/// Words for object codes, in the key `code`.
 pub(super) const OBJECT_CODES: [(&str, ObjectCode); 4] = [
     ("var", ObjectCode::Var),
     ("array", ObjectCode::Array),

@@ -1,6 +1,6 @@
-//! The application process: parameters, parameter templates and data types by their uniqueID.
+//! Application process: parameters, parameter templates and data types by uniqueID.
 //!
-//! Values are converted only when an object refers to a parameter, because its data type may be that of the object.
+//! Values are converted when an object refers to their parameter, because the object may declare the data type.
 
 use std::collections::HashMap;
 
@@ -11,7 +11,7 @@ use crate::frontend::xml::{Given, Names};
 use crate::ir::{Extension, Extensions};
 use crate::text::brief;
 
-/// Positions of elements by their uniqueID.
+/// Positions of elements by uniqueID.
 pub(super) type Ids = HashMap<String, usize>;
 
 #[derive(Default)]
@@ -27,12 +27,12 @@ pub(super) struct Application<'a> {
     pub type_ids: Ids,
 }
 
-/// A parameter, a parameterTemplate or a varDeclaration.
+/// Contents of a `parameter`, `parameterTemplate` or `varDeclaration` element.
 #[derive(Default)]
 pub(super) struct Parameter<'a> {
     pub template: Given<'a>,
     pub access: Given<'a>,
-    /// Whether the parameter is a variable. A variable has no default access rights.
+    /// True for a `varDeclaration` element. A variable has no default access rights.
     pub is_variable: bool,
     pub support: Given<'a>,
     pub persistent: Given<'a>,
@@ -46,19 +46,19 @@ pub(super) struct Parameter<'a> {
     pub allowed: Option<Box<Allowed<'a>>>,
     pub unit: Option<Box<Unit<'a>>>,
     pub extensions: Extensions,
-    /// Length of its element in bytes. It limits how often the parameter is copied.
+    /// Length of the parameter's element in bytes, which counts toward the limit for copies.
     pub weight: usize,
-    /// Structure and field, if it is a variable of a structure.
+    /// Positions of the structure and the field, if the parameter is a variable of a structure.
     pub field: Option<(usize, usize)>,
 }
 
-/// An allowedValues or allowedValuesTemplate element.
+/// Contents of an `allowedValues` or `allowedValuesTemplate` element.
 #[derive(Default)]
 pub(super) struct Allowed<'a> {
     pub template: Given<'a>,
     pub values: Vec<(Given<'a>, Texts<'a>)>,
     pub ranges: Vec<AllowedRange<'a>>,
-    /// Length of its element in bytes.
+    /// Length of the element in bytes, which counts toward the limit for copies.
     pub weight: usize,
 }
 
@@ -76,17 +76,17 @@ pub(super) struct Unit<'a> {
     pub texts: Texts<'a>,
 }
 
-/// A parameter with its template. Facts of the parameter take precedence.
+/// Parameter with its template. Facts of the parameter take precedence.
 #[derive(Clone, Copy)]
 pub(super) struct View<'p, 'a> {
-    /// Position of the parameter.
+    /// Position in the list of parameters.
     pub position: Option<usize>,
     parameter: Option<&'p Parameter<'a>>,
     template: Option<&'p Parameter<'a>>,
 }
 
 impl<'p, 'a> View<'p, 'a> {
-    /// View of an object without a parameter.
+    /// View for an object without a parameter.
     pub const NONE: Self = View { position: None, parameter: None, template: None };
 
     pub fn exists(&self) -> bool {
@@ -97,13 +97,12 @@ impl<'p, 'a> View<'p, 'a> {
         self.parameter
     }
 
-    /// Returns the fact from the parameter, or from the template if the parameter does not have it.
+    /// Returns a fact of the parameter, or of the template if the parameter does not declare the fact.
     pub fn find<T>(&self, fact: impl Fn(&'p Parameter<'a>) -> Option<T>) -> Option<T> {
         self.parameter.and_then(&fact).or_else(|| self.template.and_then(&fact))
     }
 
-    /// Returns the labels and descriptions. Each is from the parameter, or from the template if the parameter has
-    /// none.
+    /// Returns the labels and descriptions of the parameter. If either is missing, returns that of the template.
     pub fn texts(&self) -> Texts<'a> {
         let has = |names: &&'p Names<'a, Lang>| !names.is_empty();
         let labels = self.find(|parameter| Some(&parameter.texts.labels).filter(has));
@@ -117,14 +116,14 @@ impl<'p, 'a> View<'p, 'a> {
         of(self.parameter).iter().chain(of(self.template))
     }
 
-    /// Returns the length in bytes of the parameter and its template in the file, which is the cost of a copy.
+    /// Returns the length in bytes of the parameter's and the template's element, which is the cost of a copy.
     pub fn weight(&self) -> usize {
         self.parameter.map_or(0, |parameter| parameter.weight) + self.template.map_or(0, |template| template.weight)
     }
 }
 
 impl<'a> Application<'a> {
-    /// Returns the parameter to which an object refers.
+    /// Returns the parameter to which an object refers, with its template.
     pub fn view(&self, reader: &mut Reader<'a, '_>, given: &Given<'a>) -> View<'_, 'a> {
         if given.is_missing() {
             return View::NONE;
@@ -144,7 +143,7 @@ impl<'a> Application<'a> {
         View { position: Some(position), parameter: Some(parameter), template }
     }
 
-    /// Returns the allowed values of a parameter, or those of the template it refers to.
+    /// Returns `allowed`, or the `allowedValuesTemplate` to which it refers.
     pub fn allowed<'p>(&'p self, reader: &mut Reader<'a, '_>, allowed: &'p Allowed<'a>) -> &'p Allowed<'a> {
         let given = &allowed.template;
         if given.is_missing() {
@@ -165,7 +164,7 @@ pub(super) fn dangling(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &st
     reader.report(&codes::DANGLING_REFERENCE, given.span, message, "the reference is ignored");
 }
 
-/// Registers the position of an element by its uniqueID. The first element with a uniqueID takes precedence.
+/// Registers the position of an element by uniqueID. If a uniqueID is repeated, the first element takes precedence.
 pub(super) fn insert(reader: &mut Reader<'_, '_>, ids: &mut Ids, given: Given<'_>, position: usize) {
     if given.is_missing() {
         return;

@@ -1,4 +1,4 @@
-//! Data types of the application process as written.
+//! Data types of the application process, before conversion.
 
 use super::reader::{Reader, Texts};
 use crate::frontend::xml::{Given, Read};
@@ -6,17 +6,17 @@ use crate::ir::{CompactString, EnumValue, Type};
 use crate::source::{Origin, Span};
 use crate::syntax::xml::Tag;
 
-/// Type of a parameter, element or field.
+/// Type of a parameter, array element or structure field.
 #[derive(Clone, Debug)]
 pub(super) enum TypeRef<'a> {
-    /// A basic type, such as `<UDINT/>`.
+    /// Basic type, such as `<UDINT/>`.
     Basic(Type, Span),
-    /// A reference: `<dataTypeIDRef uniqueIDRef="…"/>`.
+    /// Reference to a data type, such as `<dataTypeIDRef uniqueIDRef="…"/>`.
     Named(Given<'a>),
 }
 
 impl<'a> TypeRef<'a> {
-    /// Reads the type in an element. Returns `None` for an element that is not a type.
+    /// Reads an element that names a type. Returns `None` for any other element.
     pub fn read(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option<Self>> {
         if let Some(ty) = basic(tag.name) {
             return Ok(Some(TypeRef::Basic(ty, tag.span)));
@@ -36,7 +36,7 @@ impl<'a> TypeRef<'a> {
     }
 }
 
-/// A type as written.
+/// Data type as in the file.
 pub(super) struct RawType<'a> {
     pub name: CompactString,
     pub texts: Texts<'a>,
@@ -50,7 +50,7 @@ pub(super) enum DataTypeKind<'a> {
         dimensions: Vec<(i32, u32)>,
         element: Option<TypeRef<'a>>,
     },
-    /// Positions of the variables among the parameters.
+    /// Positions of the structure's variables in the list of parameters.
     Struct(Vec<usize>),
     Enum {
         base: Option<TypeRef<'a>>,
@@ -83,7 +83,7 @@ fn basic(name: &str) -> Option<Type> {
     })
 }
 
-/// Returns a value of an enumeration with its labels.
+/// Returns an enumeration value with the name and documentation in its labels.
 pub(super) fn enum_value(value: i128, texts: &Texts<'_>) -> EnumValue {
     let name = texts.labels.name();
     let (names, documentation) = (texts.labels.except(&name), texts.descriptions.documentation());

@@ -1,4 +1,4 @@
-//! Reads dataTypeList.
+//! Reads the children of the `dataTypeList` element.
 
 use super::application::{insert, Application};
 use super::data_type::{enum_value, DataTypeKind, RawType, TypeRef};
@@ -10,14 +10,14 @@ use crate::frontend::xml::Read;
 use crate::ir::EnumValue;
 use crate::syntax::xml::Tag;
 
-/// Reads an element of dataTypeList.
+/// Reads a child of the `dataTypeList` element and adds its data type.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, application: &mut Application<'a>) -> Read<()> {
     if !matches!(tag.name, "array" | "struct" | "enum" | "derived") {
         return reader.unknown(tag);
     }
     let origin = reader.origin(tag);
     let [id, name, size] = reader.attributes(tag, ["uniqueID", "name", "size"])?;
-    // The size of an enumeration is redundant: values and base type determine it.
+    // The size is redundant, because the values and the base type of an enumeration determine it.
     reader.note("enum@size", &size);
     let mut texts = Texts::default();
     let kind = match tag.name {
@@ -32,7 +32,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, application: 
     Ok(())
 }
 
-/// Reads a type that is part of a data type, or a label or description.
+/// Reads a child of a data type: the type of an element or base, a label or a description.
 fn component<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
@@ -99,7 +99,7 @@ fn enumeration<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, texts: &mut Te
         }
         let [given] = reader.attributes(&tag, ["value"])?;
         let texts = reader.texts(&tag)?;
-        // Values without a number count up, as in C.
+        // A value without a number is one more than the value before it, as in C.
         let value = match given.is_missing() {
             true => Some(values.last().map_or(0, |last| last.value.saturating_add(1))),
             false => integer(&given.text),

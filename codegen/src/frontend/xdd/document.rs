@@ -1,4 +1,4 @@
-//! Reads a file: its profiles, and the device that they describe.
+//! Reads a file: its profiles, and the device that the profiles describe.
 
 use super::application::Application;
 use super::object_list::ObjectList;
@@ -11,10 +11,9 @@ use crate::ir::{CanOpenSettings, Catalog, Device, Extension};
 use crate::source::{FileId, Source, Span};
 use crate::syntax::xml::{Attribute, Cursor, Tag};
 
-/// Reads the device that `source` describes. Repairs are reported to `diagnostics`.
+/// Reads the device that `source` describes. Reports repairs to `diagnostics`.
 ///
-/// Returns `None`, with one error, if the file is not well-formed, describes a POWERLINK device, or describes no
-/// device.
+/// Returns `None` and reports one error if `source` is not well-formed, or does not describe a CANopen device.
 pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut Diagnostics) -> Option<Catalog> {
     declared_encoding::report(source, file, diagnostics);
     let mut reader = Reader::new(Cursor::new(source.text(), file), diagnostics, Xdd { aliases });
@@ -33,7 +32,7 @@ struct Profiles<'a> {
     canopen: CanOpenSettings,
     application: Application<'a>,
     objects: ObjectList,
-    /// Whether the file contains a CANopen profile.
+    /// True if the file contains a CANopen profile.
     canopen_seen: bool,
 }
 
@@ -53,7 +52,7 @@ fn container<'a>(reader: &mut Reader<'a, '_>) -> Read<Device> {
         "ISO15745Profile" => profile(reader, &root, &mut profiles)?,
         _ => return Err(not_canopen(&root)),
     }
-    // The content after the root element must be well-formed, too.
+    // The content after the root element must also be well-formed.
     while reader.cursor.read()?.is_some() {}
     if !profiles.canopen_seen {
         return Err(not_canopen(&root));
@@ -89,7 +88,8 @@ fn profile<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Pro
 }
 
 fn body<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Profiles<'a>) -> Read<()> {
-    // `type` is the only attribute of the schema instance namespace that matters. Its prefix is arbitrary.
+    // Of the attributes in the schema instance namespace, only `type` matters. The prefix of this attribute is
+    // arbitrary.
     let is_kind = |attribute: &Attribute<'_>| attribute.name == "type" && !attribute.prefix.is_empty();
     let kind = parent.attributes().find(|attribute| attribute.as_ref().map_or(true, is_kind)).transpose()?;
     let kind = kind.map(|attribute| (attribute.value(reader.diagnostics), attribute.span));
@@ -99,7 +99,7 @@ fn body<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Profil
             return Err(powerlink(*span));
         }
         if !kind.contains("canopen") {
-            // This profile is for another technology.
+            // The profile is for another technology, so its contents become extensions.
             return reader.keep(parent);
         }
         profiles.canopen_seen = true;

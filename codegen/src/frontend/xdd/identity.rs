@@ -6,7 +6,7 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{CompactString, Device, Extension};
 use crate::syntax::xml::Tag;
 
-/// Reads the attributes of a profile body. A file has two bodies; the first value of each attribute applies.
+/// Reads the attributes of a profile body. A file has two profile bodies; the first value of each attribute applies.
 pub(super) fn body<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Device) -> Read<()> {
     const NAMES: [&str; 12] = [
         "fileName",
@@ -39,14 +39,15 @@ pub(super) fn body<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut 
             *target = given.compact();
         }
     }
-    // The header of the IR has a field for the version of CiA 306, but none for that of CiA 311.
+    // The IR header has a field for the version of CiA 306, but none for the version of CiA 311.
     for (name, given) in NAMES.iter().zip(&fields).skip(9) {
         reader.note(name, given);
     }
     Ok(())
 }
 
-/// Reads DeviceIdentity, or the identity in the communication profile, which repeats a part of it.
+/// Reads a `DeviceIdentity` element, or the identity in the communication profile, which repeats a part of
+/// `DeviceIdentity`.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
@@ -55,7 +56,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &m
             "orderNumber" => order_number(reader, &tag, device)?,
             "vendorID" => number(reader, &tag, &mut device.identity.vendor_id)?,
             "productID" => number(reader, &tag, &mut device.identity.product_code)?,
-            // A schema in use has the second, misspelled name.
+            // A schema in use misspells the name as `revisionNumer`.
             "revisionNumber" | "revisionNumer" => number(reader, &tag, &mut device.identity.revision_number)?,
             "version" => {
                 let kind = reader.attribute(&tag, "versionType")?;
@@ -85,7 +86,7 @@ fn name<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, name: &mut CompactString
     Ok(())
 }
 
-/// Reads an order number. The first one is that of the device; others belong to variants.
+/// Reads an order number. The first order number is that of the device; the others belong to variants of the device.
 fn order_number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Device) -> Read<()> {
     let given = reader.text(tag)?;
     if device.identity.order_code.is_empty() {
@@ -96,7 +97,8 @@ fn order_number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Dev
     Ok(())
 }
 
-/// Reads a decimal number or one with `0x`. Other ISO 15745 profiles have texts here, which are kept as extensions.
+/// Reads a decimal number or a number with the prefix `0x`. Other ISO 15745 profiles have texts in these elements,
+/// which become extensions.
 fn number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, number: &mut Option<u32>) -> Read<()> {
     let given = reader.text(tag)?;
     if given.is_missing() {
@@ -115,7 +117,7 @@ fn number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, number: &mut Option<u3
     Ok(())
 }
 
-/// Reads a number. Eight digits without a prefix are hexBinary for 32 bits.
+/// Reads a number of the identity. Eight digits without a prefix are a 32-bit hexadecimal number (`hexBinary`).
 fn parse(given: &Given<'_>) -> Option<i128> {
     let text = given.text.as_ref();
     if text.len() == 8 && text.bytes().all(|byte| byte.is_ascii_hexdigit()) {
@@ -124,7 +126,8 @@ fn parse(given: &Given<'_>) -> Option<i128> {
     integer(text)
 }
 
-/// Returns the first description of the product, preferably in English. It corresponds to the description in an EDS.
+/// Reads the description of the product, preferably in English. This text corresponds to the description in an EDS
+/// file.
 fn product_text<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
     let texts = reader.texts(parent)?;
     let documentation = texts.descriptions.documentation().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Converts an object or sub-object, and its parameter, to an item.
+//! Converts an object or sub-object, together with its parameter, to an item.
 
 use super::application::{Allowed, AllowedRange, View};
 use super::data_type::enum_value;
@@ -16,11 +16,11 @@ use crate::ir::{
 };
 use crate::source::Span;
 
-/// Facts that a sub-object takes from its object: the parameter of the object, and the type of this component.
+/// Facts that a sub-object takes from its object: the object's parameter, and the type of the component.
 pub(super) type Parent<'v, 'p, 'a> = Option<(&'v View<'p, 'a>, Option<Type>)>;
 
 impl<'a, 'p> Builder<'a, '_, 'p> {
-    /// Builds the item of a VAR, DOMAIN or sub-object. The caller sets name, texts and extensions.
+    /// Builds the item of a VAR, DOMAIN or sub-object. The caller sets the name, texts and extensions.
     pub(super) fn item(
         &mut self,
         index: u16,
@@ -41,14 +41,14 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         let base = underlying(&self.types, item.ty);
         item.access = self.access(raw, view, code, parent, &mut item);
         if ty.is_none() {
-            // Without a data type it is unknown which bytes to write.
+            // A value without a data type has an unknown length, so it cannot be written.
             item.access = Access::ReadOnly;
         }
         item.mappable = self.mappable(raw, item.access, &mut item);
         let default = raw.get(Key::DefaultValue).or_else(|| view.find(|parameter| parameter.default.non_empty()));
         item.default = self.typed(default, base, Role::Value);
         item.at.default = span_of(default);
-        // An enumeration of the allowed values makes the limits redundant.
+        // Limits are redundant if the type is an enumeration of the allowed values.
         self.limits(raw, base, allowed.filter(|_| item.ty == plain), &mut item);
         item.flags = self.flags(raw);
         self.configured(raw, view, base, &mut item);
@@ -78,12 +78,12 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             };
             let defined = self.codes.get(&number).copied();
             let ty = object::type_by_code(number, given.span, defined, self.reader.diagnostics);
-            // An enumeration over the same integer type is more specific.
+            // The parameter's type is used if it is an enumeration over the type of the object.
             let named = parameter.map(|parameter| self.application.resolve(self.reader, parameter));
             return named.filter(|&named| named != ty && underlying(&self.types, named) == ty).or(Some(ty));
         }
         item.at.ty = parameter.map_or(raw.origin.span, |parameter| parameter.span());
-        // IEC 61131-3 has no type for a DOMAIN, so the parameter has another type.
+        // IEC 61131-3 has no type for a DOMAIN, so the parameter declares a different type.
         if code == ObjectCode::Domain {
             return Some(Type::Domain);
         }
@@ -182,7 +182,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Returns an enumeration type for allowed values with labels.
+    /// Returns an enumeration for allowed values that all have labels. Otherwise returns `ty`.
     fn enumeration(&mut self, ty: Type, view: &View<'p, 'a>, allowed: Option<&'p Allowed<'a>>) -> Type {
         let (Some(allowed), Some(position)) = (allowed, view.position) else { return ty };
         let labeled = allowed.ranges.is_empty() && allowed.values.iter().all(|(_, texts)| !texts.labels.is_empty());
@@ -208,7 +208,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         Type::Named(id)
     }
 
-    /// Sets the limits of the object. If it has none, the limits are the range of the parameter's allowed values.
+    /// Sets the limits of an item. If the object has no limits, the allowed values of the parameter determine them.
     fn limits(&mut self, raw: &Raw<'a>, ty: Type, allowed: Option<&'p Allowed<'a>>, item: &mut Item) {
         let attribute = |key| raw.get(key);
         (item.at.low, item.at.high) = (span_of(attribute(Key::LowLimit)), span_of(attribute(Key::HighLimit)));
@@ -229,7 +229,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         keep_allowed(allowed, &mut item.extensions);
     }
 
-    /// Returns the minimum and maximum of several ranges and values.
+    /// Returns the minimum and the maximum of all allowed ranges and values.
     fn hull(&mut self, allowed: &'p Allowed<'a>, ty: Type) -> Limits {
         let single = allowed.values.iter().map(|(given, _)| (Some(given), Some(given)));
         let ranges = allowed.ranges.iter().map(|range| (range.low.non_empty(), range.high.non_empty()));
@@ -255,7 +255,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         })
     }
 
-    /// Adds the configured value and denotation of an XDC to an item.
+    /// Adds the configured value and the denotation in an XDC file to an item.
     fn configured(&mut self, raw: &Raw<'a>, view: &View<'p, 'a>, ty: Type, item: &mut Item) {
         let actual = raw.get(Key::ActualValue).or_else(|| view.find(|parameter| parameter.actual.non_empty()));
         let denotation = match raw.get(Key::Denotation) {
@@ -273,8 +273,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Sets unit and scale: physical value = (raw value + offset) × multiplier of the parameter × multiplier of the
-    /// unit.
+    /// Sets the unit and scale of an item: physical value = (raw value + offset) × multiplier of the parameter ×
+    /// multiplier of the unit.
     fn quantity(&mut self, view: &View<'p, 'a>, allowed: Option<&'p Allowed<'a>>, ty: Type, item: &mut Item) {
         let unit = view.find(|parameter| parameter.unit.as_deref());
         let multiplier = view.find(|parameter| parameter.multiplier.non_empty());
@@ -309,7 +309,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     }
 }
 
-/// Keeps the exact list of allowed values. The limits contain only its minimum and maximum.
+/// Stores the exact list of allowed values as an extension. The limits contain only its minimum and maximum.
 fn keep_allowed(allowed: &Allowed<'_>, extensions: &mut Extensions) {
     let text = |given: Option<&Given<'_>>| given.map_or_else(String::new, |given| given.text.to_string());
     let range = |range: &AllowedRange<'_>| format!("{}..{}", text(range.low.non_empty()), text(range.high.non_empty()));

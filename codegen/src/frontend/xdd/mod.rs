@@ -3,25 +3,25 @@
 //! A file has two profiles. The device profile contains the identity and the application process. The communication
 //! network profile contains the object list, bit rates and network management.
 //!
-//! An object contains all of its facts, or refers to a parameter of the application process, which may be later in
-//! the file. [`read`] therefore reads the file once and records only the positions of the objects. It then reads the
-//! objects in the order of their indices.
+//! An object either contains all of its facts, or refers to a parameter of the application process, which may come
+//! later in the file. [`read`] therefore reads the file once and records only the positions of the objects. It then
+//! reads the objects in the order of their indices.
 //!
-//! The IR is the same as for an EDS of the device. Version 1.0 differs from 1.1 only in its namespace, and in which
-//! attributes of an object a parameter may supply. Both are read in the same way.
+//! The IR is the same as for an EDS file of the device. Versions 1.0 and 1.1 differ only in the namespace, and in the
+//! object attributes that a parameter may supply. The front end reads both versions in the same way.
 //!
 //! | file | subject |
 //! |---|---|
 //! | `document` | a file with its profiles |
-//! | `reader`, `number` | the state of reading; labels and numbers |
+//! | `reader`, `number` | reader state; labels and numbers |
 //! | `identity` | file, vendor, product |
 //! | `network` | bit rates, network management, dummy entries, dynamic channels, commissioning |
 //! | `modules` | slots of modular devices |
 //! | `process`, `parameter`, `data_type_list`, `data_type` | the application process |
 //! | `application` | parameters, templates and data types by their identifiers |
-//! | `types` | data types of the application process to types of the IR |
-//! | `object_list`, `objects` | objects and their sub-objects |
-//! | `item` | an object and its parameter to an item |
+//! | `types` | conversion of data types of the application process to types of the IR |
+//! | `object_list`, `objects` | positions of the objects; objects and their sub-objects |
+//! | `item` | conversion of an object and its parameter to an item |
 
 mod application;
 mod data_type;

@@ -1,13 +1,13 @@
-//! Modular devices: the interfaces for modules (CiA 311, module management).
+//! Reads the module interfaces of modular devices (CiA 311, module management).
 //!
-//! Modules are described in files of their manufacturers, which are read as devices.
+//! Manufacturers describe modules in separate files, which are read as devices.
 
 use super::reader::{Reader, Texts};
 use crate::frontend::xml::Read;
 use crate::ir::{Device, Fit, Slot};
 use crate::syntax::xml::Tag;
 
-/// Reads DeviceManager. The interfaces become slots; other elements become extensions.
+/// Reads a `DeviceManager` element. The module interfaces become slots; other elements become extensions.
 pub(super) fn device_manager<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         match tag.name {

@@ -10,7 +10,7 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{CanOpenSettings, CanOpenSpans, CompactString, Device, DynamicChannel};
 use crate::syntax::xml::Tag;
 
-/// Reads ApplicationLayers: the object list, dummy entries and dynamic channels.
+/// Reads an `ApplicationLayers` element: the object list, dummy entries and dynamic channels.
 pub(super) fn application_layers<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
@@ -27,7 +27,7 @@ pub(super) fn application_layers<'a>(
             "dummyUsage" => dummy_usage(reader, &tag, canopen)?,
             "dynamicChannels" => dynamic_channels(reader, &tag, canopen)?,
             "identity" => identity::read(reader, &tag, device)?,
-            // The IR has no field for the index ranges of modules.
+            // The IR has no field for the index ranges of modules, so they become extensions.
             "moduleManagement" => reader.keep(&tag)?,
             _ => reader.unknown(&tag)?,
         }
@@ -35,7 +35,8 @@ pub(super) fn application_layers<'a>(
     Ok(())
 }
 
-/// Reads dummy usage entries such as `<dummy entry="Dummy0001=1"/>`. The attribute is a line of `[DummyUsage]`.
+/// Reads dummy usage entries such as `<dummy entry="Dummy0001=1"/>`. The attribute has the form of an EDS entry in
+/// `[DummyUsage]`.
 fn dummy_usage<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, canopen: &mut CanOpenSettings) -> Read<()> {
     canopen.dummies_given = true;
     reader.each(parent, "dummy", |reader, tag| {
@@ -89,7 +90,7 @@ fn dynamic_channels<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, canopen: 
     })
 }
 
-/// Reads TransportLayers/PhysicalLayer/baudRate.
+/// Reads the bit rates in `TransportLayers/PhysicalLayer/baudRate`.
 pub(super) fn transport_layers<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
@@ -97,7 +98,7 @@ pub(super) fn transport_layers<'a>(
 ) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            // Some files leave out the intermediate layer.
+            // Some files omit the `PhysicalLayer` element.
             "PhysicalLayer" => transport_layers(reader, &tag, canopen)?,
             "baudRate" => baud_rate(reader, &tag, canopen)?,
             _ => reader.unknown(&tag)?,
@@ -120,7 +121,7 @@ fn baud_rate<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, canopen: &mut Ca
     })
 }
 
-/// Returns the bit rate of a text such as `250 Kbps`, in kbit/s.
+/// Returns the bit rate in kbit/s for a text such as `250 Kbps`.
 fn bit_rate(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<u16> {
     if given.is_missing() {
         return None;
@@ -141,7 +142,7 @@ fn bit_rate(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<u16> {
     value
 }
 
-/// Reads NetworkManagement: features and commissioning.
+/// Reads a `NetworkManagement` element: features and commissioning.
 pub(super) fn management<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,

@@ -1,4 +1,4 @@
-//! Reads the numbers of CiA 311.
+//! Reads the numbers in CiA 311 files.
 
 use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic};
@@ -18,7 +18,7 @@ impl Reader<'_, '_> {
         value
     }
 
-    /// Reads hexadecimal digits (hexBinary of XML Schema).
+    /// Reads hexadecimal digits without a prefix (`hexBinary` of XML Schema).
     pub fn hex(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
         if given.is_missing() {
             return None;
@@ -52,8 +52,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Reads an integer in the form of XML Schema. There are no octal numbers, so leading zeros are ignored. Prefixes are
-/// accepted.
+/// Reads an integer as XML Schema defines it: leading zeros do not mark octal numbers. Also accepts the prefix `0x`.
 pub(super) fn integer(text: &str) -> Option<i128> {
     let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
     match !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()) {

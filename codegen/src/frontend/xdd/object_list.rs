@@ -1,4 +1,4 @@
-//! The positions of the objects in a file.
+//! Records the positions of the objects in a file, which are read later in the order of their indices.
 
 use super::reader::Reader;
 use crate::diagnostics::codes;
@@ -6,14 +6,14 @@ use crate::frontend::xml::Read;
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
 
-/// Index and position of each object, in the order of the file.
+/// Index of each object and its position in the file, in the order of the file.
 #[derive(Default)]
 pub(super) struct ObjectList(pub Vec<(u16, Origin)>);
 
 impl ObjectList {
-    /// Reads CANopenObjectList without the content of the objects.
+    /// Reads the indices and positions of the objects in a `CANopenObjectList` element, and skips their content.
     pub fn read<'a>(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
-        // The numbers of objects are redundant.
+        // These attributes contain the numbers of objects, which are redundant.
         reader.attributes(parent, ["mandatoryObjects", "optionalObjects", "manufacturerObjects"])?;
         while let Some(tag) = reader.child(parent)? {
             match tag.name {

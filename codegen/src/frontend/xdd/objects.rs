@@ -16,7 +16,7 @@ use crate::limits;
 use crate::source::{Origin, Span};
 use crate::syntax::xml::{Cursor, Tag};
 
-/// Reads the objects by index and adds them to `device`.
+/// Reads the objects in the order of their indices, and adds them to `device`.
 pub(super) fn build<'a>(
     reader: &mut Reader<'a, '_>,
     application: &Application<'a>,
@@ -50,7 +50,7 @@ pub(super) fn build<'a>(
     Ok(())
 }
 
-/// The attributes of an object or sub-object, by position in [`Raw`].
+/// Attributes of an object or sub-object. The discriminant is the position in [`Raw`].
 #[derive(Clone, Copy)]
 pub(super) enum Key {
     Index,
@@ -95,7 +95,7 @@ macro_rules! attributes {
 const OBJECT: [&str; 15] = attributes!("index");
 const SUB_OBJECT: [&str; 15] = attributes!("subIndex");
 
-/// Attributes of a single value. They have no meaning for an object whose values are in its sub-objects.
+/// Attributes that describe a single value, and have no meaning for an object whose values are in its sub-objects.
 const OF_A_VALUE: [Key; 8] = [
     Key::DataType,
     Key::AccessType,
@@ -115,12 +115,12 @@ pub(super) struct Raw<'a> {
 }
 
 impl<'a> Raw<'a> {
-    /// Returns the attribute, which may be missing.
+    /// Returns the attribute `key`, which may be missing.
     pub fn field(&self, key: Key) -> &Given<'a> {
         &self.fields[key as usize]
     }
 
-    /// Returns the attribute if it is present.
+    /// Returns the attribute `key`, or `None` if it is missing or empty.
     pub fn get(&self, key: Key) -> Option<&Given<'a>> {
         self.field(key).non_empty()
     }
@@ -130,7 +130,7 @@ impl<'a> Raw<'a> {
         Some(ObjectType { text, number: number::parse(text, &[]).int(), span: *span })
     }
 
-    /// Returns the span of the attribute, or of the element if the attribute is missing.
+    /// Returns the span of the attribute `key`, or of the element if the attribute is missing.
     pub fn span(&self, key: Key) -> Span {
         self.field(key).span.or(self.origin.span)
     }
@@ -147,22 +147,22 @@ fn is_var(raw: &Raw<'_>) -> bool {
     raw.object_type().is_none_or(|given| given.number == Some(7))
 }
 
-/// The state of building objects.
+/// Builds the groups of a device from its objects.
 pub(super) struct Builder<'a, 'd, 'p> {
     pub reader: &'p mut Reader<'a, 'd>,
     pub application: &'p Application<'a>,
     /// Types of the device, starting with those of the application process.
     pub types: Vec<TypeDef>,
-    /// Types that objects define, by index.
+    /// Types that objects define, by the index of the object.
     pub codes: BTreeMap<u32, Type>,
-    /// Enumerations of allowed values, by position of the parameter.
+    /// Enumerations of allowed values, by the position of their parameter.
     pub enumerations: BTreeMap<usize, TypeId>,
     copies_left: usize,
     copies_exceeded: bool,
 }
 
 impl<'a, 'p> Builder<'a, '_, 'p> {
-    /// Reads the attributes of an object or sub-object, and its children with `child`.
+    /// Reads the attributes of an object or sub-object, and calls `child` for each child element.
     fn raw(
         &mut self,
         tag: &Tag<'a>,
@@ -263,7 +263,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         self.sub_number(group, object);
     }
 
-    /// Adds sub-index 0 to a VAR that has sub-objects but no sub-index 0. Its value is that of the VAR.
+    /// Adds a sub-index 0 with the value of the VAR to a VAR that has sub-objects but no sub-index 0.
     fn value_of_var(&mut self, group: &mut Group, index: u16, raw: &Raw<'a>, view: &View<'p, 'a>) {
         let mut item = self.item(index, 0, raw, view, ObjectCode::Var, None);
         item.name = group.name.clone();
@@ -271,7 +271,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         group.items.insert(0, item);
     }
 
-    /// Keeps attributes that have no meaning for this object, except a mapping or count of `no` or `0`.
+    /// Stores attributes that have no meaning for this object as extensions, except a PDO mapping of `no` or a count of
+    /// `0`.
     fn unused(&mut self, raw: &Raw<'a>, keys: &[Key], extensions: &mut Extensions) {
         for &key in keys {
             let Some(given) = raw.get(key) else { continue };
@@ -293,7 +294,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         given.map_or(ObjectCode::Var, |given| given.of_sub_index(&TERMS, self.reader.diagnostics))
     }
 
-    /// Returns the parameter of an object. Returns no parameter if the limit for copies is exceeded.
+    /// Returns the parameter to which an object refers. Returns no parameter if the limit for copies is exceeded.
     fn view(&mut self, raw: &Raw<'a>) -> View<'p, 'a> {
         let application = self.application;
         let view = application.view(self.reader, raw.field(Key::UniqueIdRef));
@@ -304,8 +305,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Returns whether another `weight` bytes of the application process may be copied. Reports only the first
-    /// refusal.
+    /// Subtracts `weight` bytes from the budget for copies of the application process. Returns false if the budget is
+    /// too small; only the first refusal is reported.
     pub(super) fn charge(&mut self, weight: usize, span: Span) -> bool {
         if let Some(left) = self.copies_left.checked_sub(weight) {
             self.copies_left = left;
@@ -338,12 +339,12 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Reads objFlags: four hexadecimal digits.
+    /// Reads the attribute `objFlags`, which has four hexadecimal digits.
     pub(super) fn flags(&mut self, raw: &Raw<'a>) -> u32 {
         self.reader.hex(raw.field(Key::ObjFlags), u32::MAX, "objFlags").unwrap_or(0)
     }
 
-    /// Returns the type of a component from the type of the whole object.
+    /// Returns the type of a sub-object as a component of the object's type.
     fn component(&self, whole: Type, sub: u8, position: usize, count: usize) -> Option<Type> {
         let Type::Named(TypeId(at)) = underlying(&self.types, whole) else { return None };
         match &self.types.get(at as usize)?.shape {
@@ -353,7 +354,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Sets the sub-index of a structure field from the sub-object that refers to it.
+    /// Sets the sub-index of a structure field to that of the sub-object that refers to the field.
     fn note_field(&mut self, view: &View<'p, 'a>, sub: u8) {
         let Some((structure, field)) = view.parameter().and_then(|parameter| parameter.field) else { return };
         if let Some(Shape::Record(fields)) = self.types.get_mut(structure).map(|def| &mut def.shape) {

@@ -7,7 +7,7 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::Extension;
 use crate::syntax::xml::Tag;
 
-/// Reads a parameter, a parameterTemplate or a varDeclaration, and its uniqueID.
+/// Reads a `parameter`, `parameterTemplate` or `varDeclaration` element. Also returns its uniqueID.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Given<'a>, Parameter<'a>)> {
     const NAMES: [&str; 10] = [
         "uniqueID",
@@ -18,7 +18,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(G
         "offset",
         "multiplier",
         "accessList",
-        // Attribute of a variable.
+        // Only a `varDeclaration` element has the attribute `name`.
         "name",
         "initialValue",
     ];
@@ -71,7 +71,7 @@ fn child<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, parameter: &mut Paramet
     Ok(())
 }
 
-/// Returns the `value` of defaultValue and similar elements. Keeps other attributes.
+/// Returns the attribute `value` of `defaultValue` and similar elements. All other attributes become extensions.
 fn value<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Given<'a>> {
     let [given] = reader.attributes(tag, ["value"])?;
     while let Some(inner) = reader.child(tag)? {
@@ -80,7 +80,7 @@ fn value<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Given<'a>> {
     Ok(given)
 }
 
-/// Reads allowedValues or allowedValuesTemplate.
+/// Reads an `allowedValues` or `allowedValuesTemplate` element.
 pub(super) fn allowed<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Allowed<'a>> {
     let mut allowed = Allowed { template: reader.attribute(parent, "templateIDRef")?, ..Allowed::default() };
     while let Some(tag) = reader.child(parent)? {

@@ -1,4 +1,4 @@
-//! Reads ApplicationProcess: lists of data types, parameters, templates and groups.
+//! Reads the application process: lists of data types, parameters, templates and groups.
 
 use super::application::{dangling, insert, Application};
 use super::reader::{Reader, Texts};
@@ -7,13 +7,13 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{CompactString, Extension};
 use crate::syntax::xml::Tag;
 
-/// Maximum number of characters of a group's label that are kept with its parameters.
+/// Maximum number of characters of a group label that are stored with each parameter of the group.
 const MAX_GROUP_LABEL: usize = 128;
 
-/// References of groups to parameters, with the label of the innermost group.
+/// References of groups to parameters, each with the label of the innermost group.
 type Grouped<'a> = Vec<(Given<'a>, CompactString)>;
 
-/// Reads ApplicationProcess.
+/// Reads an `ApplicationProcess` element.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, application: &mut Application<'a>) -> Read<()> {
     let mut grouped = Grouped::new();
     while let Some(list) = reader.child(parent)? {
@@ -60,7 +60,7 @@ fn template<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, application: &mut Ap
     Ok(())
 }
 
-/// Reads groups, which may be nested.
+/// Reads parameter groups, which may be nested.
 fn groups<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, grouped: &mut Grouped<'a>) -> Read<()> {
     let mut texts = Texts::default();
     let first = grouped.len();

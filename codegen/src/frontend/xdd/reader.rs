@@ -1,4 +1,4 @@
-//! State of reading a file, and functions that read labels and descriptions.
+//! State of the XDD reader, and functions that read labels and descriptions.
 
 use compact_str::CompactString;
 
@@ -9,9 +9,9 @@ use crate::syntax::xml::Tag;
 
 pub(super) type Reader<'a, 'd> = xml::Reader<'a, 'd, Xdd<'d>>;
 
-/// State of the XDD reader.
+/// State of the XDD reader in addition to that of the XML reader.
 pub(super) struct Xdd<'d> {
-    /// Names of the node-ID in formulas.
+    /// Further names of the node-ID in formulas.
     pub aliases: &'d [String],
 }
 
@@ -22,7 +22,7 @@ impl xml::Format for Xdd<'_> {
     const ENGLISH: (&'static str, &'static str) = ("lang", "en");
 }
 
-/// A language from the attribute `lang`; empty if it is missing.
+/// Language in the attribute `lang`; empty if the attribute is missing.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lang(pub CompactString);
 
@@ -36,7 +36,7 @@ impl xml::Language for Lang {
     }
 }
 
-/// Labels and descriptions in the languages of the source.
+/// Labels and descriptions of an element, in the languages of the file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Texts<'a> {
     pub labels: Names<'a, Lang>,
@@ -48,7 +48,7 @@ impl<'a> Reader<'a, '_> {
         Converter { diagnostics: self.diagnostics, aliases: self.format.aliases }
     }
 
-    /// Reads an element that should contain only labels and descriptions to its end.
+    /// Reads an element that should contain only labels and descriptions, up to its end tag.
     pub fn texts(&mut self, parent: &Tag<'a>) -> Read<Texts<'a>> {
         let mut texts = Texts::default();
         while let Some(tag) = self.child(parent)? {
@@ -57,7 +57,7 @@ impl<'a> Reader<'a, '_> {
         Ok(texts)
     }
 
-    /// Reads a label or description, and keeps any other element.
+    /// Reads a label or description into `texts`. Any other element becomes extensions.
     pub fn text_or_keep(&mut self, tag: &Tag<'a>, texts: &mut Texts<'a>) -> Read<()> {
         let names = match tag.name {
             "label" => &mut texts.labels,
@@ -72,7 +72,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Returns the length in bytes of an element that was just read to its end.
+    /// Returns the length in bytes of an element whose end tag was just read.
     pub fn length(&self, tag: &Tag<'a>) -> usize {
         self.cursor.offset().saturating_sub(tag.span.start) as usize
     }

@@ -7,7 +7,7 @@ use crate::diagnostics::codes;
 use crate::ir::{Field, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 
-/// Returns the types of the device for the types of the application process, in the same order.
+/// Converts the data types of the application process to types of the device, in the same order.
 pub(super) fn lower<'a>(reader: &mut Reader<'a, '_>, application: &mut Application<'a>) -> Vec<TypeDef> {
     let order = Order::new(application);
     let mut bits: Vec<Option<u32>> = vec![None; application.types.len()];
@@ -30,10 +30,10 @@ pub(super) fn lower<'a>(reader: &mut Reader<'a, '_>, application: &mut Applicati
     .collect()
 }
 
-/// The order in which types are lowered: each type comes after its parts.
+/// Order in which data types are lowered: each type comes after the types that it refers to.
 struct Order {
     sequence: Vec<usize>,
-    /// Whether a type contains itself or is nested too deeply.
+    /// For each data type, whether it contains itself or is nested too deeply.
     endless: Vec<bool>,
 }
 
@@ -66,7 +66,7 @@ impl Order {
     }
 }
 
-/// Returns the positions of the types that a type consists of.
+/// Returns the positions of the data types that the data type at `at` refers to.
 fn parts<'p, 'a>(application: &'p Application<'a>, at: usize) -> impl Iterator<Item = usize> + use<'p, 'a> {
     let (variables, part) = match &application.types[at].kind {
         DataTypeKind::Struct(variables) => (variables.as_slice(), None),
@@ -81,7 +81,7 @@ fn parts<'p, 'a>(application: &'p Application<'a>, at: usize) -> impl Iterator<I
     })
 }
 
-/// Lowers the type at `at`. The lengths of its parts are known.
+/// Lowers the data type at `at`. The lengths of the types that it refers to are known.
 struct Types<'t, 'a, 'd> {
     reader: &'t mut Reader<'a, 'd>,
     application: &'t Application<'a>,
@@ -127,7 +127,8 @@ impl<'t, 'a> Types<'t, 'a, '_> {
         (Shape::Record(fields), known.then_some(offset))
     }
 
-    /// Returns a part of the type. A part that would make the type endless becomes raw bytes.
+    /// Returns the type to which the data type refers as `ty`. A reference that makes the data type endless becomes raw
+    /// bytes.
     fn part(&mut self, ty: Option<&TypeRef<'a>>) -> Type {
         let Some(ty) = ty else { return Type::Opaque(None) };
         let resolved = self.application.resolve(self.reader, ty);
@@ -149,7 +150,7 @@ impl<'t, 'a> Types<'t, 'a, '_> {
     }
 }
 
-/// Returns a type of `count` units of another type: a string of that length, or an array.
+/// Returns a type derived from `base`: a string of `count` characters or bytes, or an array of `count` elements.
 fn derived_shape(base: Type, count: Option<u32>, bits: Option<u32>) -> (Shape, Option<u32>) {
     let Some(count) = count.filter(|&count| count > 0) else { return (Shape::Alias(base), bits) };
     match base {
@@ -165,7 +166,7 @@ fn derived_shape(base: Type, count: Option<u32>, bits: Option<u32>) -> (Shape, O
 }
 
 impl<'a> Application<'a> {
-    /// Returns the type to which a parameter refers.
+    /// Returns the type to which `ty` refers.
     pub fn resolve(&self, reader: &mut Reader<'_, '_>, ty: &TypeRef<'a>) -> Type {
         match ty {
             TypeRef::Basic(ty, _) => *ty,
@@ -180,10 +181,11 @@ impl<'a> Application<'a> {
     }
 }
 
-/// Returns the basic type of the values of a type. Resolves aliases and enumerations.
+/// Returns the basic type behind aliases, enumerations and scaled types.
 pub(super) fn underlying(types: &[TypeDef], ty: Type) -> Type {
     let mut ty = ty;
-    // Types of the application process have no cycles. The limit is for types that objects define.
+    // Types of the application process have no cycles. The loop is limited because types that objects define may have
+    // cycles.
     for _ in 0..=limits::MAX_XML_DEPTH {
         let Type::Named(TypeId(at)) = ty else { return ty };
         match types.get(at as usize).map(|def| &def.shape) {

@@ -1,4 +1,4 @@
-//! Reads the text of elements.
+//! Reads the text content of elements.
 
 use std::borrow::Cow;
 
@@ -9,13 +9,14 @@ use crate::source::Span;
 use crate::syntax::xml::{Event, Tag, Text};
 
 impl<'a, F: Format> Reader<'a, '_, F> {
-    /// Reads an element that should contain only text to its end. Keeps other content as extensions.
+    /// Reads an element that should contain only text, up to its end tag. Attributes and child elements become
+    /// extensions.
     pub fn text(&mut self, tag: &Tag<'a>) -> Read<Given<'a>> {
         self.keep_attributes(tag)?;
         self.content()
     }
 
-    /// Reads the content of an element, whose attributes were read, to its end.
+    /// Reads the content of an element up to its end tag. The attributes must already have been read.
     pub fn content(&mut self) -> Read<Given<'a>> {
         let mut given = Given::default();
         if let Some(piece) = self.cursor.only_text() {
@@ -51,7 +52,7 @@ impl<'a> Given<'a> {
         };
     }
 
-    /// Trims the content at the end of an element.
+    /// Removes white space after the last piece of the content.
     fn finish(mut self) -> Self {
         if let Cow::Owned(text) = &mut self.text {
             text.truncate(text.trim_ascii_end().len());

@@ -1,4 +1,4 @@
-//! A text with its span.
+//! Text of an attribute or element, with its span.
 
 use std::borrow::Cow;
 
@@ -13,19 +13,19 @@ use crate::syntax::xml::Attribute;
 /// missing.
 #[derive(Clone, Debug, Default)]
 pub struct Given<'a> {
-    /// The text.
+    /// Text of the attribute or element.
     pub text: Cow<'a, str>,
-    /// Span of the text. For an empty attribute, it is the span of the quotation marks.
+    /// Span of the text. The span of an empty attribute includes only its quotation marks.
     pub span: Span,
 }
 
 impl<'a> Given<'a> {
-    /// Returns the value of an attribute with surrounding blanks.
+    /// Returns the value of an attribute, including surrounding blanks.
     pub fn of_attribute(attribute: &Attribute<'a>, diagnostics: &mut Diagnostics) -> Self {
         Given { text: attribute.value(diagnostics), span: attribute.marked_span() }
     }
 
-    /// Returns the text without surrounding blanks.
+    /// Removes surrounding blanks from the text and its span.
     #[inline]
     pub fn trimmed(self) -> Self {
         let is_blank = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_whitespace);
@@ -39,12 +39,13 @@ impl<'a> Given<'a> {
         Given { text, span: self.span }
     }
 
-    /// Returns the value for a missing attribute or element.
+    /// Returns the text of a missing attribute or element.
     pub const fn missing() -> Self {
         Given { text: Cow::Borrowed(""), span: Span::new(FileId(0), 0, 0) }
     }
 
-    /// Returns the span of a part of the text. If the text was decoded, it is the span of the whole text.
+    /// Returns the span of `part`, which must be a slice of the text. For decoded text, returns the span of the whole
+    /// text.
     pub fn span_of(&self, part: &str) -> Span {
         let start = (part.as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
         let is_part = self.text.len().checked_sub(start).is_some_and(|rest| part.len() <= rest);
@@ -70,18 +71,18 @@ impl<'a> Given<'a> {
         (!self.is_empty()).then_some(self)
     }
 
-    /// Returns the text as an extension, or `None` if the text is missing.
+    /// Returns the text as an extension with the key `key`, or `None` if the text is missing.
     pub fn extension(&self, key: &str) -> Option<Extension> {
         let extension = || Extension { key: key.into(), value: self.compact(), span: self.span };
         (!self.is_missing()).then(extension)
     }
 
-    /// Returns the text as an attribute, or `None` if the text is missing.
+    /// Returns the text as an attribute with the key `key`, or `None` if the text is missing.
     pub fn attribute(&self, key: &str) -> Option<(CompactString, CompactString)> {
         (!self.is_missing()).then(|| (key.into(), self.compact()))
     }
 
-    /// Returns the text.
+    /// Returns the text as a `CompactString`.
     pub fn compact(&self) -> CompactString {
         CompactString::from(self.text.as_ref())
     }

@@ -1,15 +1,15 @@
-//! The reader base of the XML formats ESI, XDD and GSDML.
+//! Reader base of the XML formats ESI, XDD and GSDML.
 //!
-//! A front end reads a document with a [`Reader`]. Its [`Format`] has the names and codes of the standard and the
-//! state of the front end. An element is read in three steps:
+//! A front end reads a document with a [`Reader`]. Its [`Format`] contains the names and diagnostic codes of the
+//! standard, and the state of the front end. An element is read in three steps:
 //!
 //! - [`Reader::attributes`] reads its attributes.
 //! - A loop over [`Reader::child`] matches the names of its children.
-//! - [`Reader::unknown`] reads every other child.
+//! - [`Reader::unknown`] reads all other children.
 //!
-//! Facts without a field in the IR are put on the stack [`Reader::extensions`]. An element with extensions in the IR
-//! takes those that were added while it was read ([`Reader::extensions_since`]). The enclosing element takes the
-//! others.
+//! Facts for which the IR has no field are pushed onto the stack [`Reader::extensions`]. If an element has extensions
+//! in the IR, it takes those that were pushed while it was read ([`Reader::extensions_since`]). All other facts go to
+//! the enclosing element.
 //!
 //! | file | subject |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! A text in the languages of the source.
+//! Text in the languages of a file.
 
 use compact_str::CompactString;
 use smallvec::SmallVec;
@@ -7,16 +7,16 @@ use super::Given;
 use crate::ir::{Documentation, LocalText, Texts};
 use crate::source::Span;
 
-/// Language of a text in a format.
+/// Language of a text, as a format declares it.
 pub trait Language {
-    /// Returns the rank of a text in this language as the name; lower is better.
+    /// Returns the priority of this language for the name of an element. The lowest rank has priority.
     fn rank(&self) -> u8;
 
-    /// Returns the BCP 47 tag.
+    /// Returns the BCP 47 tag of the language.
     fn tag(&self) -> CompactString;
 }
 
-/// A text in several languages.
+/// Text in several languages.
 #[derive(Clone, Debug)]
 pub struct Names<'a, L>(SmallVec<[(L, Given<'a>); 1]>);
 
@@ -27,7 +27,7 @@ impl<L> Default for Names<'_, L> {
 }
 
 impl<'a, L: Language> Names<'a, L> {
-    /// Adds a text.
+    /// Adds a text in the language `language`.
     pub fn push(&mut self, language: L, given: Given<'a>) {
         self.0.push((language, given));
     }
@@ -37,33 +37,33 @@ impl<'a, L: Language> Names<'a, L> {
         self.0.append(&mut other.0);
     }
 
-    /// Returns whether there is no text.
+    /// Returns whether there is no text in any language.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Returns the position of the text that is the name.
+    /// Returns the position of the text that serves as the name.
     fn best(&self) -> usize {
         let ranks = self.0.iter().enumerate().map(|(at, (language, _))| (language.rank(), at));
         ranks.min().map_or(0, |(_, at)| at)
     }
 
-    /// Returns the text that is the name.
+    /// Returns the text that serves as the name.
     pub fn given(&self) -> Option<&Given<'a>> {
         self.0.get(self.best()).map(|(_, given)| given)
     }
 
-    /// Returns the name.
+    /// Returns the text that serves as the name, or an empty string if there is no text.
     pub fn name(&self) -> CompactString {
         self.given().map_or_else(CompactString::default, Given::compact)
     }
 
-    /// Returns the span of the name.
+    /// Returns the span of the text that serves as the name.
     pub fn span(&self) -> Span {
         self.given().map_or_else(Span::default, |given| given.span)
     }
 
-    /// Returns the texts that are not the name.
+    /// Returns all texts except the one that serves as the name.
     pub fn others(&self) -> Texts {
         if self.0.len() < 2 {
             return Texts::default();
@@ -72,17 +72,17 @@ impl<'a, L: Language> Names<'a, L> {
         self.all().enumerate().filter(|(at, _)| *at != best).map(|(_, text)| text).collect()
     }
 
-    /// Returns the texts that differ from `name`.
+    /// Returns all texts that differ from `name`.
     pub fn except(&self, name: &str) -> Texts {
         self.all().filter(|text| text.text != name).collect()
     }
 
-    /// Iterates over the texts with their languages.
+    /// Returns an iterator over all texts with their languages.
     pub fn all(&self) -> impl Iterator<Item = LocalText> + '_ {
         self.0.iter().map(|(language, given)| LocalText { language: language.tag(), text: given.compact() })
     }
 
-    /// Returns the texts as documentation of an element.
+    /// Returns the texts as documentation of an element: the name as the text, and the others as translations.
     pub fn documentation(&self) -> Option<Box<Documentation>> {
         let text = self.given()?.text.to_string();
         Some(Box::new(Documentation { text, translations: self.others(), ..Documentation::default() }))
@@ -93,8 +93,8 @@ impl<'a, L: Language> Names<'a, L> {
         self.0.iter().map(|(_, given)| size_of::<LocalText>() + given.text.len()).sum()
     }
 
-    /// Returns whether both have a text in the same language. Also returns true if there are more texts than there
-    /// are languages.
+    /// Returns whether `self` and `other` have a text in the same language. Also returns true if `self` has more texts
+    /// than there are languages.
     pub fn shares_language(&self, other: &Names<'_, L>) -> bool {
         let has = |language: &L| other.0.iter().any(|(other, _)| other.tag() == language.tag());
         self.0.len() > 255 || self.0.iter().any(|(language, _)| has(language))

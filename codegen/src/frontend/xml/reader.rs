@@ -1,4 +1,4 @@
-//! State of reading a file, and functions that read attributes and children of elements.
+//! Reader of a file, and functions that read attributes and children of elements.
 
 use compact_str::CompactString;
 
@@ -9,51 +9,51 @@ use crate::source::{Origin, Span};
 use crate::syntax::xml::{Attribute, Cursor, Tag};
 use crate::text::brief;
 
-/// Result of reading. An error ends the reading of the file with one diagnostic.
+/// Result of reading an element. An error ends the reading of the file with one diagnostic.
 pub type Read<T> = Result<T, Box<Diagnostic>>;
 
-/// Names of attributes as written, with their values.
+/// Names and values of attributes.
 pub type Attributes = Vec<(CompactString, CompactString)>;
 
-/// State of a format, and its settings for reading elements.
+/// State of an XML format, and its settings for reading elements.
 pub trait Format {
     /// Name of the standard in diagnostics.
     const STANDARD: &'static str;
-    /// Code for an element or attribute that the standard does not define.
+    /// Diagnostic code for an element or attribute that the standard does not define.
     const UNKNOWN: &'static Code;
-    /// Code for a value with a form that the standard does not allow.
+    /// Diagnostic code for a value in a form that the standard does not allow.
     const VALUE: &'static Code;
-    /// Code for an attribute name in the wrong case; `None` if case is ignored.
+    /// Diagnostic code for an attribute name in the wrong case; `None` if case is ignored.
     const CASE: Option<&'static Code> = None;
-    /// Whether the key of an unknown attribute includes the name of its element.
+    /// True if the key of an unknown attribute includes the name of its element.
     const ELEMENT_IN_KEY: bool = false;
-    /// Whether an empty attribute or element is treated as missing.
+    /// True if an empty attribute or element is treated as missing.
     const EMPTY_IS_MISSING: bool = true;
-    /// Language attribute of an English text. It is not kept.
+    /// Name and value of the attribute that marks a text as English. This attribute does not become an extension.
     const ENGLISH: (&'static str, &'static str) = ("", "");
 }
 
-/// State of reading a file.
+/// Reader of an XML file in the format `F`.
 pub struct Reader<'a, 'd, F> {
-    /// The document.
+    /// Cursor in the document.
     pub cursor: Cursor<'a>,
-    /// The diagnostics so far.
+    /// Diagnostics reported so far.
     pub diagnostics: &'d mut Diagnostics,
-    /// Stack of facts without a field in the IR; see the module.
+    /// Stack of facts for which the IR has no field; see the module documentation.
     pub extensions: Extensions,
-    /// The last child, if it has attributes and none of them was read.
+    /// Last child element, if none of its attributes has been read.
     pub(super) unread: Option<Tag<'a>>,
-    /// The state of the format.
+    /// State of the front end.
     pub format: F,
 }
 
 impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
-    /// Creates a reader before the first element of `cursor`.
+    /// Creates a reader that starts at the first element after `cursor`.
     pub fn new(cursor: Cursor<'a>, diagnostics: &'d mut Diagnostics, format: F) -> Self {
         Reader { cursor, diagnostics, extensions: Extensions::new(), unread: None, format }
     }
 
-    /// Returns the next child of `parent` and skips the unread rest of the previous one. Reports the unread
+    /// Returns the next child of `parent`, and skips the unread part of the previous child. Reports the unread
     /// attributes of the previous child as unknown.
     pub fn child(&mut self, parent: &Tag<'a>) -> Read<Option<Tag<'a>>> {
         if let Some(tag) = self.unread.take() {
@@ -64,13 +64,13 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         Ok(child)
     }
 
-    /// Skips an element with its attributes.
+    /// Skips an element, including its attributes and content.
     pub fn skip(&mut self, tag: &Tag<'a>) -> Read<()> {
         self.unread = None;
         Ok(self.cursor.skip(tag)?)
     }
 
-    /// Reads each child called `name` of an element that should have no other children.
+    /// Calls `read` for each child called `name`. Reports all other children as unknown.
     pub fn each(
         &mut self,
         parent: &Tag<'a>,
@@ -87,7 +87,7 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         Ok(())
     }
 
-    /// Reads an element without children to its end.
+    /// Reads an element that should have no children, up to its end tag.
     pub fn no_children(&mut self, tag: &Tag<'a>) -> Read<()> {
         if tag.empty {
             return Ok(());
@@ -98,23 +98,23 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         Ok(())
     }
 
-    /// Returns line and span of an element.
+    /// Returns the line and the span of an element.
     pub fn origin(&mut self, tag: &Tag<'a>) -> Origin {
         self.cursor.origin(tag)
     }
 
-    /// Returns the values of the attributes `names`, in that order. Other attributes become extensions.
+    /// Returns the values of the attributes `names`, in this order. All other attributes become extensions.
     pub fn attributes<const N: usize>(&mut self, tag: &Tag<'a>, names: [&str; N]) -> Read<[Given<'a>; N]> {
         self.select(tag, names, Self::given, |reader, attribute| reader.unknown_attribute(tag, attribute))
     }
 
-    /// Returns the values of the attributes `names` with surrounding blanks. Other attributes become extensions.
+    /// Returns the values of the attributes `names` with surrounding blanks. All other attributes become extensions.
     pub fn attributes_with_blanks<const N: usize>(&mut self, tag: &Tag<'a>, names: [&str; N]) -> Read<[Given<'a>; N]> {
         let given = |reader: &mut Self, attribute: &_| Given::of_attribute(attribute, reader.diagnostics);
         self.select(tag, names, given, |reader, attribute| reader.unknown_attribute(tag, attribute))
     }
 
-    /// Returns the values of the attributes `names`, in that order. Adds other attributes to `others`.
+    /// Returns the values of the attributes `names`, in this order. Adds all other attributes to `others`.
     pub fn attributes_and_others<const N: usize>(
         &mut self,
         tag: &Tag<'a>,
@@ -136,14 +136,14 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
     ) -> Read<[Given<'a>; N]> {
         self.unread = None;
         let mut found = [const { Given::missing() }; N];
-        // In most files the attributes have this order.
+        // In most files, the attributes have the order of `names`.
         let mut next = 0;
         if !tag.has_attributes() {
             return Ok(found);
         }
         for attribute in tag.attributes() {
             let attribute = attribute?;
-            // Attributes with a prefix belong to XML Schema or to XML, such as `xml:lang`.
+            // Attributes with a prefix belong to XML Schema or to XML itself, such as `xml:lang`.
             let has_prefix = !attribute.prefix.is_empty();
             if attribute.is_namespace() || (has_prefix && attribute.prefix != "xml") {
                 continue;
@@ -162,7 +162,8 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         Ok(found)
     }
 
-    /// Returns the position of the name that equals the attribute name except for case.
+    /// Returns the position in `names` of the attribute's name, ignoring case. Reports the wrong case if the format has
+    /// a code for it.
     fn in_another_case(&mut self, attribute: &Attribute<'a>, names: &[&str]) -> Option<usize> {
         let at = names.iter().position(|name| name.eq_ignore_ascii_case(attribute.name))?;
         if let (Some(code), Some(name)) = (F::CASE, names.get(at)) {
@@ -173,12 +174,12 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         Some(at)
     }
 
-    /// Returns the value of the attribute `name`. Other attributes become extensions.
+    /// Returns the value of the attribute `name`. All other attributes become extensions.
     pub fn attribute(&mut self, tag: &Tag<'a>, name: &str) -> Read<Given<'a>> {
         self.attributes(tag, [name]).map(|[given]| given)
     }
 
-    /// Returns the value of the attribute `name` of an element that is read later.
+    /// Returns the value of the attribute `name` before the element itself is read.
     pub fn peek(&mut self, tag: &Tag<'a>, name: &str) -> Read<Given<'a>> {
         self.unread = None;
         Ok(tag.attribute(name)?.map_or_else(Given::default, |attribute| self.given(&attribute)))
@@ -192,7 +193,7 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         given
     }
 
-    /// Reads `true`, `false`, 1 or 0. Returns `default` if the value is missing.
+    /// Reads a Boolean value: `true`, `false`, 1 or 0. Returns `default` if the value is missing.
     pub fn flag_or(&mut self, given: &Given<'_>, default: bool) -> bool {
         if given.is_missing() {
             return default;
@@ -208,28 +209,28 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         value
     }
 
-    /// Reads `true`, `false`, 1 or 0. Returns false if the value is missing.
+    /// Reads a Boolean value: `true`, `false`, 1 or 0. Returns false if the value is missing.
     pub fn flag(&mut self, given: &Given<'_>) -> bool {
         self.flag_or(given, false)
     }
 
-    /// Reports a text with a form that the standard does not allow.
+    /// Reports a value in a form that the standard does not allow.
     pub fn bad(&mut self, given: &Given<'_>, what: &str, label: impl Into<String>) {
         let message = format!("`{}` is not a valid {what}", brief(&given.text));
         self.report(F::VALUE, given.span, message, label);
     }
 
-    /// Reports a diagnostic with a label.
+    /// Reports a diagnostic with a message and a label at `span`.
     pub fn report(&mut self, code: &'static Code, span: Span, message: impl Into<String>, label: impl Into<String>) {
         self.diagnostics.push(Diagnostic::new(code, span, message).label(label));
     }
 
-    /// Keeps a text as an extension.
+    /// Stores a text as an extension with the key `key`.
     pub fn note(&mut self, key: &str, given: &Given<'_>) {
         self.extensions.extend(given.extension(key));
     }
 
-    /// Removes and returns the extensions after the first `start`.
+    /// Removes and returns all extensions after the first `start` ones.
     pub fn extensions_since(&mut self, start: usize) -> Extensions {
         if self.extensions.len() <= start {
             return Extensions::new();

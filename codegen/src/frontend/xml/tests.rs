@@ -1,4 +1,4 @@
-//! Tests of the reader base with a minimal format.
+//! Tests of the XML reader base with a minimal format.
 
 use super::{Format, Given, Reader};
 use crate::diagnostics::{codes, Code, Diagnostics};
@@ -16,7 +16,7 @@ impl<const EMPTY: bool> Format for Plain<EMPTY> {
     const ENGLISH: (&'static str, &'static str) = ("lang", "en");
 }
 
-/// Reads the root element of `text` with `read`.
+/// Calls `read` with the root element of `text`.
 fn read<'a, const EMPTY: bool, T>(
     text: &'a str,
     diagnostics: &mut Diagnostics,

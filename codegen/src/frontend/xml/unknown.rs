@@ -1,5 +1,5 @@
-//! Elements and attributes that the standard or the IR does not define. They are kept as extensions, and reported on
-//! request.
+//! Elements and attributes that the standard or the IR does not define. Such elements and attributes become extensions,
+//! and are reported on request.
 
 use compact_str::{format_compact, CompactString};
 
@@ -10,7 +10,7 @@ use crate::syntax::xml::{Attribute, Event, Tag};
 use crate::text::brief;
 
 impl<'a, F: Format> Reader<'a, '_, F> {
-    /// Reports and keeps an element that the standard does not define here.
+    /// Reports an element that the standard does not define in this position, and stores its contents as extensions.
     pub fn unknown(&mut self, tag: &Tag<'a>) -> Read<()> {
         if self.diagnostics.wants(F::UNKNOWN) {
             let message = format!("{} does not define the element <{}> here", F::STANDARD, brief(tag.name));
@@ -19,7 +19,7 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         self.keep(tag)
     }
 
-    /// Reports and keeps an attribute that the standard does not define here.
+    /// Reports an attribute that the standard does not define for this element, and stores it as an extension.
     pub(super) fn unknown_attribute(&mut self, tag: &Tag<'a>, attribute: &Attribute<'a>) {
         if self.diagnostics.wants(F::UNKNOWN) {
             let (element, name) = (brief(tag.name), brief(attribute.name));
@@ -34,7 +34,8 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         self.extensions.push(Extension { key, value, span: attribute.span });
     }
 
-    /// Keeps the attributes and texts of an element and its descendants as `parent/element@attribute` extensions.
+    /// Stores the attributes and texts of an element and its descendants as extensions, with keys such as
+    /// `parent/element@attribute`.
     pub fn keep(&mut self, tag: &Tag<'a>) -> Read<()> {
         self.keep_start(tag)?;
         while self.cursor.depth() >= tag.depth {
@@ -51,7 +52,8 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         Ok(())
     }
 
-    /// Keeps the attributes and texts of an element and its descendants as `element@attribute` attributes.
+    /// Adds the attributes and texts of an element and its descendants to `attributes`, with names such as
+    /// `element@attribute`.
     pub fn keep_as_attributes(&mut self, tag: &Tag<'a>, attributes: &mut Attributes) -> Read<()> {
         let start = self.extensions.len();
         self.keep(tag)?;
@@ -62,7 +64,8 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         Ok(())
     }
 
-    /// Keeps the attributes of a start tag, or the fact that it has none.
+    /// Stores the attributes of a start tag as extensions, or an empty extension for an empty element without
+    /// attributes.
     fn keep_start(&mut self, tag: &Tag<'a>) -> Read<()> {
         let before = self.extensions.len();
         self.keep_attributes(tag)?;
@@ -72,7 +75,7 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         Ok(())
     }
 
-    /// Keeps the attributes of the innermost open element.
+    /// Stores the attributes of the innermost open element as extensions.
     pub fn keep_attributes(&mut self, tag: &Tag<'a>) -> Read<()> {
         self.unread = None;
         if !tag.has_attributes() {

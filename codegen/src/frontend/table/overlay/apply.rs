@@ -19,7 +19,7 @@ use crate::source::{FileId, Source, Span};
 use crate::text::brief;
 use crate::text::glob;
 
-/// Applies the overlay `source` to the devices or modules of `catalog` that it names.
+/// Applies the overlay `source` to the devices or modules in `catalog` that it selects.
 pub fn apply(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     let first = diagnostics.list().len();
     let mut reader = Reader::new(source, file, diagnostics);
@@ -27,18 +27,18 @@ pub fn apply(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: 
         reader.language.clone_from(&overlay.patch.language);
         Applied::new(&overlay).run(&mut reader, catalog);
     }
-    // An error in a row is found again for each device.
+    // An error in a row is reported again for each device, so repeated diagnostics are removed.
     diagnostics.forget_repeated(first);
 }
 
-/// An overlay while it is applied.
+/// State of an overlay while it is applied.
 struct Applied<'o> {
     patcher: RowPatcher<'o>,
-    /// The effect of each row.
+    /// Effect of each row.
     effects: Vec<RowEffect>,
-    /// Definitions that a row used.
+    /// Definitions that rows have used so far.
     used: HashSet<(DefinitionKind, String)>,
-    /// Names of items, for suggestions.
+    /// Names of items, for suggestions in messages.
     names: Vec<CompactString>,
 }
 
@@ -72,12 +72,12 @@ impl<'o> Applied<'o> {
         reader.diagnostics.push(found);
     }
 
-    /// Applies the overlay to devices, and returns their number.
+    /// Applies the overlay to the selected devices, and returns their number.
     fn devices(&mut self, reader: &mut Reader<'_, '_>, catalog: &mut Catalog, applies: &AppliesTable) -> usize {
         let others = OtherDevices::new(catalog, applies);
         let Catalog { devices, submodules, types, .. } = catalog;
         let mut count = 0;
-        // Several devices may share a submodule, which is changed once.
+        // Several devices may share a submodule, which must be changed only once.
         let mut done = HashSet::new();
         for device in devices.iter_mut().filter(|device| is_for(device, applies)) {
             count += 1;
@@ -122,7 +122,7 @@ impl<'o> Applied<'o> {
         effect
     }
 
-    /// Checks the names in rows and definitions against the items to which they were applied.
+    /// Resolves the names in rows and definitions among the items that the overlay changes.
     fn resolve(&mut self, reader: &mut Reader<'_, '_>, groups: &mut Vec<Group>, types: &mut Vec<TypeDef>) {
         let mut device = Device { groups: std::mem::take(groups), types: std::mem::take(types), ..Device::default() };
         self.resolve_in(reader, &device);
@@ -135,7 +135,7 @@ impl<'o> Applied<'o> {
         self.patcher.rows.definitions.mentioned.clear();
     }
 
-    /// Keeps the ambiguities of definitions, each of them once.
+    /// Adds the ambiguities of definitions to `kept`, each of them once.
     fn keep_doubts(&mut self, kept: &mut Doubts) {
         for doubt in std::mem::take(&mut self.patcher.rows.definitions.doubts) {
             if !kept.contains(&doubt) {
@@ -144,7 +144,7 @@ impl<'o> Applied<'o> {
         }
     }
 
-    /// Reports that a changed part also belongs to a device that the overlay does not name.
+    /// Reports that a changed module or submodule is also part of a device that the overlay does not select.
     fn shared(&self, reader: &mut Reader<'_, '_>, name: &str, other: Option<&CompactString>) {
         let Some(other) = other else { return };
         let (name, other) = (brief(name), brief(other));
@@ -172,7 +172,7 @@ impl<'o> Applied<'o> {
             if !machines::machine(reader, name, table, device, &mut budget, &mut self.patcher.rows.references) {
                 break;
             }
-            // The new machine replaces one with the same name.
+            // The new machine replaces an earlier machine with the same name.
             let mut at = 0..;
             device.machines.retain(|machine| at.next().is_some_and(|at| at >= before) || machine.name != name.value);
             if let Some(machine) = device.machines.last_mut() {
@@ -188,7 +188,7 @@ impl<'o> Applied<'o> {
         self.resolve_in(reader, device);
     }
 
-    /// Adds the ambiguities of the overlay as a whole.
+    /// Adds the ambiguities that concern the whole overlay to `kept`.
     fn overlay_doubts(&self, reader: &mut Reader<'_, '_>, kept: &mut Doubts) {
         for doubt in &self.patcher.overlay.patch.doubts {
             let list = super::super::at::OneOrMany(vec![doubt.value.clone()]);
@@ -196,7 +196,7 @@ impl<'o> Applied<'o> {
         }
     }
 
-    /// Reports parts of an overlay for modules that only a device can have.
+    /// Reports axes, codes, machines and procedures in an overlay for modules. Only an overlay for devices can have these keys.
     fn behaviour_of_module(&self, reader: &mut Reader<'_, '_>) {
         let patch = &self.patcher.overlay.patch;
         let axes = patch.axes.iter().map(|axes| ("axes", reader.span(axes)));
@@ -211,7 +211,7 @@ impl<'o> Applied<'o> {
         }
     }
 
-    /// Applies the overlay to modules and submodules, and returns their number.
+    /// Applies the overlay to the selected modules and submodules, and returns their number.
     fn modules(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -255,7 +255,8 @@ impl<'o> Applied<'o> {
         if count > 0 {
             self.overlay_doubts(reader, &mut doubts);
         }
-        // A module cannot have ambiguities: its devices get them, or all devices if none has the module.
+        // A module cannot have ambiguities. The devices with the module get its ambiguities, or all devices if none has the
+        // module.
         let takes = |device: &Device| device.modules.iter().any(|usage| chosen(&wanted, usage.module.0 as usize));
         let any_takes = devices.iter().any(|device| is_for(device, applies) && takes(device));
         for device in devices.iter_mut().filter(|device| is_for(device, applies) && (takes(device) || !any_takes)) {
@@ -264,7 +265,7 @@ impl<'o> Applied<'o> {
         count
     }
 
-    /// Applies the rows to the groups of a device, module or submodule. Returns the maximum effect of a row.
+    /// Applies the rows to the groups of a device, module or submodule. Returns the maximum of their effects.
     fn apply_rows(&mut self, reader: &mut Reader<'_, '_>, mut set: ObjectSet<'_>) -> RowEffect {
         let items = set.groups.iter().flat_map(|group| &group.items);
         self.names.extend(items.map(|item| item.name.clone()));
@@ -289,7 +290,7 @@ impl<'o> Applied<'o> {
         best
     }
 
-    /// Reports rows that match or change nothing, and unused definitions.
+    /// Reports rows that match or change nothing, and definitions that no row uses.
     fn report(&self, reader: &mut Reader<'_, '_>) {
         let errors = reader.diagnostics.error_spans();
         for (row, effect) in self.patcher.overlay.patch.rows.iter().zip(&self.effects) {
@@ -307,7 +308,7 @@ impl<'o> Applied<'o> {
                 RowEffect::Changed => {}
             }
         }
-        // A row that was not applied might have used them.
+        // If a row was not applied, unused definitions are not reported, because the row might use them.
         let whole = Span::new(reader.file, 0, u32::MAX);
         if self.effects.contains(&RowEffect::NoMatch) || reader.diagnostics.error_spans().any_in(whole) {
             return;
@@ -353,7 +354,7 @@ impl<'o> Applied<'o> {
     }
 }
 
-/// The modules and submodules of devices that the overlay does not name, with the name of the first such device.
+/// Modules and submodules of the devices that the overlay does not select, each with the name of the first such device.
 struct OtherDevices {
     modules: HashMap<ModuleId, CompactString>,
     submodules: HashMap<SubmoduleId, CompactString>,
@@ -389,7 +390,8 @@ impl<'c> ObjectSet<'c> {
     }
 }
 
-/// Merges the last table of codes into an earlier one with its name. If both have a code, the last table wins.
+/// Merges the last table of codes into an earlier table with the same name. If both tables contain a code, the row of the last
+/// table applies.
 fn merge(tables: &mut Vec<CodeTable>) {
     let Some(last) = tables.pop() else { return };
     let Some(table) = tables.iter_mut().find(|table| table.name == last.name) else {
@@ -410,7 +412,7 @@ fn merge(tables: &mut Vec<CodeTable>) {
     }
 }
 
-/// Returns whether the overlay names a device.
+/// Returns whether the overlay selects devices by their identity or name.
 fn says_device(applies: &AppliesTable) -> bool {
     let numbers = [applies.vendor_id, applies.product_code, applies.revision];
     applies.device.is_some() || numbers.iter().any(Option::is_some)
@@ -426,7 +428,7 @@ fn is_for(device: &Device, applies: &AppliesTable) -> bool {
         && applies.device.as_ref().is_none_or(by_name)
 }
 
-/// Returns whether `pattern` matches the name, the identifier or the number of a module.
+/// Returns whether `pattern` matches the name, identifier or number of a module.
 fn is_called(pattern: &str, names: [&CompactString; 2], number: u32) -> bool {
     let by_number = super::notation::range(pattern).is_some_and(|(first, _)| first == i128::from(number));
     by_number || names.iter().any(|name| glob(pattern, &name.to_lowercase()))
@@ -439,7 +441,7 @@ fn described(device: &Device) -> String {
     format!("`{}`: vendor {vendor}, product code {product}, revision {revision}", brief(&device.name))
 }
 
-/// Returns the buses of added objects.
+/// Returns the buses for objects that an overlay adds to a device.
 fn buses_of(device: &Device) -> ObjectBuses {
     let by_items = buses_of_items(&device.groups);
     let coe = device.ethercat.is_some() || device.dictionary_only;

@@ -1,4 +1,4 @@
-//! Applies a row of an overlay to a description, and keeps the reason of the change.
+//! Applies a row of an overlay to a description, and records the reason for the change.
 
 use std::collections::BTreeMap;
 
@@ -20,22 +20,22 @@ use crate::ir::{
 use crate::source::Span;
 use crate::text::brief;
 
-/// The objects of a device, a module or a submodule, and the types that they name.
+/// Objects of a device, module or submodule, and the types that the objects use.
 pub(super) struct ObjectSet<'c> {
     pub groups: &'c mut Vec<Group>,
     pub types: &'c mut Vec<TypeDef>,
-    /// The extensions that record the reasons of removals.
+    /// Extensions that record the reasons for removed objects.
     pub extensions: &'c mut Extensions,
-    /// The buses of added objects.
+    /// Buses for objects that the overlay adds.
     pub buses: ObjectBuses,
 }
 
-/// The effect of a row, from none to a change. For several devices, the maximum counts.
+/// Effect of a row, in ascending order. If a row applies to several devices, the maximum effect counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum RowEffect {
-    /// The row matches nothing.
+    /// The row matches no object or item.
     NoMatch,
-    /// The row matches, but everything it states is already in the description.
+    /// The row matches, but the description already contains all of its facts.
     NoChange,
     /// The row changed something, or its error was reported.
     Changed,
@@ -51,14 +51,14 @@ impl From<bool> for RowEffect {
     }
 }
 
-/// The rows of an overlay while they are applied.
+/// Applies the rows of an overlay.
 pub(super) struct RowPatcher<'o> {
     pub overlay: &'o Overlay,
     pub rows: Rows,
 }
 
 impl RowPatcher<'_> {
-    /// Applies a row.
+    /// Applies a row and returns its effect.
     pub(super) fn row(&mut self, reader: &mut Reader<'_, '_>, set: &mut ObjectSet<'_>, row: &PatchRow) -> RowEffect {
         let (adds, removes) = (row.row.value.add == Some(true), row.row.value.remove == Some(true));
         match (row.target, adds, removes) {
@@ -78,7 +78,7 @@ impl RowPatcher<'_> {
         }
     }
 
-    /// Returns the reason of a row: its `why`, or that of the overlay.
+    /// Returns the reason for the change in a row: the row's key `why`, or that of the overlay.
     fn why<'r>(&'r self, row: &'r Row) -> &'r str {
         row.why.as_deref().or(self.overlay.head.value.why.as_deref()).unwrap_or_default()
     }
@@ -135,7 +135,7 @@ impl RowPatcher<'_> {
         effect
     }
 
-    /// Changes the item that the key names: by its name, or by group and item with a slash between them.
+    /// Changes the items that the key of a row names, either by item name, or by group and item name with a slash between them.
     fn named(&mut self, reader: &mut Reader<'_, '_>, groups: &mut [Group], row: &PatchRow) -> RowEffect {
         let mut found = find(groups, &row.key.value);
         if found.len() > 1 {
@@ -149,7 +149,7 @@ impl RowPatcher<'_> {
         self.item(reader, item, row, name, 0).into()
     }
 
-    /// Changes an item. Returns whether the item differs afterward.
+    /// Changes an item. Returns whether the row changed any of its facts.
     fn item(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -166,7 +166,7 @@ impl RowPatcher<'_> {
         let ty = self.new_type(reader, named, patch, item.ty);
         self.further_addresses(reader, item, named, patch);
         self.rows.fill(reader, item, named, patch, ty);
-        // The item keeps its position. Only the spans of new facts are in the overlay.
+        // The item keeps its origin in the description. Only the spans of changed facts are in the overlay.
         item.origin = before.origin;
         item.at.name = patch.name.as_ref().map_or(before.at.name, |name| reader.span(name));
         if patch.doc.is_none() {
@@ -183,7 +183,7 @@ impl RowPatcher<'_> {
         true
     }
 
-    /// Adds addresses in other protocols that the description lacks.
+    /// Adds addresses in other protocols to an item if the description lacks them.
     fn further_addresses(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, row: &Row) {
         let (bits, sub) = (self.rows.definitions.bits_of(item.ty), item.object().map(|(_, sub)| sub));
         let found = self.rows.other_addresses(reader, named, sub, row, 0, bits);
@@ -191,7 +191,7 @@ impl RowPatcher<'_> {
         item.bindings.extend(new);
     }
 
-    /// Returns the new type of an item, if the row gives one.
+    /// Returns the new type of an item, or `None` if the row does not change the type.
     fn new_type(&mut self, reader: &mut Reader<'_, '_>, named: Named<'_>, row: &Row, old: Type) -> Option<Type> {
         if row.ty.is_some() {
             return self.rows.ty(reader, named, row);
@@ -217,7 +217,7 @@ impl RowPatcher<'_> {
         self.rows.meaning(reader, named, row, base)
     }
 
-    /// Returns whether the items differ in nothing but their spans.
+    /// Returns whether both items are equal except for their spans.
     fn is_same(&self, item: &Item, before: &Item) -> bool {
         let types = &self.rows.definitions.types;
         let shape = |ty: Type| match ty {
@@ -230,7 +230,7 @@ impl RowPatcher<'_> {
         same_type && moved == *before
     }
 
-    /// Removes the types beyond `length`, which nothing uses.
+    /// Removes the types after the first `length` types, which no item uses.
     fn forget_types(&mut self, length: usize) {
         self.rows.definitions.types.truncate(length);
         self.rows.definitions.made.retain(|_, made| {
@@ -239,7 +239,7 @@ impl RowPatcher<'_> {
         });
     }
 
-    /// Changes an object whose values are its sub-entries.
+    /// Changes an object as a whole, whose values are its sub-entries.
     fn head(&mut self, reader: &mut Reader<'_, '_>, group: &mut Group, row: &PatchRow, number: u32) -> RowEffect {
         let patch = &row.row.value;
         if super::super::misplaced::of_value(patch).is_some() {
@@ -266,7 +266,7 @@ impl RowPatcher<'_> {
         changed.into()
     }
 
-    /// Changes the name and object code of an object. Returns whether anything differs.
+    /// Changes the name and the object code of an object. Returns whether the name or the object code changed.
     fn group_name(&mut self, reader: &mut Reader<'_, '_>, group: &mut Group, row: &Row, number: u32) -> bool {
         let mut changed = false;
         if let Some(name) = &row.name {
@@ -321,7 +321,7 @@ impl RowPatcher<'_> {
         if exists(set.groups, objects) {
             return RowEffect::NoChange;
         }
-        // The objects themselves may exist, and get a further sub-entry.
+        // The objects may already exist, and then get a further sub-entry.
         let mut dictionary = BTreeMap::new();
         let wanted = objects.indices.0..=objects.indices.1;
         let is_meant = |group: &Group| group.index().is_some_and(|index| wanted.contains(&index));
@@ -342,7 +342,7 @@ impl RowPatcher<'_> {
     }
 }
 
-/// Records the overlay as the origin of the facts that its row changed. An assumed access right stays assumed.
+/// Records the overlay as the origin of the facts that its row changed. An assumed access right stays an assumption.
 fn record(reader: &Reader<'_, '_>, item: &mut Item, before: &Item, row: &PatchRow) {
     let file = reader.source.name().rsplit(['/', '\\']).next().unwrap_or_default();
     let line = reader.origin(&row.key).line;
@@ -364,7 +364,7 @@ fn name_of<T>(given: &TextOr<T>) -> Option<String> {
     }
 }
 
-/// Returns the items that `key` names: by their name, or by group and item with a slash between them.
+/// Returns the items that `key` names, either by item name, or by group and item name with a slash between them.
 fn find<'g>(groups: &'g mut [Group], key: &str) -> Vec<&'g mut Item> {
     let mut found = Vec::new();
     for group in groups {
@@ -375,7 +375,7 @@ fn find<'g>(groups: &'g mut [Group], key: &str) -> Vec<&'g mut Item> {
     found
 }
 
-/// Removes objects, or sub-entries and the objects that have none left.
+/// Removes objects, or sub-entries and the objects that have no sub-entries left.
 fn remove_objects(groups: &mut Vec<Group>, objects: Objects) {
     let is_meant = |index: u16| (objects.indices.0..=objects.indices.1).contains(&index);
     let Some((first, last)) = objects.subs else {
@@ -403,7 +403,7 @@ fn exists(groups: &[Group], objects: Objects) -> bool {
     })
 }
 
-/// Restores the documentation that a row without `doc` must not remove.
+/// Restores the earlier documentation of an item after a row without `doc` changed the item.
 fn keep_words(documentation: &mut Option<Box<Documentation>>, before: Option<&Documentation>) {
     let Some(before) = before else { return };
     match documentation {
@@ -414,7 +414,7 @@ fn keep_words(documentation: &mut Option<Box<Documentation>>, before: Option<&Do
     }
 }
 
-/// Records the reason of a change: in the documentation for readers, and as an extension for programs.
+/// Records the reason for a change: in the documentation for readers, and as an extension for programs.
 fn explain(
     what: &str,
     why: &str,

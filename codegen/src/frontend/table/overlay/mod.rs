@@ -1,9 +1,9 @@
-//! Overlays and profiles: tables that change or complete objects which another file describes.
+//! Overlays and profiles: tables that change or complete the objects of another description.
 //!
 //! | file | subject |
 //! |---|---|
 //! | `apply` | applies an overlay to its devices and modules |
-//! | `change` | applies a row of an overlay, and keeps the reason of the change |
+//! | `change` | applies a row of an overlay, and records the reason for the change |
 //! | `profile` | reads a profile, in tests only: the compiler contains the result (`profiles`) |
 
 mod apply;
@@ -28,22 +28,22 @@ use crate::ir::{Buses, CompactString};
 use crate::source::Span;
 use crate::text::brief;
 
-/// The contents of a table that changes or completes objects of another file.
+/// Contents of an overlay or profile, except the head.
 #[derive(Clone, Debug, Default)]
 struct Patch {
     rows: Vec<PatchRow>,
-    /// The definitions, from which no types are made yet.
+    /// Definitions for which no types have been created yet.
     definitions: Definitions,
     axes: Option<At<AxesTable>>,
     codes: Vec<(At<String>, CodesTable)>,
     machines: Vec<(At<String>, MachineTable)>,
     procedures: Vec<(At<String>, ProcedureTable)>,
     doubts: Vec<At<DoubtTable>>,
-    /// The manual's language.
+    /// Language of the manual.
     language: CompactString,
 }
 
-/// A row and its target.
+/// Row, and the objects or item to which it applies.
 #[derive(Clone, Debug)]
 struct PatchRow {
     key: At<String>,
@@ -51,23 +51,23 @@ struct PatchRow {
     target: Target,
 }
 
-/// The target of a row.
+/// Objects or item to which a row applies.
 #[derive(Clone, Copy, Debug)]
 enum Target {
-    /// Objects or their sub-entries.
+    /// Objects, or sub-entries of objects.
     Objects(Objects),
-    /// The item of this name.
+    /// Item with the name in the key of the row.
     Name,
 }
 
-/// Keys that overlays and profiles have in addition to their head.
+/// Keys that overlays and profiles have besides their head.
 const KEYS: [&str; 9] = ["lexibus", "manual", "units", "enums", "bits", "chapters", "codes", "machines", "doubts"];
 
 /// Keys that only overlays have.
 const OVERLAY_KEYS: [&str; 3] = ["overlay", "axes", "procedures"];
 
 impl Patch {
-    /// Reads a file that has `keys` in addition to the keys of all such files.
+    /// Reads an overlay or profile. `keys` are the keys that only this kind of table has.
     fn read<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>, keys: &[&str]) -> Patch {
         let known: Vec<&str> = keys.iter().chain(&KEYS).copied().collect();
         for (key, node) in &mut table.parts {
@@ -80,7 +80,7 @@ impl Patch {
             reader.language = manual.value.language.as_deref().unwrap_or_default().into();
         }
         let definitions = table.rows(reader, Buses::ALL).definitions;
-        // Reports the errors of definitions once, however many rows use them.
+        // Errors in definitions are reported once, even if many rows use the definitions.
         definitions.clone().make_unused(reader);
         Patch {
             definitions,
@@ -94,7 +94,7 @@ impl Patch {
         }
     }
 
-    /// Returns the state that is needed to fill in rows.
+    /// Returns the state that is needed to add the facts of rows to items.
     fn filler(&self) -> Rows {
         Rows {
             definitions: self.definitions.clone(),
@@ -111,7 +111,7 @@ impl Patch {
     }
 }
 
-/// Returns the rows of all chapters, each with the defaults of its chapter.
+/// Returns the rows of all chapters, with the defaults of their chapters applied.
 fn rows<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>) -> Vec<PatchRow> {
     let mut rows = Vec::new();
     let mut repeats = Repeats::new(None);
@@ -144,7 +144,7 @@ fn rows<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>) -> Vec<PatchRow>
     rows
 }
 
-/// The contents of an overlay.
+/// Contents of an overlay.
 struct Overlay {
     head: At<OverlayTable>,
     patch: Patch,

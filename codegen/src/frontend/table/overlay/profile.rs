@@ -1,4 +1,4 @@
-//! Reads profiles as plain data. The compiler contains the result, so only tests read the tables.
+//! Reads the tables of profiles as plain data. The compiler contains the result, so only tests read the tables.
 
 use std::mem;
 
@@ -14,7 +14,7 @@ use crate::profiles::{Described, Profile, Signal, Telegram};
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::standard_and_clause;
 
-/// Reads a profile.
+/// Reads the table of a profile.
 pub(crate) fn read(source: &Source, diagnostics: &mut Diagnostics) -> Option<Profile> {
     let mut reader = Reader::new(source, FileId(0), diagnostics);
     let reader = &mut reader;
@@ -84,7 +84,7 @@ fn named(row: &PatchRow) -> Named<'_> {
     Named { name: "", key: &row.key, number: 0, end: row.row.end }
 }
 
-/// Returns the bits or values of a row: a definition over the integer type that it names.
+/// Returns the bit field or enumeration of a row over the integer type `ty`.
 fn meaning(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Option<Type>) -> Option<TypeId> {
     let before = rows.definitions.types.len();
     let meaning = rows.meaning(reader, named(row), &row.row.value, ty?);
@@ -99,7 +99,7 @@ fn meaning(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Opt
     }
 }
 
-/// Returns the facts that a row states about its objects, except their addresses and type.
+/// Returns the facts that a row declares about its objects, except their addresses and type.
 fn described(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Option<Type>) -> Described {
     let mut item = Item { ty: ty.unwrap_or(Type::Opaque(None)), ..Item::new(Binding::canopen(0, 0)) };
     rows.fill(reader, &mut item, named(row), &row.row.value, None);
@@ -122,7 +122,8 @@ fn telegram(reader: &mut Reader<'_, '_>, image: &ImageTable) -> Option<Telegram>
     Some(Telegram { name, direction, signals: signals.collect() })
 }
 
-/// Reads a table of codes with its ambiguities. Their origin is empty, because no file of a device contains them.
+/// Reads tables of codes with their ambiguities. The origins are empty because the description of a device does not contain the
+/// tables.
 fn code_tables(reader: &mut Reader<'_, '_>, patch: &Patch, types: &[TypeDef]) -> Vec<(CodeTable, Doubts)> {
     let mut device = Device { types: types.to_vec(), ..Device::default() };
     let mut tables = Vec::new();
@@ -139,7 +140,7 @@ fn code_tables(reader: &mut Reader<'_, '_>, patch: &Patch, types: &[TypeDef]) ->
     tables
 }
 
-/// Reads state machines with their ambiguities. Each device decides later whether their items exist.
+/// Reads state machines with their ambiguities. The items of a state machine are looked up later, in each device.
 fn machines(reader: &mut Reader<'_, '_>, patch: &Patch, types: &[TypeDef]) -> Vec<(StateMachine, Doubts)> {
     let mut device = Device { types: types.to_vec(), ..Device::default() };
     let mut machines = Vec::new();
@@ -205,7 +206,7 @@ mod tests {
         assert!(device.doubts.iter().all(|doubt| doubt.origin == Origin::default()));
     }
 
-    /// The values of an enumeration are the same for a signed and an unsigned object.
+    /// Checks that an enumeration has the same values for signed and unsigned objects.
     #[test]
     fn values_are_the_same_for_either_sign() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../dictionaries/profiles");
