@@ -13,7 +13,7 @@ use divan::Bencher;
 use inputs::{esi, growing, DRIVE};
 use stages::SIZES;
 
-/// Number of devices in a file of 5 MB.
+/// Number of drives in a file of 5 MB.
 const DEVICES: usize = 29;
 
 fn main() {

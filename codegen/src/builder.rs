@@ -26,8 +26,8 @@ use crate::source::Source;
 /// }
 /// ```
 ///
-/// The output is only written if it changes. Cargo runs the script again if the description changes, and shows all
-/// warnings about it.
+/// The output is only written if it changes. Cargo runs the script again if the description changes, and shows the warnings about
+/// the description.
 #[derive(Clone, Debug, Default)]
 pub struct Builder {
     options: Options,
@@ -52,7 +52,7 @@ impl Builder {
         self
     }
 
-    /// Sets the level of a diagnostic code, named `EDS020`, `octal-number`, or `warnings` for all of them.
+    /// Sets the level of a diagnostic code by identifier (`EDS020`) or name (`octal-number`), or of all `warnings`.
     pub fn level(mut self, code: impl Into<String>, level: Level) -> Self {
         self.levels.push((code.into(), level));
         self
@@ -89,7 +89,7 @@ impl Builder {
         self
     }
 
-    /// Sets an option of a register table. Options are choices that its manual leaves open.
+    /// Sets an option of a register table. Options are choices that the manual of the device leaves open.
     pub fn option(mut self, name: impl Into<String>, choice: impl Into<String>) -> Self {
         self.options.choices.push((name.into(), choice.into()));
         self
@@ -123,7 +123,7 @@ impl Builder {
         self
     }
 
-    /// Sets whether each entry has an accessor method. Code with only handles compiles in a third of the time.
+    /// Sets whether each entry has an accessor method. Generated code without accessors compiles in a third of the time.
     pub fn accessors(mut self, accessors: bool) -> Self {
         self.options.rust.accessors = accessors;
         self
@@ -153,7 +153,7 @@ impl Builder {
         self
     }
 
-    /// Prints nothing for cargo, for callers that are not build scripts.
+    /// Suppresses the output for cargo. Use it in programs that are not build scripts.
     pub fn quiet(mut self) -> Self {
         self.quiet = true;
         self
@@ -206,7 +206,7 @@ impl Builder {
         for other in compilation.sources.iter().skip(1) {
             self.tell_cargo(format_args!("cargo::rerun-if-changed={}", other.name()));
         }
-        // The description has more content once these files exist.
+        // Cargo has to run the script again as soon as one of these files exists.
         for path in &compilation.missing {
             self.tell_cargo(format_args!("cargo::rerun-if-changed={}", path.display()));
         }
@@ -257,7 +257,7 @@ fn errors(compilation: &Compilation) -> String {
     shown.collect::<Vec<_>>().join("\n\n")
 }
 
-/// The reason why nothing was generated.
+/// The reason why no code was generated.
 ///
 /// `Debug` prints the same text as `Display`, because the `main` function of a build script shows it.
 pub enum BuildError {
@@ -275,13 +275,13 @@ pub enum BuildError {
         /// Error of the operating system.
         error: std::io::Error,
     },
-    /// The input has errors. Contains the rendered diagnostics.
+    /// The input has errors. The text contains the rendered diagnostics.
     Input(String),
     /// A level is set for an unknown code.
     UnknownCode(UnknownCode),
     /// A filter for devices or objects is invalid.
     Selection(SelectionError),
-    /// `OUT_DIR` is not set, and there is no other output directory.
+    /// `OUT_DIR` is not set, and the caller set no output directory.
     NoOutDir,
 }
 

@@ -1,4 +1,4 @@
-//! The pipeline: source → syntax → IR → passes → output. All entry points use it: build script, macro and command line.
+//! The pipeline: source → syntax → IR → passes → output. The build script, the macro and the command line use this pipeline.
 
 use std::path::PathBuf;
 
@@ -15,17 +15,17 @@ use crate::source::{FileId, Source};
 /// Options of a compilation.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Lenient or strict mode, and levels of codes.
+    /// Lenient or strict mode, and levels of diagnostic codes.
     pub levels: Levels,
     /// Further names for `$NODEID` in formulas, such as `$MY_NODE_ID`.
     pub node_id_aliases: Vec<String>,
-    /// Names and choices of options of a register table.
+    /// Names of register-table options, and the choice for each.
     pub choices: Vec<(String, String)>,
-    /// Selected devices, modules and objects.
+    /// Filters for devices, modules and objects.
     pub select: Selection,
     /// Overlays in the order in which they are applied.
     pub overlays: Vec<Source>,
-    /// Whether profiles are not applied.
+    /// True if profiles are not applied.
     pub no_profiles: bool,
     /// Options of the generated Rust.
     pub rust: RustOptions,
@@ -34,20 +34,21 @@ pub struct Options {
 /// The result of a compilation, or of its first stages.
 #[derive(Debug)]
 pub struct Compilation {
-    /// Files that were read. Spans refer to them.
+    /// Source files that were read. A span refers to a file by its position in this list.
     pub sources: Vec<Source>,
-    /// IR of the files; `None` if they cannot be used.
+    /// IR of the source files; `None` if they cannot be used.
     pub catalog: Option<Catalog>,
     /// Diagnostics, sorted by position.
     pub diagnostics: Diagnostics,
-    /// Format, if the compiler recognized it.
+    /// Format of the description, if the compiler recognized it.
     pub format: Option<Format>,
     /// Files in the same folder that the description refers to, but that do not exist.
     pub missing: Vec<PathBuf>,
 }
 
 impl Compilation {
-    /// Creates the compilation of a file that cannot be read or is not a description. It has diagnostics, but no catalog.
+    /// Creates the compilation of a file that cannot be read or is not a description. The compilation has diagnostics, but no
+    /// catalog.
     pub fn of_diagnostics(source: Source, diagnostics: Diagnostics) -> Self {
         Compilation { sources: vec![source], catalog: None, diagnostics, format: None, missing: Vec::new() }
     }
@@ -88,7 +89,7 @@ pub fn choice(text: &str) -> Option<(String, String)> {
     (!name.is_empty() && !choice.is_empty()).then(|| (name.to_owned(), choice.to_owned()))
 }
 
-/// Message for a usable compilation whose [`Compilation::rust`] is `None`.
+/// Message for a usable compilation for which [`Compilation::rust`] returns `None`.
 pub const NOTHING_TO_GENERATE: &str = "nothing to generate, because the file describes no device and no module";
 
 /// Reads `source` into the IR, without selection, overlays or checks.
@@ -109,13 +110,13 @@ fn file_info(source: &Source, format: Format) -> FileInfo {
     FileInfo { name: source.name().to_owned(), format, encoding: source.encoding(), sha256: source.digest() }
 }
 
-/// Reads `source` and checks it. The result is the input of all back ends.
+/// Reads and checks `source`. The result is the input of all back ends.
 pub fn check(source: Source, options: &Options) -> Compilation {
     checked(read(source, options), options)
 }
 
-/// Applies selection and overlays, and resolves and checks the IR. This is the part of [`check`] after a front end. Use it for a
-/// front end in another crate.
+/// Applies selection and overlays, and resolves and checks the IR. These are the stages of [`check`] after the front end. Use
+/// this function for a front end in another crate.
 pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
     if let Some(catalog) = &mut compilation.catalog {
         options.select.devices_and_modules(catalog, &mut compilation.diagnostics);
@@ -133,7 +134,8 @@ pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
         options.select.objects(catalog, &mut compilation.diagnostics);
         resolve::resolve_references(catalog);
     }
-    // A row of a table can describe several items, like a type or parameter in XML. Its diagnostics are reported once.
+    // A row of a table can describe several items, like a type or parameter in XML. The diagnostics of such a row are reported
+    // once.
     let described_by = compilation.catalog.as_ref().and_then(|catalog| catalog.files.first());
     if described_by.is_some_and(|file| file.format.has_shared_descriptions()) {
         compilation.diagnostics.forget_repeated(0);

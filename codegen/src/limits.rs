@@ -8,13 +8,13 @@ pub use crate::source::{MAX_INPUT_BYTES, MAX_REFERENCES};
 /// Maximum number of diagnostics with the same code in one file. Further diagnostics are only counted.
 pub const MAX_SAME_DIAGNOSTICS: usize = 10_000;
 
-/// Maximum number of items of one row of a register table.
+/// Maximum number of items that one row of a register table describes.
 pub const MAX_REPEAT: u32 = 0x1_0000;
 
-/// Maximum number of items of a file without a separate line.
+/// Maximum number of items in a file that have no separate line, but are derived from another one.
 ///
-/// Sources are CompactSubObj of an EDS, arrays and shared dictionaries of an ESI, and `count` of a register table. Copies of named
-/// values that types of GSDML need are included.
+/// Such items come from CompactSubObj of an EDS, arrays and shared dictionaries of an ESI, and `count` of a register table. The
+/// limit includes copies of named values that types of GSDML need.
 pub const MAX_DERIVED_ITEMS: usize = 200_000;
 
 /// Maximum number of implicit PDOs (CompactPDO) in each direction. CiA 301 defines 512.
@@ -33,13 +33,13 @@ pub const MAX_UNKNOWN_KEYS: usize = 100;
 /// generated for each state.
 pub const MAX_MACHINE_ROWS: usize = 2_048;
 
-/// Maximum length in bytes of a row of a register table with inherited facts, up to which copies are not counted.
+/// Length in bytes up to which copies of a register-table row are not counted, including inherited facts.
 pub const MAX_FREE_ROW_BYTES: usize = 4096;
 
 /// Number of bytes above [`MAX_FREE_ROW_BYTES`] that count as one of [`MAX_DERIVED_ITEMS`] for each copy.
 pub const ROW_BYTES_PER_ITEM: usize = 1024;
 
-/// Maximum number of copied bytes for each byte of the file. Normally, each type has one object.
+/// Maximum number of copied bytes for each byte of the file. Normally, only one object uses each type.
 ///
 /// Copies are data types, flags, vendors and shared files (ESI), parameters (XDD), texts of CompactSubObj and section names (EDS).
 pub const MAX_COPIES_PER_BYTE: usize = 64;
@@ -50,7 +50,7 @@ pub const MAX_XML_DEPTH: usize = 128;
 /// Maximum number of modules that all slots of a description accept, in total.
 pub const MAX_MODULE_USES: usize = 200_000;
 
-/// Maximum number of pages of one kind that each page of a documentation links to.
+/// Maximum number of pages of one kind to which each page of a documentation links.
 pub const MAX_LINKED_PAGES: usize = 200;
 
 /// Number of linked pages before and after a page, if there are more than [`MAX_LINKED_PAGES`].
@@ -71,14 +71,14 @@ pub const MAX_FOLDER_DEPTH: usize = 32;
 /// Maximum number of names of a register table that the lint for names in texts searches for.
 pub const MAX_SEARCHED_NAMES: usize = 5_000;
 
-/// Maximum number of words of texts in which that lint searches.
+/// Maximum number of words in which the lint for names in texts searches.
 pub const MAX_SEARCHED_WORDS: usize = 50_000;
 
-/// Maximum length of a PDO entry with a field in bits.
+/// Maximum length in bits of a PDO entry that becomes a field of a struct.
 pub const MAX_FIELD_BITS: u32 = u16::MAX as u32;
 
-/// Maximum length of a PROFINET record or diagnosis structure with a struct in bytes.
+/// Maximum length in bytes of a PROFINET record or diagnosis structure that becomes a struct.
 pub const MAX_RECORD_BYTES: u32 = u16::MAX as u32;
 
-/// Maximum number of characters of an identifier from a name.
+/// Maximum number of characters of an identifier that is derived from a name.
 pub const MAX_IDENTIFIER: usize = 48;

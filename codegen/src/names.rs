@@ -1,11 +1,11 @@
 //! The namer: gives every element a Rust identifier that is unique in its scope, legal and stable.
 //!
-//! An item has one name in generated code. Its constant, its accessor, its entry in `mappable` and the PDO field that
-//! maps it share the name of the object in the dictionary. The name in the PDO is used only if the dictionary does not
-//! contain the object.
+//! An item has one name in generated code. The item's constant, accessor, entry in `mappable` and the PDO field that maps it
+//! share the name of the object in the dictionary. The name in the PDO is used only if the dictionary does not contain the
+//! object.
 //!
-//! Identifiers are the names of the description in Rust's case. Elements with equal names get their address as a
-//! suffix. The order of elements therefore does not affect identifiers, and a new element does not change the
+//! Identifiers are the names of the description, converted to the case that Rust uses. Elements with equal names get their
+//! address as a suffix. The order of elements therefore does not affect identifiers, and a new element does not change the
 //! identifiers of others unless it shares their name.
 
 use std::borrow::Cow;
@@ -14,7 +14,7 @@ use std::collections::HashSet;
 
 use crate::limits::MAX_IDENTIFIER;
 
-/// Case of the identifiers of a scope.
+/// The case of the identifiers in a scope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Case {
     /// `target_position`, for methods, fields and modules.
@@ -30,7 +30,7 @@ pub struct NameRequest<'a> {
     pub name: &'a str,
     /// Name to use if the description has no usable name, such as `object 6040`.
     pub fallback: String,
-    /// Suffix that distinguishes the element from others with the same name, such as `6040`. It is unique in the scope.
+    /// Suffix that distinguishes the element from others with the same name, such as `6040`. The suffix is unique in the scope.
     pub suffix: String,
 }
 
@@ -42,7 +42,7 @@ impl<'a> NameRequest<'a> {
     }
 }
 
-/// Returns name requests for elements of a kind that only their position, counted from 0, distinguishes.
+/// Returns name requests for elements of one kind. The suffix of an element is its position, counted from 0.
 pub fn numbered<'a>(names: impl IntoIterator<Item = &'a str>, kind: &str) -> Vec<NameRequest<'a>> {
     names.into_iter().enumerate().map(|(position, name)| NameRequest::new(name, kind, position)).collect()
 }
@@ -64,15 +64,15 @@ pub fn identifier(name_request: &NameRequest<'_>, case: Case) -> String {
     plain(name_request, case, MAX_IDENTIFIER)
 }
 
-/// Returns the identifier of an element outside of its owner: the owner's name followed by the element's name. A long
-/// one is cut at a word.
+/// Returns the identifier of an element outside of its owner: the owner's name followed by the element's name. A long identifier
+/// is cut at a word.
 pub fn joined(owner: &str, name: &str) -> String {
     let mut joined = prefixed(&format!("{owner}_"), name);
     cut(&mut joined, MAX_IDENTIFIER);
     joined
 }
 
-/// Makes equal identifiers unique by appending their suffixes. None of the results is in `reserved`.
+/// Makes equal identifiers unique by appending their suffixes. None of the resulting identifiers is in `reserved`.
 pub fn distinct<'s>(
     plain: &[String],
     suffixes: impl Iterator<Item = &'s str>,
@@ -88,7 +88,7 @@ pub fn distinct<'s>(
     let mut used: HashSet<String> =
         plain.iter().filter(|name| count[name.as_str()] == 1 && !is_reserved(name)).cloned().collect();
     let mut names = Vec::with_capacity(plain.len());
-    // Last number appended to each name that stays ambiguous with two suffixes.
+    // The last number that was appended to each name that two suffixes do not make unique.
     let mut numbers: HashMap<String, u32> = HashMap::new();
     for (suffix, name) in suffixes.zip(plain) {
         if count[name.as_str()] == 1 && !is_reserved(name) {
@@ -121,7 +121,7 @@ pub fn distinct<'s>(
 
 fn plain(name_request: &NameRequest<'_>, case: Case, length: usize) -> String {
     let words = words(name_request.name);
-    // Address parts are not split into words. A fallback without words is only used for elements that need no name.
+    // Parts of an address are not split into words. Only elements that need no name have a fallback without words.
     let parts = name_request.fallback.split(' ').filter(|part| !part.is_empty());
     let words = if words.is_empty() { parts.map(|part| address(part).to_ascii_lowercase()).collect() } else { words };
     let mut name = write(&words, case);
@@ -129,7 +129,7 @@ fn plain(name_request: &NameRequest<'_>, case: Case, length: usize) -> String {
     name
 }
 
-/// Cuts a long name. Cuts at a word if one ends in the second half of the name.
+/// Cuts a name to `length` characters, at a word if one ends in the second half of the name.
 fn cut(name: &mut String, length: usize) {
     if name.len() > length {
         let end = name[..length].rfind('_').filter(|&end| end > length / 2).unwrap_or(length);
@@ -196,8 +196,8 @@ fn write(words: &[String], case: Case) -> String {
     name
 }
 
-/// Returns the words of a name in lower-case ASCII. Words end at every character that is no letter or digit, and where
-/// the case changes.
+/// Returns the words of a name in lower-case ASCII. A word ends at each character that is neither letter nor digit, and where the
+/// case changes.
 fn words(name: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut word = String::new();
@@ -268,7 +268,7 @@ fn push_ascii(letter: char, word: &mut String) {
     }
 }
 
-/// Adds the word for a sign with a meaning. All other signs only separate words.
+/// Adds the word for a sign that has a meaning, such as `%` or `°`. All other signs only separate words.
 fn spell(sign: char, words: &mut Vec<String>) {
     let word = match sign {
         '%' => "percent",

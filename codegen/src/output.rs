@@ -5,15 +5,16 @@ use std::io::{Error, ErrorKind, Result, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Returns whether a path exists and is neither a file nor a folder: a pipe, a terminal, a device.
+/// Returns whether a path exists and is neither a file nor a folder, but a pipe, terminal or device.
 pub fn is_no_regular_file(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir())
 }
 
-/// Writes `text` to `path`, unless the file already has this content. This avoids rebuilds of everything that depends on the file.
+/// Writes `text` to `path`, unless the file already has this content. Skipping the write avoids rebuilds of everything that
+/// depends on the file.
 ///
-/// Replaces a regular file atomically: if writing fails, the old file remains. Replaces the target of a symbolic link. Writes to a pipe
-/// or device.
+/// Replaces a regular file atomically: if writing fails, the old file remains. Replaces the target of a symbolic link. Writes
+/// directly to a pipe or device.
 ///
 /// # Errors
 ///

@@ -15,11 +15,11 @@ use crate::text::{edit_distance, glob};
 /// The selected parts of a description. An empty list selects all elements.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Selection {
-    /// Devices.
+    /// Filters that select devices.
     pub devices: Vec<DeviceFilter>,
-    /// Modules and submodules. Built-in ones are always selected.
+    /// Filters that select modules and submodules. Built-in modules and submodules are always selected.
     pub modules: Vec<Filter>,
-    /// Objects.
+    /// Filters that select objects.
     pub objects: Vec<ObjectFilter>,
 }
 
@@ -29,9 +29,9 @@ pub struct Selection {
 /// Upper and lower case are the same, and `*` matches any characters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Filter {
-    /// Text of the user.
+    /// Text of the filter as the user typed it.
     typed: String,
-    /// Text in lower case.
+    /// Text of the filter in lower case.
     text: String,
     number: Option<u32>,
 }
@@ -155,7 +155,8 @@ fn number(text: &str) -> Option<u32> {
     }
 }
 
-/// Keeps the latest revision of each product. Devices without a product code are the same product if they have the same name.
+/// Keeps the latest revision of each product. Devices without a product code belong to the same product if they have the same
+/// name.
 fn keep_latest(catalog: &Catalog, found: &mut Vec<usize>) {
     let product = |at: usize| {
         let device = &catalog.devices[at];
@@ -230,7 +231,7 @@ impl Selection {
         }
     }
 
-    /// Removes objects that are not selected. This is the last step, because names in PDOs come from objects.
+    /// Removes objects that are not selected. Selecting objects is the last step, because names in PDOs come from objects.
     pub(crate) fn objects(&self, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
         if self.objects.is_empty() {
             return;
@@ -289,7 +290,7 @@ impl Selection {
             device.submodules.retain(|used| !used.places.fixed.is_empty() || is(&wanted_submodules, used.submodule.0));
         }
         if catalog.devices.is_empty() {
-            // A file without devices.
+            // If the file has no devices, no device refers to the modules, so the unselected modules are removed directly.
             let mut at = wanted_modules.into_iter();
             catalog.modules.retain(|_| at.next().unwrap_or(false));
         }

@@ -54,7 +54,7 @@ pub(crate) fn numbered(noun: &str, numbers: &[String]) -> String {
     format!("{noun}{} {}", if is_one { "" } else { "s" }, numbers.join(", "))
 }
 
-/// Returns the result of `text` for a number of further elements, or an empty text if there are none.
+/// Returns the result of `text` for a number of further elements, or an empty text if the number is 0.
 pub(crate) fn more(count: usize, text: impl FnOnce(usize) -> String) -> String {
     match count {
         0 => String::new(),

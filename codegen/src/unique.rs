@@ -1,4 +1,4 @@
-//! Unique names.
+//! Makes names unique.
 
 use std::collections::{HashMap, HashSet};
 
@@ -13,7 +13,8 @@ pub struct Unique {
 }
 
 impl Unique {
-    /// Returns `wanted`, or if that is used already, the result of `numbered` for the first unused number, starting with 2.
+    /// Returns `wanted` if it is unused. Otherwise, returns the result of `numbered` for the first unused number, starting with
+    /// 2.
     pub fn unique(&mut self, wanted: &str, numbered: impl Fn(u32) -> CompactString) -> CompactString {
         let mut name = CompactString::from(wanted);
         while !self.used.insert(name.clone()) {

@@ -34,7 +34,7 @@ fn walk(bytes: &[u8], of_tag: impl Fn(&BytesStart<'_>) -> usize) -> usize {
     }
 }
 
-/// Measures the loop that reads events.
+/// Measures the reference loop that reads events.
 pub fn measure(bencher: Bencher<'_, '_>, bytes: Vec<u8>) {
     bencher.counter(BytesCount::new(bytes.len())).bench(|| events(divan::black_box(&bytes)));
 }

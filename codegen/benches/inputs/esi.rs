@@ -9,10 +9,10 @@ pub struct Shape {
     pub single: usize,
 }
 
-/// Shape of a drive. Its dictionary has 256 entries.
+/// Shape of a drive. The drive's dictionary has 256 entries.
 pub const DRIVE: Shape = Shape { records: 24, single: 40 };
 
-/// Shape of a small device. Its dictionary has 37 entries.
+/// Shape of a small device. The device's dictionary has 37 entries.
 pub const SMALL: Shape = Shape { records: 3, single: 10 };
 
 /// Returns an ESI with `devices` devices, in the style and proportions of real files.

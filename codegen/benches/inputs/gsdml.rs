@@ -10,7 +10,7 @@ pub const DRIVE: usize = 25;
 
 const LANGUAGES: [&str; 5] = ["de", "fr", "it", "es", "zh"];
 
-/// Size of a device description.
+/// The size of a device description.
 #[derive(Clone, Copy)]
 struct Size {
     submodules: usize,

@@ -11,7 +11,7 @@ pub fn growing(size: usize) -> Vec<u8> {
     table(10 * size).into_bytes()
 }
 
-/// Returns a table with `registers` 32-bit registers. Each has six bit fields.
+/// Returns a table with `registers` 32-bit registers. Each register has six bit fields.
 pub fn table(registers: usize) -> String {
     let mut text =
         String::from("lexibus = 1\n\n[device]\nname = \"Bench\"\nvendor = \"Bench\"\nbuses = [\"modbus\"]\n\n");

@@ -41,7 +41,7 @@ macro_rules! kinds {
         }
 
         impl NoteKind {
-            /// All kinds.
+            /// All kinds of notes.
             pub const ALL: &'static [NoteKind] = &[$(NoteKind::$kind,)+];
 
             /// Returns the stable name that programs use for the kind.
@@ -104,7 +104,7 @@ kinds! {
     Availability = "availability", "models, versions or options of an item left out";
     /// A reference to another item that contains the same value or a part of it, or a mark as reserved or optional.
     Relation = "relation", "relation to other items, or mark as reserved or optional, left out";
-    /// A description.
+    /// A description of an element.
     Documentation = "documentation", "description left out";
     /// A name or text in another language.
     Language = "language", "text in another language left out";
@@ -112,7 +112,7 @@ kinds! {
     Name = "name", "name of a value left out: the file contains only the name of its object";
     /// An ambiguity in the manual.
     Doubt = "doubt", "ambiguity in the manual left out";
-    /// The category of an object.
+    /// The category of an object: mandatory, optional or conditional.
     Category = "category", "category of an object left out";
     /// An address on another bus.
     Binding = "binding", "address on another bus left out";
@@ -126,9 +126,9 @@ kinds! {
     Duplicate = "duplicate", "object or entry left out: another one has the same address";
     /// An extension attribute for which the format has no key.
     Extension = "extension", "extension attribute left out: the format has no field for it";
-    /// A module.
+    /// A module of another bus.
     Module = "module", "module of another bus left out";
-    /// A slot.
+    /// A slot of a modular device.
     Slot = "slot", "slot left out";
     /// A setting of another bus.
     OtherBus = "other-bus", "settings of another bus left out";
@@ -140,43 +140,43 @@ kinds! {
     Setting = "setting", "setting left out: the format has no field for it";
     /// A date, time, version or comment that the format writes in another form.
     FileInfo = "file-info", "date, time, version or comment of the file converted or left out";
-    /// A text with a line break.
+    /// A text that contains a line break.
     LineBreak = "line-break", "line break in a text written as a space";
-    /// A text that is not ASCII.
+    /// A text with characters other than ASCII.
     NotAscii = "not-ascii", "line with characters other than ASCII: the file is encoded in UTF-8";
     /// A line longer than 255 characters.
     LongLine = "long-line", "line longer than 255 characters";
-    /// A value that never changes.
+    /// A constant, which is written as a read-only value.
     Constant = "constant", "constant written as a read-only value";
-    /// A named range of values.
+    /// A named range of values in an enumeration.
     ValueRange = "value-range", "range of values of an enumeration written as its first value";
-    /// A name that must be unique.
+    /// A repeated name where the format requires a unique name.
     Renamed = "renamed", "repeated name replaced by a unique name";
-    /// A type without a fixed length.
+    /// A type of unknown length.
     UnknownLength = "unknown-length", "type of unknown length written with a length of 0";
-    /// An object of a CAN service, or one that exists on CANopen only.
+    /// An object that belongs to a CAN service or exists on CANopen only.
     CanObject = "can-object", "CANopen-only object, or object for CAN services (COB-ID, SYNC, heartbeat), left out";
     /// An object without entries.
     EmptyObject = "empty-object", "object without entries left out";
-    /// Facts that the format accepts only together with others that are missing.
+    /// A fact that the format accepts only together with other facts that are missing.
     Incomplete = "incomplete", "facts left out: the format requires further facts that are missing";
     /// A word or number whose form the schema does not allow.
     Spelling = "spelling", "word or number left out: the schema does not allow its notation";
     /// A device of another vendor.
     OtherVendor = "other-vendor", "device or module of another vendor left out: a file contains only one vendor";
-    /// A control character.
+    /// A control character in a text.
     Control = "control-character", "control character removed from a text";
-    /// A missing text of an element in a format with a text list.
+    /// A text that is missing, although the format requires it.
     MissingText = "missing-text", "missing text of an element replaced by its name";
     /// A field of a process image that overlaps another field or is not byte-aligned.
     Layout = "layout", "overlapping or unaligned field of cyclic data written as octets or bits";
-    /// An item that is in no process image.
+    /// An item outside of the process images.
     NotInData = "not-in-data", "item outside of the cyclic data left out";
-    /// A little-endian number.
+    /// A little-endian number in cyclic data.
     ByteOrder = "byte-order", "little-endian number written as octets: the bus is big-endian";
 }
 
-/// Collects notes.
+/// Collects the notes of an export.
 #[derive(Default)]
 pub(super) struct Notes(BTreeMap<NoteKind, (usize, String)>);
 
@@ -203,7 +203,7 @@ pub(crate) fn relations(item: &Item) -> usize {
     usize::from(item.related.is_some()) + usize::from(item.is_reserved) + usize::from(item.is_optional)
 }
 
-/// Returns how many parts of a device only a register table can express.
+/// Returns the number of elements of a device that only a register table can express.
 pub(super) fn parts_of_tables(device: &Device) -> usize {
     let parts = [
         device.messages.len(),
@@ -216,7 +216,7 @@ pub(super) fn parts_of_tables(device: &Device) -> usize {
     parts.iter().sum()
 }
 
-/// The object, entry or device that a note is about.
+/// The object, entry or device to which a note applies.
 #[derive(Clone, Copy)]
 pub(super) enum Subject<'a> {
     Device,

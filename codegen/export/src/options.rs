@@ -7,7 +7,7 @@ use super::note::Note;
 /// A fact that the format requires and that neither the source nor the options contain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MissingFact {
-    /// Key of the option for this fact.
+    /// Key of the option that supplies the fact.
     pub key: &'static str,
     /// Description of the fact.
     pub what: &'static str,
@@ -39,7 +39,7 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Collects the facts that are missing.
+/// Collects missing facts during an export.
 #[derive(Default)]
 pub(super) struct MissingFacts(Vec<MissingFact>);
 
@@ -70,9 +70,9 @@ impl MissingFacts {
     }
 }
 
-/// A type whose values an option can have.
+/// A type of option values.
 pub(super) trait OptionValue: Sized {
-    /// Description of the valid values.
+    /// Description of the valid values, for messages.
     const WHAT: &'static str;
 
     fn parse(text: &str) -> Option<Self>;
@@ -117,7 +117,7 @@ pub(super) fn parsed<T: OptionValue>(key: &str, text: &str) -> Result<Option<T>,
     T::parse(text).map(Some).ok_or_else(|| format!("`{key}` must be {}, not `{text}`", T::WHAT))
 }
 
-/// Declares options, each with a key, and a view that records which options an export reads.
+/// Declares options with their keys, and a type that records the options that an export reads.
 macro_rules! options {
     ($(#[$attribute:meta])* pub struct $name:ident, $tracked:ident {
         $(#[doc = $doc:literal] $field:ident: $ty:ty = $key:literal,)+
@@ -145,7 +145,7 @@ macro_rules! options {
             }
         }
 
-        /// The options with a record of the keys that were read.
+        /// The options, and the keys that an export has read.
         pub(super) struct $tracked<'o> {
             options: &'o $name,
             keys: std::cell::RefCell<std::collections::HashSet<&'static str>>,

@@ -6,7 +6,7 @@ use std::fmt::Display;
 use compact_str::CompactString;
 use quick_xml::escape::escape;
 
-/// An XML file in progress. The caller must close each opened element.
+/// An XML file that is being written. The caller must close each opened element.
 pub(super) struct Xml {
     text: String,
     open: Vec<Open>,
@@ -18,7 +18,7 @@ pub(super) struct Xml {
     given: Vec<CompactString>,
 }
 
-/// An open element.
+/// An element that is not closed yet.
 struct Open {
     name: Cow<'static, str>,
     content: Content,
@@ -38,7 +38,7 @@ impl Xml {
         Xml { text, open: Vec::new(), dropped: 0, unnamed: 0, given: Vec::new() }
     }
 
-    /// Starts an element.
+    /// Starts the element `name`.
     pub(super) fn open(&mut self, name: impl Into<Cow<'static, str>>) {
         self.finish_tag(Content::Elements);
         self.given.clear();
@@ -74,12 +74,12 @@ impl Xml {
         }
     }
 
-    /// Writes an attribute unless its value equals `usual`, the value of a missing attribute.
+    /// Writes an attribute unless its value equals `usual`, which readers assume for a missing attribute.
     pub(super) fn unless<T: Display + PartialEq>(&mut self, name: &str, value: T, usual: T) {
         self.optional(name, Some(value).filter(|value| *value != usual));
     }
 
-    /// Writes an attribute unless the text is empty.
+    /// Writes an attribute unless its value is an empty text.
     pub(super) fn text_attribute(&mut self, name: &str, text: &str) {
         self.unless(name, text, "");
     }

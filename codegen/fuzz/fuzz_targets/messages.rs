@@ -6,8 +6,8 @@ use lexibus::framing::Framing;
 use lexibus::message::{Message, Reader, Reply, Request, WriteError, Writer};
 use lexibus_drives::hsd::messages::*;
 
-/// Checks that `write` writes the bytes that were read, up to `known` bytes. Settings with a wrong length and values beyond
-/// their limits can be read for bus diagnosis, but not written.
+/// Checks that `write` writes the bytes that were read, up to `known` bytes. Settings with a wrong length, and values outside of
+/// their limits, can be read for bus diagnosis, but not written.
 fn same(name: &str, data: &[u8], known: usize, write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) {
     let mut again = [0; 2 * MAX_DATA];
     let mut to = Writer::new(&mut again);

@@ -10,7 +10,7 @@ const DESCRIPTIONS: [(&str, &str); 3] = [
 ];
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    // The number of bytes selects the description. Each run uses only one description because runs are slow.
+    // The number of bytes selects the description. Each run compiles only one description, because compiling is slow.
     let (name, description) = DESCRIPTIONS[bytes.len() % DESCRIPTIONS.len()];
     overlaid(name, description, bytes);
 });

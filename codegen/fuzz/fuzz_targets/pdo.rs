@@ -6,7 +6,7 @@ use lexibus_drives::{akd, demo_drive, eco, vector_step};
 macro_rules! process_data {
     ($data:ident $($name:path)*) => { $({
         use $name as Layout;
-        // Set all bits that belong to fields. The others are padding.
+        // `ones` has all bits of fields set. The other bits are padding.
         let ones = Layout::unpack(&[0xFF; Layout::LEN]).expect("so many bytes").pack();
         match Layout::unpack($data) {
             Ok(fields) => {

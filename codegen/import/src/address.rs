@@ -2,7 +2,7 @@
 
 use super::cells::{self, hexadecimal};
 
-/// Modbus table.
+/// A Modbus table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum Table {
     Holding,
@@ -22,18 +22,18 @@ impl Table {
         }
     }
 
-    /// Whether the table consists of bits.
+    /// Returns whether the table consists of bits.
     pub fn is_bits(self) -> bool {
         matches!(self, Table::Coil | Table::Discrete)
     }
 
-    /// Whether the table is read-only.
+    /// Returns whether the table is read-only.
     pub fn is_read_only(self) -> bool {
         matches!(self, Table::Input | Table::Discrete)
     }
 
-    /// Returns the table of a printed address that starts with the digit of a table, such as 40001, and the first address
-    /// of that table.
+    /// Returns the Modbus table of a printed address whose first digit identifies the table, such as 40001. Also returns the
+    /// first address of that table.
     pub fn of_number(number: u32) -> Option<(Table, u32)> {
         let found = match number {
             1..=9_999 => (Table::Coil, 1),
@@ -59,27 +59,27 @@ impl Table {
     }
 }
 
-/// Address in a cell.
+/// The address in a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Address {
     pub first: u32,
-    /// Last address if the cell contains a range.
+    /// Last address, if the cell contains a range.
     pub last: Option<u32>,
-    /// Table if the cell names it.
+    /// Modbus table, if the cell contains it.
     pub table: Option<Table>,
-    /// Lowest and highest bit if the cell addresses a part of a register.
+    /// Lowest and highest bit, if the cell addresses a part of a register.
     pub bits: Option<(u8, u8)>,
     pub is_hex: bool,
 }
 
-/// Notation of the addresses in a column.
+/// The notation of the addresses in a column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Style {
-    /// Whether digits without a prefix are hexadecimal.
+    /// True if digits without a prefix are hexadecimal.
     pub is_hex: bool,
-    /// Whether addresses have the form `4x0001`. In this notation, `0x0001` is a coil.
+    /// True if addresses have the form `4x0001`. In this notation, `0x0001` is a coil.
     pub is_x: bool,
-    /// Whether all addresses end in `.0`, which some spreadsheets add.
+    /// True if all addresses end in `.0`, which some spreadsheets add.
     pub is_fraction: bool,
 }
 
@@ -145,7 +145,7 @@ fn part_of(text: &str) -> (&str, Option<(u8, u8)>) {
     }
 }
 
-/// Parses bit numbers such as `3`, `0-3` or `15..8`. Returns the lowest and highest bit.
+/// Parses bit numbers such as `3`, `0-3` or `15..8`. Returns the lowest and the highest bit.
 pub(super) fn bit_range(text: &str) -> Option<(u8, u8)> {
     let text = text.trim().trim_start_matches(['b', 'B']).trim_matches(['[', ']', ' ']);
     let (one, other) = text.split_once("..").or_else(|| text.split_once(['-', '–', ':', '~'])).unwrap_or((text, text));
@@ -154,7 +154,7 @@ pub(super) fn bit_range(text: &str) -> Option<(u8, u8)> {
     (high < 64).then_some((low, high))
 }
 
-/// Returns the lowest and highest bit of a mask of adjacent bits: `0x00F0` is `(4, 7)`.
+/// Returns the lowest and the highest bit of a mask of adjacent bits: `0x00F0` is `(4, 7)`.
 pub(super) fn mask(text: &str) -> Option<(u8, u8)> {
     let value = u64::try_from(hexadecimal(text, false)?).ok().filter(|&value| value > 0)?;
     let low = value.trailing_zeros();
@@ -163,7 +163,7 @@ pub(super) fn mask(text: &str) -> Option<(u8, u8)> {
     is_whole.then_some((low as u8, (low + bits - 1) as u8))
 }
 
-/// Separates the start and end of a range.
+/// Splits a range into start and end.
 fn ends(text: &str) -> (&str, Option<&str>) {
     let words = ["..", "…", "~", " to ", " bis ", "–", "-", "/", "&", "+"];
     let divided = words.into_iter().find_map(|word| text.split_once(word));
@@ -179,7 +179,7 @@ fn ends(text: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// Returns the last address of a range that starts at `first`. The text may omit the leading digits that both have in
+/// Returns the last address of a range that starts at `first`. The text may omit the leading digits that both addresses have in
 /// common.
 fn end_of(first: u32, last: &str, style: Style) -> Option<u32> {
     let end = single(last, style)?.first;
@@ -197,7 +197,7 @@ fn end_of(first: u32, last: &str, style: Style) -> Option<u32> {
     }
 }
 
-/// Returns whether a number is hexadecimal.
+/// Returns whether a text is a hexadecimal number in this notation.
 fn is_hexadecimal(text: &str, style: Style) -> bool {
     hexadecimal(text, style.is_hex).is_some() && !(style.is_x && x_notation(text.trim()).is_some())
 }

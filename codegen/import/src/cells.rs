@@ -2,7 +2,7 @@
 
 use lexibus_codegen::frontend::table::usual_unit;
 
-/// A number with its notation.
+/// A number in a cell, with its notation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Number {
     Int { value: i128, is_hex: bool },
@@ -125,7 +125,7 @@ pub(super) fn range(text: &str, unit: &str, comma: bool) -> Option<(Number, Numb
     Some((quantity(low, unit, comma)?, quantity(high, unit, comma)?))
 }
 
-/// A scale factor. A factor is ambiguous if the inverse could also be meant.
+/// A scale factor. The factor is ambiguous if its inverse could also be meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Factor {
     pub value: f64,
@@ -202,7 +202,7 @@ pub(super) fn access(text: &str) -> Option<&'static str> {
     })
 }
 
-/// Word and byte order, for the keys `low_first` and `swap` of a register table.
+/// The word and byte order for the keys `low_first` and `swap` of a register table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Order {
     pub low_first: Option<bool>,

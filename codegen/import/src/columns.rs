@@ -34,7 +34,7 @@ fields! {
         "kommentar" "anmerkung" "hinweis" "bedeutung" "funktion" "descrizione" "nota" "commento" "commenti"
         "osservazioni" "significato" "funzione" "descripción" "beschrijving"
     ]
-    /// Register address.
+    /// Address of the register.
     Reg "reg" [
         "register" "address" "addr" "reg" "register address" "modbus address" "modbus register" "modbus"
         "register number" "register no" "reg no" "reg addr" "reg address" "start address" "starting address"
@@ -48,7 +48,7 @@ fields! {
     Index "index" ["index" "object index" "object" "idx" "indice" "objekt" "oggetto" "od index" "canopen index" "obj"]
     /// Sub-index of the object.
     Sub "sub" ["sub" "subindex" "sub index" "sub idx" "subidx" "si" "sottoindice" "sub indice" "unterindex"]
-    /// Parameter number in a command protocol.
+    /// Number of the parameter in a command protocol.
     Param "param" [
         "parameter number" "parameter no" "param" "param no" "par no" "parameternummer" "parameter nr" "pnu"
         "numero parametro"
@@ -58,13 +58,13 @@ fields! {
         "bit" "bit no" "bit number" "bit position" "bit offset" "mask" "bit mask" "bitmask" "bitposition" "bit nr"
         "posizione bit" "maschera"
     ]
-    /// Modbus table.
+    /// Modbus table of the register.
     Table "table" [
         "table" "function code" "functioncode" "fc" "fcode" "modbus function" "register type" "registertype"
         "function codes" "modbus table" "object type" "register table" "modbus function code" "funktionscode"
         "registertyp" "codice funzione" "tipo registro" "tipo di registro" "area" "kind"
     ]
-    /// Data type.
+    /// Data type of the register.
     Type "type" [
         "type" "data type" "datatype" "format" "data format" "value type" "variable type" "numeric type" "dtype"
         "datentyp" "typ" "tipo" "tipo dato" "tipo di dato" "tipo dati" "formato" "tipo variabile"
@@ -108,28 +108,28 @@ fields! {
     ]
     /// Physical value that corresponds to raw value 0.
     Offset "offset" ["offset" "value offset" "bias" "scale offset" "scaling offset" "nullpunkt"]
-    /// Minimum value.
+    /// Minimum of the value.
     Min "min" [
         "min" "minimum" "min value" "minimum value" "low limit" "lower limit" "lower" "low" "minimalwert" "untergrenze"
         "minwert" "minimo" "valore minimo" "val min" "limite inferiore" "mín" "mini"
     ]
-    /// Maximum value.
+    /// Maximum of the value.
     Max "max" [
         "max" "maximum" "max value" "maximum value" "high limit" "upper limit" "upper" "high" "maximalwert" "obergrenze"
         "maxwert" "massimo" "valore massimo" "val max" "limite superiore" "máx" "maxi"
     ]
-    /// Minimum and maximum value.
+    /// Minimum and maximum of the value.
     Range "range" [
         "range" "value range" "min max" "limits" "min max range" "valid range" "setting range" "data range"
         "wertebereich" "bereich" "campo" "intervallo" "range valori" "campo di variazione" "min max value"
     ]
-    /// Default value.
+    /// Default value of the register.
     Default "default" [
         "default" "default value" "initial" "initial value" "factory" "factory default" "factory setting"
         "factory value" "preset" "def" "init" "reset value" "standardwert" "werkseinstellung" "standard"
         "voreinstellung" "vorgabe" "valore di default" "predefinito" "valore predefinito" "valore iniziale"
     ]
-    /// Access rights.
+    /// Access rights of the register.
     Access "access" [
         "access" "r w" "rw" "read write" "ro rw" "access type" "access mode" "access rights" "permission" "permissions"
         "attribute" "attributes" "attr" "mode" "property" "read write property" "r o" "ro" "r" "r w access" "zugriff"
@@ -140,7 +140,7 @@ fields! {
         "invalid" "invalid value" "na value" "n a value" "not available" "error value" "null value" "nan value"
         "not implemented" "ungültig"
     ]
-    /// Names of individual values.
+    /// Names of the register's values.
     Enum "enum" [
         "enum" "enumeration" "values" "enumerations" "options" "option" "possible values" "value description"
         "value meaning" "selection" "states" "codes" "coding" "value list" "values description" "value" "werte"
@@ -204,13 +204,13 @@ pub(super) struct Column {
     pub field: Field,
     /// Position of the column in a line.
     pub at: usize,
-    /// Whether the title says that the numbers are hexadecimal.
+    /// True if the title states that the numbers are hexadecimal.
     pub is_hex: bool,
-    /// Whether the title mentions words instead of bytes, or a gain instead of a divisor.
+    /// Unit or operation in the title: words instead of bytes, or a gain instead of a divisor.
     pub hint: Hint,
 }
 
-/// Additional information in a title.
+/// The unit or operation that a title mentions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Hint {
     #[default]
@@ -336,12 +336,12 @@ fn titles<'m>(record: &Record, map: &'m [(Field, String)]) -> Result<Columns, &'
         list.retain(|column| column.at != at && (column.field != *field || *field == Field::Doc || is_mapped(column)));
         list.push(column_of(*field, at, &normal(record.text(at))));
     }
-    // The last column is the one with the last title.
+    // The last title determines the number of columns.
     let width = record.filled().last().map_or(0, |(at, _)| at + 1);
     Ok(Columns { list, header: None, width })
 }
 
-/// Finds a cell by its text.
+/// Finds the position of a cell by its text.
 trait PositionOf {
     fn position_of(self, is_it: impl Fn(&str) -> bool) -> Option<usize>;
 }
@@ -411,7 +411,7 @@ fn field_of(title: &str) -> Option<Field> {
         let has = |list: &[&str]| words().any(|word| list.contains(&word));
         match () {
             () if words().count() > 4 => None,
-            // For example "Indirizzo CAN EtherCAT Profinet", if another column contains the Modbus address.
+            // An example is "Indirizzo CAN EtherCAT Profinet", if another column contains the Modbus address.
             () if is_fieldbus(title) => Some(Field::Index),
             () if has(&["subindex", "sub"]) => Some(Field::Sub),
             () if has(&["address", "adresse", "indirizzo", "addr"]) => Some(Field::Reg),

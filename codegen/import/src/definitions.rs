@@ -16,7 +16,7 @@ pub(super) struct Definitions {
     list: Vec<Definition>,
     positions: HashMap<(bool, Vec<(String, String)>), usize>,
     names: HashSet<String>,
-    /// The next suffix to try for a repeated name. Storing the suffix avoids counting from 2 again for each repetition.
+    /// Next suffix to try for each repeated name. Storing the suffix avoids counting from 2 again for each repetition.
     next: HashMap<String, u32>,
 }
 

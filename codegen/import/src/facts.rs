@@ -15,10 +15,10 @@ use super::types::{self, Base};
 use super::values::{self, List};
 use super::write::{digits, int, quoted, real};
 
-/// Maximum length of a name that is derived from a description.
+/// Maximum number of characters of a name that is derived from a description.
 const NAME_LETTERS: usize = 60;
 
-/// Maximum length of a unit.
+/// Maximum number of characters of a unit.
 const UNIT_LETTERS: usize = 24;
 
 impl Reader<'_, '_> {
@@ -298,17 +298,16 @@ impl Reader<'_, '_> {
         (!entries.is_empty()).then(|| self.definitions.add(is_bits, entries, name))
     }
 
-    /// Finds a list of values or bits in the documentation.
+    /// Returns the list of values or bits in the documentation, if there is one, with the cell that contains it.
     pub fn described_list<'c>(&self, record: &'c Record, ty: Type) -> Option<(&'c Cell, List)> {
         let columns = self.columns.all(Field::Doc).filter(|_| ty.is_integer());
         let mut cells = columns.filter_map(|column| record.cells.get(column.at));
         cells.find_map(|cell| Some((cell, values::read(&cell.text).filter(|list| list.entries.len() > 1)?)))
     }
 
-    /// Adds the documentation, citation and original name to `facts`.
+    /// Adds the documentation, the citation and the original name to `facts`.
     ///
-    /// The text `more` is appended to the documentation. The documentation excludes the cell at `listed`, which was
-    /// read as a list.
+    /// Appends the text `more` to the documentation. Leaves out the cell at `listed`, which was read as a list.
     pub fn words(
         &mut self,
         record: &Record,

@@ -22,11 +22,11 @@ pub(super) struct Space {
     pub table: Table,
     /// Printed address that corresponds to wire address 0.
     pub first: i64,
-    /// Whether the list determines the value of `first`.
+    /// True if the list determines the value of `first`.
     pub is_first_known: bool,
-    /// Whether all rows transfer the low word first.
+    /// True if all rows transfer the low word first.
     pub low_first: bool,
-    /// Whether the bytes of all rows are swapped.
+    /// True if the bytes of all rows are swapped.
     pub swap: bool,
 }
 
@@ -100,7 +100,7 @@ fn chapters(rows: Vec<Row>) -> Vec<Chapter> {
     for row in rows {
         let table = table_of(&row);
         let same_title = by_title.entry(row.chapter.clone()).or_default();
-        // A line that could not become a row stays with the row above it.
+        // A line that could not become a row stays in the chapter of the row above it.
         match same_title.iter().rfind(|&&at| chapters[at].table == table || row.address.is_err()) {
             Some(&at) => chapters[at].rows.push(row),
             None => {
@@ -197,7 +197,8 @@ fn wire<'r>(rows: impl Iterator<Item = &'r Row>, diagnostics: &mut Diagnostics) 
     found.map(|(difference, _)| difference)
 }
 
-/// Reports object indices whose distance from the register address is unusual. Such indices are probably misprints.
+/// Reports object indices whose distance from the register address is unusual. Indices with an unusual distance are probably
+/// misprints.
 fn objects_agree(rows: &[Row], diagnostics: &mut Diagnostics) {
     let both = |row: &Row| match row.address {
         Ok(RowAddress::Register { printed, object: Some((index, _)), .. }) => Some((printed.first, index)),
@@ -223,7 +224,7 @@ fn objects_agree(rows: &[Row], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns a unique text for each address that a row occupies.
+/// Returns one unique text for each address that a row occupies.
 fn addresses(row: &Row) -> Vec<String> {
     let count = row.count.unwrap_or(1);
     let stride = row.ty.size().unwrap_or(16).div_ceil(16).max(1);
@@ -316,7 +317,7 @@ fn no_address(row: &Row, spaces: &[Space]) -> Option<&'static str> {
 /// Makes repeated names unique by appending numbers.
 fn distinct_names(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     let mut used: HashMap<String, Span> = HashMap::new();
-    // Next number to append to each name.
+    // Next number to append to each repeated name.
     let mut numbers: HashMap<String, u32> = HashMap::new();
     // Limit the number of names that are tried for repeated rows, and thus the running time.
     let mut left = MAX_DERIVED_ITEMS;
@@ -361,7 +362,7 @@ fn names(row: &Row) -> impl Iterator<Item = String> + '_ {
     (1..=count).map(|number| row.name.replace("{n+1}", &number.to_string()))
 }
 
-/// Removes references to rows with scale factors if these rows do not exist.
+/// Removes references to scale-factor rows that do not exist.
 fn references(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     let kept: HashSet<String> = rows.iter().filter(|row| row.address.is_ok()).map(|row| row.name.clone()).collect();
     for row in rows {

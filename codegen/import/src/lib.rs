@@ -56,9 +56,9 @@ use records::{Record, Records};
 /// Options of an import.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Level of each diagnostic code.
+    /// Levels of the diagnostic codes.
     pub levels: Levels,
-    /// Maps columns to fields. A column is identified by its title, or by `#` and its number.
+    /// Fields of columns. A column is identified by its title, or by `#` and its number.
     pub map: Vec<(Field, String)>,
     /// Delimiter between cells. By default, the delimiter with the most recognized titles is used.
     pub delimiter: Option<u8>,
@@ -69,13 +69,13 @@ pub struct Options {
 /// Result of an import.
 #[derive(Debug)]
 pub struct Import {
-    /// The file and its diagnostics. The compilation's catalog is empty.
+    /// The list and its diagnostics. The catalog of the compilation is empty.
     pub compilation: Compilation,
     /// The register table. `None` if there are errors.
     pub table: Option<String>,
 }
 
-/// Identifier of the imported file.
+/// File number of the imported list.
 const FILE: FileId = FileId(0);
 
 /// Converts a list of registers to a register table.

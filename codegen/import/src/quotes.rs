@@ -8,7 +8,7 @@ use super::records::{visible, Cell, Record, Records};
 /// Delimiter between cells.
 pub(super) const TAB: u8 = b'\t';
 
-/// Returns whether a quoted cell contains tabs and line ends. Such a cell contains other cells because of a
+/// Returns whether a quoted cell contains tabs and line ends. A cell with tabs and line ends contains other cells because of a
 /// misinterpreted quotation mark.
 pub(super) fn swallows(records: &Records) -> bool {
     let cells = || records.list.iter().flat_map(|record| &record.cells);

@@ -3,14 +3,14 @@
 use csv_core::{ReadFieldResult, ReaderBuilder};
 use lexibus_codegen::source::{FileId, Source, Span};
 
-/// A cell. Its text and span exclude quotation marks and surrounding whitespace.
+/// A cell. The text and the span exclude quotation marks and surrounding whitespace.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cell {
     pub text: String,
     pub span: Span,
 }
 
-/// A line of cells.
+/// A line of a file, divided into cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Record {
     pub cells: Vec<Cell>,
@@ -33,9 +33,9 @@ impl Record {
 #[derive(Debug, Default)]
 pub(super) struct Records {
     pub list: Vec<Record>,
-    /// The first quotation mark without a closing quotation mark.
+    /// Span of the first quotation mark without a closing quotation mark.
     pub unclosed: Option<Span>,
-    /// Quotation marks that were read as ordinary characters.
+    /// Spans of quotation marks that were read as ordinary characters.
     pub letters: Vec<Span>,
 }
 

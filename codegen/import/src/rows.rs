@@ -15,7 +15,7 @@ use super::records::{Cell, Record, Records};
 use super::style::Style;
 use super::types::{self, Base, Written};
 
-/// The address of a row.
+/// The address of a row in the register table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum RowAddress {
     Register { printed: Address, table: Option<Table>, wire: Option<u32>, object: Option<(u16, Option<u8>)> },
@@ -88,7 +88,7 @@ pub(super) struct Reference {
 pub(super) struct Row {
     pub name: String,
     pub span: Span,
-    /// Text of the original line. The text becomes a comment if the line cannot become a row.
+    /// Original line, which becomes a comment if the line cannot become a row.
     pub text: String,
     pub chapter: Rc<str>,
     /// Address of the row, or the reason why the line cannot become a row.
@@ -98,9 +98,9 @@ pub(super) struct Row {
     pub order: Order,
     pub scale: Option<Reference>,
     pub count: Option<u32>,
-    /// Index of the names of values or bits in `Rows::definitions`.
+    /// Index in `Rows::definitions` of the names of values or bits.
     pub meaning: Option<usize>,
-    /// Other TOML keys with their values.
+    /// Further TOML keys of the row, and their values.
     pub facts: Vec<(&'static str, String)>,
 }
 
@@ -109,9 +109,9 @@ pub(super) struct Row {
 pub(super) struct Rows {
     pub rows: Vec<Row>,
     pub definitions: Vec<Definition>,
-    /// Whether the list contains no access rights.
+    /// True if the list contains no access rights.
     pub no_access: bool,
-    /// Whether addresses have the form `4x0001`. These addresses start at 1.
+    /// True if addresses have the form `4x0001`. These addresses start at 1.
     pub from_one: bool,
 }
 
@@ -124,7 +124,7 @@ pub(super) struct Reader<'r, 'd> {
     pub assumptions: BTreeSet<&'static str>,
     /// Unknown units that have already been reported.
     pub units: BTreeSet<String>,
-    /// Names of all lines in the list.
+    /// Names in all lines of the list.
     pub names: BTreeSet<String>,
     pub definitions: Definitions,
 }
@@ -165,7 +165,7 @@ fn is_index(printed: Address, second: Address) -> bool {
     second.is_hex && !printed.is_hex && second.first > printed.first && (0x1000..=0x9FFF).contains(&second.first)
 }
 
-/// Joins the lines of a text.
+/// Joins the lines of a text with spaces.
 pub(super) fn tidy(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

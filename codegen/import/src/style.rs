@@ -9,13 +9,13 @@ use super::types::{self, Base};
 /// The notation of a list.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Style {
-    /// Whether a comma is the decimal mark.
+    /// True if a comma is the decimal mark.
     pub comma: bool,
-    /// Notations of the first and second address columns.
+    /// Notations of the addresses in the first and in the second address column.
     pub addresses: [address::Style; 2],
-    /// Whether minimum, maximum and default are physical values.
+    /// True if minimum, maximum and default are physical values.
     pub physical: bool,
-    /// Whether the raw value must be divided by the gain.
+    /// True if the raw value must be divided by the gain.
     pub gain_divides: bool,
 }
 
@@ -46,7 +46,7 @@ impl Style {
     }
 }
 
-/// Returns whether an integer has a limit with decimal places. Such a limit is a physical value.
+/// Returns whether a limit of an integer has decimal places. Such a limit is a physical value.
 fn has_physical_limit(record: &Record, columns: &Columns, comma: bool) -> bool {
     let text = |field| columns.get(field).map_or("", |column| record.text(column.at));
     let factors = [Field::Scale, Field::Divisor, Field::Decimals, Field::Exponent];

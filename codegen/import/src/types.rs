@@ -2,7 +2,7 @@
 
 use super::cells::{self, Order};
 
-/// Base type of a value.
+/// The base type of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Base {
     Unsigned,
@@ -11,17 +11,17 @@ pub(super) enum Base {
     Bool,
     Text,
     Bytes,
-    /// Decimal exponent for other registers (SunSpec).
+    /// A decimal exponent that other registers use (SunSpec).
     Exponent,
 }
 
-/// Properties of a type that can be read from its name.
+/// The properties of a type that its name states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Written {
     pub base: Base,
-    /// Size of a value in bits, if the name contains it or usually means this size.
+    /// Size of a value in bits, if the name states the size or usually implies it.
     pub bits: Option<u32>,
-    /// Whether the name contains the size.
+    /// True if the name contains the size.
     pub is_explicit: bool,
     /// Length of a text in bytes.
     pub length: Option<u32>,
@@ -30,7 +30,7 @@ pub(super) struct Written {
     pub order: Order,
 }
 
-/// Words in type names that mean swapped words. ESPHome uses `_R`.
+/// Words in type names that mean swapped words. The suffix `_R` comes from ESPHome.
 const SWAPPED: [&str; 10] = ["swapped", "swap", "swp", "cdab", "lsw", "lswfirst", "r", "rev", "reversed", "inverse"];
 const ORDERS: [&str; 16] = [
     "abcd", "badc", "dcba", "le", "be", "little", "big", "endian", "msw", "mswfirst", "first", "msb", "lsb", "low",
@@ -83,7 +83,7 @@ fn array(text: &str) -> (&str, Option<u32>) {
     match bracket.or_else(times) {
         Some((name, count)) => match count.trim().parse() {
             Ok(count) if count > 0 => (name, Some(count)),
-            // Texts in parentheses without a number of elements: "float32 (CDAB)", "int (16 bit)".
+            // A text in parentheses can be no number of elements: "float32 (CDAB)", "int (16 bit)".
             _ => (text, None),
         },
         None => (text, None),

@@ -2,11 +2,11 @@
 
 use super::cells;
 
-/// An entry of a list.
+/// An entry in a list of named values or bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Entry {
     pub first: i128,
-    /// Last number if the entry describes a range.
+    /// Last number, if the entry describes a range.
     pub last: Option<i128>,
     pub is_hex: bool,
     pub name: String,
@@ -16,7 +16,7 @@ pub(super) struct Entry {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct List {
     pub entries: Vec<Entry>,
-    /// Whether all entries of the cell are marked as bits.
+    /// True if all entries of the cell are marked as bits.
     pub is_bits: bool,
 }
 
@@ -94,7 +94,7 @@ fn head(text: &str, strict: bool) -> Option<Head> {
     Some(Head { first, last, is_hex, is_bit: word.is_some(), length: text.len() - after.len() })
 }
 
-/// Parses an integer at the start of a text. Returns the integer, whether it is hexadecimal, and the remaining text.
+/// Parses an integer at the start of a text. Returns the integer, whether its notation is hexadecimal, and the remaining text.
 fn integer(text: &str) -> Option<(i128, bool, &str)> {
     let sign = usize::from(text.starts_with('-'));
     let digits = text.get(sign..)?;

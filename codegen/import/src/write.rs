@@ -8,7 +8,7 @@ use lexibus_codegen::frontend::table::is_unit;
 use super::layout::{Chapter, Listing, Space};
 use super::rows::{Row, RowAddress};
 
-/// Maximum width to which keys are padded.
+/// Maximum width in characters to which keys are padded.
 const MAX_KEY: usize = 36;
 
 /// Returns a TOML string. Adds a space before a leading `$`, because `$` would refer to an option.

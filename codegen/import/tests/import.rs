@@ -444,7 +444,7 @@ fn names_of_repeated_lines_that_are_taken() {
 
 // Excerpts of the AEC Vector Step manual, as printed. The number in a test's name refers to section 4 of the notes.
 
-/// Imports rows with the column titles of the manual's register tables.
+/// Imports rows of a list that has the column titles of the manual's register tables.
 fn manual(rows: &str) -> Import {
     let titles =
         "Indirizzo Modbus / Profibus\tIndirizzo CAN EtherCAT Profinet\tNome Registro\tDescrizione\tU.M.\tValore \
@@ -531,7 +531,7 @@ fn item_26_a_line_of_dashes() {
 
 #[test]
 fn items_18_and_19_indices_beside_numbers() {
-    // The printed address is the wire address on Modbus. This address is not the base of the object index.
+    // The printed address is the wire address on Modbus. The wire address is not the base of the object index.
     let import = manual(
         "10144\t0x4800\tRalmbuffres\tReset buffer storico allarmi\t\t\t\tUnsigned16\tRW SAVE\n\
          10145\t0x4801\tRalmbuffptr\tPuntatore al buffer storico allarmi\t\t0\t15\tUnsigned16\tRW SAVE\n\

@@ -4,14 +4,14 @@ use compact_str::format_compact;
 
 use lexibus_codegen::unique::Unique;
 
-/// Maximum length of a name that is created from a text.
+/// Maximum number of characters of a name that is created from a text.
 const LONGEST: usize = 40;
 
-/// Unique file names, or unique anchors within a page.
+/// The file names of a site, or the anchors of a page, without duplicates.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     given: Unique,
-    /// Prefix of all anchors in the page or element.
+    /// Prefix of the anchors in the page or element.
     prefix: String,
 }
 

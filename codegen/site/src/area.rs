@@ -10,13 +10,13 @@ use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::ir::{Group, GroupKind, Item, ItemId, TypeDef};
 
-/// Maximum number of items per page.
+/// Maximum number of items on a page.
 const PAGE: usize = 500;
 
 /// A page that lists items.
 #[derive(Debug)]
 pub(super) struct Area {
-    /// File name without extension.
+    /// File name of the page, without extension.
     pub file: String,
     pub title: String,
     pub facts: Vec<String>,
@@ -31,7 +31,7 @@ impl Area {
     }
 }
 
-/// Items under one heading: an object with its entries, or registers.
+/// The items under one heading: an object with its entries, or registers.
 #[derive(Debug, Default)]
 pub(super) struct Section {
     /// Anchor of an object with several entries. If the section has a single row, the row has the anchor.
@@ -179,7 +179,7 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
 }
 
 impl Section {
-    /// Creates a section that has rows but no heading.
+    /// Creates a section with rows, but without a heading.
     pub fn plain(rows: Vec<Row>) -> Self {
         Section { rows, ..Section::default() }
     }

@@ -10,14 +10,14 @@ use super::process::Frame;
 use super::protocol::Protocol;
 use lexibus_codegen::ir::Severity;
 
-/// An ambiguity and the elements that it affects. There are several elements if the source repeats a row.
+/// An ambiguity and the elements that it affects. Several elements are affected if the source repeats a row.
 #[derive(Debug)]
 pub(super) struct Assumption<'d> {
     pub elements: Vec<Element>,
     pub doubt: &'d Doubt,
 }
 
-/// An element with an ambiguity, for a link to it.
+/// An element that an ambiguity affects, for a link to the element.
 #[derive(Debug)]
 pub(super) struct Element {
     /// File and anchor of the element.
@@ -26,7 +26,7 @@ pub(super) struct Element {
     pub title: String,
 }
 
-/// All ambiguities of one severity.
+/// All ambiguities with the same severity.
 #[derive(Debug)]
 pub(super) struct Ranked<'d> {
     pub severity: Severity,
@@ -46,16 +46,16 @@ impl Ranked<'_> {
 
 /// The pages of a device and the ambiguities on them.
 pub(super) struct AmbiguitySources<'d> {
-    /// The first page, and the ambiguities that belong to no single element.
+    /// The first page of the device, and the ambiguities that belong to no single element.
     pub overview: (&'d str, &'d [Doubt]),
     pub areas: &'d [Area],
-    /// The page of process data.
+    /// The page of process data, if there is one.
     pub process: Option<(&'d str, &'d [Frame])>,
-    /// The page of messages.
+    /// The page of messages, if there is one.
     pub protocol: Option<(&'d str, &'d Protocol)>,
-    /// The page of state machines and procedures.
+    /// The page of state machines and procedures, if there is one.
     pub behaviour: Option<(&'d str, &'d Behaviour)>,
-    /// The page of code tables.
+    /// The page of code tables, if there is one.
     pub codes: Option<(&'d str, &'d [Codes])>,
 }
 

@@ -11,7 +11,7 @@ use lexibus_codegen::ir::{BitFieldEntry, BitMeaning, EnumValue, Shape, Trigger, 
 /// Number of bits per row of a drawing.
 const ROW: u32 = 16;
 
-/// Width of the cell of one bit.
+/// Width of the cell of one bit, in pixels.
 const CELL: u32 = 40;
 
 /// The bit grids that a page needs: the first bit and the number of bits of each drawing row.
@@ -28,11 +28,11 @@ pub(super) struct Bits {
 /// A row of a drawing.
 #[derive(Debug)]
 pub(super) struct Row {
-    /// Number of the least significant bit.
+    /// Number of the least significant bit in the row.
     pub first: u32,
     /// Number of bits in the row.
     pub bits: u32,
-    /// Vertical offset from the top of the drawing.
+    /// Vertical offset from the top of the drawing, in pixels.
     pub top: u32,
     pub cells: Vec<Cell>,
 }
@@ -48,7 +48,7 @@ pub(super) struct Field {
     pub values: Vec<Label>,
 }
 
-/// A named value.
+/// A named value of an enumeration, as a page shows it.
 #[derive(Debug)]
 pub(super) struct Label {
     pub number: String,
@@ -69,7 +69,7 @@ pub(super) fn of_type(types: &[TypeDef], ty: Type) -> (Option<Bits>, Vec<Label>)
     }
 }
 
-/// Returns the bit grids of these drawings. Each grid is drawn only once per page.
+/// Returns the bit grids that these drawings need. Each grid is drawn only once per page.
 pub(super) fn grids<'b>(drawings: impl Iterator<Item = &'b Bits>) -> Grids {
     drawings.flat_map(|drawing| &drawing.rows).map(|row| (row.first, row.bits)).collect()
 }

@@ -1,8 +1,8 @@
-//! A cell of a drawing. Its label is the name, shortened to the width of the cell.
+//! A cell of a drawing. The label of the cell is the name, shortened to the width of the cell.
 
 use super::words;
 
-/// Width of a letter and margin around a text, in pixels.
+/// Width of a letter in pixels.
 const LETTER: u32 = 7;
 
 /// A field in a drawing. A field that spans several rows has a cell in each row.
@@ -12,7 +12,7 @@ pub(super) struct Cell {
     pub width: u32,
     pub middle: u32,
     pub label: String,
-    /// Whether the bits are unused.
+    /// True if the bits are unused.
     pub is_padding: bool,
 }
 

@@ -6,7 +6,7 @@ use super::words::{self, PLAIN};
 use lexibus_codegen::facts::code;
 use lexibus_codegen::ir::{CodeTable, Device, Manual, SubjectKind};
 
-/// A code table.
+/// A code table on a page.
 #[derive(Debug)]
 pub(super) struct Codes {
     pub anchor: String,
@@ -17,7 +17,7 @@ pub(super) struct Codes {
     pub rows: Vec<Code>,
 }
 
-/// A row of a code table.
+/// A row of a code table on a page.
 #[derive(Debug)]
 pub(super) struct Code {
     pub anchor: String,

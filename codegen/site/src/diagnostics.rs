@@ -12,16 +12,16 @@ use lexibus_codegen::source::Span;
 /// Maximum number of diagnostics that an item shows for one span. The page with all diagnostics lists the others.
 const MAX_PER_SPAN: usize = 64;
 
-/// A compiler diagnostic on a page.
+/// A diagnostic of the compiler, as a page shows it.
 #[derive(Clone, Debug)]
 pub(super) struct ShownDiagnostic {
-    /// Whether the compiler repaired the source.
+    /// True if the compiler repaired the source.
     pub is_repair: bool,
-    /// `file:line:column`.
+    /// Position in the form `file:line:column`.
     pub position: String,
-    /// Code, such as `EDS020`.
+    /// Code of the diagnostic, such as `EDS020`.
     pub code: &'static str,
-    /// Message, label, notes and help.
+    /// Message, label, notes and help of the diagnostic.
     pub text: String,
 }
 
@@ -29,14 +29,14 @@ pub(super) struct ShownDiagnostic {
 #[derive(Debug, Default)]
 pub(super) struct ShownDiagnostics {
     pub list: Vec<ShownDiagnostic>,
-    /// Sorted spans, each with the position of its diagnostic in the list.
+    /// Spans in sorted order, each with the position of its diagnostic in `list`.
     spans: Vec<(Span, usize)>,
 }
 
 impl ShownDiagnostics {
     pub fn of(compilation: &Compilation) -> Self {
         let mut diagnostics = ShownDiagnostics::default();
-        // Several devices of a file can have the same diagnostic, which is listed once.
+        // A diagnostic that several devices of a file have in common is listed once.
         let mut known = HashMap::new();
         for diagnostic in compilation.diagnostics.list() {
             let shown = shown(compilation, diagnostic);

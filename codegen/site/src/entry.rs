@@ -1,4 +1,4 @@
-//! Table rows. Each item has a row; facts that have no column are shown below the row.
+//! Rows of the item tables. Each item has a row, and facts without a column are shown below the row.
 
 use std::collections::HashMap;
 
@@ -10,7 +10,7 @@ use lexibus_codegen::facts::words::{capital, row_of, sentence, ALLOWED_SHOWN};
 use lexibus_codegen::facts::{address, item, types};
 use lexibus_codegen::ir::{Item, ItemId, Manual, ModbusTable, Severity, Subject, SubjectKind, Type, TypeDef};
 
-/// The table row of an item.
+/// The row of an item in a table.
 #[derive(Debug)]
 pub(super) struct Row {
     pub anchor: String,
@@ -29,12 +29,12 @@ pub(super) struct Row {
     pub description: String,
     /// The facts below the row, one sentence each. They begin with further lines of the description.
     pub facts: Vec<String>,
-    /// The description in other languages.
+    /// Description of the item in other languages.
     pub translations: Vec<(String, String)>,
-    /// Addresses on other buses, with the names of the buses.
+    /// Addresses of the item on other buses, with the names of the buses.
     pub elsewhere: Vec<String>,
     pub doubts: Vec<Doubt>,
-    /// Ambiguities about the bits or values of the type.
+    /// Ambiguities about the bits or values of the item's type.
     pub doubts_of_type: Vec<Doubt>,
     pub diagnostics: Vec<ShownDiagnostic>,
     /// Lines of Rust code that read and write the item.
@@ -48,7 +48,7 @@ pub(super) struct Row {
 /// An ambiguity in the source.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct Doubt {
-    /// Subject of the ambiguity, such as `HomingMethod, 33`. Empty if the ambiguity is shown at its subject.
+    /// Subject of the ambiguity, such as `HomingMethod, 33`; empty if the ambiguity is shown at its subject.
     pub subject: String,
     pub severity: Severity,
     pub says: String,
@@ -105,12 +105,12 @@ pub(super) struct Known<'d> {
     pub doubts: &'d [lexibus_codegen::ir::Doubt],
     /// The Modbus tables with the requests that they accept.
     pub modbus: &'d [ModbusTable],
-    /// Rust code that reads and writes the items.
+    /// Lines of Rust code that read and write each item.
     pub calls: &'d Calls,
     pub diagnostics: &'d ShownDiagnostics,
 }
 
-/// Returns a device's ambiguities about the element with this kind and name.
+/// Returns the ambiguities in `all` that are about the element with this kind and name.
 pub(super) fn about(all: &[lexibus_codegen::ir::Doubt], kind: SubjectKind, name: &str, manual: &Manual) -> Vec<Doubt> {
     doubts(all.iter().filter(|doubt| doubt.is_about(kind, name)), manual)
 }

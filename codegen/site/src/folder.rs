@@ -22,7 +22,7 @@ use lexibus_codegen::backend::rust;
 use lexibus_codegen::facts::{self, pdo, words};
 use lexibus_codegen::ir::{Catalog, Device, Documentation, Group, Manual, Texts};
 
-/// The folder of a catalog.
+/// The writer of the folder that contains the pages of a catalog.
 pub(super) struct Folder {
     pub format: &'static dyn Pages,
     files: Names,
@@ -38,7 +38,7 @@ pub(super) struct Folder {
     last: Rc<Links>,
 }
 
-/// The parts of a device with the file names of their pages.
+/// The contents of a device's pages, and the file names of these pages.
 struct Parts {
     overview: Overview,
     areas: Vec<Area>,
@@ -200,7 +200,7 @@ impl Folder {
         (parts, pages)
     }
 
-    /// Writes the pages that follow the pages of items.
+    /// Writes the pages of a device that follow the pages of items.
     fn further(&mut self, device: &Device, parts: &Parts, frame: &Frameset) {
         if let Some(file) = &parts.process {
             let sync_managers = process::sync_managers(&device.process_data);
@@ -265,7 +265,7 @@ impl Folder {
     }
 }
 
-/// Adds the file names to links to submodules, which can be on other pages.
+/// Completes the links to submodules with file names, because a submodule can be on another page.
 fn link_parts(modules: &mut [ModuleModel], files: &[(String, String)]) {
     let pages: HashMap<String, usize> =
         modules.iter().enumerate().map(|(at, module)| (module.anchor.clone(), at / modules::PAGE)).collect();

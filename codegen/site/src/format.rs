@@ -1,10 +1,10 @@
-//! The formats of documentation.
+//! The output formats of the documentation.
 
 use super::html::Html;
 use super::markdown::Markdown;
 use super::pages::Pages;
 
-/// A format of the documentation.
+/// An output format of the documentation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Format {
     /// HTML pages that a browser opens from disk, with drawings and a search.

@@ -15,7 +15,7 @@ use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
 use super::Page;
 
-/// The style sheet.
+/// The style sheet of the pages.
 const STYLE: &str = include_str!("../templates/site.css");
 
 /// The script. Its parts share one scope, because modules do not load from disk.

@@ -53,7 +53,7 @@ use lexibus_codegen::ir::Catalog;
 use pages::{Content, Frameset, Listed, ListedCatalog};
 use search::Index;
 
-/// A file of the site.
+/// A file of the documentation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Page {
     /// Path relative to the folder of the site, with `/` as the separator.
@@ -65,12 +65,12 @@ pub struct Page {
 /// The tag that marks an HTML page as generated.
 const GENERATOR: &str = "<meta name=\"generator\" content=\"lexibus docs\">";
 
-/// The first characters of other generated files.
+/// The first characters of generated files other than HTML pages.
 const BEGINNINGS: [&str; 4] =
     ["<!-- Written by lexibus docs", "/* Written by lexibus docs", "// Written by lexibus docs", "lexibusIndex("];
 
 impl Page {
-    /// Returns whether this page may replace a file that contains `text`. This is allowed if Lexibus generated the
+    /// Returns whether this page may replace a file that contains `text`. The page may replace the file if Lexibus generated the
     /// file.
     pub fn replaces(&self, text: &str) -> bool {
         match self.path.ends_with(".html") {

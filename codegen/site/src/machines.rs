@@ -10,7 +10,7 @@ use lexibus_codegen::ir::{
     Device, ItemRef, Manual, Outcome, Pattern, Procedure, StateMachine, SubjectKind, Transition,
 };
 
-/// Width of a state in the diagram, in pixels.
+/// Width of a state's box in the diagram, in pixels.
 const WIDTH: u32 = 170;
 const HEIGHT: u32 = 36;
 const GAP: u32 = 30;
@@ -25,14 +25,14 @@ const LETTERS: usize = 22;
 /// Name of the source state of transitions from any state.
 pub(super) const ANY_STATE: &str = "any state";
 
-/// A state machine on a page.
+/// A state machine, as a page shows it.
 #[derive(Debug)]
 pub(super) struct Machine {
     pub title: String,
     pub facts: Vec<String>,
     pub doubts: Vec<Doubt>,
     pub diagram: Option<Diagram>,
-    /// State after power-on.
+    /// Name of the state after power-on.
     pub initial: Option<String>,
     pub states: Vec<Named>,
     pub commands: Vec<Named>,
@@ -40,21 +40,21 @@ pub(super) struct Machine {
     pub matrix: Option<Matrix>,
 }
 
-/// A state or a command.
+/// A state or a command in a list.
 #[derive(Debug)]
 pub(super) struct Named {
     pub name: String,
     pub names: Vec<(String, String)>,
-    /// Bit pattern, such as `xxxx xxxx x01x 0111`. Empty if a value represents the state.
+    /// Bit pattern, such as `xxxx xxxx x01x 0111`; empty if a value represents the state.
     pub bits: String,
     pub facts: String,
 }
 
-/// A transition.
+/// A transition in the list of transitions.
 #[derive(Debug)]
 pub(super) struct TransitionRow {
     pub number: String,
-    /// Source state; `None` means any state.
+    /// Name of the source state; `None` means any state.
     pub from: Option<String>,
     pub to: String,
     pub command: String,
@@ -62,7 +62,7 @@ pub(super) struct TransitionRow {
 }
 
 impl TransitionRow {
-    /// Returns the name of the source state.
+    /// Returns the name of the source state, or the name for any state.
     pub fn source(&self) -> &str {
         self.from.as_deref().unwrap_or(ANY_STATE)
     }
@@ -119,7 +119,7 @@ pub(super) struct Behaviour {
     pub sequences: Vec<Sequence>,
 }
 
-/// Returns the state machines and procedures of a device, if any.
+/// Returns the state machines and procedures of a device, or `None` if it has neither.
 pub(super) fn behaviour(device: &Device, manual: &Manual) -> Option<Behaviour> {
     let machines: Vec<_> = device.machines.iter().map(|each| machine(each, device, manual)).collect();
     let sequences: Vec<_> = device.procedures.iter().map(|procedure| sequence(procedure, device, manual)).collect();
@@ -211,7 +211,7 @@ fn outcome(outcome: &Outcome) -> String {
     }
 }
 
-/// Returns the diagram, or `None` if there is no transition between states.
+/// Returns the diagram of a state machine, or `None` if there is no transition between states.
 fn diagram(machine: &StateMachine) -> Option<Diagram> {
     let position = |name: &str| machine.states.iter().position(|state| state.name == name);
     // An additional box represents any state. The position of this box follows the positions of the states.
@@ -277,8 +277,8 @@ fn diagram(machine: &StateMachine) -> Option<Diagram> {
     Some(Diagram { width, height, boxes: boxes.iter().enumerate().filter_map(state_box).collect(), arrows })
 }
 
-/// Returns the rank of each state: the number of transitions from the first state. Unreachable states follow, starting
-/// with states that no other state leads to.
+/// Returns the rank of each state: the number of transitions from the first state. Unreachable states have higher ranks, starting
+/// with states that no transition leads to.
 fn ranks(count: usize, first: usize, edges: &[(usize, usize, String)]) -> Vec<usize> {
     let mut ranks = vec![None; count];
     let mut last = follow(first, 0, edges, &mut ranks);

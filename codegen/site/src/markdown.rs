@@ -29,7 +29,7 @@ impl askama::filters::Escaper for Escape {
     }
 }
 
-/// Returns whether a character is visible. Control characters and characters that change the display of others are
+/// Returns whether a character is visible. Control characters, and characters that change the display of other characters, are
 /// invisible.
 fn is_visible(letter: char) -> bool {
     let is_invisible =
@@ -48,7 +48,7 @@ macro_rules! templates {
     )+ };
 }
 
-/// File names and titles of other pages.
+/// File names and titles of the pages that a page links to.
 type PageLinks<'p> = &'p [&'p (String, String)];
 
 templates! {
@@ -91,8 +91,8 @@ impl Pages for Markdown {
         ".md"
     }
 
-    /// Returns the file name that repositories display for a folder. Only the top folder uses it, because `mdBook`
-    /// renames such files and breaks links to them.
+    /// Returns the file name that repositories display for a folder. Only the top folder uses this name, because `mdBook` renames
+    /// such files and breaks links to them.
     fn front(&self) -> &'static str {
         "README"
     }

@@ -13,7 +13,7 @@ use lexibus_codegen::ir::{Catalog, Device, Group, GroupKind, IoData, Manual, Mod
 /// Maximum number of modules per page.
 pub(super) const PAGE: usize = 100;
 
-/// A module or submodule on a page.
+/// A module or submodule, as a page shows it.
 #[derive(Debug)]
 pub(super) struct ModuleModel {
     pub anchor: String,
@@ -21,11 +21,11 @@ pub(super) struct ModuleModel {
     pub name: String,
     pub names: Vec<(String, String)>,
     pub facts: Vec<String>,
-    /// The description in other languages.
+    /// Description of the module in other languages.
     pub translations: Vec<(String, String)>,
     pub frames: Vec<Frame>,
     pub sections: Vec<(String, Section)>,
-    /// Names of and links to the submodules that belong to the module.
+    /// Names of the submodules that belong to the module, with links to them.
     pub parts: Vec<(String, String)>,
 }
 

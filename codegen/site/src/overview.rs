@@ -1,4 +1,4 @@
-//! The overview on the first page of a device.
+//! The overview of a device on its first page.
 
 use super::entry::{self, Doubt};
 use super::modules::Slot;
@@ -6,15 +6,15 @@ use super::words::{self, PLAIN};
 use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::ir::{Device, DistributedClocks, EtherCatSettings, FileInfo, Manual, ProfinetSettings};
 
-/// Content of the first page of a device.
+/// The content of a device's first page.
 #[derive(Debug)]
 pub(super) struct Overview {
     pub facts: Vec<String>,
-    /// The description in other languages.
+    /// Description of the device in other languages.
     pub translations: Vec<(String, String)>,
-    /// Names and values of the identity, the buses and the source file.
+    /// Names and values of properties of the identity, the buses and the source file.
     pub identity: Vec<(&'static str, String)>,
-    /// Models with their constants.
+    /// Models of the device with their constants.
     pub models: Vec<Model>,
     pub doubts: Vec<Doubt>,
 }
@@ -24,12 +24,12 @@ pub(super) struct Overview {
 pub(super) struct Contents {
     /// File name, title and number of items of each area.
     pub areas: Vec<(String, String, usize)>,
-    /// Addresses and titles of the cyclic data.
+    /// Links to the cyclic data, with their titles.
     pub frames: Vec<(String, String)>,
     pub slots: Vec<Slot>,
 }
 
-/// A model in a device family.
+/// A model of a device family, as a page shows it.
 #[derive(Debug)]
 pub(super) struct Model {
     pub name: String,

@@ -28,7 +28,7 @@ pub(super) struct Frameset {
     pub device_pages: Rc<Links>,
     /// Links to the pages that all devices share.
     pub shared: Rc<Links>,
-    /// Languages in which names are available.
+    /// Languages in which the pages show names.
     pub languages: Vec<String>,
 }
 
@@ -108,7 +108,7 @@ pub(super) enum Content<'p> {
     Modules(&'p [ModuleModel]),
     Assumptions(&'p [Ranked<'p>]),
     Diagnostics(&'p [ShownDiagnostic]),
-    /// A list of devices.
+    /// A list of devices, in a catalog or in the site.
     List {
         devices: &'p [Listed],
         /// Relative path from the page to the site's folder.
@@ -118,9 +118,9 @@ pub(super) enum Content<'p> {
     },
 }
 
-/// Writes the pages of a format.
+/// An output format, which writes the text of each page.
 pub(super) trait Pages {
-    /// Returns the file extension, including the dot.
+    /// Returns the extension of the page files, including the dot.
     fn ending(&self) -> &'static str;
     /// Returns the file name of a site's first page, without extension.
     fn front(&self) -> &'static str;

@@ -20,7 +20,7 @@ const HEIGHT: u32 = 40;
 /// Maximum number of rows in a drawing. The list below the drawing contains all entries.
 const MOST_ROWS: usize = 64;
 
-/// A PDO or process image.
+/// A PDO or process image, as a page shows it.
 #[derive(Debug, Default)]
 pub(super) struct Frame {
     pub anchor: String,
@@ -28,21 +28,21 @@ pub(super) struct Frame {
     pub facts: Vec<String>,
     pub doubts: Vec<super::entry::Doubt>,
     pub rows: Vec<Row>,
-    /// Height of the drawing.
+    /// Height of the drawing in pixels.
     pub height: u32,
     pub entries: Vec<Entry>,
 }
 
-/// A drawing row of eight bytes.
+/// A row of the drawing, with eight bytes.
 #[derive(Debug)]
 pub(super) struct Row {
-    /// Number of the first byte.
+    /// Number of the first byte in the row.
     pub first: u32,
     pub top: u32,
     pub cells: Vec<Cell>,
 }
 
-/// A row of the entry list.
+/// A row in the list of entries.
 #[derive(Debug)]
 pub(super) struct Entry {
     pub position: String,
@@ -54,7 +54,7 @@ pub(super) struct Entry {
     pub bits: u32,
 }
 
-/// A sync manager of an EtherCAT slave.
+/// A sync manager of an EtherCAT slave, as a page shows it.
 #[derive(Debug)]
 pub(super) struct SyncManager {
     pub number: u8,
@@ -66,7 +66,7 @@ pub(super) struct SyncManager {
 /// Data that all PDOs of a device or module share.
 #[derive(Clone, Copy)]
 pub(super) struct About<'d> {
-    /// Buses on which the objects exist.
+    /// Buses on which the objects of the device or module exist.
     pub buses: ObjectBuses,
     pub manual: &'d Manual,
     /// Ambiguities of the device.

@@ -10,7 +10,7 @@ use lexibus_codegen::facts::types;
 use lexibus_codegen::ir::Manual;
 use lexibus_codegen::ir::{Completion, Device, Framing, Message, MessageField, MessageValue, TypeDef};
 
-/// The command protocol of a device.
+/// The command protocol of a device, as a page shows it.
 #[derive(Debug)]
 pub(super) struct Protocol {
     /// Names and values of the framing properties.
@@ -19,7 +19,7 @@ pub(super) struct Protocol {
     pub messages: Vec<MessageModel>,
 }
 
-/// A request and its reply.
+/// A message, as a page shows it: a request and its reply.
 #[derive(Debug)]
 pub(super) struct MessageModel {
     pub anchor: String,
@@ -32,22 +32,22 @@ pub(super) struct MessageModel {
     pub examples: Vec<Example>,
 }
 
-/// A field of a frame.
+/// A field in the list of a frame's fields.
 #[derive(Debug, Default)]
 pub(super) struct Part {
-    /// Length, such as `2 bytes` or `4 bits`; empty if unknown.
+    /// Length of the field, such as `2 bytes` or `4 bits`; empty if unknown.
     pub length: String,
     pub label: String,
     pub facts: String,
-    /// Class in the style sheet: `c` for fixed bytes, `v` for values, `e` for copies, `r` for repetitions.
+    /// CSS class of the field: `c` for fixed bytes, `v` for values, `e` for copies, `r` for repetitions.
     pub kind: &'static str,
-    /// Number of repetitions that contain the field.
+    /// Number of nested repetitions that contain the field.
     pub depth: usize,
     pub bits: Option<Bits>,
     pub labels: Vec<Label>,
 }
 
-/// Example frames from the manual.
+/// An example of a request and its reply from the manual.
 #[derive(Debug)]
 pub(super) struct Example {
     pub request: String,

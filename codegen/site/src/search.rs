@@ -7,10 +7,10 @@ use std::fmt::Write;
 
 use super::words::one_line as line;
 
-/// Number of characters of a description that are searchable.
+/// Number of characters at the start of a description that are searchable.
 const WORDS: usize = 80;
 
-/// A search index.
+/// The search index of a catalog or site.
 #[derive(Debug, Default)]
 pub(super) struct Index {
     /// Pages, each with the title of its device and its entries.
@@ -31,7 +31,7 @@ struct Page {
 /// An entry in the index: its anchor, and the positions of its number and text in the lists.
 #[derive(Debug)]
 struct IndexedEntry {
-    /// Anchor within the page. Empty if the anchor is equal to the number.
+    /// Anchor within the page; empty if the anchor equals the number.
     anchor: String,
     number: usize,
     text: usize,
@@ -42,13 +42,13 @@ pub(super) struct Entry<'e> {
     pub anchor: &'e str,
     pub number: &'e str,
     pub name: &'e str,
-    /// The names in other languages.
+    /// Names of the entry in other languages.
     pub names: &'e [(String, String)],
     pub unit: &'e str,
     pub words: &'e str,
 }
 
-/// A list of unique texts, in the order of their first occurrence.
+/// A list of texts without duplicates, in the order of their first occurrence.
 #[derive(Debug, Default)]
 struct Texts {
     all: Vec<String>,

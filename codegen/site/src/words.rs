@@ -3,12 +3,12 @@
 pub(super) use lexibus_codegen::facts::words::{one_line, PLAIN};
 use lexibus_codegen::ir::{Documentation, Texts};
 
-/// Returns the other languages of a name, with the translated names.
+/// Returns the language and text of each translated name.
 pub(super) fn names(names: &Texts) -> Vec<(String, String)> {
     names.iter().map(|name| (name.language.to_string(), name.text.to_string())).collect()
 }
 
-/// Returns the other languages of a description, with the translated texts.
+/// Returns the language and text of each translated description.
 pub(super) fn translations(documentation: Option<&Documentation>) -> Vec<(String, String)> {
     documentation.map(|documentation| names(&documentation.translations)).unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! Access rights against storage, PDOs and limits.
+//! Access rights that contradict storage, PDO mapping or limits.
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
@@ -20,7 +20,7 @@ pub(super) fn conflicts(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports signed measured values whose lower limit is above zero.
+/// Reports signed measured values whose minimum is above zero.
 pub(super) fn readings(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         let Some(low) = positive_limit_of_reading(context.owner, item) else { continue };
@@ -57,7 +57,7 @@ fn contradictions(item: &Item) -> [Option<(Span, &'static str)>; 3] {
     [saved, mapped, written]
 }
 
-/// Returns the lower limit of a signed measured value if it is above zero. Signed measured values normally pass through zero.
+/// Returns the minimum of a signed measured value if it is above zero. Signed measured values normally pass through zero.
 fn positive_limit_of_reading(owner: Owner<'_>, item: &Item) -> Option<i128> {
     let (low, high) = item.limits.integers();
     let is_measured = owner.basic(item.ty).is_signed() && !item.access.writable() && high != low;

@@ -25,7 +25,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the location of the differing fact if an overlay states it. Returns the location of the row otherwise.
+/// Returns the location of the differing fact if an overlay states the fact. Otherwise returns the location of the row.
 fn difference_span(item: &Item, alias: &ItemRef) -> Span {
     let row = item.origin.span;
     let facts = [alias.span, item.at.ty, item.at.low, item.at.high];
@@ -54,7 +54,7 @@ fn replacement(device: &Device, item: &Item, diagnostics: &mut Diagnostics) {
 fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
     let mut found = Vec::new();
     let types = (owner.basic(one.ty), owner.basic(other.ty));
-    // A part of a value, such as its lower half, has its own limits and names.
+    // A part of a value, such as the lower half, has other limits and names than the whole value.
     if types.0.bits().zip(types.1.bits()).is_some_and(|(one, other)| one < other) {
         return found;
     }
@@ -80,7 +80,7 @@ fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
     found
 }
 
-/// Returns the differences of unit and scale factor.
+/// Returns the differences between the units and scale factors of two items.
 fn quantities(one: &Quantity, other: &Quantity) -> Vec<String> {
     let mut found = Vec::new();
     if !one.unit.is_empty() && !other.unit.is_empty() && one.unit != other.unit {
@@ -100,7 +100,7 @@ fn quantities(one: &Quantity, other: &Quantity) -> Vec<String> {
     found
 }
 
-/// Returns the first value or bit whose name differs.
+/// Returns the first value or bit that has different names in the two types.
 fn names(one: &Shape, other: &Shape) -> Option<String> {
     let what = match one {
         Shape::BitField { .. } => "bit",
@@ -118,7 +118,7 @@ fn names(one: &Shape, other: &Shape) -> Option<String> {
 
 type Labels<'n> = BTreeMap<(i128, i128), BTreeMap<String, &'n str>>;
 
-/// Returns the names of values or bits. The inner key is the name in lower case without punctuation.
+/// Returns the names of values or bits by range. The inner key is the name in lower case without punctuation.
 fn labels(shape: &Shape) -> Labels<'_> {
     let mut labels = Labels::new();
     fn add<'n>(labels: &mut Labels<'n>, values: (i128, i128), name: &'n str) {
@@ -160,7 +160,7 @@ fn range(range: &(i128, i128)) -> String {
     }
 }
 
-/// Returns the ranges of values or bits that have a meaning.
+/// Returns the ranges of values or bits that have a name.
 fn named(shape: &Shape) -> BTreeSet<(i128, i128)> {
     labels(shape).into_keys().collect()
 }

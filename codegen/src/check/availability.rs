@@ -35,7 +35,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the version that a text in another notation means: `6,15`, `v6.15`, `6-15`.
+/// Returns the version in the notation of Lexibus for a text such as `6,15`, `v6.15` or `6-15`.
 fn corrected(text: &str) -> Option<String> {
     let text = text.trim().trim_start_matches(|c: char| c.is_ascii_alphabetic() || c == '.' || c == ' ');
     let text = text.replace([',', '-', '_'], ".");

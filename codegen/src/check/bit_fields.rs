@@ -23,7 +23,7 @@ pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the name of a field for messages.
+/// Returns the name and bits of a field for messages.
 pub(super) fn called(field: &BitFieldEntry) -> String {
     let bits = field.bit_range();
     match field.name.is_empty() {
@@ -33,7 +33,7 @@ pub(super) fn called(field: &BitFieldEntry) -> String {
     }
 }
 
-/// Reports fields outside of the integer. `used` returns the first use of the type.
+/// Reports bit-field entries outside of the underlying integer. `used` returns the first use of the type.
 fn outside(
     definition: &TypeDef,
     base: Type,
@@ -50,7 +50,8 @@ fn outside(
     Some(found.help("use a longer type, or count the bits from 0"))
 }
 
-/// Reports each field that shares bits with an earlier field. Only the first overlap of a field is reported, because there can be many.
+/// Reports each field that shares bits with an earlier field. Only the first overlap of a field is reported, because there can be
+/// many overlaps.
 fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Diagnostics) {
     for (at, other) in fields.iter().enumerate() {
         let clashes = |one: &&BitFieldEntry| one.mask() & other.mask() != 0 && !are_distinct(one, other);
@@ -73,7 +74,7 @@ pub(super) fn are_distinct(one: &BitFieldEntry, other: &BitFieldEntry) -> bool {
     by_condition || apart(one.availability.as_deref(), other.availability.as_deref())
 }
 
-/// Returns whether a value of the item fulfills both conditions.
+/// Returns whether one value of the item can meet both conditions.
 fn both_hold(one: &Condition, other: &Condition) -> bool {
     let shared = one.mask.unwrap_or(u64::MAX) & other.mask.unwrap_or(u64::MAX);
     let agree = |left: &Value, right: &Value| match (left.as_int(), right.as_int()) {

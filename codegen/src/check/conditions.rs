@@ -1,4 +1,4 @@
-//! Conditions: values that the other item cannot have, and modes without bits.
+//! Conditions: values that the compared item cannot have, and modes for which no bits are defined.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -36,7 +36,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 }
 
 fn possible(context: &Context<'_>, condition: &Condition, span: Span, diagnostics: &mut Diagnostics) {
-    // Limits and names of the item do not apply to a part of its bits.
+    // The item's limits and names apply to the whole value, and not to some of its bits.
     let whole = context.device.referred(&condition.item).filter(|_| condition.mask.is_none());
     let Some(item) = whole else { return };
     let (low, high) = item.limits.integers();
@@ -60,7 +60,7 @@ fn possible(context: &Context<'_>, condition: &Condition, span: Span, diagnostic
     }
 }
 
-/// Reports values of an enumeration for which the bits that depend on it have no meaning.
+/// Reports values of an enumeration for which no bits are defined, although bits depend on the enumeration.
 fn complete(context: &Context<'_>, definition: &TypeDef, conditions: &[&Condition], diagnostics: &mut Diagnostics) {
     if !diagnostics.wants(&codes::MODE_WITHOUT_BITS) {
         return;

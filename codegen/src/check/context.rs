@@ -14,14 +14,15 @@ pub(super) struct Context<'a> {
     pub owner: Owner<'a>,
 }
 
-/// PDOs of a device or module, with the owner of the mapped items.
+/// The PDOs of a device or module, with the items that they map.
 pub(super) struct PdoOwner<'a> {
     pub data: &'a ProcessData,
     pub owner: Owner<'a>,
 }
 
 impl<'a> PdoOwner<'a> {
-    /// Returns the described item of an entry. An item that the compiler derived from the entry is not returned.
+    /// Returns the item of an entry if the source describes the item. Items that the compiler derived from entries are not
+    /// returned.
     pub fn described(&self, entry: &PdoEntry) -> Option<&'a Item> {
         self.owner.item(entry.item?).filter(|item| !item.origin.is_derived())
     }

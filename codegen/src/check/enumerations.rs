@@ -45,7 +45,7 @@ pub(super) fn code_tables(context: &Context<'_>, diagnostics: &mut Diagnostics) 
     }
 }
 
-/// Returns the first two elements of a sorted list that have a number in common.
+/// Returns the first two elements of a sorted list whose ranges overlap.
 fn overlap<'v, V>(
     sorted: &[&'v V],
     range: impl Fn(&V) -> (i128, i128),
@@ -58,14 +58,14 @@ fn overlap<'v, V>(
     })
 }
 
-/// Reports two elements that have a number in common. `names`: number and name of each.
+/// Reports two elements whose ranges overlap. `names` contains the number and the name of each element.
 fn report(owner: &str, span: Span, names: [(String, &str); 2], diagnostics: &mut Diagnostics) {
     let [one, other] = names.map(|(number, name)| format!("`{}` ({number})", brief(name)));
     let message = format!("{one} and {other} of `{}` have the same value", brief(owner));
     diagnostics.push(codes::VALUE_NAMED_TWICE.at(span, message));
 }
 
-/// Reports values outside of the integer. `used` returns the first use of the type.
+/// Reports enumeration values outside of the underlying integer. `used` returns the first use of the type.
 fn outside(definition: &TypeDef, base: Type, values: &[EnumValue], used: impl FnOnce() -> Span) -> Option<Diagnostic> {
     let (low, high) = base.integer_range()?;
     let mut beyond = values.iter().filter(|value| value.value < low || value.range().1 > high);

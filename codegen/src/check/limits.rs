@@ -17,7 +17,7 @@ pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports items with one limit only.
+/// Reports items with only a minimum or only a maximum.
 pub(super) fn one_given(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         let (given, other, span) = match (&item.limits.low, &item.limits.high) {
@@ -30,7 +30,7 @@ pub(super) fn one_given(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns help for swapped limits that are in order for the integer of the same length with the other signedness.
+/// Returns the help text for swapped limits that would be in order for an integer with the other signedness.
 fn with_other_sign(ty: Type, low: &Value, high: &Value) -> Option<String> {
     let (low, high) = (low.as_int()?, high.as_int()?);
     match ty {
@@ -78,7 +78,7 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the limit that excludes a number: `lower limit is 5`.
+/// Returns the limit that a number violates, for messages.
 pub(super) fn beyond(item: &Item, number: i128) -> Option<String> {
     let (low, high) = item.limits.integers();
     let low = low.filter(|&low| number < low).map(|low| format!("lower limit is {low}"));

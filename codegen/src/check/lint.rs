@@ -1,4 +1,4 @@
-//! Declaration of a lint.
+//! The declaration of a lint: its name, codes, formats and function.
 
 use super::context::{Context, PdoOwner};
 use crate::diagnostics::{Code, Diagnostics};
@@ -8,15 +8,15 @@ use crate::ir::{Binding, Catalog, Device, Format, Group};
 /// A check of the resolved IR.
 #[derive(Debug)]
 pub struct Lint {
-    /// Name.
+    /// Name of the lint.
     pub name: &'static str,
-    /// Codes that it reports.
+    /// Codes that the lint reports.
     pub codes: &'static [&'static Code],
-    /// Formats for which it runs.
+    /// Formats for which the lint runs.
     pub formats: &'static [Format],
-    /// Whether the lint also runs for other formats if the user sets the level of one of its codes.
+    /// True if the lint also runs for other formats when the user sets the level of one of its codes.
     pub on_request: bool,
-    /// Condition on devices. It does not apply to modules and records.
+    /// Condition that a device has to fulfill. The condition does not apply to modules and records.
     pub needs: Option<Need>,
     pub(super) run: Run,
 }
@@ -24,17 +24,17 @@ pub struct Lint {
 /// A condition that a device has to fulfill for a lint to run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
-    /// CANopen settings.
+    /// The device has CANopen settings.
     CanOpen,
-    /// EtherCAT settings.
+    /// The device has EtherCAT settings.
     EtherCat,
-    /// Messages, framing or parameter spaces.
+    /// The device has messages, framing or parameter spaces.
     Messages,
-    /// Example Modbus frames.
+    /// The device has example Modbus frames.
     ModbusExamples,
-    /// Procedures.
+    /// The device has procedures.
     Procedures,
-    /// Items with indirect access through a window.
+    /// The device has items with indirect access through a window.
     Windows,
 }
 
@@ -56,19 +56,19 @@ impl Need {
     }
 }
 
-/// The function of a lint, by the type of its input.
+/// The function that runs a lint, by the type of its input.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Run {
-    /// A device.
+    /// The lint checks a device.
     Device(fn(&Context<'_>, &mut Diagnostics)),
-    /// The items and types of a device or module.
+    /// The lint checks the items and types of a device or module.
     Items(fn(Owner<'_>, &mut Diagnostics)),
-    /// The items and types of a device, module or parameter record.
+    /// The lint checks the items and types of a device, module or parameter record.
     ItemsAndRecords(fn(Owner<'_>, &mut Diagnostics)),
-    /// The PDOs of a device or module.
+    /// The lint checks the PDOs of a device or module.
     Pdos(fn(&PdoOwner<'_>, &mut Diagnostics)),
-    /// Parameter records of PROFINET.
+    /// The lint checks the parameter records of PROFINET submodules.
     Records(fn(&[Group], &mut Diagnostics)),
-    /// The whole catalog.
+    /// The lint checks the whole catalog.
     Catalog(fn(&Catalog, &mut Diagnostics)),
 }

@@ -19,7 +19,7 @@ use crate::diagnostics::codes::*;
 use crate::diagnostics::Code;
 use crate::ir::Format;
 
-/// The assumed format of a catalog without a file.
+/// The format that the lints assume for a catalog without a file.
 pub(super) const WITHOUT_FILE: Format = Format::Eds;
 
 /// Creates a lint for all formats and devices.
@@ -41,7 +41,7 @@ impl Lint {
     }
 }
 
-/// All lints. Diagnostics at the same location have this order.
+/// All lints. Diagnostics at the same location appear in the order of this list.
 pub static LINTS: &[Lint] = &[
     #[cfg(feature = "table")]
     lint(

@@ -21,11 +21,11 @@ pub(super) fn direction_of(mapping: u16) -> Option<Direction> {
     }
 }
 
-/// Index of the objects of a device.
+/// Lookup table for the objects of a device.
 pub(super) struct Described<'a> {
     pub device: &'a Device,
     pub entries: Entries<'a>,
-    /// Indices of its objects, including those of further axes. They are collected at the first lookup.
+    /// Indices of the device's objects, including those of further axes. The set is built at the first lookup.
     indices: OnceCell<HashSet<u16>>,
 }
 
@@ -39,7 +39,7 @@ impl<'a> Described<'a> {
     }
 }
 
-/// A mapped object.
+/// An object that a PDO maps.
 pub(super) struct Mapped {
     pub object: (u16, u8),
     pub bits: u32,
@@ -55,7 +55,7 @@ impl Mapped {
         (index >= 0x20).then_some(Mapped { object: (index, sub_index), bits: word & 0xFF, direction, span })
     }
 
-    /// Compares the object with its item. `is_resolved`: other lints report missing objects and wrong lengths.
+    /// Compares the object with its item. `is_resolved` means that other lints report missing objects and wrong lengths.
     pub fn check(&self, described: &Described<'_>, is_resolved: bool, diagnostics: &mut Diagnostics) {
         let item = described.entries.get(self.object.0, self.object.1);
         let found = match item {
@@ -72,7 +72,7 @@ impl Mapped {
         }
     }
 
-    /// Reports an object that is neither described nor an object of a further axis.
+    /// Returns the code and message for a mapped object that is neither described nor an object of a further axis.
     fn missing(&self, described: &Described<'_>) -> Option<(&'static Code, String)> {
         let device = described.device;
         let of_another_axis = || described.indices().contains(&self.object.0);
@@ -87,7 +87,7 @@ impl Mapped {
         let length = length.map(|bits| {
             (&codes::MAPPED_LENGTH, format!("is mapped with {}, but the object has {bits}", count_of(self.bits, "bit")))
         });
-        // Without a stated PDO mapping, the mapping of the manual is allowed.
+        // If the source does not state the PDO mapping of the item, any mapping is accepted.
         let unmappable = !item.mappable.any() && !item.at.mappable.is_empty();
         let unmappable = unmappable.then(|| (&codes::NOT_MAPPABLE, "is mapped, but not mappable".to_owned()));
         let direction = wrong_direction(item, self.direction).map(|problem| (&codes::WRONG_DIRECTION, problem));
@@ -95,7 +95,7 @@ impl Mapped {
     }
 }
 
-/// Returns why an item cannot be mapped into PDOs of a direction: its access rights, or its only direction.
+/// Returns the reason why an item cannot be mapped into PDOs of a direction: its access rights, or its only mapping direction.
 pub(super) fn wrong_direction(item: &Item, direction: Direction) -> Option<String> {
     let (access, mappable, name) = (Mappable::by_access(item.access), item.mappable, pdo_name(direction));
     let (is_accessible, other) = match direction {
@@ -129,7 +129,7 @@ pub(super) fn indices(device: &Device) -> HashSet<u16> {
     known
 }
 
-/// Adds the indices of further axes.
+/// Adds the indices of the objects of further axes.
 fn of_axes(device: &Device, known: &mut HashSet<u16>) {
     let Some(axes) = &device.axes else { return };
     for index in known.clone() {

@@ -1,4 +1,4 @@
-//! PDO mappings that procedures write: mapped items, and numbers of entries.
+//! PDO mappings that procedures write: the mapped items, and the number of entries.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -63,7 +63,8 @@ impl Mapping<'_> {
         }
     }
 
-    /// Returns what is wrong with a number of entries: it is above the number of sub-indices, or of entries written since it was 0.
+    /// Returns the problem of a number of entries: it exceeds the number of sub-indices, or of entries written since the number
+    /// was 0.
     fn count(&mut self, index: u16, value: i128) -> Option<String> {
         if value == 0 {
             self.cleared.insert(index);

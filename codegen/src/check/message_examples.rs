@@ -36,7 +36,7 @@ fn report(message: &Message, what: &str, frame: &Frame<'_>, span: Span, diagnost
     }
 }
 
-/// The bytes of an example and the fields of its message.
+/// The bytes of an example frame, and the fields of its message.
 struct Frame<'a> {
     owner: Owner<'a>,
     fields: &'a [MessageField],
@@ -50,7 +50,7 @@ impl<'a> Frame<'a> {
         Frame { owner, fields, bytes, request: None }
     }
 
-    /// Returns what is wrong with the bytes. Bytes after a field with a variable length are not checked.
+    /// Returns the problems of the example's bytes. Bytes after a field with a variable length are not checked.
     fn problems(&self) -> Vec<String> {
         let mut problems = Vec::new();
         let mut at = 0usize;
@@ -113,7 +113,7 @@ impl<'a> Frame<'a> {
         problem.into_iter().collect()
     }
 
-    /// Returns what is wrong with a copy of bytes of the request.
+    /// Returns the problem of a field that copies bytes of the request.
     fn copy(&self, first: usize, range: Range<usize>) -> Option<String> {
         let sent = self.request?.1.get(first..)?;
         let found = self.bytes.get(range.start / 8..range.end / 8).filter(|_| range.start.is_multiple_of(8))?;
@@ -147,7 +147,7 @@ impl<'a> Frame<'a> {
         problems
     }
 
-    /// Returns what is wrong with a number according to the names of its values and bits.
+    /// Returns the problems of a number: the names of the type's values and bits do not allow it.
     fn meaning(&self, ty: Type, name: &str, number: u64) -> Vec<String> {
         match self.owner.definition(ty).map(|definition| &definition.shape) {
             Some(Shape::Enumeration { values, .. }) => {
@@ -228,7 +228,7 @@ fn number(bytes: &[u8], range: Range<usize>, order: &[u8]) -> u64 {
     })
 }
 
-/// Returns a number of the frame as the type of its item reads it: with a sign if the type is signed.
+/// Returns a number of the frame as a value of its item, which is negative if the type is signed and the sign bit is set.
 fn signed(owner: Owner<'_>, item: &Item, number: u64) -> Option<i128> {
     let ty = owner.basic(item.ty);
     let bits = ty.bits().filter(|bits| (1..=64).contains(bits))?;

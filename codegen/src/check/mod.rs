@@ -1,4 +1,4 @@
-//! Lints on the resolved IR. They report wrong and suspicious facts, and do not change the IR.
+//! Lints on the resolved IR. Lints report wrong and suspicious facts, and do not change the IR.
 //!
 //! `list` declares each lint: name, codes, formats and needs. Each file has the lints of one subject. Lints that only concern
 //! register tables are in `table`.

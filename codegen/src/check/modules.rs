@@ -6,7 +6,7 @@ use crate::ir::{
 };
 use crate::text::count_of;
 
-/// A limit, and the position of the device that sets it.
+/// A limit, and the position of the device that has this limit.
 type Limit = Option<(u32, usize)>;
 
 /// The minimum of the limits of all devices that accept a module or submodule.
@@ -29,7 +29,7 @@ impl Limits {
         }
     }
 
-    /// Lowers each limit to that of `other`, if that of `other` is lower.
+    /// Lowers each limit to the corresponding limit of `other`, if that limit is lower.
     fn narrow(&mut self, other: Limits) {
         let smaller = |one: Limit, other: Limit| [one, other].into_iter().flatten().min();
         *self = Limits {
@@ -136,7 +136,7 @@ fn slots(device: &Device, settings: &ProfinetSettings, modules: &[Module], diagn
     }
 }
 
-/// Returns the numbers as sorted ranges that do not overlap or touch.
+/// Returns sorted ranges of the numbers that neither overlap nor touch.
 fn merged(numbers: &Numbers) -> Vec<(u16, u16)> {
     let mut ranges = numbers.0.to_vec();
     ranges.sort_unstable();

@@ -12,7 +12,7 @@ const MAX_LISTED: usize = 6;
 
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     for item in owner.items() {
-        // Types of a profile have values that a single device does not support.
+        // A type from a profile has values that a single device does not support.
         let is_described = |definition: &&TypeDef| !definition.origin.span.is_empty();
         let Some(definition) = owner.definition(item.ty).filter(is_described) else { continue };
         let mut check = Check { owner, item, definition, diagnostics };
@@ -66,7 +66,7 @@ impl Check<'_, '_> {
         default.into_iter().chain(Number::of("value", self.item.configured_value(), at.configured)).collect()
     }
 
-    /// Returns the lower and the upper limit, if they differ.
+    /// Returns the minimum and the maximum, if they differ.
     fn limits(&self) -> Vec<Number> {
         if fixed(self.item).is_some() {
             return Vec::new();
@@ -90,7 +90,8 @@ impl Check<'_, '_> {
             if base.integer_range().is_some_and(|(low, high)| value == low || value == high) {
                 continue;
             }
-            // A limit next to the last name is probably wrong. A limit far from it allows for further values.
+            // A limit just after the last named value is probably wrong. A limit far after the last named value allows for
+            // further values.
             let named = || values.iter().filter(|label| label.is_named());
             let is_slip = match is_upper {
                 true => named().any(|label| label.range().1 + 1 == value) && !named().any(|label| label.value > value),
@@ -100,7 +101,7 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Reports a number that is reserved. `strict`: also reports a number without a name.
+    /// Reports a number that is reserved. `strict` means that numbers without a name are also reported.
     fn named(&mut self, values: &[EnumValue], strict: bool, number: Number) {
         let Number { what, value, span } = number;
         let name = brief(&self.definition.name);
@@ -187,7 +188,7 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Reports an upper limit that excludes named bits.
+    /// Reports a maximum that excludes named bits.
     fn reaches(&mut self, fields: &[BitFieldEntry], limit: u64, span: Span) {
         let is_beyond = |field: &&BitFieldEntry| 1u64.checked_shl(field.offset.into()) > Some(limit);
         let mut beyond = fields.iter().filter(|field| !field.is_reserved()).filter(is_beyond);
@@ -214,8 +215,8 @@ fn listed(values: &[EnumValue]) -> String {
     }
 }
 
-/// Returns whether a limit states the number of bits, and not a set of bits. Such a limit is one bit, or all bits up to the end of
-/// the type or up to the last named bit.
+/// Returns whether a limit is the number of bits, and not a set of bits. Such a limit has a single bit, or all bits up to the end
+/// of the type or up to the last named bit.
 fn is_count(bits: u64, width: u32, fields: &[BitFieldEntry]) -> bool {
     if bits & bits.wrapping_add(1) != 0 {
         return bits.is_power_of_two();

@@ -29,19 +29,19 @@ pub(super) fn rows(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     mandatory(context.device, diagnostics);
 }
 
-/// Returns the described objects, including those of modules.
+/// Returns the objects that the source describes, including the fixed objects of modules.
 fn described<'a>(context: &Context<'a>) -> impl Iterator<Item = (u16, &'a Group)> {
     let fixed = context.device.own_modules(context.modules).flat_map(|module| &module.fixed_objects);
     let all = context.device.groups.iter().chain(fixed).filter(|group| !group.origin.is_derived());
     all.filter_map(|group| Some((group.index()?, group)))
 }
 
-/// Returns the described items of an object.
+/// Returns the items of an object that the source describes.
 fn described_items(group: &Group) -> impl Iterator<Item = &Item> {
     group.items.iter().filter(|item| !item.origin.is_derived())
 }
 
-/// Returns the described item at sub-index 0.
+/// Returns the item at sub-index 0, if the source describes it.
 fn sub0(group: &Group) -> Option<&Item> {
     group.sub(0).filter(|item| !item.origin.is_derived())
 }
@@ -62,7 +62,7 @@ fn sub_of(item: &Item) -> u8 {
     item.object().map_or(0, |(_, sub)| sub)
 }
 
-/// Returns the highest sub-index in use, except 0xFF (structure of the object).
+/// Returns the highest sub-index of an object, except 0xFF (structure of the object).
 fn highest(group: &Group) -> u8 {
     described_items(group).map(sub_of).filter(|&sub| sub != 0xFF).max().unwrap_or(0)
 }
@@ -79,7 +79,7 @@ fn names(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     }
     let mut items = described_items(group).filter(|item| item.name.is_empty());
     let Some(first) = items.next() else { return };
-    // An array with a hundred unnamed elements produces one diagnostic.
+    // One diagnostic covers all unnamed elements of an object, because there can be hundreds of them.
     let others = more(items.count(), |others| format!(" (and {others} more of the object)"));
     nameless(first.at.name.or(first.origin.span), format!("0x{index:04X} sub-index {:#x}{others}", sub_of(first)));
 }
@@ -101,7 +101,7 @@ fn is_counter(index: u16) -> bool {
     matches!(index, 0x1003 | 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C10..=0x1C2F)
 }
 
-/// Returns whether further axes use sub-indices of the object. Sub-index 0 counts these too.
+/// Returns whether further axes use sub-indices of the object. Sub-index 0 counts the sub-indices of all axes.
 fn has_entries_of_axes(device: &Device, index: u16) -> bool {
     let rules = device.axes.iter().flat_map(|axes| &axes.rules);
     let rule = rules.into_iter().find(|rule| (rule.indices.0..=rule.indices.1).contains(&index));

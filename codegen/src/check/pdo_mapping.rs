@@ -10,7 +10,7 @@ use crate::resolve::{
 use crate::source::Span;
 use crate::text::count_of;
 
-/// Reports PDO mappings that are not possible.
+/// Reports invalid PDO mappings of a CANopen device.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let Some(canopen) = &context.device.canopen else { return };
     let items = MappableItems::new(context.device, context.modules);
@@ -23,7 +23,8 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports entries that are too long for a field. CANopen entries have at most 255 bits, and padding has no field.
+/// Reports entries that are too long for a field of a generated struct. CANopen entries have at most 255 bits, and padding has no
+/// field.
 pub(super) fn lengths(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     for pdo in &owner.data.pdos {
         for entry in pdo.entries.iter().filter(|entry| entry.index != 0 && entry.bits > crate::limits::MAX_FIELD_BITS) {
@@ -107,7 +108,7 @@ impl Mapping<'_, '_> {
 
     fn count(&mut self, mapping: &Group, found: usize) {
         let Some(announced) = announced_count(mapping).filter(|&announced| announced > found as i128) else { return };
-        // A mapping without any value is configured later.
+        // A mapping in which no entry has a value is configured later.
         if found == 0 {
             return;
         }
@@ -119,7 +120,7 @@ impl Mapping<'_, '_> {
         self.report(&codes::MAPPING_COUNT, span.or(mapping.origin.span), message);
     }
 
-    /// Checks the object of a mapping value.
+    /// Checks the object to which a mapping value refers.
     fn object(&mut self, value: &MappingValue<'_>) {
         let MappingWord::Object(index, sub_index, bits) = value.word else { return };
         let span = value.span;
@@ -195,7 +196,7 @@ impl Mapping<'_, '_> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Compares the number of PDOs with the header and object 0x1004.
+    /// Compares the number of PDOs with the file header and with object 0x1004.
     fn counts(&mut self) {
         let device = self.context.device;
         let described = PdoObjects::numbers(device, self.direction).len();

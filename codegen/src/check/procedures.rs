@@ -1,4 +1,4 @@
-//! Procedures: steps that their items do not allow, and PDO assignments.
+//! Procedures: steps that contradict the facts of their items, and PDO assignments.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +13,7 @@ use crate::text::brief;
 /// Objects that assign PDOs to sync managers 2 and 3.
 const ASSIGNMENTS: [u16; 2] = [0x1C12, 0x1C13];
 
-/// Reports steps that their items do not allow.
+/// Reports steps that contradict the facts of their items.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let Context { device, owner, .. } = context;
     for procedure in &device.procedures {
@@ -36,7 +36,7 @@ pub(super) fn default_assignments(context: &Context<'_>, diagnostics: &mut Diagn
     }
 }
 
-/// Returns what is wrong with a step.
+/// Returns the problems of a step.
 fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
     let read_only = |name: &ItemRef| {
         let item = device.referred(name).filter(|item| !item.access.writable())?;
@@ -76,7 +76,7 @@ fn shown(step: &Step) -> String {
     }
 }
 
-/// Returns why an item cannot have a value.
+/// Returns the reason why an item cannot have a value.
 fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     let ty = owner.basic(item.ty);
     // Manuals write negative numbers as bit patterns.
@@ -102,7 +102,7 @@ fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     }
 }
 
-/// Reports PDOs that a procedure maps but does not assign, or assigns without a description, and COB-IDs of other PDOs.
+/// Reports PDOs that a procedure maps but does not assign, or assigns without a description. Also reports COB-IDs of other PDOs.
 fn assignments(device: &Device, procedure: &Procedure, diagnostics: &mut Diagnostics) {
     let (mut mapped, mut assigned_to) = (BTreeMap::new(), [BTreeSet::new(), BTreeSet::new()]);
     let name = brief(&procedure.name);

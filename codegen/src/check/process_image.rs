@@ -1,4 +1,4 @@
-//! Default PDO assignment of EtherCAT slaves: missing sync managers, conflicts and lengths. Excluded PDOs.
+//! Default PDO assignment of EtherCAT slaves: missing sync managers, conflicts, lengths and excluded PDOs.
 
 use std::collections::HashSet;
 
@@ -7,7 +7,7 @@ use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{DefaultAssignment, Pdo, ProcessData, SyncManager, MAX_PDO_SUBS};
 use crate::text::count_of;
 
-/// Reports a default PDO assignment that is not possible.
+/// Reports contradictions in the default PDO assignment.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let data = &context.device.process_data;
     for pdo in &data.pdos {
@@ -49,7 +49,7 @@ fn conflicts(by_default: &DefaultAssignment, diagnostics: &mut Diagnostics) {
 }
 
 fn lengths(by_default: &DefaultAssignment, sync_managers: &[SyncManager], diagnostics: &mut Diagnostics) {
-    // Number of PDOs and of their bits for each sync manager.
+    // Number of PDOs, and sum of their bits, for each sync manager.
     let mut inside = [(0usize, 0u64); 256];
     for (pdo, number) in &by_default.assigned {
         let (count, bits) = &mut inside[usize::from(*number)];

@@ -12,7 +12,7 @@ pub(super) fn check(groups: &[Group], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns bit offset and number of bits.
+/// Returns the bit offset and the length in bits of a parameter in its record.
 fn bits_of(item: &Item) -> Option<(u64, u64)> {
     item.bindings.iter().find_map(|binding| match binding {
         Binding::Record { bit_offset, bits, .. } => Some((u64::from(*bit_offset), u64::from(*bits))),
@@ -44,7 +44,7 @@ fn overlaps(group: &Group, diagnostics: &mut Diagnostics) {
     let mut items: Vec<(u64, u64, &Item)> = Vec::with_capacity(group.items.len());
     items.extend(group.items.iter().filter_map(|item| bits_of(item).map(|(offset, bits)| (offset, bits, item))));
     items.sort_by_key(|&(offset, ..)| offset);
-    // End and item of the previous parameter with the highest end.
+    // The parameter with the highest end so far, and this end.
     let mut last: Option<(u64, &Item)> = None;
     for (offset, bits, item) in items {
         let end = offset + bits;

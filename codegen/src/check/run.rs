@@ -18,7 +18,7 @@ impl Lint {
         run(std::slice::from_ref(self), catalog, diagnostics);
     }
 
-    /// Returns whether the lint runs for a format, and one of its codes is enabled.
+    /// Returns whether the lint runs for a format, and whether one of its codes is enabled.
     fn is_active(&self, format: Format, diagnostics: &Diagnostics) -> bool {
         let is_requested = || self.on_request && self.codes.iter().any(|code| diagnostics.asks_for(code));
         (self.formats.contains(&format) || is_requested()) && self.codes.iter().any(|code| diagnostics.wants(code))
@@ -26,7 +26,7 @@ impl Lint {
 }
 
 fn run(lints: &[Lint], catalog: &Catalog, diagnostics: &mut Diagnostics) {
-    // The first file describes the devices. The other files are overlays, or files that it refers to.
+    // The first file describes the devices. The other files are overlays, or files to which the first file refers.
     let format = catalog.files.first().map_or(WITHOUT_FILE, |file| file.format);
     let lints: Vec<&Lint> = lints.iter().filter(|lint| lint.is_active(format, diagnostics)).collect();
     for device in &catalog.devices {

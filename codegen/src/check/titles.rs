@@ -1,4 +1,4 @@
-//! Column titles instead of names of bits or values.
+//! Names of bits or values that are column titles by mistake.
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};

@@ -1,11 +1,12 @@
-//! Diagnostics that a source allows, by span.
+//! Spans of a source in which diagnostics are allowed.
 
 use std::collections::HashMap;
 
 use super::Code;
 use crate::source::{FileId, Span};
 
-/// Spans in which a code is not reported. The spans of a file and code are sorted. The end of each is the maximum of the ends up to it.
+/// Spans in which a code is not reported, sorted for each file and code. The end of each span is the maximum end of all spans up
+/// to it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Allowed(HashMap<(FileId, &'static str), Vec<(u32, u32)>>);
 

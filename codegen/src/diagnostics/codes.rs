@@ -4,12 +4,12 @@
 
 use super::Level;
 
-/// Class of a code. It determines the severity of the code in strict mode.
+/// Class of a code. The class determines the severity in strict mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Class {
-    /// The input cannot be used. Always an error.
+    /// The input cannot be used. These codes are always errors.
     Error,
-    /// The input breaks a rule, and was repaired or kept as text. An error in strict mode.
+    /// The input breaks a rule, and was repaired or kept as text. These codes are errors in strict mode.
     Repair,
     /// The input is suspicious, but was read unchanged.
     Lint,
@@ -26,29 +26,29 @@ impl Class {
     }
 }
 
-/// Code of a kind of diagnostic.
+/// A kind of diagnostic, with a stable identifier.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub struct Code {
     /// Stable identifier, such as `EDS020`.
     pub id: &'static str,
     /// Stable name, such as `octal-number`.
     pub name: &'static str,
-    /// Class.
+    /// Class of the code.
     pub class: Class,
-    /// Level, unless the user sets another one.
+    /// Level of the code, unless the user sets another one.
     pub default: Level,
-    /// What is wrong, in lower case and without a full stop.
+    /// Summary of the problem, in lower case and without a full stop.
     pub summary: &'static str,
-    /// Meaning, consequence, and what to do, as `lexibus explain` prints it. A line feed ends a paragraph.
+    /// Explanation that `lexibus explain` prints: meaning, consequence and remedy. A line feed ends a paragraph.
     pub explanation: &'static str,
 }
 
-/// Returns the code with an identifier or name. Case does not matter.
+/// Returns the code with this identifier or name, ignoring case.
 pub fn find(name: &str) -> Option<&'static Code> {
     CODES.iter().copied().find(|code| code.id.eq_ignore_ascii_case(name) || code.name.eq_ignore_ascii_case(name))
 }
 
-/// Returns the identifier or name that is most similar to `name`, if any is similar enough for a suggestion.
+/// Returns the most similar identifier or name, if one is similar enough to `name` for a suggestion.
 pub fn similar(name: &str) -> Option<&'static str> {
     let name = name.to_ascii_lowercase();
     let distance = |known: &str| crate::text::edit_distance(&name, &known.to_ascii_lowercase());

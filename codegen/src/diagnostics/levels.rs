@@ -6,14 +6,14 @@ use std::fmt;
 use super::codes::{self, Class, Code};
 use super::Severity;
 
-/// Level of a code.
+/// The level of a diagnostic code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Level {
-    /// Not reported.
+    /// The code is not reported.
     Allow,
-    /// Reported as a warning.
+    /// The code is reported as a warning.
     Warn,
-    /// Reported as an error.
+    /// The code is reported as an error.
     Deny,
 }
 
@@ -31,9 +31,9 @@ pub struct Levels {
 /// Error if a level is set for a code that does not exist.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownCode {
-    /// Name of the missing code.
+    /// Name for which no code exists.
     pub name: String,
-    /// Most similar code that exists.
+    /// Most similar name of an existing code.
     pub suggestion: Option<&'static str>,
 }
 

@@ -20,19 +20,19 @@ use std::hash::{Hash, Hasher};
 use crate::limits::MAX_SAME_DIAGNOSTICS;
 use crate::source::{FileId, Span};
 
-/// Severity of a diagnostic.
+/// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Severity {
-    /// The input was read, possibly after a repair. Does not prevent output.
+    /// The input was read, possibly after a repair. A warning does not prevent output.
     Warning,
-    /// The input, or a part of it, cannot be used. No output is produced.
+    /// The input, or a part of it, cannot be used. An error prevents output.
     Error,
 }
 
 impl Severity {
-    /// Returns `error` or `warning`.
+    /// Returns the name of the severity: `error` or `warning`.
     pub fn name(self) -> &'static str {
         match self {
             Severity::Warning => "warning",
@@ -41,33 +41,33 @@ impl Severity {
     }
 }
 
-/// Error or warning about the input.
+/// An error or warning about the input.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
-    /// Code.
+    /// Code of the diagnostic.
     pub code: &'static Code,
-    /// Severity. [`Diagnostics::push`] sets it from the code and the levels.
+    /// Severity of the diagnostic. [`Diagnostics::push`] sets it from the code and the levels.
     pub severity: Severity,
-    /// What is wrong, in lower case and without a full stop.
+    /// Message that states the problem, in lower case and without a full stop.
     pub message: String,
-    /// Marked text. An empty span means the whole file.
+    /// Span of the marked text. An empty span means the whole file.
     pub span: Span,
-    /// What the compiler did with the marked text, or expects there. May be empty.
+    /// Label of the marked text: what the compiler did or expected. May be empty.
     pub label: String,
-    /// Other spans and facts.
+    /// Notes with further spans and facts.
     pub notes: Vec<Note>,
-    /// What to do, in the imperative.
+    /// Instruction for the user, in the imperative.
     pub help: Option<String>,
     /// Replacement for the marked text.
     pub fix: Option<String>,
 }
 
-/// Other span or fact of a diagnostic.
+/// A further span or fact of a diagnostic.
 #[derive(Clone, Debug)]
 pub struct Note {
-    /// Span; `None` for a fact without one.
+    /// Span of the note; `None` for a fact without a span.
     pub span: Option<Span>,
-    /// Fact.
+    /// Text of the note.
     pub message: String,
 }
 
@@ -93,7 +93,7 @@ impl Diagnostic {
         }
     }
 
-    /// Sets the label of the marked text.
+    /// Sets the label, which is shown at the marked text.
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
         self
@@ -111,7 +111,7 @@ impl Diagnostic {
         self
     }
 
-    /// Sets the help.
+    /// Sets the help text.
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
@@ -133,13 +133,13 @@ pub struct Diagnostics {
     allowed: Allowed,
     /// Number of diagnostics in the list, by file and code.
     kept: HashMap<(FileId, &'static str), usize>,
-    /// Diagnostics that are only counted.
+    /// Diagnostics above the limit of a code and file, which are only counted.
     beyond: Vec<Beyond>,
-    /// Whether the list already has the closing diagnostics, which count those in `beyond`.
+    /// True if the list already has the closing diagnostics, which state the number of diagnostics in `beyond`.
     is_closed: bool,
 }
 
-/// Diagnostic that is only counted.
+/// A diagnostic that is only counted, because there are too many with its code in its file.
 #[derive(Clone, Debug)]
 struct Beyond {
     code: &'static Code,
@@ -154,8 +154,8 @@ impl Diagnostics {
         Diagnostics { levels, ..Diagnostics::default() }
     }
 
-    /// Adds a diagnostic, unless its code is allowed. Keeps at most [`MAX_SAME_DIAGNOSTICS`] for each code and file, and counts the
-    /// others.
+    /// Adds a diagnostic, unless its code is allowed. Keeps at most [`MAX_SAME_DIAGNOSTICS`] for each code and file, and only
+    /// counts further ones.
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
         if self.allowed.contains(diagnostic.span, diagnostic.code) {
             return;
@@ -188,7 +188,8 @@ impl Diagnostics {
         self.beyond.retain(|diagnostic| !allowed.contains(diagnostic.span, diagnostic.code));
     }
 
-    /// Removes repeated diagnostics from index `first` on: those with the same code, span and message.
+    /// Removes repeated diagnostics from index `first` on. A repeated diagnostic has the same code, span and message as an
+    /// earlier one.
     pub(crate) fn forget_repeated(&mut self, first: usize) {
         let mut seen = std::collections::HashSet::new();
         let tail = self.list.split_off(first.min(self.list.len()));
@@ -213,7 +214,7 @@ impl Diagnostics {
         ErrorSpans::new(kept.chain(self.beyond.iter().filter(is_error).map(|diagnostic| diagnostic.span)))
     }
 
-    /// Returns whether a code is reported. A stage can use it to skip a check.
+    /// Returns whether a code is reported. A stage can call this function to skip a check.
     pub fn wants(&self, code: &'static Code) -> bool {
         self.levels.severity(code).is_some()
     }
@@ -234,8 +235,8 @@ impl Diagnostics {
         &self.list
     }
 
-    /// Sorts by file and position. After the diagnostics of a file, adds one for each code with diagnostics that are only counted, with
-    /// their number.
+    /// Sorts the diagnostics by file and position. If diagnostics of a code were only counted, a closing diagnostic at the end of
+    /// the file states their number.
     pub fn sort(&mut self) {
         if !std::mem::replace(&mut self.is_closed, true) {
             let mut counts: BTreeMap<(FileId, &'static str), (&'static Code, usize)> = BTreeMap::new();
@@ -250,7 +251,7 @@ impl Diagnostics {
         self.list.sort_by_key(|d| (d.span.file, d.span.start, d.span.end));
     }
 
-    /// Returns whether any diagnostic is an error.
+    /// Returns whether the list contains an error.
     pub fn has_errors(&self) -> bool {
         self.list.iter().any(|d| d.severity == Severity::Error)
     }

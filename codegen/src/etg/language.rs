@@ -5,7 +5,7 @@ use compact_str::{format_compact, CompactString};
 /// Language of a text without an LcId.
 pub const ENGLISH: u32 = 1033;
 
-/// LCIDs and tags. For a tag without a region, the first entry applies.
+/// LCIDs and BCP 47 tags. For a tag without a region, the first entry of the language applies.
 const LANGUAGES: [(u32, &str); 23] = [
     (1028, "zh-TW"),
     (1029, "cs-CZ"),
@@ -32,7 +32,7 @@ const LANGUAGES: [(u32, &str); 23] = [
     (2070, "pt-PT"),
 ];
 
-/// Returns the rank of a text as the name, lower first: English (1033), then no language, then any other.
+/// Returns the rank of a text as the main name. English (1033) comes first, then texts without a language, then other languages.
 pub fn rank(lcid: Option<u32>) -> u8 {
     match lcid {
         Some(ENGLISH) => 0,
@@ -50,14 +50,14 @@ pub fn tag(lcid: Option<u32>) -> CompactString {
     }
 }
 
-/// Returns the LCID of the language with this tag, or of its first region.
+/// Returns the LCID of a BCP 47 tag. For a tag without a region, returns the LCID of the first entry of the language.
 pub fn lcid(tag: &str) -> Option<u32> {
     if let Some(number) = tag.strip_prefix("lcid:") {
         return number.parse().ok();
     }
     let exact = LANGUAGES.iter().find(|(_, other)| other.eq_ignore_ascii_case(tag));
     let of_language = |other: &str| other.split('-').next().is_some_and(|language| language.eq_ignore_ascii_case(tag));
-    // Chinese without a region means simplified characters; Portuguese means Portugal.
+    // Chinese without a region means simplified characters, and Portuguese without a region means Portugal.
     let region = match tag {
         "zh" => return Some(2052),
         "pt" => return Some(2070),

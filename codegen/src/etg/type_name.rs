@@ -5,15 +5,15 @@ use crate::ir::Type;
 /// Meaning of a basic type name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basic {
-    /// A type.
+    /// A basic type of the IR.
     Type(Type),
-    /// A number of single bits (BITARR8).
+    /// An array of this number of single bits (BITARR8).
     Bits(u8),
     /// An array `ARRAY [l..u] OF T`: lower bound, number of elements, and element type.
     Array(i32, u32, Type),
 }
 
-/// How a name differs from the tables of ETG.1000.6.
+/// The relation of a name to the tables of ETG.1000.6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spelling {
     /// The standard name.
@@ -24,7 +24,7 @@ pub enum Spelling {
     Prefix,
 }
 
-/// Returns the basic type with this name.
+/// Returns the basic type with this name, and the spelling of the name.
 pub fn basic(name: &str) -> Option<(Basic, Spelling)> {
     if let Some(ty) = standard(name) {
         return Some((Basic::Type(ty), Spelling::Standard));
@@ -119,7 +119,7 @@ fn width(digits: &str) -> Option<u8> {
     digits.parse().ok().filter(|bits| plain && (1..=64).contains(bits))
 }
 
-/// Returns the number in parentheses, such as `(12)`.
+/// Returns the number of a text in parentheses, such as `(12)`.
 fn length_of(text: &str) -> Option<u32> {
     text.trim().strip_prefix('(')?.strip_suffix(')')?.trim().parse().ok()
 }

@@ -2,7 +2,7 @@
 
 use compact_str::{format_compact, CompactString};
 
-/// Returns the text of the unit with this number, if its parts are known. `units` contains the units that the
+/// Returns the symbol of the unit with this number, if all parts of the number are known. `units` contains the units that the
 /// dictionary defines.
 pub fn text(number: u32, units: &[(u32, CompactString)]) -> Option<CompactString> {
     let [exponent, numerator, denominator, rest] = number.to_be_bytes();
@@ -26,7 +26,7 @@ pub fn text(number: u32, units: &[(u32, CompactString)]) -> Option<CompactString
     Some(text)
 }
 
-/// Returns the number of the unit with the text `unit` (see [`text`]).
+/// Returns the number of the unit with the symbol `unit` (see [`text`]).
 pub fn number(unit: &str) -> Option<u32> {
     let units = || (1..=u8::MAX).filter(|notation| symbol(*notation).is_some());
     for exponent in -12i8..=9 {
@@ -43,7 +43,7 @@ pub fn number(unit: &str) -> Option<u32> {
     units().map(inverse).find(|(_, text)| text.as_deref() == Some(unit)).map(|(number, _)| number)
 }
 
-/// Returns the symbol of a unit with a known notation index.
+/// Returns the symbol of a unit by its notation index, if it is known.
 fn symbol(notation: u8) -> Option<&'static str> {
     Some(match notation {
         0x01 => "m",

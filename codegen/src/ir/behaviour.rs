@@ -10,23 +10,23 @@ use crate::source::{Origin, Span};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Access {
-    /// `ro`.
+    /// Read-only (`ro`).
     #[default]
     #[cfg_attr(feature = "serde", serde(rename = "ro"))]
     ReadOnly,
-    /// `wo`.
+    /// Write-only (`wo`).
     #[cfg_attr(feature = "serde", serde(rename = "wo"))]
     WriteOnly,
-    /// `rw`.
+    /// Read-write (`rw`).
     #[cfg_attr(feature = "serde", serde(rename = "rw"))]
     ReadWrite,
-    /// `rwr`: read-write, and a process input (TPDO).
+    /// Read-write, and mappable only into TPDOs as a process input (`rwr`).
     #[cfg_attr(feature = "serde", serde(rename = "rwr"))]
     ReadWriteInput,
-    /// `rww`: read-write, and a process output (RPDO).
+    /// Read-write, and mappable only into RPDOs as a process output (`rww`).
     #[cfg_attr(feature = "serde", serde(rename = "rww"))]
     ReadWriteOutput,
-    /// `const`: read-only, and the value never changes.
+    /// Read-only, with a value that never changes (`const`).
     #[cfg_attr(feature = "serde", serde(rename = "const"))]
     Constant,
 }
@@ -45,7 +45,7 @@ impl Access {
         SPELLINGS.iter().find(|(name, _)| name.eq_ignore_ascii_case(text)).map(|&(_, access)| access)
     }
 
-    /// Returns the name in CiA 306.
+    /// Returns the CiA 306 name of the access rights, such as `rw`.
     pub fn name(self) -> &'static str {
         match self {
             Access::ReadOnly => "ro",
@@ -72,14 +72,14 @@ impl Access {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mappable {
-    /// RPDOs.
+    /// True if RPDOs can map the item.
     pub rpdo: bool,
-    /// TPDOs.
+    /// True if TPDOs can map the item.
     pub tpdo: bool,
 }
 
 impl Mappable {
-    /// Returns the meaning of PDOMapping = 1 (CiA 306) for an item with these access rights.
+    /// Returns the PDOs that PDOMapping = 1 (CiA 306) allows for an item with these access rights.
     pub fn by_access(access: Access) -> Self {
         Mappable {
             rpdo: matches!(access, Access::WriteOnly | Access::ReadWrite | Access::ReadWriteOutput),
@@ -100,63 +100,63 @@ impl Mappable {
 pub enum Binding {
     /// An entry of the object dictionary.
     Object {
-        /// Buses.
+        /// Buses on which the object has this address.
         buses: ObjectBuses,
-        /// Index.
+        /// Index of the object.
         index: u16,
-        /// Sub-index.
+        /// Sub-index of the entry.
         sub_index: u8,
     },
     /// Modbus registers, coils or discrete inputs.
     Register(Box<RegisterBinding>),
     /// Bits of a record of a PROFINET submodule.
     Record {
-        /// Record index.
+        /// Index of the record.
         index: u16,
-        /// Bit offset: bit 0 is the least significant bit of the first byte. A number of several bytes is big-endian and
-        /// starts at bit 0 of its first byte.
+        /// Bit offset in the record. Bit 0 is the least significant bit of the first byte. A number of several bytes is
+        /// big-endian and starts at bit 0 of its first byte.
         bit_offset: u32,
-        /// Number of bits.
+        /// Length in bits.
         bits: u32,
     },
     /// Bits of a fixed process image.
     Image(Box<ImageBinding>),
-    /// A parameter of a parameter space. Messages transfer its value.
+    /// A parameter of a parameter space. Messages transfer the parameter's value.
     Parameter {
         /// Name of the parameter space.
         space: CompactString,
-        /// Number of the parameter.
+        /// Number of the parameter in its parameter space.
         code: u32,
     },
-    /// Name of a parameter of an ASCII protocol.
+    /// A parameter of an ASCII protocol, identified by its name.
     Ascii(CompactString),
-    /// Memory of an EtherCAT slave controller.
+    /// A memory range of an EtherCAT slave controller (ESC).
     EscMemory {
-        /// Address.
+        /// Address of the first byte.
         address: u16,
-        /// Number of bytes.
+        /// Length in bytes.
         length: u16,
     },
     /// Indirect access through a window: one item selects the parameter, another item transfers its value.
     Indirect(Box<IndirectBinding>),
 }
 
-/// The buses on which an object has one index.
+/// The buses on which an object has the same index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ObjectBuses {
-    /// CANopen.
+    /// True if the object exists on CANopen.
     pub canopen: bool,
-    /// EtherCAT (CAN application protocol over EtherCAT, CoE).
+    /// True if the object exists on EtherCAT (CAN application protocol over EtherCAT, CoE).
     pub coe: bool,
 }
 
 impl ObjectBuses {
-    /// CANopen only.
+    /// Buses of an object that exists on CANopen only.
     pub const CANOPEN: ObjectBuses = ObjectBuses { canopen: true, coe: false };
-    /// EtherCAT only.
+    /// Buses of an object that exists on EtherCAT only.
     pub const COE: ObjectBuses = ObjectBuses { canopen: false, coe: true };
-    /// Neither.
+    /// Buses of an object that exists on neither bus.
     pub const NONE: ObjectBuses = ObjectBuses { canopen: false, coe: false };
 }
 
@@ -176,34 +176,34 @@ impl Binding {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RegisterBinding {
-    /// Modbus table.
+    /// Modbus table that contains the item.
     pub space: RegisterSpace,
-    /// Register address: zero-based wire address.
+    /// Zero-based wire address of the first register, coil or discrete input.
     pub address: u16,
-    /// Printed address: `40102–40103`, `R01`; empty if the source prints the wire address.
+    /// Address as the source prints it, such as `40102–40103` or `R01`; empty if the source prints the wire address.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub printed: CompactString,
-    /// Whether the word order is an assumption.
+    /// True if the word order is an assumption.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_false"))]
     pub is_order_assumed: bool,
     /// Number of registers, coils or discrete inputs.
     pub count: u16,
-    /// Whether the least significant word comes first.
+    /// True if the least significant word comes first.
     pub low_word_first: bool,
-    /// Whether the bytes of each word are swapped.
+    /// True if the bytes of each word are swapped.
     pub bytes_swapped: bool,
-    /// Bit offset in the register, if the item is a part of a register.
+    /// Bit offset of the item in its register; `None` if the item is not a part of a register.
     pub bit_offset: Option<u8>,
     /// Number of 16-bit registers at one address: 2 if a device has 32-bit registers.
     #[cfg_attr(feature = "serde", serde(default = "one", skip_serializing_if = "is_one"))]
     pub words_per_address: u8,
-    /// Whether a value with fewer bits than its registers is extended: sign-extended if it is signed, otherwise with zeros.
+    /// True if a value that is shorter than its registers is extended: with its sign if it is signed, otherwise with zeros.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_false"))]
     pub extended: bool,
 }
 
 impl RegisterBinding {
-    /// Returns the last wire address.
+    /// Returns the last wire address of the item.
     pub fn last(&self) -> u16 {
         let addresses = self.count.div_ceil(u16::from(self.words_per_address.max(1)));
         self.address.saturating_add(addresses.saturating_sub(1))
@@ -230,13 +230,13 @@ fn is_one(value: &u8) -> bool {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum RegisterSpace {
-    /// 0x: coils.
+    /// Coils (0x).
     Coil,
-    /// 1x: discrete inputs.
+    /// Discrete inputs (1x).
     DiscreteInput,
-    /// 3x: input registers.
+    /// Input registers (3x).
     Input,
-    /// 4x: holding registers.
+    /// Holding registers (4x).
     Holding,
 }
 
@@ -244,13 +244,13 @@ pub enum RegisterSpace {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ImageBinding {
-    /// Name of the image.
+    /// Name of the process image.
     pub image: CompactString,
-    /// Bit offset.
+    /// Bit offset of the item in the process image.
     pub bit_offset: u32,
-    /// Number of bits.
+    /// Length of the item in bits.
     pub bits: u32,
-    /// Type in the image, if it differs from the type of the item.
+    /// Data type in the process image, if it differs from the item's type.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub ty: Option<Type>,
 }
@@ -259,37 +259,37 @@ pub struct ImageBinding {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IndirectBinding {
-    /// Name of the space that the number belongs to.
+    /// Name of the space in the register table to which the number belongs.
     pub space: CompactString,
     /// Zero-based position of the window in the space.
     pub window: u8,
     /// Buses on which the window exists.
     pub buses: Buses,
-    /// Number of the parameter.
+    /// Number that selects the parameter.
     pub number: u32,
-    /// Read access.
+    /// Items for read access, if the window has read access.
     pub read: Option<WindowSide>,
-    /// Write access.
+    /// Items for write access, if the window has write access.
     pub write: Option<WindowSide>,
 }
 
-/// Read or write access through a window.
+/// The items for read access or for write access through a window.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WindowSide {
-    /// Item that selects the parameter by its number.
+    /// Item that receives the number of the parameter.
     pub number: ItemRef,
-    /// Item that transfers the value.
+    /// Item that transfers the value of the parameter.
     pub value: ItemRef,
-    /// Whether a client writes the number before the value, if the source states it.
+    /// True if a client has to write the number before the value; `None` if the source does not state the order.
     pub number_first: Option<bool>,
-    /// Whether the device sets the number to 0 after the access, if the source states it.
+    /// True if the device sets the number to 0 after the access; `None` if the source does not state it.
     pub clears: Option<bool>,
     /// Duration of the access in milliseconds.
     pub wait: Option<u32>,
-    /// Timeout in milliseconds for the device to set the number to 0.
+    /// Timeout in milliseconds until the device sets the number to 0.
     pub timeout: Option<u32>,
-    /// Procedure of the handshake, if the source has one.
+    /// Procedure that performs the access, if the source describes one.
     pub procedure: Option<ProcedureRef>,
 }
 
@@ -299,53 +299,54 @@ pub struct WindowSide {
 pub struct Quantity {
     /// Unit symbol of the physical value as the source spells it (`rpm`, `0.1 A`).
     pub unit: CompactString,
-    /// Unit in other languages.
+    /// Unit symbol in other languages.
     pub units: Texts,
-    /// Relation of raw value and physical value.
+    /// Conversion between raw value and physical value.
     pub scale: Option<Scale>,
-    /// Raw values with a special meaning (0xFFFF = monitoring off).
+    /// Raw values with a special meaning, and the meaning of each, such as 0xFFFF for "monitoring off".
     pub sentinels: Vec<(Value, CompactString)>,
-    /// Rounding step of the device in raw units.
+    /// Step in raw units to which the device rounds the value.
     pub step: Option<Value>,
-    /// Conversion of the physical value to a unit of the machine.
+    /// Conversion of the physical value to a unit of the driven machine.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub machine: Option<Box<MachineUnit>>,
-    /// Example conversions in the source.
+    /// Example conversions that the source prints.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub conversions: Vec<Conversion>,
 }
 
-/// An example conversion in the source.
+/// An example in the source that converts a raw value to a physical value.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Conversion {
-    /// Raw value.
+    /// Raw value of the example.
     pub raw: Option<i128>,
-    /// Physical value.
+    /// Physical value of the example.
     pub value: Option<f64>,
-    /// Unit, if it differs from the unit of the item.
+    /// Unit of the physical value, if it differs from the item's unit.
     pub unit: Option<CompactString>,
-    /// Values of machine constants in the example.
+    /// Names and values of the machine constants that the example uses.
     pub given: Vec<(CompactString, f64)>,
     /// Model whose constants the example uses.
     pub model: Option<CompactString>,
     /// Value of the item that the scale factor depends on.
     pub by: Option<f64>,
-    /// Description from the source.
+    /// Description of the example from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Location in the source.
+    /// Location of the example in the source.
     pub at: Span,
 }
 
-/// A unit of the machine. A value in this unit is the physical value, multiplied and divided by machine constants ([`GivenNumber`]).
+/// A unit of the driven machine. A value in this unit is the physical value, multiplied and divided by machine constants
+/// ([`GivenNumber`]).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MachineUnit {
-    /// Unit symbol.
+    /// Symbol of the machine unit.
     pub unit: CompactString,
-    /// Machine constants that multiply.
+    /// Names of the machine constants by which the physical value is multiplied.
     pub times: Vec<CompactString>,
-    /// Machine constants that divide.
+    /// Names of the machine constants by which the physical value is divided.
     pub over: Vec<CompactString>,
 }
 
@@ -353,50 +354,50 @@ pub struct MachineUnit {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GivenNumber {
-    /// Name.
+    /// Name of the machine constant.
     pub name: CompactString,
-    /// Unit symbol.
+    /// Unit symbol of the machine constant.
     pub unit: CompactString,
-    /// Values for models of the device that define the constant.
+    /// Models that define the constant, and its value on each model.
     pub models: Vec<(CompactString, Value)>,
-    /// Description from the source.
+    /// Description of the machine constant from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Ambiguities in the source, with assumptions.
+    /// Ambiguities in the source about the machine constant, with the assumptions made.
     pub doubts: Doubts,
-    /// Location in the source.
+    /// Location of the machine constant in the source.
     pub origin: Origin,
 }
 
-/// Storage, side effects and conditions of writing.
+/// Storage of a value, side effects of writing the value, and conditions for writing it.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Behaviour {
-    /// Whether the value is volatile or non-volatile.
+    /// Storage of the value: volatile or non-volatile.
     pub storage: Storage,
-    /// When a write takes effect, if not immediately.
+    /// Text that states when a written value takes effect, if not immediately.
     pub effective: Option<CompactString>,
     /// Conditions on other items under which a client can write the item.
     pub write_when: Vec<Condition>,
     /// Values that can be written, if they differ from those that can be read.
     pub writable_values: Vec<Value>,
-    /// Side effects of writing.
+    /// Side effects of writing the value.
     pub side_effects: Vec<CompactString>,
-    /// Whether the device clears the value automatically.
+    /// True if the device clears the value automatically.
     pub self_clearing: bool,
-    /// Whether the item can be written only once.
+    /// True if the item can be written only once.
     pub write_once: bool,
-    /// Whether the item is a part of the device backup (Backup of ETG.2000).
+    /// True if the item is a part of the device backup (Backup of ETG.2000).
     pub backup: bool,
-    /// Whether the item is a setting of the application (Setting of ETG.2000).
+    /// True if the item is a setting of the application (Setting of ETG.2000).
     pub setting: bool,
     /// Role in functional safety (SafetyMapping of ETG.2000: `si`, `so`, `sio`, `sp`).
     pub safety: Option<CompactString>,
     /// Mapping into a safety-relevant data object of CANopen, if allowed (SRDOMapping of CiA 306-1).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub srdo: Option<Srdo>,
-    /// Whether tools hide the item (Visible of GSDML).
+    /// True if tools hide the item (Visible of GSDML).
     pub hidden: bool,
-    /// Access rights of the slave application to ESC memory (PDI access in ETG.1000.4).
+    /// Access rights of the slave application (PDI) to ESC memory (ETG.1000.4).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub pdi_access: Option<Access>,
     /// Communication states in which the item can be read (ETG.2000 ReadRestrictions); empty = all.
@@ -418,14 +419,14 @@ pub struct Srdo {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Storage {
-    /// Not stated by the source.
+    /// The source does not state how the device stores the value.
     #[default]
     Unknown,
-    /// Volatile.
+    /// The value is volatile.
     Volatile,
-    /// Non-volatile: stored immediately by each write.
+    /// The value is non-volatile, and each write stores it immediately.
     Immediate,
-    /// Non-volatile: stored on this command.
+    /// The value is non-volatile, and the device stores it on this command.
     OnCommand(ElementRef),
 }
 
@@ -433,17 +434,18 @@ pub enum Storage {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Availability {
-    /// Models; empty = all.
+    /// Models that have the element; empty = all.
     pub models: Vec<CompactString>,
     /// First firmware version that has the element.
     pub since: Option<CompactString>,
     /// First firmware version that no longer has the element.
     pub until: Option<CompactString>,
-    /// Replacement: an item or a message, or for bits and values another bit or value, which has no id.
+    /// Replacement for the element: an item or message. The replacement for a bit or value is another bit or value, and has no
+    /// id.
     pub replaced_by: Option<ElementRef>,
     /// Hardware options that the element requires.
     pub options: Vec<CompactString>,
-    /// Buses, if they do not follow from addresses; empty = all.
+    /// Buses on which the element exists, if they do not follow from its addresses; empty = all.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Buses::is_empty"))]
     pub buses: Buses,
 }

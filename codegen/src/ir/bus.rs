@@ -9,13 +9,13 @@ use super::ObjectBuses;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Bus {
-    /// CANopen.
+    /// The CANopen bus.
     CanOpen,
-    /// EtherCAT.
+    /// The EtherCAT bus.
     EtherCat,
     /// Modbus RTU or TCP.
     Modbus,
-    /// PROFINET.
+    /// PROFINET IO.
     Profinet,
     /// A serial line with a command protocol.
     Serial,
@@ -25,7 +25,7 @@ impl Bus {
     /// All buses, in the order of [`Buses::iter`].
     pub const ALL: [Bus; 5] = [Bus::CanOpen, Bus::EtherCat, Bus::Modbus, Bus::Profinet, Bus::Serial];
 
-    /// Returns the name in register tables and in JSON.
+    /// Returns the name of the bus in register tables and in JSON.
     pub fn name(self) -> &'static str {
         match self {
             Bus::CanOpen => "canopen",
@@ -55,9 +55,9 @@ impl fmt::Display for Bus {
 pub struct Buses(u8);
 
 impl Buses {
-    /// No bus.
+    /// The empty set.
     pub const NONE: Buses = Buses(0);
-    /// Every bus.
+    /// The set of all buses.
     pub const ALL: Buses = Buses((1 << Bus::ALL.len()) - 1);
 
     /// Returns whether the set is empty.

@@ -1,4 +1,4 @@
-//! The root of the IR: a catalog, its files, and types that all elements use.
+//! The root of the IR: a catalog, its files, and types that several parts of the IR use.
 
 use thin_vec::ThinVec;
 
@@ -12,25 +12,25 @@ use crate::source::{Digest, Encoding, Origin, Span};
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Catalog {
-    /// Files that were read. Spans refer to them by position.
+    /// Files from which the catalog was read. A span refers to a file by its position in this list.
     pub files: Vec<FileInfo>,
     /// Devices, in the order of the description file. A device access point of GSDML is a device.
     pub devices: Vec<Device>,
-    /// Modules of the devices.
+    /// Modules of all devices.
     pub modules: Vec<Module>,
     /// Submodules of PROFINET modules and device access points.
     pub submodules: Vec<Submodule>,
-    /// Types of items of submodules. Devices and modules have their own lists of types.
+    /// Types of the submodules' items. Each device and module has a separate list of types.
     pub types: Vec<TypeDef>,
     /// Code tables of all devices: channel diagnosis, log book.
     pub code_tables: Vec<CodeTable>,
-    /// User structures of PROFINET diagnosis.
+    /// Layouts of vendor-specific PROFINET diagnosis (user structures).
     pub unit_diagnoses: Vec<UnitDiagnosis>,
     /// Families of devices and modules.
     pub families: Vec<Family>,
     /// Pictures that devices and modules refer to.
     pub graphics: Vec<Graphic>,
-    /// Facts of the source without a field in the IR.
+    /// Facts about the catalog that have no field in the IR.
     pub extensions: Extensions,
 }
 
@@ -52,13 +52,13 @@ impl Catalog {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FileInfo {
-    /// Name that the caller passed.
+    /// File name that the caller passed.
     pub name: String,
-    /// Format.
+    /// Format of the file.
     pub format: Format,
-    /// Character encoding.
+    /// Character encoding of the file.
     pub encoding: Encoding,
-    /// SHA-256 of the bytes.
+    /// SHA-256 of the file's bytes.
     pub sha256: Digest,
 }
 
@@ -68,7 +68,7 @@ pub struct FileInfo {
 pub struct LocalText {
     /// BCP 47 tag (`en`, `de-DE`), or the language number of the source (`lcid:1033`).
     pub language: CompactString,
-    /// The text.
+    /// The text in this language.
     pub text: CompactString,
 }
 
@@ -76,12 +76,12 @@ pub struct LocalText {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extension {
-    /// Key, element or attribute as the source spells it. The key of a comment is `;`. Keys of a whole EDS have a prefix with
+    /// Key, element or attribute as the source spells it. The key of a comment is `;`. Keys that concern a whole EDS begin with
     /// the name of their section: `FileInfo/Author`, `Vendor stuff/;`.
     pub key: CompactString,
-    /// Value.
+    /// Value of the key.
     pub value: CompactString,
-    /// Location in the source.
+    /// Location of the extension in the source.
     pub span: Span,
 }
 
@@ -95,31 +95,31 @@ pub type Doubts = ThinVec<Doubt>;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Doubt {
-    /// The contradictory statements of the source, or the missing fact.
+    /// The contradictory statements of the source, or the fact that the source lacks.
     pub says: String,
-    /// Assumption.
+    /// The assumption that was made.
     pub chosen: String,
     /// Reason for the assumption.
     pub why: String,
-    /// Location in the source.
+    /// Location of the ambiguity in the source.
     pub origin: Origin,
-    /// Page, line or clause of the manual.
+    /// Page, line or clause of the manual that is ambiguous.
     pub cite: Option<CompactString>,
     /// Consequence of a wrong assumption.
     #[cfg_attr(feature = "serde", serde(default))]
     pub severity: Severity,
-    /// Subject, if it is an element without a list of ambiguities.
+    /// Element that the ambiguity is about, if that element has no list of ambiguities.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub subject: Option<Box<Subject>>,
 }
 
-/// The subject of an ambiguity.
+/// The element that an ambiguity is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Subject {
-    /// Kind of element.
+    /// Kind of the element.
     pub kind: SubjectKind,
-    /// Name.
+    /// Name of the element.
     pub name: CompactString,
     /// Row, bit, value or code in the element; empty for the whole element.
     pub element: CompactString,
@@ -134,7 +134,7 @@ pub enum SubjectKind {
     Type,
     /// A code table.
     Codes,
-    /// A state machine, one of its commands or outcomes.
+    /// A state machine, or one of its commands or outcomes.
     Machine,
     /// A procedure.
     Procedure,
@@ -155,22 +155,22 @@ impl Doubt {
     }
 }
 
-/// Consequence of a wrong assumption. The worst comes first.
+/// The consequence of a wrong assumption. The worst consequence comes first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Severity {
     /// Unexpected motion, or damage to the wiring.
     Hazard,
-    /// A wrong value: a unit, a limit, a default, an address.
+    /// A wrong value, such as a unit, limit, default or address.
     #[default]
     Value,
-    /// None: the rest of the source corrects the misprint.
+    /// No consequence: the rest of the source corrects the misprint.
     Print,
 }
 
 impl Severity {
-    /// Returns the name in register tables.
+    /// Returns the name of the severity in register tables.
     pub fn name(self) -> &'static str {
         match self {
             Severity::Hazard => "hazard",
@@ -184,28 +184,28 @@ impl Severity {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Manual {
-    /// Title.
+    /// Title of the manual.
     pub title: CompactString,
-    /// Edition.
+    /// Edition of the manual.
     pub edition: CompactString,
-    /// Language (BCP 47), if it differs from the language of the description.
+    /// Language of the manual (BCP 47), if it differs from the language of the description.
     pub language: CompactString,
-    /// Unit of citations: pages or lines.
+    /// Unit of the numbers in citations: pages or lines.
     pub counts: Option<CiteUnit>,
     /// Description of the manual, and of the parts that were left out.
     pub documentation: String,
-    /// Sections and tables, sorted by their first page or line.
+    /// Sections and tables of the manual, sorted by their first page or line.
     pub sections: Vec<ManualSection>,
 }
 
-/// The unit of citations.
+/// The unit of the numbers in citations of a manual.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum CiteUnit {
-    /// Pages.
+    /// Citations contain page numbers.
     Page,
-    /// Lines of the text of the manual.
+    /// Citations contain line numbers of the manual's text.
     Line,
 }
 
@@ -213,9 +213,9 @@ pub enum CiteUnit {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ManualSection {
-    /// Page or line of the title.
+    /// Page or line on which the section begins.
     pub start: u32,
-    /// Title as printed.
+    /// Title of the section as printed.
     pub title: CompactString,
 }
 
@@ -231,13 +231,13 @@ impl Manual {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Documentation {
-    /// Text in English, or in the only language of the source.
+    /// Description in English, or in the only language of the source.
     pub text: String,
-    /// Translations.
+    /// Description in other languages.
     pub translations: Texts,
     /// Page, line or clause of the manual that describes the element.
     pub cite: Option<CompactString>,
-    /// Origin of the text; `None` = the source itself.
+    /// Origin of the description; `None` = the source itself.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub text_from: Option<Box<FactOrigin>>,
 }

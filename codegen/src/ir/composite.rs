@@ -7,20 +7,20 @@ use crate::source::Origin;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Composite {
-    /// Name.
+    /// Name of the number.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the number in other languages.
     pub names: Texts,
     /// Items with the digits, most significant digit first.
     pub parts: Vec<ItemRef>,
-    /// Base of the number system: each digit is below it.
+    /// Base of the number system. Each digit is less than the base.
     pub base: u16,
-    /// Item with the sign, and its value for negative numbers. For other numbers it is 0.
+    /// Item with the sign, and the value of this item for negative numbers. The item is 0 for other numbers.
     pub sign: Option<(ItemRef, u16)>,
     /// Unit of the number.
     pub unit: CompactString,
-    /// Description from the source.
+    /// Description of the number from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Location in the source.
+    /// Location of the number in the source.
     pub origin: Origin,
 }

@@ -7,27 +7,27 @@ use super::{
 };
 use crate::source::{Origin, Span};
 
-/// A device.
+/// A device that a file describes.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Device {
-    /// Name.
+    /// Name of the device.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the device in other languages.
     pub names: Texts,
-    /// Identifier in the source, if any (ID of a device access point).
+    /// Identifier of the device in the source, if any (ID of a device access point).
     pub id: CompactString,
-    /// Whether the description is not a device, but a dictionary that devices refer to (EtherCATDict of ETG.2000).
+    /// True if the description is a dictionary that devices refer to, and not a device (EtherCATDict of ETG.2000).
     pub dictionary_only: bool,
     /// Identity: vendor, product and revision.
     pub identity: Identity,
-    /// Header of the file.
+    /// Header of the description file.
     pub header: Header,
-    /// CANopen settings.
+    /// Settings of the device on CANopen.
     pub canopen: Option<Box<CanOpenSettings>>,
-    /// EtherCAT settings.
+    /// Settings of the device on EtherCAT.
     pub ethercat: Option<Box<EtherCatSettings>>,
-    /// PROFINET settings.
+    /// Settings of the device on PROFINET.
     pub profinet: Option<Box<ProfinetSettings>>,
     /// Requests that each Modbus table accepts, if the source states them.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
@@ -38,19 +38,19 @@ pub struct Device {
     /// Node-ID range, or range of Modbus server addresses: first and last number.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub node_ids: Option<(u8, u8)>,
-    /// Numbers of its device profiles (402 = drives, 5001 = modular device).
+    /// Numbers of the device profiles that the device follows (402 = drives, 5001 = modular device).
     pub profiles: Vec<u32>,
     /// Network settings of this single device (DCF, XDC).
     pub commissioning: Option<Box<Commissioning>>,
-    /// Type definitions.
+    /// Types that the device defines.
     pub types: Vec<TypeDef>,
     /// Chapters of registers, followed by objects sorted by index.
     pub groups: Vec<Group>,
-    /// Cyclic data.
+    /// Cyclic data of the device.
     pub process_data: ProcessData,
     /// Slots of a modular device.
     pub slots: Vec<Slot>,
-    /// Accepted modules.
+    /// Modules that the device accepts.
     pub modules: Vec<ModuleUse>,
     /// Submodules of a device access point, and submodules that it accepts.
     pub submodules: Vec<SubmoduleUse>,
@@ -60,32 +60,32 @@ pub struct Device {
     pub parameter_spaces: Vec<super::ParameterSpace>,
     /// Framing of the command protocol: delimiters, escapes and checksum.
     pub framing: Option<Box<Framing>>,
-    /// Machine constants for units.
+    /// Machine constants that unit conversions use.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub given: Vec<super::GivenNumber>,
-    /// Code tables: alarms, emergency codes, abort codes.
+    /// Code tables, such as alarms, emergency codes and abort codes.
     pub code_tables: Vec<CodeTable>,
-    /// State machines.
+    /// State machines of the device.
     pub machines: Vec<StateMachine>,
-    /// Procedures.
+    /// Procedures of the device.
     pub procedures: Vec<Procedure>,
     /// Numbers that are split over several items.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub composites: Vec<Composite>,
     /// Models and firmware versions that share this description.
     pub variants: Vec<Variant>,
-    /// Rules for the objects of further axes.
+    /// Rules that derive the objects of further axes from those of the first axis.
     pub axes: Option<AxisRule>,
-    /// Description from the source.
+    /// Description of the device from the source.
     pub documentation: Option<Box<Documentation>>,
     /// Manual that the description was transcribed from.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub manual: Option<Box<super::Manual>>,
-    /// Ambiguities in the source, with assumptions.
+    /// Ambiguities in the source about the device, with the assumptions made.
     pub doubts: Doubts,
-    /// Facts of the source without a field in the IR.
+    /// Facts about the device that have no field in the IR.
     pub extensions: Extensions,
-    /// Location in the source.
+    /// Location of the device in the source.
     pub origin: Origin,
 }
 
@@ -101,7 +101,7 @@ impl Device {
         self.groups.get(position)
     }
 
-    /// Returns the accepted modules. `modules`: all modules of the catalog.
+    /// Returns the modules that the device accepts. `modules` contains all modules of the catalog.
     pub fn own_modules<'m>(&self, modules: &'m [Module]) -> impl Iterator<Item = &'m Module> + use<'m, '_> {
         self.modules.iter().filter_map(|accepted| modules.get(accepted.module.0 as usize))
     }
@@ -122,17 +122,17 @@ impl Device {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Identity {
-    /// Vendor ID.
+    /// Vendor ID of the device (sub-index 1).
     pub vendor_id: Option<u32>,
     /// Name of the vendor.
     pub vendor_name: CompactString,
-    /// Product code.
+    /// Product code of the device (sub-index 2).
     pub product_code: Option<u32>,
     /// Name of the product.
     pub product_name: CompactString,
-    /// Revision number.
+    /// Revision number of the device (sub-index 3).
     pub revision_number: Option<u32>,
-    /// Order code.
+    /// Order code of the product.
     pub order_code: CompactString,
     /// Serial number, if the file describes a single device.
     pub serial_number: Option<u32>,
@@ -140,24 +140,24 @@ pub struct Identity {
     pub others: Vec<(CompactString, u32)>,
 }
 
-/// Requests that a Modbus table accepts.
+/// The requests that a Modbus table accepts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModbusTable {
-    /// Table.
+    /// The Modbus table.
     pub space: RegisterSpace,
-    /// Function codes; empty = not given.
+    /// Function codes that the table accepts; empty = not given.
     pub functions: Vec<u8>,
     /// Maximum number of registers, coils or discrete inputs that one request reads.
     pub max_read: Option<u16>,
     /// Maximum number of registers or coils that one request writes.
     pub max_write: Option<u16>,
-    /// Whether several requests can read or write a longer value.
+    /// True if several requests can read or write a value that is too long for one request.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub split: bool,
 }
 
-/// Header of a description file (`[FileInfo]` of CiA 306, ISO15745 ProfileHeader). Texts are not changed.
+/// Header of a description file (`[FileInfo]` of CiA 306, ISO15745 ProfileHeader), with its texts unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Header {
@@ -171,11 +171,11 @@ pub struct Header {
     pub format_version: CompactString,
     /// Description of the file.
     pub description: CompactString,
-    /// Time of creation.
+    /// Time at which the file was created.
     pub creation_time: CompactString,
-    /// Date of creation.
+    /// Date on which the file was created.
     pub creation_date: CompactString,
-    /// Author.
+    /// Author of the file.
     pub created_by: CompactString,
     /// Time of the last modification.
     pub modification_time: CompactString,
@@ -185,7 +185,7 @@ pub struct Header {
     pub modified_by: CompactString,
     /// EDS that the DCF is based on (LastEDS).
     pub last_eds: CompactString,
-    /// Lines of `[Comments]`.
+    /// Lines of the section `[Comments]`.
     pub comments: Vec<CompactString>,
 }
 
@@ -195,43 +195,43 @@ pub struct Header {
 pub struct CanOpenSettings {
     /// Supported bit rates in kbit/s.
     pub bit_rates: Vec<u16>,
-    /// Whether the device detects the bit rate automatically.
+    /// True if the device detects the bit rate automatically.
     pub auto_bit_rate: bool,
-    /// Whether the device can be an NMT boot-up master.
+    /// True if the device can be an NMT boot-up master.
     pub boot_up_master: bool,
-    /// Whether the device can be an NMT boot-up slave.
+    /// True if the device can be an NMT boot-up slave.
     pub boot_up_slave: bool,
     /// Granularity of the PDO mapping in bits; 0 = fixed mapping, `None` = not given.
     pub granularity: Option<u8>,
     /// Support of dynamic channels (CiA 302-4); 0 = not supported.
     pub dynamic_channels_supported: u32,
-    /// Whether the device supports multiplexed PDOs.
+    /// True if the device supports multiplexed PDOs.
     pub group_messaging: bool,
     /// Number of RPDOs according to the file (NrOfRXPDO).
     pub rx_pdos: Option<u16>,
     /// Number of TPDOs according to the file (NrOfTXPDO).
     pub tx_pdos: Option<u16>,
-    /// Whether the device supports layer setting services (LSS).
+    /// True if the device supports layer setting services (LSS).
     pub lss: bool,
     /// Communication sub-indices of implicit PDOs (CompactPDO); bit 0 is sub-index 1.
     pub compact_pdo: u8,
     /// Data types that are allowed as dummy entries in a PDO mapping.
     pub dummies: Vec<u8>,
-    /// Whether the file has a list of dummy entries.
+    /// True if the file has a list of dummy entries.
     pub dummies_given: bool,
     /// Segments of dynamic channels.
     pub dynamic_channels: Vec<DynamicChannel>,
-    /// Locations of facts in the source.
+    /// Locations of the settings in the source.
     pub at: CanOpenSpans,
 }
 
-/// Locations of facts of [`CanOpenSettings`] in the source. Spans of missing facts are empty.
+/// Locations of [`CanOpenSettings`] in the source. Spans of missing settings are empty.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CanOpenSpans {
-    /// The number of RPDOs.
+    /// Location of the number of RPDOs (NrOfRXPDO).
     pub rx_pdos: Span,
-    /// The number of TPDOs.
+    /// Location of the number of TPDOs (NrOfTXPDO).
     pub tx_pdos: Span,
 }
 
@@ -257,17 +257,17 @@ pub struct DynamicChannel {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Commissioning {
-    /// Node-ID, 1 to 127.
+    /// Node-ID of the device, from 1 to 127.
     pub node_id: Option<u8>,
     /// Name of the node.
     pub node_name: CompactString,
-    /// Bit rate in kbit/s.
+    /// Bit rate of the network in kbit/s.
     pub bit_rate: Option<u16>,
     /// Number of the network.
     pub net_number: Option<u32>,
     /// Name of the network.
     pub network_name: CompactString,
-    /// Whether the node is the CANopen manager.
+    /// True if the node is the CANopen manager.
     pub manager: bool,
     /// Serial number for layer setting services (LSS).
     pub lss_serial_number: Option<u32>,
@@ -279,15 +279,15 @@ pub struct Commissioning {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Variant {
-    /// Name.
+    /// Name of the variant.
     pub name: CompactString,
-    /// Identity, if it differs.
+    /// Identity of the variant, if it differs from the identity of the device.
     pub identity: Identity,
-    /// Names and values of constants, such as base values of fractions.
+    /// Names and values of the variant's constants, such as base values of fractions.
     pub constants: Vec<(CompactString, Value)>,
-    /// Description from the source.
+    /// Description of the variant from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Location in the source.
+    /// Location of the variant in the source.
     pub origin: Origin,
 }
 
@@ -295,7 +295,7 @@ pub struct Variant {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AxisRule {
-    /// Number of axes.
+    /// Number of axes of the device.
     pub axes: u8,
     /// Models with this number of axes; empty = all.
     pub models: Vec<CompactString>,
@@ -303,11 +303,11 @@ pub struct AxisRule {
     pub rules: Vec<AxisRange>,
 }
 
-/// The rule for the objects of a range of indices.
+/// The rule for the objects in a range of indices.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AxisRange {
-    /// First and last index.
+    /// First and last index of the range.
     pub indices: (u16, u16),
     /// Step from one axis to the next.
     pub step: AxisStep,
@@ -318,10 +318,10 @@ pub struct AxisRange {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum AxisStep {
-    /// Add this to the index.
+    /// The index increases by this number from axis to axis.
     Index(u16),
     /// The sub-index is the number of the axis.
     SubIndex,
-    /// Add this to the sub-index.
+    /// The sub-index increases by this number from axis to axis.
     SubIndexStride(u8),
 }

@@ -13,23 +13,23 @@ pub struct EtherCatSettings {
     pub group: CompactString,
     /// Product code and revision of each device that tools hide because of this description (`HideType`).
     pub hides: Vec<(Option<u32>, Option<u32>)>,
-    /// Whether tools hide the device itself (`Invisible`).
+    /// True if tools hide the device itself (`Invisible`).
     pub invisible: bool,
     /// FMMUs in the order of the slave controller.
     pub fmmus: Vec<Fmmu>,
-    /// Sync units.
+    /// Sync units of the device.
     pub sync_units: Vec<SyncUnit>,
-    /// Mailbox, if any.
+    /// Mailbox of the device, if it has one.
     pub mailbox: Option<Box<Mailbox>>,
-    /// Distributed clocks, if any.
+    /// Distributed clocks, if the device supports them.
     pub clocks: Option<Box<DistributedClocks>>,
-    /// Rules for slots of a modular device.
+    /// Rules for the slots of a modular device.
     pub slots: Option<Box<SlotRules>>,
-    /// ESC registers that a master writes: address and value (`ESC`).
+    /// Addresses of the ESC registers that a master writes, and their values (`ESC`).
     pub registers: Vec<(u16, u32)>,
-    /// EEPROM content.
+    /// EEPROM content, if the source describes it.
     pub eeprom: Option<Box<Eeprom>>,
-    /// Timeouts in milliseconds, with the name of the element (`PreopTimeout`, `RequestTimeout`, …).
+    /// Names of the timeout elements (`PreopTimeout`, `RequestTimeout`, …) and their values in milliseconds.
     pub timeouts: Vec<(CompactString, u32)>,
 }
 
@@ -37,13 +37,13 @@ pub struct EtherCatSettings {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fmmu {
-    /// Purpose as the source spells it: `Outputs`, `Inputs`, `MBoxState`.
+    /// Purpose of the FMMU as the source spells it: `Outputs`, `Inputs`, `MBoxState`.
     pub purpose: CompactString,
-    /// Number of the mapped sync manager, if given.
+    /// Number of the sync manager that the FMMU maps, if given.
     pub sync_manager: Option<u8>,
-    /// Number of the mapped sync unit, if given.
+    /// Number of the sync unit that the FMMU maps, if given.
     pub sync_unit: Option<u8>,
-    /// Whether the FMMU is enabled only in the state Op.
+    /// True if the FMMU is enabled only in the state Op.
     pub op_only: bool,
 }
 
@@ -51,15 +51,15 @@ pub struct Fmmu {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SyncUnit {
-    /// Name.
+    /// Name of the sync unit.
     pub name: CompactString,
-    /// Whether the sync unit needs a separate sync unit in the master (`SeparateSu`).
+    /// True if the sync unit needs a separate sync unit in the master (`SeparateSu`).
     pub separate: bool,
-    /// Whether the sync unit needs a separate frame.
+    /// True if the sync unit needs a separate frame.
     pub separate_frame: bool,
-    /// Whether the data of the sync unit depend on the input state.
+    /// True if the data of the sync unit depend on the input state.
     pub depends_on_input_state: bool,
-    /// Whether frames may be repeated.
+    /// True if frames may be repeated.
     pub frame_repeat: bool,
 }
 
@@ -67,51 +67,51 @@ pub struct SyncUnit {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mailbox {
-    /// Whether the data link layer of the mailbox is supported, which repeats lost requests.
+    /// True if the device supports the data link layer of the mailbox, which repeats lost requests.
     pub data_link_layer: bool,
-    /// Whether the mailbox runs in real-time mode.
+    /// True if the mailbox runs in real-time mode.
     pub real_time: bool,
-    /// ADS over EtherCAT.
+    /// ADS over EtherCAT (AoE), if supported.
     pub aoe: Option<Protocol>,
-    /// Ethernet over EtherCAT.
+    /// Ethernet over EtherCAT (EoE), if supported.
     pub eoe: Option<Protocol>,
-    /// CAN application protocol over EtherCAT.
+    /// CAN application protocol over EtherCAT (CoE), if supported.
     pub coe: Option<Coe>,
-    /// File access over EtherCAT.
+    /// File access over EtherCAT (FoE), if supported.
     pub foe: Option<Protocol>,
-    /// Servo profile over EtherCAT.
+    /// Servo profile over EtherCAT (SoE), if supported.
     pub soe: Option<Protocol>,
-    /// Vendor-specific protocol over EtherCAT.
+    /// Vendor-specific protocol over EtherCAT (VoE), if supported.
     pub voe: Option<Protocol>,
 }
 
-/// A mailbox protocol, described by its attributes only.
+/// A mailbox protocol whose capabilities the IR stores as attributes.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Protocol {
-    /// Attributes as the source spells them (`IP`, `MAC`, `ChannelCount`).
+    /// Attributes of the protocol as the source spells them (`IP`, `MAC`, `ChannelCount`).
     pub attributes: Vec<(CompactString, CompactString)>,
     /// Commands that a master sends at start-up.
     pub init_commands: Vec<InitCommand>,
 }
 
-/// CAN application protocol over EtherCAT.
+/// Capabilities of the CAN application protocol over EtherCAT (CoE).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Coe {
-    /// Whether the SDO information service is supported.
+    /// True if the SDO information service is supported.
     pub sdo_info: bool,
-    /// Whether the PDO assignment can be written (0x1C12, 0x1C13).
+    /// True if the PDO assignment can be written (0x1C12, 0x1C13).
     pub pdo_assign: bool,
-    /// Whether the PDO mapping can be written (0x1600 …, 0x1A00 …).
+    /// True if the PDO mapping can be written (0x1600 …, 0x1A00 …).
     pub pdo_config: bool,
-    /// Whether a master reads the PDO assignment from the device.
+    /// True if a master reads the PDO assignment from the device.
     pub pdo_upload: bool,
-    /// Whether complete access is supported: the transfer of all sub-indices at once.
+    /// True if complete access is supported: the transfer of all sub-indices at once.
     pub complete_access: bool,
-    /// Whether segmented SDO transfer is supported.
+    /// True if segmented SDO transfer is supported.
     pub segmented_sdo: bool,
-    /// Whether there is a diagnosis history (0x10F3).
+    /// True if the device has a diagnosis history (0x10F3).
     pub diag_history: bool,
     /// Further attributes as the source spells them (`EdsFile`, `DS402Channels`).
     pub attributes: Vec<(CompactString, CompactString)>,
@@ -123,33 +123,33 @@ pub struct Coe {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InitCommand {
-    /// State transitions: `IP`, `PS`, `SP`, `SO`, `OP`, `OS`.
+    /// State transitions at which the master sends the command: `IP`, `PS`, `SP`, `SO`, `OP`, `OS`.
     pub transitions: Vec<CompactString>,
     /// Index of the object (CoE), IDN (SoE) or frame type (EoE).
     pub index: u16,
     /// Sub-index of the object (CoE) or drive channel (SoE).
     pub sub_index: u8,
-    /// Data in the byte order of the wire.
+    /// Data of the command in the byte order of the wire.
     pub data: Vec<u8>,
-    /// Whether the index depends on the slot of its module.
+    /// True if the index depends on the slot of the module.
     pub depends_on_slot: bool,
-    /// Whether the index depends on the slot group of its module.
+    /// True if the index depends on the slot group of the module.
     pub depends_on_slot_group: bool,
-    /// Whether the command uses complete access.
+    /// True if the command uses complete access.
     pub complete_access: bool,
-    /// Whether users cannot change the command.
+    /// True if users cannot change the command.
     pub fixed: bool,
-    /// Whether a master adapts the data (`AdaptAutomatically`).
+    /// True if a master adapts the data (`AdaptAutomatically`).
     pub adapt: bool,
-    /// Whether a module can replace the command.
+    /// True if a module can replace the command.
     pub overwritten_by_module: bool,
-    /// Purpose.
+    /// Purpose of the command.
     pub comment: CompactString,
-    /// Location in the source.
+    /// Location of the command in the source.
     pub origin: Origin,
 }
 
-/// Distributed clocks.
+/// Distributed clocks of an EtherCAT slave.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DistributedClocks {
@@ -163,9 +163,9 @@ pub struct DistributedClocks {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClockMode {
-    /// Name.
+    /// Name of the mode.
     pub name: CompactString,
-    /// Description.
+    /// Description of the mode.
     pub description: CompactString,
     /// Value of register 0x0980 (`AssignActivate`).
     pub assign_activate: u32,
@@ -181,7 +181,7 @@ pub struct ClockMode {
     pub sync_managers: Vec<ClockSyncManager>,
 }
 
-/// A time of a clock mode.
+/// A cycle time or shift time of a clock mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClockTime {
@@ -189,7 +189,7 @@ pub struct ClockTime {
     pub nanoseconds: i32,
     /// Factor of the cycle time (for SYNC1: of the cycle time of SYNC0); a negative number is a divisor.
     pub factor: Option<i32>,
-    /// Whether the shift is relative to the inputs.
+    /// True if the shift is relative to the inputs.
     pub input: bool,
 }
 
@@ -201,7 +201,7 @@ pub struct ClockSyncManager {
     pub number: u8,
     /// Synchronization type as in object 0x1C32:01, if given.
     pub sync_type: Option<u16>,
-    /// Index of each PDO with its oversampling factor.
+    /// Indices of PDOs, and the oversampling factor of each.
     pub pdos: Vec<(u16, Option<u16>)>,
 }
 
@@ -221,9 +221,9 @@ pub struct SlotRules {
     pub group_index_increment: u16,
     /// Increment of the index of a PDO from slot group to slot group.
     pub group_pdo_increment: u16,
-    /// Whether a master writes the list of configured modules to 0xF030 (`DownloadModuleIdentList`).
+    /// True if a master writes the list of configured modules to 0xF030 (`DownloadModuleIdentList`).
     pub download_idents: bool,
-    /// Whether a master writes the list of module addresses.
+    /// True if a master writes the list of module addresses.
     pub download_addresses: bool,
     /// State transition at which a master writes the lists; default `PS`.
     pub download_transition: CompactString,
@@ -231,7 +231,7 @@ pub struct SlotRules {
     pub pdo_groups: Vec<ModulePdoGroup>,
     /// Numbers and names of slot groups.
     pub groups: Vec<(u16, CompactString)>,
-    /// Named arrangements of modules.
+    /// Names of module arrangements, and the ident numbers of the modules in each.
     pub selections: Vec<(CompactString, Vec<u32>)>,
 }
 
@@ -251,16 +251,16 @@ pub struct ModulePdoGroup {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Eeprom {
-    /// The complete content, if the source has it.
+    /// Complete EEPROM content, if the source contains it.
     pub data: Vec<u8>,
-    /// Size in bytes.
+    /// Size of the EEPROM in bytes.
     pub byte_size: Option<u32>,
-    /// The first words, which configure the slave controller.
+    /// First words of the EEPROM, which configure the slave controller.
     pub config_data: Vec<u8>,
     /// Mailbox configuration of the Bootstrap state.
     pub boot_strap: Vec<u8>,
-    /// Numbers and contents of further categories.
+    /// Numbers and contents of further EEPROM categories.
     pub categories: Vec<(u16, Vec<u8>)>,
-    /// Whether the EEPROM is assigned to the process data interface (PDI).
+    /// True if the EEPROM is assigned to the process data interface (PDI).
     pub assign_to_pdi: bool,
 }

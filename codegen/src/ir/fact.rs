@@ -9,29 +9,29 @@ use super::{CompactString, Item};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Fact {
-    /// Name.
+    /// Name of the item.
     Name,
-    /// Addresses.
+    /// Addresses of the item on its buses.
     Addresses,
-    /// Data type.
+    /// Data type of the item.
     Type,
-    /// Names of bits or values.
+    /// Names of the item's bits or values.
     Meaning,
-    /// Access rights.
+    /// Access rights of the item.
     Access,
-    /// PDO mapping.
+    /// PDO mapping of the item.
     Mappable,
-    /// Default value.
+    /// Default value of the item.
     Default,
-    /// Minimum, maximum and list of allowed values.
+    /// Minimum, maximum and allowed values of the item.
     Limits,
-    /// Unit, scale factor and rounding.
+    /// Unit, scale factor and rounding step of the item.
     Unit,
-    /// Storage, side effects and conditions of writing.
+    /// Storage of the value, side effects of writing it, and conditions for writing it.
     Behaviour,
     /// Models, firmware versions and buses on which the item exists.
     Availability,
-    /// Differences between models or buses.
+    /// Differences of the item between models or buses.
     Variants,
 }
 
@@ -52,7 +52,7 @@ impl Fact {
         Fact::Variants,
     ];
 
-    /// Returns whether this fact differs between two items. Types that only differ in the names of bits or values differ in their meaning.
+    /// Returns whether this fact differs between two items. Both [`Fact::Type`] and [`Fact::Meaning`] compare the item's type.
     #[cfg(feature = "table")]
     pub(crate) fn differs(self, one: &Item, other: &Item) -> bool {
         match self {
@@ -91,20 +91,20 @@ impl Fact {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum FactOrigin {
-    /// The description itself. It is recorded only if the description states that the item lacks the fact.
+    /// The description itself. This origin is recorded only if the description states that the item lacks the fact.
     Stated,
-    /// The printed name in the manual, which the description spells out.
+    /// The printed name in the manual, which the description writes out in full.
     PrintedName,
     /// An overlay of the user.
     Overlay {
         /// File name of the overlay, without folders.
         file: CompactString,
-        /// Line of the row in the file.
+        /// Line of the row in the overlay.
         line: u32,
-        /// Whether the overlay replaces a fact of the description.
+        /// True if the overlay replaces a fact of the description.
         replaces: bool,
     },
-    /// A standard with its clause: `CiA 402, 17.3.7`.
+    /// A standard and a clause of it: `CiA 402, 17.3.7`.
     Standard(CompactString),
     /// A rule of the compiler.
     Rule(Rule),
@@ -119,14 +119,14 @@ pub enum Rule {
     UnstatedAccess,
     /// Reserved sub-indices are read-only if they inherit read-write access.
     ReservedEntry,
-    /// Objects of PDOs that the description counts but does not describe follow CiA 301.
+    /// Objects of PDOs that the description counts but does not describe have the facts of CiA 301.
     AnnouncedPdo,
     /// An object that only PDO entries describe can be written if an RPDO maps it.
     MappedObject,
 }
 
 impl FactOrigin {
-    /// Returns the precedence: overlay, then description, then standard, then rule.
+    /// Returns the rank by which origins take precedence: overlay, then description, then standard, then rule.
     fn rank(&self) -> u8 {
         match self {
             FactOrigin::Rule(_) => 0,
@@ -136,8 +136,8 @@ impl FactOrigin {
         }
     }
 
-    /// Returns whether a fact of this origin replaces the present one. The later of two overlays takes precedence, and the first of two
-    /// standards.
+    /// Returns whether a fact of this origin replaces a fact of the origin `present`. The later of two overlays takes precedence,
+    /// and the first of two standards.
     pub(crate) fn takes_precedence_over(&self, present: Option<&FactOrigin>) -> bool {
         let Some(present) = present else { return true };
         self.rank() > present.rank() || matches!(self, FactOrigin::Overlay { .. })
@@ -160,18 +160,18 @@ impl FactOrigins {
         self.0.iter().find(|(recorded, _)| *recorded == fact).map(|(_, origin)| origin)
     }
 
-    /// Records the origin of a fact. `None` is the description itself.
+    /// Records the origin of a fact. `None` means the description itself.
     pub(crate) fn set(&mut self, fact: Fact, origin: Option<FactOrigin>) {
         self.0.retain(|(recorded, _)| *recorded != fact);
         self.0.extend(origin.map(|origin| (fact, origin)));
     }
 
-    /// Creates origins that are the same rule for all `facts`.
+    /// Creates a list in which all `facts` have the origin `rule`.
     pub(crate) fn by_rule(facts: &[Fact], rule: Rule) -> Self {
         FactOrigins(facts.iter().map(|fact| (*fact, FactOrigin::Rule(rule))).collect())
     }
 
-    /// Returns whether a fact of this origin is used. `is_stated`: the element already has the fact.
+    /// Returns whether a fact of the origin `origin` is used. `is_stated` means that the element already has the fact.
     pub(crate) fn admits(&self, fact: Fact, is_stated: bool, origin: &FactOrigin) -> bool {
         origin.takes_precedence_over(self.get(fact).or(is_stated.then_some(&FactOrigin::Stated)))
     }

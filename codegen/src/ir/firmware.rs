@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use super::{Availability, CompactString};
 use crate::text::glob;
 
-/// Returns the numbers of a version without trailing zeros: `6.27` is later than `6.3`, and `6` is `6.0`. Other forms of versions return
-/// `None`.
+/// Returns the numbers of a version without trailing zeros: `6.27` is later than `6.3`, and `6` is `6.0`. Returns `None` for
+/// other notations.
 pub(crate) fn version(text: &str) -> Option<Vec<u32>> {
     let mut numbers = text.split('.').map(|part| part.parse().ok()).collect::<Option<Vec<u32>>>()?;
     while numbers.len() > 1 && numbers.last() == Some(&0) {
@@ -15,7 +15,7 @@ pub(crate) fn version(text: &str) -> Option<Vec<u32>> {
     Some(numbers)
 }
 
-/// Compares two versions. Returns `None` if one is missing or has another form than numbers with points.
+/// Compares two versions. Returns `None` if a version is missing or does not consist of numbers separated by points.
 pub(crate) fn compare(one: Option<&str>, other: Option<&str>) -> Option<Ordering> {
     Some(version(one?)?.cmp(&version(other?)?))
 }

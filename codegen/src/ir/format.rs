@@ -20,17 +20,17 @@ pub enum Format {
 }
 
 impl Format {
-    /// All formats.
+    /// All formats, including register tables.
     pub const ALL: &'static [Format] =
         &[Format::Eds, Format::Dcf, Format::Xdd, Format::Esi, Format::Gsdml, Format::Table];
 
     /// Formats of vendor files: all except register tables.
     pub const OF_VENDORS: &'static [Format] = &[Format::Eds, Format::Dcf, Format::Xdd, Format::Esi, Format::Gsdml];
 
-    /// Register tables only.
+    /// The list of only the register table format.
     pub const TABLES: &'static [Format] = &[Format::Table];
 
-    /// Returns the name that `lexibus info` prints.
+    /// Returns the name of the format that `lexibus info` prints.
     pub fn name(self) -> &'static str {
         match self {
             Format::Eds => "eds",
@@ -52,7 +52,7 @@ impl Format {
         }
     }
 
-    /// Returns what is missing in an object without sub-indices, and how to describe them (CompactSubObj of CiA 306).
+    /// Returns two texts for the diagnostic about an object without sub-indices: the missing element, and the help.
     pub(crate) fn missing_subs(self) -> (&'static str, &'static str) {
         match self {
             Format::Eds | Format::Dcf => (
@@ -66,7 +66,7 @@ impl Format {
         }
     }
 
-    /// Returns how to write a default value, if its notation depends on the element (DefaultData of ETG.2000).
+    /// Returns the help text for a default value whose notation depends on the element (DefaultData of ETG.2000).
     pub(crate) fn default_forms(self, default: u8) -> Option<String> {
         let forms = || format!("write `{default:02X}` in DefaultData, or `{default}` in DefaultValue");
         (self == Format::Esi).then(forms)

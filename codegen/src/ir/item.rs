@@ -13,55 +13,55 @@ use crate::source::{Origin, Span};
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Item {
-    /// Name as the source spells it (ParameterName of CiA 306); may be empty.
+    /// Name of the item as the source spells it (ParameterName of CiA 306); may be empty.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the item in other languages.
     pub names: Texts,
-    /// Addresses on each bus.
+    /// Addresses of the item on its buses.
     pub bindings: SmallVec<[Binding; 1]>,
-    /// Type.
+    /// Data type of the item.
     pub ty: Type,
-    /// Access rights.
+    /// Access rights of the item.
     pub access: Access,
-    /// PDO mapping.
+    /// PDOs that can map the item.
     pub mappable: Mappable,
-    /// Default value.
+    /// Default value of the item.
     pub default: Option<Value>,
     /// Minimum, maximum and allowed ranges; empty = all values of the type.
     pub limits: Limits,
-    /// Differences between models or buses, in the order of the source.
+    /// Differences of the item between models or buses, in the order of the source.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "ThinVec::is_empty"))]
     pub variants: ThinVec<ItemVariant>,
-    /// Configuration of a single device by a DCF or XDC.
+    /// Settings of the item in a configuration file (DCF, XDC).
     pub configured: Option<Box<Configured>>,
-    /// Unit and scale factor.
+    /// Unit and scale factor of the item.
     pub quantity: Option<Box<Quantity>>,
-    /// Storage, side effects and conditions of writing.
+    /// Storage of the value, side effects of writing it, and conditions for writing it.
     pub behaviour: Option<Box<Behaviour>>,
     /// Models, firmware versions, options and buses on which the item exists.
     pub availability: Option<Box<Availability>>,
-    /// Items with the same value, a part of it, or its length.
+    /// Items that contain the same value, a part of the value, or its length.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub related: Option<Box<RelatedItems>>,
-    /// Whether the sub-index is reserved: it exists, but has no meaning.
+    /// True if the sub-index is reserved: it exists, but has no meaning.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub is_reserved: bool,
-    /// Whether the sub-index does not always exist, such as an entry of an error history.
+    /// True if the sub-index does not always exist, such as an entry of an error history.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub is_optional: bool,
-    /// Whether all axes of a multi-axis device share the item.
+    /// True if all axes of a multi-axis device share the item.
     pub shared_by_axes: bool,
-    /// ObjFlags (CiA 306): bit 0 refuse write on download, bit 1 refuse read on scan. Other bits are kept.
+    /// ObjFlags of CiA 306: bit 0 = refuse write on download, bit 1 = refuse read on scan. Other bits are stored unchanged.
     pub flags: u32,
-    /// Description from the source.
+    /// Description of the item from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Ambiguities in the source, with assumptions.
+    /// Ambiguities in the source about the item, with the assumptions made.
     pub doubts: Doubts,
-    /// Facts of the source without a field in the IR.
+    /// Facts about the item that have no field in the IR.
     pub extensions: Extensions,
-    /// Location in the source.
+    /// Location of the item in the source.
     pub origin: Origin,
-    /// Locations of facts in the source.
+    /// Locations of the item's facts in the source.
     pub at: ItemSpans,
     /// Origins of facts that do not come from the description itself.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "FactOrigins::is_empty"))]
@@ -99,7 +99,7 @@ impl Item {
         }
     }
 
-    /// Returns index and sub-index, if the item is in an object dictionary.
+    /// Returns the index and sub-index of the item, if it is in an object dictionary.
     pub fn object(&self) -> Option<(u16, u8)> {
         self.bindings.iter().find_map(|binding| match binding {
             Binding::Object { index, sub_index, .. } => Some((*index, *sub_index)),
@@ -121,12 +121,12 @@ impl Item {
         }
     }
 
-    /// Returns the differences on a bus that apply to all models.
+    /// Returns the variants of the item on a bus that apply to all models.
     fn variants_on(&self, bus: Bus) -> impl Iterator<Item = &ItemVariant> {
         self.variants.iter().filter(move |variant| variant.models.is_empty() && variant.buses.contains(bus))
     }
 
-    /// Returns the type on a bus.
+    /// Returns the type of the item on a bus.
     pub fn type_on(&self, bus: Bus) -> Type {
         self.variants_on(bus).find_map(|variant| variant.ty).unwrap_or(self.ty)
     }
@@ -137,35 +137,35 @@ impl Item {
         self.type_on(if self.bindings.iter().any(is_on_canopen) { Bus::CanOpen } else { Bus::EtherCat })
     }
 
-    /// Returns the access rights on a bus.
+    /// Returns the access rights of the item on a bus.
     pub fn access_on(&self, bus: Bus) -> Access {
         self.variants_on(bus).find_map(|variant| variant.access).unwrap_or(self.access)
     }
 
-    /// Returns the limits on a bus, if they differ from those of the item.
+    /// Returns the limits of the item on a bus, if they differ from [`Item::limits`].
     pub fn limits_on(&self, bus: Bus) -> Option<&Limits> {
         self.variants_on(bus)
             .map(|variant| &variant.limits)
             .find(|limits| !limits.is_empty() || !limits.allowed.is_empty())
     }
 
-    /// Returns the value that a DCF sets.
+    /// Returns the value of the item that a DCF sets.
     pub fn configured_value(&self) -> Option<&Value> {
         self.configured.as_ref()?.value.as_ref()
     }
 
-    /// Returns the initial value: the value that a DCF sets, or the default value.
+    /// Returns the initial value of the item: the value that a DCF sets, or the default value.
     pub fn initial(&self) -> Option<&Value> {
         self.configured_value().or(self.default.as_ref())
     }
 
-    /// Returns the default value, if it is an integer.
+    /// Returns the default value of the item, if it is an integer.
     pub fn default_integer(&self) -> Option<i128> {
         self.default.as_ref().and_then(Value::as_int)
     }
 }
 
-/// References to items with the same value, a part of it, or its length.
+/// References to items that contain the same value, a part of the value, or its length.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RelatedItems {
@@ -184,13 +184,13 @@ pub struct RelatedItems {
 }
 
 impl RelatedItems {
-    /// Returns all references.
+    /// Returns the references to all related items.
     pub fn all(&self) -> impl Iterator<Item = &ItemRef> {
         let RelatedItems { same_as, same_quantity, upper_half, valid_count } = self;
         [same_as, same_quantity, upper_half, valid_count].into_iter().flatten()
     }
 
-    /// Returns all references for modification.
+    /// Returns the references to all related items for modification.
     pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut ItemRef> {
         let RelatedItems { same_as, same_quantity, upper_half, valid_count } = self;
         [same_as, same_quantity, upper_half, valid_count].into_iter().flatten()
@@ -201,23 +201,23 @@ impl RelatedItems {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ItemSpans {
-    /// The name.
+    /// Location of the name.
     pub name: Span,
-    /// The data type.
+    /// Location of the data type.
     pub ty: Span,
-    /// The access type.
+    /// Location of the access type.
     pub access: Span,
-    /// The PDO mapping flag.
+    /// Location of the PDO mapping flag.
     pub mappable: Span,
-    /// The default value.
+    /// Location of the default value.
     pub default: Span,
-    /// The lower limit.
+    /// Location of the minimum.
     pub low: Span,
-    /// The upper limit.
+    /// Location of the maximum.
     pub high: Span,
-    /// The configured value.
+    /// Location of the configured value.
     pub configured: Span,
-    /// The description.
+    /// Location of the description.
     pub documentation: Span,
 }
 
@@ -225,9 +225,9 @@ pub struct ItemSpans {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Configured {
-    /// Value for this device (ParameterValue).
+    /// Value that the file configures (ParameterValue).
     pub value: Option<Value>,
-    /// Name of the item in this application (Denotation).
+    /// Name of the item in the application (Denotation).
     pub denotation: Option<CompactString>,
     /// File for the content of a domain that was read (UploadFile).
     pub upload_file: Option<CompactString>,
@@ -239,34 +239,34 @@ pub struct Configured {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Group {
-    /// Name as the source spells it; may be empty.
+    /// Name of the group as the source spells it; may be empty.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the group in other languages.
     pub names: Texts,
-    /// Kind of group, with its address.
+    /// Kind of the group, with its address.
     pub kind: GroupKind,
-    /// Items, sorted by sub-index or in the order of the source.
+    /// Items of the group, sorted by sub-index or in the order of the source.
     pub items: Vec<Item>,
     /// Indices of related objects (ObjectLinks of CiA 306).
     pub links: Vec<u16>,
     /// ObjFlags of the object (CiA 306).
     pub flags: u32,
-    /// Whether the index of the object depends on the slot of the module (ETG.2000).
+    /// True if the index of the object depends on the slot of the module (ETG.2000).
     pub depends_on_slot: bool,
-    /// Whether the index of the object depends on the slot group of the module (ETG.2000).
+    /// True if the index of the object depends on the slot group of the module (ETG.2000).
     pub depends_on_slot_group: bool,
-    /// Number of items that the source describes in the object itself (SubItem in Info of ETG.2000). The other items follow
-    /// from its type.
+    /// Number of items that the source describes in the object itself (SubItem in Info of ETG.2000). The other items follow from
+    /// the type of the object.
     pub described: u32,
-    /// Description from the source.
+    /// Description of the group from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Ambiguities in the source, with assumptions.
+    /// Ambiguities in the source about the group, with the assumptions made.
     pub doubts: Doubts,
-    /// Facts of the source without a field in the IR.
+    /// Facts about the group that have no field in the IR.
     pub extensions: Extensions,
-    /// Location in the source.
+    /// Location of the group in the source.
     pub origin: Origin,
-    /// Location of the name in the source.
+    /// Location of the group's name in the source.
     pub name_at: Span,
 }
 
@@ -291,7 +291,7 @@ impl Group {
         }
     }
 
-    /// Returns the index, if the group is an object.
+    /// Returns the index of the group, if the group is an object.
     pub fn index(&self) -> Option<u16> {
         match self.kind {
             GroupKind::Object { index, .. } => Some(index),
@@ -299,7 +299,7 @@ impl Group {
         }
     }
 
-    /// Returns the object code, if the group is an object.
+    /// Returns the object code of the group, if the group is an object.
     pub fn object_code(&self) -> Option<ObjectCode> {
         match self.kind {
             GroupKind::Object { code, .. } => Some(code),
@@ -327,11 +327,11 @@ impl Group {
 pub enum GroupKind {
     /// An object of an object dictionary (CiA 301 7.4, ETG.1000.6 5.6).
     Object {
-        /// Index.
+        /// Index of the object.
         index: u16,
-        /// Object code.
+        /// Object code of the object.
         code: ObjectCode,
-        /// Whether a device has to have the object, if the source states it.
+        /// Requirement level of the object, if the source states it.
         category: Option<Category>,
     },
     /// A chapter of a register table.
@@ -340,7 +340,7 @@ pub enum GroupKind {
     Record(Box<Record>),
     /// A process image with a fixed layout.
     Image {
-        /// Length in bytes.
+        /// Length of the process image in bytes.
         length: u32,
     },
 }
@@ -349,51 +349,51 @@ pub enum GroupKind {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Record {
-    /// Record index.
+    /// Index of the record.
     pub index: u16,
-    /// Length in bytes.
+    /// Length of the record in bytes.
     pub length: u32,
-    /// Position in the order of transfer at start-up; 0 = any.
+    /// Position of the record in the order of transfer at start-up; 0 = any.
     pub transfer_sequence: u16,
-    /// Whether a change during operation disturbs the device, if stated (`ChangeableWithBump`).
+    /// True if a change during operation disturbs the device (`ChangeableWithBump`); `None` if the source does not state it.
     pub changeable_with_bump: Option<bool>,
     /// Fixed bytes with their byte offsets. Bytes without a constant or an item are 0.
     pub constants: Vec<(u32, Vec<u8>)>,
 }
 
-/// Whether a device has to have an object.
+/// The requirement level of an object: whether devices must have it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Category {
-    /// Mandatory.
+    /// Each device must have the object.
     Mandatory,
-    /// Optional.
+    /// The object is optional.
     Optional,
-    /// Mandatory under a condition.
+    /// The object is mandatory under a condition.
     Conditional,
-    /// Manufacturer-specific.
+    /// The object is manufacturer-specific.
     Manufacturer,
 }
 
-/// Object code (CiA 301 7.4.3).
+/// Object code, which states the kind of an object (CiA 301 7.4.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum ObjectCode {
-    /// 0: no data.
+    /// Object code 0: an object without data.
     Null,
-    /// 2: a block of data of any length.
+    /// Object code 2: a block of data of any length.
     Domain,
-    /// 5: definition of a basic type.
+    /// Object code 5: a definition of a basic type.
     DefType,
-    /// 6: definition of a record type.
+    /// Object code 6: a definition of a record type.
     DefStruct,
-    /// 7: a single value.
+    /// Object code 7: a single value.
     Var,
-    /// 8: elements of one type.
+    /// Object code 8: elements of the same type.
     Array,
-    /// 9: elements of different types.
+    /// Object code 9: elements of different types.
     Record,
 }
 
@@ -412,7 +412,7 @@ impl ObjectCode {
         })
     }
 
-    /// Returns the name in CiA 301.
+    /// Returns the name of the object code in CiA 301.
     pub fn name(self) -> &'static str {
         match self {
             ObjectCode::Null => "NULL",

@@ -1,13 +1,13 @@
-//! Indexes for fast lookup of items.
+//! Lookup tables for items.
 
 use std::cell::OnceCell;
 use std::collections::{BTreeSet, HashMap};
 
 use super::{Group, Item, ItemId};
 
-/// Index of items by index and sub-index. It includes registers with an object address.
+/// Lookup table of items by index and sub-index, including registers with an object address.
 ///
-/// Objects have to be sorted by index, after all other groups.
+/// The objects must be sorted by index, and must follow all other groups.
 #[derive(Clone, Debug)]
 pub struct Entries<'a> {
     groups: &'a [Group],
@@ -16,7 +16,7 @@ pub struct Entries<'a> {
 }
 
 impl<'a> Entries<'a> {
-    /// Creates an index of the items of a device or module.
+    /// Creates a lookup table of the items of a device or module.
     pub fn new(groups: &'a [Group]) -> Self {
         Entries { groups, registers: OnceCell::new() }
     }
@@ -37,7 +37,7 @@ impl<'a> Entries<'a> {
         }
     }
 
-    /// Returns whether there are neither objects nor chapters.
+    /// Returns whether the device or module has neither objects nor chapters.
     pub fn is_empty(&self) -> bool {
         self.groups.is_empty()
     }
@@ -56,7 +56,8 @@ impl<'a> Entries<'a> {
     }
 }
 
-/// Index of items by name and path. Of items that share a name, it contains the first. It is built at the first lookup.
+/// Lookup table of items by name and path, built at the first lookup. If several items share a name, the table contains the first
+/// one.
 #[derive(Clone, Debug)]
 pub struct ItemNames<'a> {
     groups: &'a [Group],
@@ -65,7 +66,7 @@ pub struct ItemNames<'a> {
 }
 
 impl<'a> ItemNames<'a> {
-    /// Creates an index of the items of a device or module.
+    /// Creates a lookup table of the items of a device or module.
     pub fn new(groups: &'a [Group]) -> Self {
         ItemNames { groups, names: OnceCell::new(), paths: OnceCell::new() }
     }
@@ -88,7 +89,7 @@ impl<'a> ItemNames<'a> {
     }
 }
 
-/// Index of items by path (`Chapter/Item`).
+/// Lookup table of items by path (`Chapter/Item`).
 #[derive(Clone, Debug, Default)]
 pub struct ItemPaths<'a> {
     chapters: HashMap<&'a str, HashMap<&'a str, (ItemId, &'a Item)>>,
@@ -97,7 +98,7 @@ pub struct ItemPaths<'a> {
 }
 
 impl<'a> ItemPaths<'a> {
-    /// Creates an index of the items of these groups.
+    /// Creates a lookup table of the items of these groups.
     pub fn new(groups: impl IntoIterator<Item = &'a Group>) -> Self {
         let mut paths = ItemPaths::default();
         for (position, group) in (0..).zip(groups) {
@@ -112,7 +113,7 @@ impl<'a> ItemPaths<'a> {
 
     /// Returns the first item at a path, with its id.
     pub fn find(&self, path: &str) -> Option<(ItemId, &'a Item)> {
-        // A slash may belong to either name.
+        // A slash can belong to the chapter name or to the item name.
         let found = self.slashes.iter().filter_map(|&slashes| {
             let (at, _) = path.match_indices('/').nth(slashes)?;
             self.chapters.get(&path[..at])?.get(&path[at + 1..]).copied()

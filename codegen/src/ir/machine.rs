@@ -5,11 +5,11 @@ use super::{
 };
 use crate::source::{Origin, Span};
 
-/// A state machine.
+/// A state machine of a device.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StateMachine {
-    /// Name.
+    /// Name of the state machine.
     pub name: CompactString,
     /// Item that contains the state, or `Message.field` for a field of a reply.
     pub status_item: ItemRef,
@@ -18,7 +18,7 @@ pub struct StateMachine {
     /// Enumeration of the states, if the source has one.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub state_type: Option<TypeRef>,
-    /// States as patterns of the status item. With a `state_type`, each of its values is a state.
+    /// States as patterns of the status item. If there is a `state_type`, each value of that type is a state.
     pub states: SharedList<Pattern>,
     /// State after power-on.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
@@ -30,7 +30,7 @@ pub struct StateMachine {
     /// Effects of commands in each state, if the source has a table of them.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub outcomes: Vec<CommandOutcomes>,
-    /// Description from the source.
+    /// Description of the state machine from the source.
     pub documentation: Option<Box<Documentation>>,
 }
 
@@ -38,17 +38,17 @@ pub struct StateMachine {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CommandOutcomes {
-    /// Name of the row.
+    /// Name of the row, as the source spells it.
     pub name: CompactString,
     /// Messages or commands of the row; empty if the source does not describe the command elsewhere.
     pub commands: Vec<CompactString>,
     /// Models, firmware versions and buses that have the command.
     pub availability: Option<Box<Availability>>,
-    /// Effects, one entry for each state.
+    /// Effects of the command, with one entry for each state.
     pub cells: Vec<StateOutcome>,
-    /// Description from the source.
+    /// Description of the command from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Location in the source.
+    /// Location of the command in the source.
     pub origin: Origin,
 }
 
@@ -58,9 +58,9 @@ pub struct CommandOutcomes {
 pub struct StateOutcome {
     /// State in which the device receives the command.
     pub state: CompactString,
-    /// Possible outcomes; empty if the source does not state any.
+    /// Possible outcomes of the command in this state; empty if the source does not state any.
     pub outcomes: Vec<Outcome>,
-    /// Conditions and further effects.
+    /// Conditions and further effects of the command in this state.
     pub documentation: Option<Box<Documentation>>,
 }
 
@@ -81,15 +81,15 @@ pub enum Outcome {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pattern {
-    /// Name.
+    /// Name of the state or command.
     pub name: CompactString,
-    /// Bits that the pattern includes.
+    /// Mask of the bits that the pattern includes.
     pub mask: u32,
-    /// Value of these bits.
+    /// Value of the masked bits.
     pub value: u32,
-    /// Name in other languages.
+    /// Name of the state or command in other languages.
     pub names: Texts,
-    /// Description from the source.
+    /// Description of the state or command from the source.
     pub documentation: Option<Box<Documentation>>,
 }
 
@@ -97,15 +97,16 @@ pub struct Pattern {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Transition {
-    /// Number in the source.
+    /// Number of the transition in the source.
     pub number: Option<u16>,
     /// State before the transition; `None` = any state.
     pub from: Option<CompactString>,
     /// State after the transition.
     pub to: CompactString,
-    /// Command or message that causes the transition; `None` = the device itself causes it. Only a message has an id.
+    /// Command or message that causes the transition; `None` = the device itself causes it. The reference has an id only if it
+    /// names a message.
     pub command: Option<MessageRef>,
-    /// Description from the source.
+    /// Description of the transition from the source.
     pub documentation: Option<Box<Documentation>>,
 }
 
@@ -113,19 +114,19 @@ pub struct Transition {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Procedure {
-    /// Name.
+    /// Name of the procedure.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the procedure in other languages.
     pub names: Texts,
     /// Names of the arguments, which the caller provides and steps write.
     pub arguments: Vec<CompactString>,
-    /// Steps in order.
+    /// Steps of the procedure, in order.
     pub steps: Vec<Step>,
     /// Locations of the steps in the source.
     pub step_spans: Vec<Span>,
-    /// Description from the source.
+    /// Description of the procedure from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Location in the source.
+    /// Location of the procedure in the source.
     pub origin: Origin,
 }
 

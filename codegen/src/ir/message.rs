@@ -6,46 +6,46 @@ use super::{
 };
 use crate::source::{Origin, Span};
 
-/// A request and its reply.
+/// A message of a command protocol: a request and its reply.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Message {
-    /// Name.
+    /// Name of the message.
     pub name: CompactString,
-    /// Fields of the request in order; empty if only the device sends.
+    /// Fields of the request, in order; empty if only the device sends data.
     pub request: Vec<MessageField>,
-    /// Fields of the reply in order; empty if the device sends none.
+    /// Fields of the reply, in order; empty if the device sends no reply.
     pub reply: Vec<MessageField>,
-    /// When the command is complete.
+    /// Event that completes the command.
     pub completion: Completion,
     /// Approximate reply time in milliseconds, if the source states that the reply is delayed.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub reply_time: Option<u32>,
     /// The earlier message that selects this reply, if the meaning of the reply depends on an earlier request.
     pub after: Option<MessageRef>,
-    /// Whether the device also sends this reply after power-on, before it has received one of the messages in `after`.
+    /// True if the device also sends this reply after power-on, before it has received one of the messages in `after`.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub by_default: bool,
     /// The message that the device sends instead of the reply if it rejects the request.
     pub error: Option<MessageRef>,
-    /// Side effects.
+    /// Side effects of the message.
     pub side_effects: Vec<CompactString>,
     /// Conditions on items under which the device accepts the message.
     pub accepted_when: Vec<Condition>,
-    /// Name in other languages.
+    /// Name of the message in other languages.
     pub names: Texts,
     /// Models, firmware versions and buses that support the message.
     pub availability: Option<Box<Availability>>,
     /// States in which the device accepts the message; empty = all.
     pub accepted_in: Vec<CompactString>,
-    /// Example frames in the source.
+    /// Example frames of the message in the source.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub examples: Vec<MessageExample>,
-    /// Description from the source.
+    /// Description of the message from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Ambiguities in the source, with assumptions.
+    /// Ambiguities in the source about the message, with the assumptions made.
     pub doubts: Doubts,
-    /// Location in the source.
+    /// Location of the message in the source.
     pub origin: Origin,
 }
 
@@ -66,7 +66,7 @@ fn values(fields: &[MessageField]) -> Box<dyn Iterator<Item = &MessageValue> + '
     }))
 }
 
-/// A request and the reply of a device, as bytes.
+/// An example of a request and the reply of the device, as bytes.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MessageExample {
@@ -74,7 +74,7 @@ pub struct MessageExample {
     pub request: Vec<u8>,
     /// Bytes of the reply; empty if the source prints none.
     pub reply: Vec<u8>,
-    /// Description from the source.
+    /// Description of the example from the source.
     pub documentation: Option<Box<Documentation>>,
     /// Location of the request in the source.
     pub request_at: Span,
@@ -82,93 +82,94 @@ pub struct MessageExample {
     pub reply_at: Span,
 }
 
-/// When a command is complete.
+/// The event that completes a command.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Completion {
-    /// Before the reply.
+    /// The command is complete before the device sends the reply.
     #[default]
     Immediate,
-    /// With the reply, which can take a long time.
+    /// The command is complete when the device sends the reply, which can take a long time.
     Reply,
-    /// When this item, or this field of a reply, has a value.
+    /// The command is complete when an item, or a field of a reply, has a value.
     Polled {
-        /// Name of the item or field, optionally followed by a dot and the name of a bit. Only an item has an id.
+        /// Name of the item or field, optionally followed by a dot and the name of a bit. The reference has an id only if it
+        /// names an item.
         item: ItemRef,
-        /// The bits to compare; `None` = all.
+        /// Mask of the bits to compare; `None` = all bits.
         mask: Option<u64>,
-        /// The value of a completed command; `None` = any except 0.
+        /// Value that means that the command is complete; `None` = any value except 0.
         value: Option<Value>,
-        /// Whether the reply to the command itself already has a valid value. If not, this value can still refer to the previous
-        /// command.
+        /// True if the reply to the command itself already has a valid value. Otherwise, the value in that reply can refer to the
+        /// previous command.
         #[cfg_attr(feature = "serde", serde(default))]
         in_reply: bool,
     },
-    /// After this time in milliseconds.
+    /// The command is complete after this time in milliseconds.
     Delayed(u32),
 }
 
-/// One field of a frame. Fields below one byte are packed from the most significant bit.
+/// One field of a frame. Fields shorter than one byte are packed from the most significant bit.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum MessageField {
-    /// Fixed bytes.
+    /// Bytes with a fixed value.
     Constant(Vec<u8>),
     /// Fixed bits that do not fill a byte.
     FixedBits {
-        /// Number of bits.
+        /// Number of fixed bits.
         bits: u8,
-        /// Value of the bits.
+        /// Value of the fixed bits.
         value: u64,
     },
     /// A typed value.
     Value(Box<MessageValue>),
     /// A copy of a request field, or of some of its bytes.
     Echo {
-        /// Name of the field.
+        /// Name of the copied field.
         field: CompactString,
         /// First and last byte of the copy, counted from 0 in the order on the wire; `None` = all.
         bytes: Option<(u8, u8)>,
     },
-    /// Bytes of the request, whatever their meaning, counted from 0 at the start of the data. If the request is shorter, the
-    /// missing bytes are unknown.
+    /// A copy of bytes of the request, regardless of their meaning. The first data byte has the number 0. If the request is
+    /// shorter, the missing bytes are unknown.
     Copy {
-        /// First byte.
+        /// Number of the first copied byte.
         first: u16,
-        /// Last byte.
+        /// Number of the last copied byte.
         last: u16,
     },
-    /// The code of an item in a parameter space. In a reply, it is the first code of the request.
+    /// The code of an item in a parameter space. In a reply, the field is the first code of the request.
     ItemCode {
         /// Name of the parameter space.
         space: CompactString,
         /// Length of the code in bits.
         bits: u8,
     },
-    /// The value of the item whose code comes before it.
+    /// The value of the item whose code precedes this field.
     ItemValue {
         /// Name of the parameter space.
         space: CompactString,
     },
-    /// Zero bytes in the length of the value of the item whose code comes before them.
+    /// Zero bytes in place of the value of the item whose code precedes this field.
     ItemPadding {
         /// Name of the parameter space.
         space: CompactString,
     },
-    /// Number of unused bytes.
+    /// Unused bytes. The number is their count.
     Padding(u8),
-    /// Repeated fields.
+    /// Fields that are repeated.
     Repeat {
         /// Name of the field with the number of repetitions; `None` = up to the end of the data.
         count: Option<CompactString>,
         /// Maximum number of repetitions.
         max: Option<u16>,
-        /// The fields of each repetition.
+        /// Fields of one repetition.
         fields: Vec<MessageField>,
     },
-    /// All remaining bytes.
+    /// All remaining bytes of the frame.
     Rest,
 }
 
@@ -176,11 +177,11 @@ pub enum MessageField {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MessageValue {
-    /// Name, type and other facts of the value. This item has no binding.
+    /// Name, type and other facts of the value. The item has no address.
     pub item: Item,
-    /// Order of the bytes on the wire. 0 is the most significant byte. Empty = big-endian.
+    /// Byte order on the wire as a list of byte numbers, in which 0 is the most significant byte; empty = big-endian.
     pub byte_order: Vec<u8>,
-    /// The field of the same frame from which the bytes are counted, if the value is a length.
+    /// Field of the same frame at which counting starts, if the value is a number of bytes.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub counts: Option<CompactString>,
 }
@@ -189,41 +190,42 @@ pub struct MessageValue {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ParameterSpace {
-    /// Name.
+    /// Name of the parameter space.
     pub name: CompactString,
-    /// Message that reads a value.
+    /// Message that reads a parameter.
     pub read: Option<MessageRef>,
-    /// Message that writes a value.
+    /// Message that writes a parameter.
     pub write: Option<MessageRef>,
-    /// Message that writes a value to non-volatile memory.
+    /// Message that writes a parameter to non-volatile memory.
     pub store: Option<MessageRef>,
-    /// Order of the bytes of longer values on the wire. 0 is the most significant byte. Empty = big-endian.
+    /// Byte order of longer values on the wire as a list of byte numbers, in which 0 is the most significant byte; empty =
+    /// big-endian.
     pub byte_order: Vec<u8>,
-    /// Description from the source.
+    /// Description of the parameter space from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Location in the source.
+    /// Location of the parameter space in the source.
     pub origin: Origin,
 }
 
-/// How frames are delimited and checked.
+/// Framing of a command protocol: the delimiters, escapes and checksum of frames.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Framing {
-    /// First byte.
+    /// Byte at the start of a frame.
     pub start: Option<u8>,
-    /// Last byte.
+    /// Byte at the end of a frame.
     pub end: Option<u8>,
-    /// Byte before an escaped byte.
+    /// Byte that precedes an escaped byte.
     pub escape: Option<u8>,
     /// Value that is combined with an escaped byte by exclusive or.
     pub escape_xor: u8,
-    /// Bytes that are escaped.
+    /// Byte values that are escaped.
     pub escaped: Vec<u8>,
-    /// Algorithm of the checksum: `xor`, `sum`, `crc16`, ….
+    /// Name of the checksum algorithm: `xor`, `sum`, `crc16`, ….
     pub check: CompactString,
     /// First field that the checksum covers; `None` = from the first byte after `start`.
     pub check_from: Option<CompactString>,
-    /// Whether bytes of the checksum are escaped.
+    /// True if bytes of the checksum are escaped.
     pub check_escaped: bool,
     /// Initial value of the checksum.
     pub check_seed: u32,
@@ -232,9 +234,9 @@ pub struct Framing {
     /// Request field with the address of the device; `None` = the protocol has no device addresses.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub address: Option<CompactString>,
-    /// Description from the source.
+    /// Description of the framing from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Location in the source.
+    /// Location of the framing in the source.
     pub origin: Origin,
 }
 
@@ -242,19 +244,19 @@ pub struct Framing {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CodeTable {
-    /// Name.
+    /// Name of the code table.
     pub name: CompactString,
-    /// Names of further columns, after code and meaning.
+    /// Names of the further columns, after code and meaning.
     pub columns: Vec<CompactString>,
-    /// Rows.
+    /// Rows of the table.
     pub rows: SharedList<CodeRow>,
     /// Buses on which the codes have these meanings; empty = all.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Buses::is_empty"))]
     pub buses: Buses,
-    /// Description.
+    /// Description of the code table.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub documentation: Option<Box<Documentation>>,
-    /// Location in the source.
+    /// Location of the code table in the source.
     pub origin: Origin,
 }
 
@@ -265,21 +267,21 @@ pub struct CodeRow {
     /// The code or range as printed (`0x8700`, `F125`, `0xFF13 to 0xFF15`); empty if the source prints decimal numbers.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub printed: CompactString,
-    /// Cells as printed, with an empty text for each cell that is not a hexadecimal number.
+    /// Cells of the further columns as printed. The text is empty for each cell that is not a hexadecimal number.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub printed_cells: Vec<CompactString>,
     /// Code, or first code of a range.
     pub code: i128,
     /// Last code of a range.
     pub last: Option<i128>,
-    /// Name.
+    /// Name of the code.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the code in other languages.
     pub names: Texts,
     /// Models and firmware versions that use the code.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub availability: Option<Box<Availability>>,
-    /// Cause and remedy.
+    /// Description of cause and remedy.
     pub documentation: Option<Box<Documentation>>,
     /// Values of the further columns.
     pub cells: Vec<Value>,

@@ -12,15 +12,15 @@ use crate::source::Origin;
 pub struct Slot {
     /// Number of the first slot.
     pub number: u16,
-    /// Name.
+    /// Name of the slot.
     pub name: CompactString,
     /// Minimum and maximum number of modules.
     pub instances: (u16, u16),
-    /// Name in other languages.
+    /// Name of the slot in other languages.
     pub names: Texts,
     /// Accepted modules; empty = all modules of the device.
     pub fits: Vec<Fit>,
-    /// Default module.
+    /// Module that the slot contains by default.
     pub default: Option<Fit>,
     /// Number of the slot group, if any.
     pub group: Option<u16>,
@@ -56,9 +56,9 @@ pub struct ModuleId(pub u32);
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModuleUse {
-    /// The module.
+    /// Position of the module in the catalog.
     pub module: ModuleId,
-    /// The slots.
+    /// Slots that accept or contain the module.
     pub places: SlotNumbers,
 }
 
@@ -66,27 +66,27 @@ pub struct ModuleUse {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Module {
-    /// Number in the description, counted from 1 (CiA 306), or module ident number (ETG.2000, GSDML).
+    /// Number of the module in the description, counted from 1 (CiA 306), or module ident number (ETG.2000, GSDML).
     pub number: u32,
-    /// Identifier in the source, if any (ID of a ModuleItem, Type of a Module).
+    /// Identifier of the module in the source, if any (ID of a ModuleItem, Type of a Module).
     pub id: CompactString,
-    /// Class to which slots refer (ModuleClass of ETG.2000).
+    /// Class of the module, to which slots refer (ModuleClass of ETG.2000).
     pub class: CompactString,
-    /// Name.
+    /// Name of the module.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the module in other languages.
     pub names: Texts,
-    /// Version as the source spells it.
+    /// Version of the module as the source spells it.
     pub version: CompactString,
-    /// Revision as the source spells it.
+    /// Revision of the module as the source spells it.
     pub revision: CompactString,
-    /// Order code and identity numbers.
+    /// Order code and identity numbers of the module.
     pub identity: Identity,
-    /// Lines of comments.
+    /// Comment lines about the module.
     pub comments: Vec<CompactString>,
-    /// Description from the source.
+    /// Description of the module from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Types of its objects.
+    /// Types of the module's objects.
     pub types: Vec<TypeDef>,
     /// Objects that exist once for any number of these modules.
     pub fixed_objects: Vec<Group>,
@@ -94,7 +94,7 @@ pub struct Module {
     pub sub_extensions: Vec<SubExtension>,
     /// Objects of the module, relative to its slot (ETG.2000).
     pub groups: Vec<Group>,
-    /// Cyclic data, relative to its slot.
+    /// Cyclic data of the module, relative to its slot.
     pub process_data: ProcessData,
     /// Number of the group of modules with contiguous process data (ModulePdoGroup of ETG.2000).
     pub pdo_group: Option<u16>,
@@ -102,15 +102,15 @@ pub struct Module {
     pub init_commands: Vec<InitCommand>,
     /// Submodules of the module, and submodules that it accepts (GSDML).
     pub submodules: Vec<SubmoduleUse>,
-    /// Physical subslots (GSDML, PhysicalSubslots); empty = the subslots of its submodules.
+    /// Physical subslots (GSDML, PhysicalSubslots); empty = the subslots of the module's submodules.
     pub subslots: Numbers,
     /// Names of subslots (GSDML, SubslotList).
     pub subslot_names: Vec<SubslotName>,
-    /// Numbers of its device profiles.
+    /// Numbers of the device profiles that the module follows.
     pub profiles: Vec<u32>,
-    /// Facts of the source without a field in the IR.
+    /// Facts about the module that have no field in the IR.
     pub extensions: Extensions,
-    /// Location in the source.
+    /// Location of the module in the source.
     pub origin: Origin,
 }
 
@@ -124,8 +124,8 @@ pub struct SubExtension {
     pub count: u16,
     /// Number of modules that share one set of sub-indices, with bit-wise packing; `None` = each module adds the sub-indices.
     pub per: Option<u16>,
-    /// Whether the object at the next index continues a full object (ObjExtend).
+    /// True if the object at the next index continues a full object (ObjExtend).
     pub extends_object: bool,
-    /// Template of each added sub-index. Its sub-index is 1.
+    /// Template of each added sub-index. The template itself has sub-index 1.
     pub template: Item,
 }

@@ -1,4 +1,4 @@
-//! References to items by index and sub-index (`0x6040`, `0x1018:1`), as overlays and profiles use them.
+//! References to items by index and sub-index (`0x6040`, `0x1018:1`), which overlays and profiles use.
 
 use super::owner::object;
 use super::{CompactString, Condition, Group, Item, ItemRef, Shape, TypeDef};
@@ -10,14 +10,14 @@ pub(crate) fn in_range(groups: &mut [Group], first: u16, last: u16) -> &mut [Gro
     groups.get_mut(start..end).unwrap_or_default()
 }
 
-/// Returns the item whose index and sub-index a name spells.
+/// Returns the item if `name` is an index, or an index and sub-index, such as `0x1018:1`.
 pub(crate) fn item_at<'g>(groups: &'g [Group], name: &str) -> Option<&'g Item> {
     let (index, sub_index) = object(name)?;
     let position = groups.binary_search_by_key(&Some(index), Group::index).ok()?;
     groups.get(position)?.sub(sub_index)
 }
 
-/// Returns the reference with the name of its item, if it spells index and sub-index of an item with a name.
+/// Returns the reference with the name of its item instead of an index and sub-index, if the item has a name.
 pub(crate) fn item_name(groups: &[Group], reference: &ItemRef) -> ItemRef {
     match item_at(groups, reference) {
         Some(item) if !item.name.is_empty() => ItemRef { name: item.name.clone(), ..reference.clone() },
@@ -25,7 +25,7 @@ pub(crate) fn item_name(groups: &[Group], reference: &ItemRef) -> ItemRef {
     }
 }
 
-/// Names the items in conditions of bits and values that refer to them by index, and the values of these conditions.
+/// Replaces indices in the conditions of bits and values with item names, and adds the names of the values in these conditions.
 pub(crate) fn name_conditions(
     groups: &[Group],
     types: &mut [TypeDef],

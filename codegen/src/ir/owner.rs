@@ -14,7 +14,7 @@ const MAX_ALIASES: usize = 16;
 pub struct Owner<'a> {
     /// Types of the items.
     pub types: &'a [TypeDef],
-    /// Lists of groups.
+    /// Lists of the groups that contain the items.
     pub groups: &'a [&'a [Group]],
 }
 
@@ -24,7 +24,7 @@ impl<'a> Owner<'a> {
         Owner { types, groups: &[] }
     }
 
-    /// Returns the item with this id. The id counts the groups of all lists.
+    /// Returns the item with this id. The group position in the id counts the groups of all lists.
     pub fn item(self, id: ItemId) -> Option<&'a Item> {
         let mut position = id.group as usize;
         for groups in self.groups {
@@ -36,7 +36,7 @@ impl<'a> Owner<'a> {
         None
     }
 
-    /// Returns all items.
+    /// Returns the items of all groups.
     pub fn items(self) -> impl Iterator<Item = &'a Item> {
         self.groups.iter().flat_map(|groups| groups.iter()).flat_map(|group| &group.items)
     }
@@ -127,7 +127,7 @@ impl<'a> TypeUses<'a> {
     }
 }
 
-/// Index of items by the names in references. Each map is built at the first lookup, because most descriptions have no references.
+/// Lookup table for the names in references. Each map is built at the first lookup, because most descriptions have no references.
 pub(crate) struct Index<'a> {
     names: OnceCell<HashMap<&'a str, ItemId>>,
     objects: OnceCell<HashMap<(u16, u8), ItemId>>,

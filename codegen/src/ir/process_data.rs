@@ -21,7 +21,7 @@ pub struct ProcessData {
 pub const MAX_PDO_SUBS: usize = 254;
 
 impl ProcessData {
-    /// Returns the PDOs that are assigned by default with their sync managers: outputs, then inputs, in the order of the source.
+    /// Returns the PDOs that are assigned by default, with their sync managers: outputs, then inputs, in the order of the source.
     ///
     /// Of PDOs that exclude each other or share an index, the first is assigned (ETG.2000, Sm of RxPdo and TxPdo).
     pub fn assigned_by_default(&self) -> Vec<(&Pdo, u8)> {
@@ -49,7 +49,7 @@ impl ProcessData {
     }
 }
 
-/// The default PDO assignment. Its maps keep the time linear for files with thousands of PDOs.
+/// The default PDO assignment. The maps keep the time linear for files with thousands of PDOs.
 #[derive(Debug, Default)]
 pub(crate) struct DefaultAssignment<'a> {
     /// Assigned PDOs with their sync managers.
@@ -97,62 +97,62 @@ pub enum Direction {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pdo {
-    /// Direction.
+    /// Direction of the PDO.
     pub direction: Direction,
-    /// Number: counted from 1 (CANopen), or the distance of the mapping object from 0x1600 or 0x1A00.
+    /// Number of the PDO: counted from 1 on CANopen, otherwise the distance of the mapping object from 0x1600 or 0x1A00.
     pub number: u16,
-    /// Name, if the source has one.
+    /// Name of the PDO, if the source has one.
     pub name: CompactString,
-    /// Index of its mapping object (0x1600 …, 0x1A00 …).
+    /// Index of the mapping object (0x1600 …, 0x1A00 …).
     pub mapping_index: u16,
-    /// Communication parameters (CANopen).
+    /// Communication parameters of the PDO on CANopen.
     pub communication: Option<PdoCommunication>,
-    /// Entries in order.
+    /// Entries of the PDO, in order.
     pub entries: Vec<PdoEntry>,
-    /// Whether the mapping cannot be changed.
+    /// True if the mapping cannot be changed.
     pub fixed: bool,
-    /// Whether a master has to assign the PDO.
+    /// True if a master has to assign the PDO.
     pub mandatory: bool,
-    /// Sync manager in the default assignment.
+    /// Sync manager of the PDO in the default assignment.
     pub sync_manager: Option<u8>,
-    /// Mapping objects of PDOs that cannot be assigned together with this one.
+    /// Indices of the mapping objects whose PDOs cannot be assigned together with this PDO.
     pub excludes: Vec<u16>,
     /// Sync managers that cannot contain the PDO (ExcludedSm of ETG.2000).
     pub excluded_sync_managers: Vec<u8>,
-    /// Sync unit (ETG.2000).
+    /// Number of the sync unit that contains the PDO (ETG.2000).
     pub sync_unit: Option<u8>,
-    /// Whether the index of the PDO depends on the slot of the module.
+    /// True if the index of the PDO depends on the slot of the module.
     pub depends_on_slot: bool,
-    /// Whether the index of the PDO depends on the slot group of the module.
+    /// True if the index of the PDO depends on the slot group of the module.
     pub depends_on_slot_group: bool,
-    /// Whether the PDO has no data and is not assigned (Virtual of ETG.2000).
+    /// True if the PDO has no data and is not assigned (Virtual of ETG.2000).
     pub is_virtual: bool,
-    /// Whether a PDO of a module replaces this PDO (OverwrittenByModule).
+    /// True if a PDO of a module replaces this PDO (OverwrittenByModule).
     pub overwritten_by_module: bool,
-    /// Oversampling: several samples in one cycle.
+    /// Oversampling of the PDO: several samples in one cycle.
     pub oversampling: Option<Box<Oversampling>>,
-    /// Name in other languages.
+    /// Name of the PDO in other languages.
     pub names: Texts,
     /// Maximum length in bytes, if the source states it for this PDO instead of its sync manager.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub max_bytes: Option<u16>,
-    /// Description from the source.
+    /// Description of the PDO from the source.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub documentation: Option<Box<Documentation>>,
-    /// Ambiguities in the source, with assumptions.
+    /// Ambiguities in the source about the PDO, with the assumptions made.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
     pub doubts: Doubts,
-    /// Facts of the source without a field in the IR.
+    /// Facts about the PDO that have no field in the IR.
     pub extensions: Extensions,
-    /// Buses with this mapping; `None` = all buses of the device.
+    /// Buses on which the PDO has this mapping; `None` = all buses of the device.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub buses: Option<ObjectBuses>,
-    /// Whether the PDO has no section and follows from NrOfRXPDO, NrOfTXPDO and CompactPDO (CiA 306).
+    /// True if the PDO has no section and follows from NrOfRXPDO, NrOfTXPDO and CompactPDO (CiA 306).
     pub implicit: bool,
-    /// Whether the source declares only the mapping object of the PDO.
+    /// True if the source declares only the mapping object of the PDO.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub from_object: bool,
-    /// Location in the source.
+    /// Location of the PDO in the source.
     pub origin: Origin,
 }
 
@@ -208,12 +208,12 @@ impl Pdo {
             || other.excludes.contains(&self.mapping_index)
     }
 
-    /// Returns the length in bits.
+    /// Returns the length of the PDO in bits.
     pub fn bits(&self) -> u32 {
         self.entries.iter().fold(0, |bits, entry| bits.saturating_add(entry.bits))
     }
 
-    /// Returns the length in bytes, rounded up.
+    /// Returns the length of the PDO in bytes, rounded up.
     pub fn bytes(&self) -> usize {
         self.bits().div_ceil(8) as usize
     }
@@ -235,7 +235,7 @@ pub struct PdoCommunication {
     pub event_timer: Option<u16>,
     /// Sub-index 6: SYNC start value.
     pub sync_start: Option<u8>,
-    /// Sub-indices that can be written.
+    /// Sub-indices of the communication object that can be written.
     pub writable: Vec<u8>,
 }
 
@@ -249,26 +249,27 @@ pub struct PdoEntry {
     pub sub_index: u8,
     /// Bit offset from the start of the PDO.
     pub bit_offset: u32,
-    /// Length in bits.
+    /// Length of the entry in bits.
     pub bits: u32,
-    /// Kind of entry.
+    /// Kind of the entry.
     pub kind: PdoEntryKind,
-    /// The mapped item, after `resolve`; `None` for an object of another module. Ids of a module count its fixed objects first.
+    /// Id of the mapped item, set by `resolve`; `None` for an object of another module. In a module, the fixed objects count
+    /// first.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub item: Option<ItemId>,
     /// Name of the mapped item, or the name in the mapping.
     pub name: CompactString,
     /// Type of the mapped item, or the type in the mapping.
     pub ty: Type,
-    /// Whether the entry cannot be removed from the mapping (Fixed of ETG.2000).
+    /// True if the entry cannot be removed from the mapping (Fixed of ETG.2000).
     pub fixed: bool,
-    /// Whether the index of the entry depends on the slot of the module.
+    /// True if the index of the entry depends on the slot of the module.
     pub depends_on_slot: bool,
-    /// Whether the index of the entry depends on the slot group of the module.
+    /// True if the index of the entry depends on the slot group of the module.
     pub depends_on_slot_group: bool,
-    /// Name in other languages.
+    /// Name of the entry in other languages.
     pub names: Texts,
-    /// Location in the source.
+    /// Location of the entry in the source.
     pub origin: Origin,
 }
 
@@ -297,13 +298,13 @@ impl PdoEntry {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Oversampling {
-    /// Default number of samples.
+    /// Default number of samples per cycle.
     pub factor: Option<u16>,
-    /// Minimum number of samples.
+    /// Minimum number of samples per cycle.
     pub min: Option<u16>,
-    /// Maximum number of samples.
+    /// Maximum number of samples per cycle.
     pub max: Option<u16>,
-    /// Difference of the index from sample to sample.
+    /// Increment of the index from sample to sample.
     pub index_increment: Option<u16>,
 }
 
@@ -314,9 +315,9 @@ pub struct Oversampling {
 pub enum PdoEntryKind {
     /// An item of the device.
     Item,
-    /// An object that the source does not describe: raw bits.
+    /// An object that the source does not describe, as raw bits.
     Unknown,
-    /// An object without a known index: raw bits with a name. Its index is 0.
+    /// An object without a known index, as raw bits with a name. The index of the entry is 0.
     Unnumbered,
     /// Unused bits: a dummy entry (CANopen) or padding (EtherCAT).
     Padding,
@@ -326,27 +327,27 @@ pub enum PdoEntryKind {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SyncManager {
-    /// Number.
+    /// Number of the sync manager.
     pub number: u8,
-    /// Mailbox or process data, with the direction.
+    /// Purpose of the sync manager: mailbox or process data, with the direction.
     pub purpose: SyncManagerPurpose,
-    /// Purpose as the source spells it.
+    /// Purpose of the sync manager as the source spells it.
     pub label: CompactString,
-    /// Physical start address.
+    /// Physical start address of the sync manager's memory.
     pub start_address: u16,
-    /// Default length in bytes.
+    /// Default length of the sync manager's memory in bytes.
     pub default_size: Option<u16>,
-    /// Minimum and maximum length in bytes.
+    /// Minimum and maximum length of the sync manager's memory in bytes.
     pub size_range: (Option<u16>, Option<u16>),
-    /// Value of the control register.
+    /// Value of the sync manager's control register.
     pub control: u8,
-    /// Whether the sync manager is enabled.
+    /// True if the sync manager is enabled.
     pub enable: bool,
-    /// Whether the sync manager is enabled only in the state Op.
+    /// True if the sync manager is enabled only in the state Op.
     pub op_only: bool,
-    /// Whether the sync manager exists only in the description (Virtual of ETG.2000).
+    /// True if the sync manager exists only in the description (Virtual of ETG.2000).
     pub is_virtual: bool,
-    /// Location in the source.
+    /// Location of the sync manager in the source.
     pub origin: Origin,
 }
 
@@ -355,18 +356,18 @@ pub struct SyncManager {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum SyncManagerPurpose {
-    /// Mailbox, controller to device.
+    /// Mailbox from controller to device.
     MailboxOut,
-    /// Mailbox, device to controller.
+    /// Mailbox from device to controller.
     MailboxIn,
-    /// Process data, controller to device.
+    /// Process data from controller to device.
     Outputs,
-    /// Process data, device to controller.
+    /// Process data from device to controller.
     Inputs,
 }
 
 impl SyncManagerPurpose {
-    /// Returns the name in an ESI (ETG.2000, Sm).
+    /// Returns the name of the purpose in an ESI (ETG.2000, Sm).
     pub fn label(self) -> &'static str {
         match self {
             SyncManagerPurpose::MailboxOut => "MBoxOut",
@@ -381,16 +382,16 @@ impl SyncManagerPurpose {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ProcessImage {
-    /// Name.
+    /// Name of the process image.
     pub name: CompactString,
-    /// Direction.
+    /// Direction of the process image.
     pub direction: Direction,
     /// Length of the user data in bytes.
     pub length: u32,
     /// Number of bytes that are not user data (PROFIsafe message trailer, status bytes).
     pub overhead: u32,
-    /// Whether numbers are big-endian.
+    /// True if numbers are big-endian.
     pub big_endian: bool,
-    /// Fields. Their `index` and `sub_index` are 0 if the bus has no object dictionary.
+    /// Fields of the process image. Their `index` and `sub_index` are 0 if the bus has no object dictionary.
     pub fields: Vec<PdoEntry>,
 }

@@ -38,7 +38,7 @@ pub struct ProfinetSettings {
     pub send_clocks: super::Numbers,
     /// Reduction ratios, each a power of two.
     pub reduction_ratios: super::Numbers,
-    /// Slots of the device access point itself.
+    /// Slots that accept or contain the device access point.
     pub places: SlotNumbers,
     /// Names of subslots (`SubslotList`).
     pub subslot_names: Vec<SubslotName>,
@@ -52,11 +52,11 @@ pub struct ProfinetSettings {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SubslotName {
-    /// Number.
+    /// Number of the subslot.
     pub number: u16,
-    /// Name.
+    /// Name of the subslot.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the subslot in other languages.
     pub names: Texts,
 }
 
@@ -64,13 +64,13 @@ pub struct SubslotName {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VendorBlock {
-    /// API number.
+    /// API number of the block.
     pub api: u32,
     /// Structure identifier (`APStructureIdentifier`).
     pub identifier: u16,
-    /// Fields, as a record whose index is the structure identifier.
+    /// Fields of the block, as a record whose index is the structure identifier.
     pub record: Group,
-    /// Menus of an engineering tool.
+    /// Menus in which an engineering tool shows the fields.
     pub menus: Vec<Menu>,
 }
 
@@ -78,11 +78,11 @@ pub struct VendorBlock {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoLengths {
-    /// Inputs of the controller.
+    /// Maximum length of the controller's inputs.
     pub input: Option<u16>,
-    /// Outputs of the controller.
+    /// Maximum length of the controller's outputs.
     pub output: Option<u16>,
-    /// Sum of inputs and outputs, if limited.
+    /// Maximum sum of both lengths, if limited.
     pub data: Option<u16>,
 }
 
@@ -90,41 +90,41 @@ pub struct IoLengths {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Submodule {
-    /// Identifier in the source.
+    /// Identifier of the submodule in the source.
     pub id: CompactString,
-    /// Submodule ident number.
+    /// Ident number of the submodule.
     pub ident: u32,
-    /// Kind of submodule.
+    /// Kind of the submodule.
     pub kind: SubmoduleKind,
     /// API number: 0, or the number of a profile (0x3A00 PROFIdrive, 0x3E00 encoder).
     pub api: u32,
-    /// Name.
+    /// Name of the submodule.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the submodule in other languages.
     pub names: Texts,
-    /// Description from the source.
+    /// Description of the submodule from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Identity, such as the order code.
+    /// Identity of the submodule, such as its order code.
     pub identity: Identity,
-    /// Inputs of the controller, if any.
+    /// Cyclic inputs of the controller, if any.
     pub input: Option<Box<IoData>>,
-    /// Outputs of the controller, if any.
+    /// Cyclic outputs of the controller, if any.
     pub output: Option<Box<IoData>>,
     /// Lengths of provider status and consumer status in bytes.
     pub status_lengths: (u8, u8),
     /// Parameter records, in the order of transfer.
     pub records: Vec<Group>,
-    /// F-parameters, if it is a safety submodule.
+    /// F-parameters, if the submodule is a safety submodule.
     pub f_parameters: Option<Box<FParameters>>,
-    /// Menus of an engineering tool.
+    /// Menus in which an engineering tool shows the parameters.
     pub menus: Vec<Menu>,
-    /// Pictures: type and identifier.
+    /// Types and identifiers of the submodule's pictures.
     pub graphics: Vec<(CompactString, CompactString)>,
     /// Further attributes as the source spells them, for example whether the submodule may be removed during operation.
     pub attributes: Vec<(CompactString, CompactString)>,
-    /// Facts of the source without a field in the IR.
+    /// Facts about the submodule that have no field in the IR.
     pub extensions: Extensions,
-    /// Location in the source.
+    /// Location of the submodule in the source.
     pub origin: Origin,
 }
 
@@ -133,10 +133,10 @@ pub struct Submodule {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum SubmoduleKind {
-    /// Part of a module, at fixed subslots.
+    /// A submodule that is a part of a module, at fixed subslots.
     #[default]
     Virtual,
-    /// Plugged into a subslot.
+    /// A submodule that is plugged into a subslot.
     Pluggable,
     /// A PROFINET interface, at subslot 0x8000, 0x8100, ….
     Interface,
@@ -144,17 +144,17 @@ pub enum SubmoduleKind {
     Port,
 }
 
-/// Data of one direction.
+/// Cyclic data of a submodule in one direction.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoData {
     /// Layout of the data; `overhead` counts the bytes of an F message trailer.
     pub image: ProcessImage,
-    /// Whether all items are transferred consistently.
+    /// True if all items are transferred consistently.
     pub consistent: bool,
-    /// Data items that have no field of the image, or several, in order. Each of the other fields is a data item.
+    /// Data items with no field or several fields of the image, in order. Each other field is one data item.
     pub items: Vec<IoItem>,
-    /// Channels by number (V2.45).
+    /// Channels, sorted by number (GSDML V2.45).
     pub channels: Vec<IoChannel>,
 }
 
@@ -162,29 +162,29 @@ pub struct IoData {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoItem {
-    /// Name.
+    /// Name of the data item.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the data item in other languages.
     pub names: Texts,
     /// Data type as the source spells it.
     pub data_type: CompactString,
     /// Bit offset from the start of the data.
     pub bit_offset: u32,
-    /// Number of bits.
+    /// Length of the data item in bits.
     pub bits: u32,
-    /// Position of its first field in the image.
+    /// Position of the data item's first field in the image.
     pub first_field: u32,
-    /// Number of its fields, including padding.
+    /// Number of the data item's fields, including padding.
     pub fields: u32,
-    /// Whether the data item is a part of the previous item (`Subordinate`).
+    /// True if the data item is a part of the previous item (`Subordinate`).
     pub subordinate: bool,
 }
 
-/// A channel of V2.45: the bits of its value and of its quality.
+/// A channel of GSDML V2.45: the bits of its value and its quality.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoChannel {
-    /// Number.
+    /// Number of the channel.
     pub number: u16,
     /// Bit offset and number of bits of the value, if given.
     pub data: Option<(u32, u32)>,
@@ -202,17 +202,17 @@ pub struct IoChannel {
 pub struct FParameters {
     /// Index of the record.
     pub index: u16,
-    /// Order of transfer at start-up.
+    /// Position of the record in the order of transfer at start-up.
     pub transfer_sequence: u16,
     /// Checksum over the description of the F-parameters (`F_ParamDescCRC`).
     pub description_crc: Option<u16>,
     /// Parameters in the order of the record.
     pub parameters: Vec<FParameter>,
-    /// Location in the source.
+    /// Location of the record in the source.
     pub origin: Origin,
 }
 
-/// An F-parameter.
+/// A parameter in the F-parameter record of PROFIsafe.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FParameter {
@@ -220,15 +220,15 @@ pub struct FParameter {
     pub name: CompactString,
     /// Default value as a number.
     pub default: i128,
-    /// Default value as the source spells it (`SIL3`, `3-Byte-CRC`); empty if it is a number.
+    /// Name of the default value in the source (`SIL3`, `3-Byte-CRC`); empty if the source states a number.
     pub label: CompactString,
     /// Minimum and maximum of each allowed range; empty = all values.
     pub allowed: Vec<(i128, i128)>,
     /// Names of the allowed values, if values have names.
     pub allowed_labels: Vec<CompactString>,
-    /// Whether a user can change the parameter.
+    /// True if a user can change the parameter.
     pub changeable: bool,
-    /// Whether a tool shows the parameter.
+    /// True if a tool shows the parameter.
     pub visible: bool,
 }
 
@@ -236,13 +236,13 @@ pub struct FParameter {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Menu {
-    /// Identifier.
+    /// Identifier of the menu.
     pub id: CompactString,
-    /// Name.
+    /// Name of the menu.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the menu in other languages.
     pub names: Texts,
-    /// Identifiers of parameters and menus, in order.
+    /// Identifiers of the parameters and menus that the menu contains, in order.
     pub targets: Vec<CompactString>,
 }
 
@@ -250,19 +250,19 @@ pub struct Menu {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SubmoduleUse {
-    /// The submodule.
+    /// Position of the submodule in the catalog.
     pub submodule: SubmoduleId,
-    /// The subslots.
+    /// Subslots that accept or contain the submodule.
     pub places: SlotNumbers,
 }
 
-/// A picture.
+/// A picture of devices or modules.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Graphic {
-    /// Identifier.
+    /// Identifier of the picture.
     pub id: CompactString,
-    /// File name without extension.
+    /// Name of the picture file without extension.
     pub file: CompactString,
 }
 
@@ -270,21 +270,21 @@ pub struct Graphic {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UnitDiagnosis {
-    /// API number.
+    /// API number of the structure.
     pub api: u32,
-    /// User structure identifier.
+    /// Identifier of the user structure.
     pub identifier: u16,
-    /// Name.
+    /// Name of the structure.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the structure in other languages.
     pub names: Texts,
-    /// Description from the source.
+    /// Description of the structure from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Fields.
+    /// Fields of the structure.
     pub fields: Vec<UnitDiagnosisField>,
-    /// Facts of the source without a field in the IR.
+    /// Facts about the structure that have no field in the IR.
     pub extensions: Extensions,
-    /// Location in the source.
+    /// Location of the structure in the source.
     pub origin: Origin,
 }
 
@@ -292,18 +292,18 @@ pub struct UnitDiagnosis {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UnitDiagnosisField {
-    /// Name.
+    /// Name of the field.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the field in other languages.
     pub names: Texts,
     /// Bit offset from the start of the structure.
     pub bit_offset: u32,
-    /// Number of bits.
+    /// Length of the field in bits.
     pub bits: u32,
-    /// Type.
+    /// Type of the field.
     pub ty: super::Type,
-    /// Enumeration of its values, if it has one.
+    /// Enumeration of the field's values, if it has one.
     pub values: Option<TypeId>,
-    /// Default value, or the value that identifies the structure.
+    /// Default value of the field, or the value that identifies the structure.
     pub default: Option<super::Value>,
 }

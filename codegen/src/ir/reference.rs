@@ -10,9 +10,9 @@ use crate::source::Span;
 /// Position of an [`Item`] in its device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ItemId {
-    /// Position of its group in [`Device::groups`].
+    /// Position of the item's group in [`Device::groups`].
     pub group: u32,
-    /// Position in [`Group::items`].
+    /// Position of the item in [`Group::items`].
     pub item: u32,
 }
 
@@ -24,7 +24,7 @@ impl ItemId {
 }
 
 impl Group {
-    /// Returns the items with their ids, for a group at this position in its device.
+    /// Returns the items of the group with their ids. `position` is the position of the group in its device.
     pub fn items_at(&self, position: u32) -> impl Iterator<Item = (ItemId, &Item)> {
         (0..).zip(&self.items).map(move |(id, item)| (ItemId { group: position, item: id }, item))
     }
@@ -38,12 +38,12 @@ pub struct MessageId(pub u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ProcedureId(pub u32);
 
-/// Target of a reference to an item or a message.
+/// The target of a reference to an item or a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ElementId {
-    /// An item.
+    /// Id of an item.
     Item(ItemId),
-    /// A message.
+    /// Id of a message.
     Message(MessageId),
 }
 
@@ -75,12 +75,12 @@ impl Device {
         id.of(&self.groups)
     }
 
-    /// Returns the target of a resolved reference.
+    /// Returns the item that a resolved reference refers to.
     pub fn referred(&self, reference: &ItemRef) -> Option<&Item> {
         self.item(reference.id?)
     }
 
-    /// Returns the target of a resolved reference to a procedure.
+    /// Returns the procedure that a resolved reference refers to.
     pub fn procedure(&self, reference: &ProcedureRef) -> Option<&Procedure> {
         self.procedures.get(reference.id?.0 as usize)
     }
@@ -88,8 +88,8 @@ impl Device {
 
 /// A reference to another element of the same device.
 ///
-/// It dereferences to its name. References with the same name are equal. The serialized form is the name, because adding or removing
-/// an element changes ids.
+/// A reference dereferences to its name. References with the same name are equal. The serialized form is the name, because adding
+/// or removing an element changes ids.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(from = "CompactString", into = "CompactString", bound = "Id: Clone"))]
 #[derive(Clone, Debug)]
@@ -99,7 +99,7 @@ pub struct Reference<Id> {
     pub name: CompactString,
     /// Location of the name in the source.
     pub span: Span,
-    /// The target; `None` if the reference is not resolved, or no element has this name.
+    /// Id of the target; `None` if the reference is not resolved, or no element has this name.
     pub id: Option<Id>,
 }
 

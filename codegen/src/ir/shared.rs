@@ -11,8 +11,8 @@ use crate::source::{Origin, Span};
 
 /// A copy-on-write list. An empty list allocates no memory.
 ///
-/// Copies share their elements until one copy is changed. This saves memory: items of large devices share names, and drives share the
-/// codes and states of their profile.
+/// Copies share their elements until one copy is changed. Sharing saves memory: items of large devices share names, and drives
+/// share the codes and states of their profile.
 pub struct SharedList<T>(Option<Arc<Vec<T>>>);
 
 /// Translations of a text.
@@ -144,13 +144,13 @@ impl PartialEq for Mark {
 pub struct Family {
     /// Key by which devices and modules refer to the family.
     pub id: CompactString,
-    /// Name.
+    /// Name of the family.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the family in other languages.
     pub names: Texts,
     /// Descriptions, one for each language.
     pub descriptions: Vec<LocalText>,
-    /// Location in the source.
+    /// Location of the family in the source.
     pub origin: Origin,
 }
 

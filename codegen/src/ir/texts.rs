@@ -1,4 +1,4 @@
-//! All texts of a register table: documentation, names, side effects and steps.
+//! Collects all texts of a register table: documentation, names, side effects and steps.
 
 use super::{CompactString, Device, Documentation, Item, LocalText, Shape, Step, TypeDef};
 use crate::source::Span;

@@ -1,4 +1,4 @@
-//! Types of values.
+//! Types of values, and their definitions.
 
 use std::fmt;
 
@@ -16,9 +16,9 @@ pub enum Type {
     Integer(u8),
     /// UNSIGNED8 to UNSIGNED64, with any number of bits up to 64.
     Unsigned(u8),
-    /// REAL32 (0x08).
+    /// REAL32 (0x08), with single precision.
     Real32,
-    /// REAL64 (0x11).
+    /// REAL64 (0x11), with double precision.
     Real64,
     /// VISIBLE_STRING (0x09), with the maximum length in bytes if known.
     VisibleString(Option<u32>),
@@ -26,9 +26,9 @@ pub enum Type {
     OctetString(Option<u32>),
     /// UNICODE_STRING (0x0B), with the maximum length in UTF-16 code units if known.
     UnicodeString(Option<u32>),
-    /// TIME_OF_DAY (0x0C).
+    /// TIME_OF_DAY (0x0C): a date and a time of day.
     TimeOfDay,
-    /// TIME_DIFFERENCE (0x0D).
+    /// TIME_DIFFERENCE (0x0D): a duration.
     TimeDifference,
     /// DOMAIN (0x0F): a block of data of any length.
     Domain,
@@ -40,7 +40,7 @@ pub enum Type {
     Named(TypeId),
 }
 
-/// A time type of IEC 61158-6-10. All are big-endian on PROFINET.
+/// A time type of IEC 61158-6-10. All time types are big-endian on PROFINET.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -64,7 +64,7 @@ pub enum TimeFormat {
 }
 
 impl TimeFormat {
-    /// Returns the length in bytes.
+    /// Returns the length of the time type in bytes.
     pub fn bytes(self) -> u32 {
         match self {
             TimeFormat::Date => 7,
@@ -74,7 +74,7 @@ impl TimeFormat {
         }
     }
 
-    /// Returns the name in IEC 61158-6-10.
+    /// Returns the name of the time type in IEC 61158-6-10.
     pub fn name(self) -> &'static str {
         match self {
             TimeFormat::Date => "Date",
@@ -151,7 +151,7 @@ impl Type {
         })
     }
 
-    /// Returns minimum and maximum of an integer type.
+    /// Returns the minimum and the maximum of an integer type.
     pub fn integer_range(self) -> Option<(i128, i128)> {
         match self {
             Type::Boolean => Some((0, 1)),
@@ -175,7 +175,8 @@ impl Type {
         matches!(self, Type::Integer(_))
     }
 
-    /// Returns whether values are byte sequences: strings or raw data. They have no word order in registers.
+    /// Returns whether values of the type are byte sequences: strings or raw data. Byte sequences have no word order in
+    /// registers.
     pub fn is_bytes(self) -> bool {
         use Type::{Domain, OctetString, Opaque, UnicodeString, VisibleString};
         matches!(self, VisibleString(_) | OctetString(_) | UnicodeString(_) | Domain | Opaque(_))
@@ -183,7 +184,7 @@ impl Type {
 }
 
 impl fmt::Display for Type {
-    /// Writes the name in CiA 301.
+    /// Writes the name of the type in CiA 301.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Type::Boolean => f.write_str("BOOLEAN"),
@@ -209,17 +210,17 @@ impl fmt::Display for Type {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TypeDef {
-    /// Name in the source.
+    /// Name of the type in the source.
     pub name: CompactString,
-    /// Number in the source (index of a DEFTYPE or DEFSTRUCT), if any.
+    /// Number of the type in the source (index of a DEFTYPE or DEFSTRUCT), if any.
     pub code: Option<u32>,
-    /// Definition.
+    /// Definition of the type.
     pub shape: Shape,
-    /// Length in bits, if fixed.
+    /// Length of the type in bits, if fixed.
     pub bits: Option<u32>,
-    /// Description from the source.
+    /// Description of the type from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Location in the source.
+    /// Location of the type in the source.
     pub origin: Origin,
 }
 
@@ -232,7 +233,7 @@ pub enum Shape {
     Alias(Type),
     /// Elements of one type in up to three dimensions, outermost dimension first.
     Array {
-        /// Type of an element.
+        /// Type of each element.
         element: Type,
         /// Lower bound and number of elements of each dimension.
         dimensions: Vec<(i32, u32)>,
@@ -243,23 +244,23 @@ pub enum Shape {
     BitField {
         /// The underlying integer type.
         base: Type,
-        /// Fields, sorted by offset.
+        /// Named bits and groups of bits, sorted by offset.
         fields: Vec<BitFieldEntry>,
     },
     /// Named values of an integer.
     Enumeration {
         /// The underlying integer type.
         base: Type,
-        /// Values in the order of the source.
+        /// Named values in the order of the source.
         values: Vec<EnumValue>,
-        /// Whether the list is complete: a device never has another value.
+        /// True if the list is complete: a device never has another value.
         closed: bool,
     },
     /// An integer with a scale factor.
     Scaled {
         /// The underlying integer type.
         base: Type,
-        /// Relation of raw and physical value.
+        /// Conversion between raw value and physical value.
         scale: Scale,
     },
 }
@@ -268,27 +269,27 @@ pub enum Shape {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Field {
-    /// Name.
+    /// Name of the field.
     pub name: CompactString,
     /// Sub-index, if fields of the record have sub-indices.
     pub sub_index: Option<u16>,
-    /// Type.
+    /// Type of the field.
     pub ty: Type,
-    /// Length in bits.
+    /// Length of the field in bits.
     pub bits: u32,
     /// Bit offset from the start of the record.
     pub bit_offset: u32,
 }
 
-/// A field of a bit field.
+/// A named bit or group of adjacent bits in a bit field.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BitFieldEntry {
-    /// Name.
+    /// Name of the field.
     pub name: CompactString,
-    /// Name in other languages.
+    /// Name of the field in other languages.
     pub names: Texts,
-    /// Bit offset.
+    /// Offset of the least significant bit.
     pub offset: u8,
     /// Length in bits.
     pub bits: u8,
@@ -296,22 +297,22 @@ pub struct BitFieldEntry {
     pub meaning: BitMeaning,
     /// Condition on another item under which the bits have this meaning, such as the mode of operation.
     pub when: Option<Condition>,
-    /// When the bits take effect, if not while set.
+    /// Event at which the bits take effect, if not while they are set.
     pub trigger: Option<Trigger>,
     /// Access rights of the bits, if they differ from those of the item.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub access: Option<Access>,
     /// Models and firmware versions in which the bits have this meaning.
     pub availability: Option<Box<Availability>>,
-    /// Description from the source.
+    /// Description of the field from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Location in the source.
+    /// Location of the field in the source.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub at: Mark,
 }
 
 impl BitFieldEntry {
-    /// Creates a field without further facts.
+    /// Creates a field with the given facts only.
     pub fn new(name: CompactString, offset: u8, bits: u8, meaning: BitMeaning) -> Self {
         BitFieldEntry {
             name,
@@ -358,34 +359,34 @@ impl BitFieldEntry {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum BitMeaning {
-    /// A single bit.
+    /// A single bit that is on or off.
     Flag {
-        /// Whether 0 means active.
+        /// True if 0 means active.
         inverted: bool,
     },
-    /// An unsigned number.
+    /// An unsigned number of several bits.
     Number,
     /// Named values of an enumeration.
     Enumeration(TypeId),
     /// Reserved bits.
     Reserved {
-        /// The value to write; `None` = the value that was read.
+        /// Value that a client writes to the bits; `None` = the value that was read.
         write: Option<bool>,
     },
 }
 
-/// When a bit takes effect.
+/// The event at which a bit takes effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Trigger {
-    /// On the rising edge.
+    /// The bit takes effect on its rising edge.
     Rising,
-    /// On the falling edge.
+    /// The bit takes effect on its falling edge.
     Falling,
-    /// On each edge.
+    /// The bit takes effect on each edge.
     Toggle,
-    /// While set. The device clears the bit automatically.
+    /// The bit takes effect while it is set, and the device clears it automatically.
     SelfClearing,
 }
 
@@ -393,30 +394,30 @@ pub enum Trigger {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EnumValue {
-    /// Name.
+    /// Name of the value.
     pub name: CompactString,
     /// Value, or first value of a range.
     pub value: i128,
     /// Last value of a range.
     pub last: Option<i128>,
-    /// Whether the value or range is reserved, or vendor-specific.
+    /// Zone, if the value or range is reserved or vendor-specific.
     pub zone: Option<Zone>,
-    /// Name in other languages.
+    /// Name of the value in other languages.
     pub names: Texts,
     /// Condition on another item under which the device has this value, such as the mode of operation.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub when: Option<Condition>,
     /// Models, firmware versions and buses that have the value.
     pub availability: Option<Box<Availability>>,
-    /// Description from the source.
+    /// Description of the value from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Location in the source.
+    /// Location of the value in the source.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub at: Mark,
 }
 
 impl EnumValue {
-    /// Creates a value without further facts.
+    /// Creates a value with the given name and number only.
     pub fn new(name: CompactString, value: i128) -> Self {
         EnumValue {
             name,
@@ -431,12 +432,12 @@ impl EnumValue {
         }
     }
 
-    /// Returns the first and the last value.
+    /// Returns the first and the last value of the range.
     pub fn range(&self) -> (i128, i128) {
         (self.value, self.last.unwrap_or(self.value))
     }
 
-    /// Returns whether the value has a name, and is not a zone.
+    /// Returns whether this is a named value, and not a zone.
     pub fn is_named(&self) -> bool {
         self.zone.is_none()
     }
@@ -450,18 +451,18 @@ impl EnumValue {
     }
 }
 
-/// A range of an enumeration without names.
+/// The kind of a range of values without individual names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Zone {
-    /// Must not be used.
+    /// The values are reserved and must not be used.
     Reserved,
-    /// Vendor-specific.
+    /// The values are vendor-specific.
     Vendor,
 }
 
-/// The relation of raw value and physical value.
+/// The conversion between raw value and physical value.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -477,7 +478,7 @@ pub enum Scale {
     },
     /// physical = numerator / raw.
     Reciprocal {
-        /// The numerator.
+        /// Numerator of the quotient.
         #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         numerator: f64,
     },
@@ -485,7 +486,7 @@ pub enum Scale {
     Fraction {
         /// Number of fractional bits (15 for Q15).
         bits: u8,
-        /// Name of the base value, a constant of the model.
+        /// Name of the base value, which is a constant of the model.
         base: CompactString,
     },
     /// physical = raw / 2^fraction × base^exponent. Mantissa and exponent are two items, or two halves of one item.
@@ -499,17 +500,17 @@ pub enum Scale {
     },
     /// physical = raw × factor / value of another item.
     ByItem {
-        /// Item whose value divides.
+        /// Item whose value is the divisor.
         item: ItemRef,
-        /// Constant factor.
+        /// Constant scale factor.
         #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         factor: f64,
     },
     /// physical = raw × factor × value of another item.
     TimesItem {
-        /// Item whose value multiplies.
+        /// Item whose value is a factor.
         item: ItemRef,
-        /// Constant factor.
+        /// Constant scale factor.
         #[cfg_attr(feature = "serde", serde(with = "super::real"))]
         factor: f64,
     },
@@ -521,12 +522,12 @@ pub enum Scale {
 pub struct Condition {
     /// Item whose value is compared.
     pub item: ItemRef,
-    /// Values that fulfill the condition.
+    /// Values that meet the condition.
     pub values: Vec<Value>,
     /// Names of all values, if a profile states the condition and names them; otherwise empty.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub names: Vec<CompactString>,
-    /// Bits of the item to compare with the values; `None` = all.
+    /// Mask of the bits that are compared with the values; `None` = all bits.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub mask: Option<u64>,
 }

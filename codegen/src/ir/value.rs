@@ -12,15 +12,15 @@ use super::{CompactString, Type};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Value {
-    /// A BOOLEAN.
+    /// A BOOLEAN value.
     Bool(bool),
-    /// An integer of any width and sign.
+    /// An integer value of any width and sign.
     Int(i128),
     /// A real number; also a fractional limit of an integer.
     Real(#[cfg_attr(feature = "serde", serde(with = "super::real"))] f64),
-    /// A string.
+    /// A string value.
     Text(CompactString),
-    /// An octet string.
+    /// An octet string value.
     Bytes(Vec<u8>),
     /// `$NODEID + offset`, which depends on the node-ID of the device (CiA 306, formulas).
     NodeId(i128),
@@ -31,7 +31,7 @@ pub enum Value {
         /// Days since 1984-01-01, or days of the difference.
         days: u16,
     },
-    /// Text that the compiler could not convert to the type of the item. It has reported that.
+    /// A text that the compiler could not convert to the type of the item, with a diagnostic.
     Raw(CompactString),
 }
 
@@ -45,7 +45,7 @@ impl Value {
         }
     }
 
-    /// Returns the value for a node-ID.
+    /// Returns the value for this node-ID: replaces `$NODEID + offset` with a number.
     pub fn resolved(&self, node_id: u8) -> Value {
         match self {
             Value::NodeId(offset) => Value::Int(offset + i128::from(node_id)),
@@ -61,7 +61,7 @@ impl Value {
         }
     }
 
-    /// Returns the number as a real number, for comparisons of integers with real values.
+    /// Returns the value as a real number, for comparisons of integers with real values.
     pub fn as_real(&self) -> Option<f64> {
         match self {
             Value::Real(value) => Some(*value),
@@ -91,12 +91,12 @@ impl fmt::Display for Value {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
-    /// Minimum.
+    /// Minimum of the value.
     pub low: Option<Value>,
-    /// Maximum.
+    /// Maximum of the value.
     pub high: Option<Value>,
-    /// Minimum and maximum of each allowed range, in the order of the source, if the values are a list or several ranges. `low` and
-    /// `high` are the minimum and maximum of all ranges.
+    /// Allowed ranges in the order of the source, if there are several ranges or a list of values. Each range has a minimum and a
+    /// maximum. `low` and `high` are the minimum and maximum of all ranges.
     pub allowed: ThinVec<(Value, Value)>,
 }
 
@@ -106,7 +106,7 @@ impl Limits {
         self.low.is_none() && self.high.is_none()
     }
 
-    /// Returns minimum and maximum, each if it is an integer.
+    /// Returns the minimum and the maximum. A limit that is not an integer is `None`.
     pub fn integers(&self) -> (Option<i128>, Option<i128>) {
         let integer = |limit: &Option<Value>| limit.as_ref().and_then(Value::as_int);
         (integer(&self.low), integer(&self.high))

@@ -3,13 +3,13 @@
 use super::{Access, Buses, CompactString, Documentation, Limits, Scale, Type, Value};
 use crate::source::Span;
 
-/// Facts of an item that differ on some models or buses. Facts without a value are those of the item.
+/// Facts of an item that differ on some models or buses. A missing fact does not differ.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ItemVariant {
-    /// Models; `*` matches any characters; empty = all.
+    /// Models to which the facts apply; `*` matches any characters; empty = all.
     pub models: Vec<CompactString>,
-    /// Buses; empty = all.
+    /// Buses on which the facts apply; empty = all.
     pub buses: Buses,
     /// Type, if its width differs on some buses.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
@@ -17,16 +17,16 @@ pub struct ItemVariant {
     /// Access rights, if they are restricted on some buses.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub access: Option<Access>,
-    /// Default value.
+    /// Default value on these models and buses.
     pub default: Option<Value>,
-    /// Minimum and maximum.
+    /// Minimum and maximum on these models and buses.
     pub limits: Limits,
     /// Rounding step of the device in raw units.
     pub step: Option<Value>,
-    /// Relation of raw value and physical value.
+    /// Conversion between raw value and physical value.
     pub scale: Option<Scale>,
-    /// Description from the source.
+    /// Description of the variant from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Location in the source.
+    /// Location of the variant in the source.
     pub at: Span,
 }

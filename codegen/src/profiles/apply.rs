@@ -19,7 +19,7 @@ pub(super) const STORED: [&str; 4] = [
 /// Number of the profile of modular devices (ETG.5001). Their modules follow other profiles.
 const MODULAR: u32 = 5001;
 
-/// Returns all profiles. They are parsed at the first call.
+/// Returns all profiles. The profiles are parsed at the first call.
 fn all() -> &'static [Profile] {
     static PROFILES: OnceLock<Vec<Profile>> = OnceLock::new();
     PROFILES.get_or_init(|| STORED.iter().filter_map(|text| stored::read(text)).collect())
@@ -28,7 +28,7 @@ fn all() -> &'static [Profile] {
 /// Completes all devices and modules of `catalog`.
 pub(crate) fn apply(catalog: &mut Catalog) {
     let Catalog { files, devices, modules, submodules, types, .. } = catalog;
-    // A file that is not in the list is an overlay.
+    // A file that is not in the list of the catalog is an overlay.
     let is_table = |FileId(id): FileId| files.get(id as usize).is_none_or(|file| file.format.is_of_manual());
     for profile in all() {
         let mut completion = Completion::new(profile);
@@ -60,8 +60,8 @@ fn is_device_of(device: &Device, profile: &Profile) -> bool {
     follows(&numbers, &device.groups, profile)
 }
 
-/// Returns whether a device or module follows a profile. It declares the profile, or it has the object that identifies the profile and
-/// declares no other profile.
+/// Returns whether a device or module follows a profile. The device or module declares the profile, or it has the object that
+/// identifies the profile and declares no other profile.
 fn follows(numbers: &[u32], groups: &[Group], profile: &Profile) -> bool {
     if profile.api.is_some() {
         return false;

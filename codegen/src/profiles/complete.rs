@@ -1,7 +1,7 @@
 //! Adds the facts of a profile that a description lacks.
 //!
-//! Facts of the description do not change: names, types of bits and values, units, descriptions. A profile adds nothing to
-//! an object of another width, or to a missing object. This is not reported.
+//! Facts of the description do not change: names, types of bits and values, units, descriptions. A profile adds nothing to an
+//! object of another width, or to a missing object. Such a difference is not reported.
 
 use std::collections::HashMap;
 
@@ -20,16 +20,16 @@ const AXIS: std::ops::RangeInclusive<u16> = 0x6000..=0x67FF;
 /// Maximum number of axes (CiA 402: 0x6000 to 0x9FFF).
 const AXES: u16 = 8;
 
-/// State of the application of a profile to several devices.
+/// The state while a profile is applied to several devices.
 pub(crate) struct Completion<'p> {
     profile: &'p Profile,
-    /// Types of the device, followed by added types.
+    /// Types of the device, followed by types that the profile adds.
     types: Vec<TypeDef>,
-    /// Added types, by the type of the profile and the underlying integer.
+    /// Types that were added, by the type of the profile and the underlying integer.
     added: HashMap<(TypeId, Type), TypeId>,
 }
 
-/// Old and new types of changed items, by object.
+/// The old and the new type of each changed item, by object.
 type Replaced = HashMap<(u16, u8), (Type, Type)>;
 
 impl<'p> Completion<'p> {
@@ -40,7 +40,8 @@ impl<'p> Completion<'p> {
     /// Completes a device. `is_table` returns whether a file is a register table or overlay.
     pub(crate) fn device(&mut self, device: &mut Device, is_table: &dyn Fn(FileId) -> bool) {
         self.objects(&mut device.groups, &mut device.types, &mut device.process_data.pdos);
-        // The codes of a manual may contradict those of the profile. The diagnosis texts of an ESI are different codes.
+        // The codes of a manual may contradict those of the profile. Diagnosis texts of an ESI are different codes, so they do
+        // not conflict.
         let of_manual = |table: &CodeTable| is_table(table.origin.span.file) && !is_from_profile(table);
         let has_codes = device.code_tables.iter().any(of_manual);
         for (table, doubts) in self.profile.codes.iter().filter(|_| !has_codes) {
@@ -62,7 +63,7 @@ impl<'p> Completion<'p> {
         }
     }
 
-    /// Returns a reference to the enumeration of states, if the device has the same as the profile. Otherwise, the states get a
+    /// Returns a reference to the device's enumeration of states, if it equals that of the profile. Otherwise, the states get a
     /// separate type.
     fn state_type(&self, machine: &StateMachine, types: &[TypeDef]) -> Option<TypeRef> {
         let name = machine.state_type.as_ref()?;
@@ -104,7 +105,7 @@ impl<'p> Completion<'p> {
         }
     }
 
-    /// Returns the index offset of each axis of the device. That of the first axis is 0.
+    /// Returns the index offset of each axis of the device. The offset of the first axis is 0.
     fn axes(&self, groups: &[Group]) -> Vec<u16> {
         let mut shifts = vec![0];
         let (Some(step), Some(when)) = (self.profile.axis_index, self.profile.when) else { return shifts };
@@ -156,8 +157,8 @@ impl<'p> Completion<'p> {
         (item.ty != old).then_some((old, item.ty))
     }
 
-    /// Adds a type of the profile with the underlying integer `base` to the device. If `base` differs from that of the profile, the name of
-    /// the type has a suffix.
+    /// Adds a type of the profile with the underlying integer `base` to the device. If the profile's type has another underlying
+    /// integer, the name of the type gets a suffix.
     fn meaning(&mut self, id: TypeId, base: Type) -> Option<TypeId> {
         if let Some(added) = self.added.get(&(id, base)) {
             return Some(*added);
@@ -165,7 +166,7 @@ impl<'p> Completion<'p> {
         let mut definition = self.profile.definition(id)?.clone();
         let base_of_profile = match &mut definition.shape {
             Shape::BitField { base, fields } => {
-                // Types of fields come first, in the order of the profile.
+                // Types of bit-field entries come first, in the order of the profile.
                 let mut of_fields: Vec<_> = fields.iter_mut().filter_map(named_values).collect();
                 of_fields.sort_by_key(|(id, _)| **id);
                 for (id, base) in of_fields {
@@ -200,7 +201,7 @@ impl<'p> Completion<'p> {
         ty
     }
 
-    /// Returns whether a type names neither bits nor values.
+    /// Returns whether a type has names for neither bits nor values.
     fn is_plain(&self, ty: Type) -> bool {
         let mut ty = ty;
         loop {
@@ -214,13 +215,13 @@ impl<'p> Completion<'p> {
         }
     }
 
-    /// Prepares for adding types to those of a device.
+    /// Takes the types of a device, to add types to them.
     fn start(&mut self, types: &mut Vec<TypeDef>) {
         self.types = std::mem::take(types);
         self.added.clear();
     }
 
-    /// Returns the types to the device. Renames new types whose name a type of the device already has.
+    /// Moves the types back to the device. Renames a new type if a type of the device has the same name.
     fn finish(&mut self, types: &mut Vec<TypeDef>, before: usize) {
         *types = std::mem::take(&mut self.types);
         let before = before.min(types.len());
@@ -302,7 +303,7 @@ fn is_on_bus(item: &Item, described: &Described) -> bool {
     })
 }
 
-/// Adds the description of a profile if there is none. An existing citation does not change.
+/// Adds the description of a profile if the element has no description. An existing citation does not change.
 fn describe(documentation: &mut Option<Box<Documentation>>, of_profile: Option<&Documentation>) {
     match (documentation, of_profile) {
         (documentation @ None, of_profile) => *documentation = of_profile.cloned().map(Box::new),

@@ -13,22 +13,22 @@ pub(crate) struct Profile {
     pub name: CompactString,
     /// Number of the device profile.
     pub number: Option<u32>,
-    /// Index of the object that identifies a device that follows the profile.
+    /// Index of the object by which devices that follow the profile are recognized.
     pub when: Option<u16>,
     /// API number of submodules that follow the profile (PROFINET).
     pub api: Option<u32>,
-    /// Whether the profile applies to devices on CANopen, and on EtherCAT.
+    /// True if the profile applies to devices on CANopen.
     pub on_canopen: bool,
     pub on_ethercat: bool,
     /// Index offset from axis to axis for the objects 0x6000 to 0x67FF.
     pub axis_index: Option<u16>,
-    /// Objects.
+    /// Facts about objects.
     pub objects: Vec<Described>,
-    /// Signals of submodules.
+    /// Signals in telegrams of submodules.
     pub signals: Vec<Signal>,
-    /// Telegrams of submodules.
+    /// Telegrams of submodules, in one direction each.
     pub telegrams: Vec<Telegram>,
-    /// Types of objects and signals.
+    /// Types with the names of bits and values that objects and signals have.
     pub types: Vec<TypeDef>,
     /// Code tables and state machines of all devices, with their ambiguities.
     pub codes: Vec<(CodeTable, Doubts)>,
@@ -38,17 +38,17 @@ pub(crate) struct Profile {
 /// Facts of a profile about objects or sub-indices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Described {
-    /// First and last index.
+    /// First and last index of the objects.
     pub indices: (u16, u16),
     /// First and last sub-index; `None` for the objects themselves.
     pub subs: Option<(u8, u8)>,
-    /// Type of the entries, ignoring signedness.
+    /// Type of the entries, whose signedness is ignored.
     pub ty: Option<Type>,
     /// Buses on which the facts apply; `None` = all.
     pub buses: Option<ObjectBuses>,
-    /// Bits or values: one of [`Profile::types`].
+    /// Type with the names of bits or values, from [`Profile::types`].
     pub meaning: Option<TypeId>,
-    /// Standard with clause.
+    /// Standard and clause that state the facts.
     pub standard: CompactString,
     pub quantity: Option<Box<Quantity>>,
     pub behaviour: Option<Box<Behaviour>>,
@@ -60,7 +60,7 @@ pub(crate) struct Described {
 pub(crate) struct Signal {
     pub name: CompactString,
     pub ty: Option<Type>,
-    /// Bits: one of [`Profile::types`].
+    /// Type with the names of bits, from [`Profile::types`].
     pub meaning: Option<TypeId>,
 }
 
@@ -74,7 +74,8 @@ pub(crate) struct Telegram {
 }
 
 impl Profile {
-    /// Returns whether the objects contain the object that identifies the profile. It is true if the profile has no such object.
+    /// Returns whether `groups` contain the object by which the profile is recognized. Returns true if the profile has no such
+    /// object.
     pub fn is_shown_by(&self, groups: &[Group]) -> bool {
         let Some(index) = self.when else { return true };
         let found = groups.binary_search_by_key(&Some(index), Group::index).ok().and_then(|at| groups.get(at));
@@ -82,7 +83,7 @@ impl Profile {
             return false;
         };
         let described = self.objects.iter().find(|described| described.indices == (index, index));
-        // The definition of a named type is not known here.
+        // A named type is accepted, because its definition is not available.
         let is_alike = |ty: Type| {
             matches!(ty, Type::Named(_)) || described.is_none_or(|known| self.is_alike(ty, known.ty, known.meaning))
         };

@@ -1,7 +1,7 @@
-//! Profiles as text: the fields of each structure in order, each with a tab at its end. Each element of a list starts a line.
+//! Profiles as text: the fields of each structure in order, each followed by a tab. Each element of a list starts on a new line.
 //!
-//! A unit test checks that the files `stored/*.txt` contain the facts of `dictionaries/profiles/*.toml`. It writes them with
-//! `LEXIBUS_BLESS=1 cargo test -p lexibus-codegen --lib profiles::stored`.
+//! A unit test checks that the files `stored/*.txt` contain the facts of `dictionaries/profiles/*.toml`. The test writes the
+//! files with `LEXIBUS_BLESS=1 cargo test -p lexibus-codegen --lib profiles::stored`.
 
 use super::profile::{Described, Profile, Signal, Telegram};
 use crate::ir::{
@@ -19,19 +19,19 @@ pub(super) fn read(text: &str) -> Option<Profile> {
     Stored::read(&mut text.split('\t'))
 }
 
-/// A part of a stored profile.
+/// A type that can be read from, and written to, the text of a profile.
 trait Stored: Sized {
     fn read(fields: &mut Fields<'_>) -> Option<Self>;
     #[cfg(test)]
     fn write(&self, text: &mut String);
 }
 
-/// Returns the next field, without the line feed before an element of a list.
+/// Returns the next field. Removes the line feed that precedes an element of a list.
 fn next<'t>(fields: &mut Fields<'t>) -> Option<&'t str> {
     fields.next().map(|field| field.strip_prefix('\n').unwrap_or(field))
 }
 
-/// Writes one field.
+/// Appends a field and a tab to the text.
 #[cfg(test)]
 fn write(text: &mut String, field: &str) {
     assert!(!field.contains(['\t', '\n']), "{field:?} cannot be stored");
@@ -39,7 +39,7 @@ fn write(text: &mut String, field: &str) {
     text.push('\t');
 }
 
-/// Types with a single field, which is parsed.
+/// Implements `Stored` for types that are parsed from a single field.
 macro_rules! parsed {
     ($($name:ty),*) => {$(
         impl Stored for $name {
@@ -57,7 +57,7 @@ macro_rules! parsed {
 
 parsed!(bool, u8, u16, u32, u64, i128, f64, usize, String, CompactString);
 
-/// Types that are stored as another type.
+/// Implements `Stored` for types that are stored as another type.
 macro_rules! wrapped {
     ($($name:ty: $inner:ty, $read:expr, $write:expr;)*) => {$(
         impl Stored for $name {
@@ -82,7 +82,7 @@ wrapped! {
     TypeRef: CompactString, TypeRef::from, |reference| &reference.name;
 }
 
-/// Structures: stored fields, and after the bar the fields that profiles do not use.
+/// Implements `Stored` for structures. Fields after the bar are not stored, because profiles do not use them.
 macro_rules! structures {
     ($($name:ident { $($field:ident),* $(| $($default:ident),*)? })*) => {$(
         impl Stored for $name {
@@ -125,7 +125,7 @@ structures! {
     Subject { kind, name, element }
 }
 
-/// Enumerations: name of the variant, and its fields.
+/// Implements `Stored` for enumerations: the name of the variant, followed by its fields.
 macro_rules! enumerations {
     ($($name:ident { $($variant:ident $(($($item:ident),*))? $({ $($field:ident),* })?),* })*) => {$(
         impl Stored for $name {
@@ -213,7 +213,7 @@ impl<T: Stored> Stored for Option<T> {
     }
 }
 
-/// Lists: number of elements, and the elements, each on a new line.
+/// Implements `Stored` for lists: the number of elements, followed by each element on a new line.
 macro_rules! lists {
     ($($name:ty where $element:ident;)*) => {$(
         impl<$element: Stored> Stored for $name {

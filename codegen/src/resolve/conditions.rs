@@ -6,7 +6,7 @@ use super::references::for_each_condition;
 use crate::ir::owner::Owner;
 use crate::ir::{Condition, Device, ItemId, Value};
 
-/// Corrects the signs in the conditions of a device. Its references have to be resolved.
+/// Corrects the signs in the conditions of a device. The references of the device must be resolved.
 pub(super) fn run(device: &mut Device) {
     // Values of masked bits have no sign.
     let can_be_negative = |condition: &Condition| {

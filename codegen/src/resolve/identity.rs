@@ -18,11 +18,11 @@ pub(super) fn run(device: &mut Device) {
 /// A number of the identity object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum IdentityNumber {
-    /// Sub-index 1.
+    /// Vendor ID (sub-index 1).
     Vendor,
-    /// Sub-index 2.
+    /// Product code (sub-index 2).
     Product,
-    /// Sub-index 3.
+    /// Revision number (sub-index 3).
     Revision,
 }
 
@@ -31,7 +31,7 @@ impl IdentityNumber {
     pub(crate) const ALL: [IdentityNumber; 3] =
         [IdentityNumber::Vendor, IdentityNumber::Product, IdentityNumber::Revision];
 
-    /// Returns the name for messages.
+    /// Returns the name of the identity number for messages.
     pub(crate) fn name(self) -> &'static str {
         match self {
             IdentityNumber::Vendor => "vendor ID",
@@ -57,7 +57,7 @@ impl IdentityNumber {
         }
     }
 
-    /// Returns the default value of the object's entry, with its location.
+    /// Returns the default value of the entry in object 0x1018, with its location.
     pub(crate) fn in_object(self, device: &Device) -> Option<(u32, crate::source::Span)> {
         let item = device.entry(0x1018, self as u8 + 1)?;
         let value = item.default.as_ref().and_then(Value::as_int)?;

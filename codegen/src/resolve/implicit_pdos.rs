@@ -81,8 +81,8 @@ fn communication(index: u16, number: u16, mask: u8, receive: bool) -> Group {
     group
 }
 
-/// Returns the default COB-ID. The first four PDOs have identifiers of the pre-defined connection set. The other PDOs are
-/// disabled (bit 31) until they are configured (CiA 301 7.3.5).
+/// Returns the default COB-ID of a PDO. The first four PDOs have identifiers of the pre-defined connection set. The other PDOs
+/// are disabled (bit 31) until they are configured (CiA 301 7.3.5).
 fn default_cob_id(number: u16, receive: bool) -> Value {
     let first = if receive { 0x200 } else { 0x180 };
     match number {

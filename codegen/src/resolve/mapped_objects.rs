@@ -11,12 +11,13 @@ use crate::ir::{
 };
 use crate::source::Origin;
 
-/// Completes a device. Entries whose index depends on the slot are skipped, because they map objects of a module.
+/// Adds the undescribed mapped objects to a device. Entries whose index depends on the slot are skipped, because they map objects
+/// of a module.
 pub(super) fn device(device: &mut Device) {
     complete(&mut device.groups, &mut device.process_data.pdos, false);
 }
 
-/// Completes a module.
+/// Adds the undescribed mapped objects to a module.
 pub(super) fn module(module: &mut Module) {
     complete(&mut module.groups, &mut module.process_data.pdos, true);
 }

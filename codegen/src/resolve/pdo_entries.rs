@@ -4,19 +4,19 @@ use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{CompactString, Device, Entries, Item, Module, Pdo, PdoEntry, PdoEntryKind, Type, TypeDef};
 
-/// Completes the PDO entries of a device.
+/// Sets the bit positions and types of a device's PDO entries.
 pub(super) fn device(device: &mut Device, diagnostics: &mut Diagnostics) {
     let dictionary = Dictionary { items: Entries::new(&device.groups), types: &device.types };
     pdos(&mut device.process_data.pdos, &dictionary, diagnostics);
 }
 
-/// Completes the PDO entries of a module.
+/// Sets the bit positions and types of a module's PDO entries.
 pub(super) fn module(module: &mut Module, diagnostics: &mut Diagnostics) {
     let dictionary = Dictionary { items: Entries::new(&module.groups), types: &module.types };
     pdos(&mut module.process_data.pdos, &dictionary, diagnostics);
 }
 
-/// Mapped items and their types.
+/// The items that PDO entries can map, and the types of these items.
 struct Dictionary<'o> {
     items: Entries<'o>,
     types: &'o [TypeDef],
@@ -49,7 +49,7 @@ fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut 
     if entry.name.is_empty() {
         (entry.name, entry.names) = (entry_name(item), item.names.clone());
     }
-    // A type without a fixed length has the length of the entry. The entry keeps its own type unless that is opaque.
+    // The entry determines the length of a type without a fixed length. The entry keeps its type unless that type is opaque.
     let fits = match Owner::of_types(dictionary.types).fixed_bits(item.ty) {
         Some(bits) => bits == entry.bits,
         None => matches!(entry.ty, Type::Opaque(_)),
@@ -69,7 +69,7 @@ pub(super) fn entry_name(item: &Item) -> CompactString {
     }
 }
 
-/// Returns index and sub-index of an entry for messages.
+/// Returns the index and sub-index of an entry for messages.
 pub(crate) fn address(entry: &PdoEntry) -> String {
     format!("0x{:04X} sub-index {:#x}", entry.index, entry.sub_index)
 }

@@ -25,15 +25,15 @@ pub(super) fn run(device: &mut Device, modules: &[Module]) {
 
 /// The communication object and mapping object of a PDO.
 pub(crate) struct PdoObjects<'a> {
-    /// Direction.
+    /// Direction of the PDO.
     pub direction: Direction,
     /// Index of the communication object.
     pub index: u16,
-    /// Number, counted from 1.
+    /// Number of the PDO, counted from 1.
     pub number: u16,
-    /// Communication parameters.
+    /// Communication object, if the dictionary describes it.
     pub communication: Option<&'a Group>,
-    /// Mapping parameters.
+    /// Mapping object, if the dictionary describes it.
     pub mapping: Option<&'a Group>,
 }
 
@@ -66,7 +66,7 @@ impl<'a> PdoObjects<'a> {
     }
 }
 
-/// Returns the index of the first communication object.
+/// Returns the index of the first communication object of a direction.
 fn first_index(direction: Direction) -> u16 {
     match direction {
         Direction::Receive => 0x1400,
@@ -74,10 +74,10 @@ fn first_index(direction: Direction) -> u16 {
     }
 }
 
-/// Index of the items that PDOs can map: items of the device, and items that modules add.
+/// Lookup table of the items that PDOs can map: items of the device, and items that modules add.
 pub(crate) struct MappableItems<'a> {
     entries: Entries<'a>,
-    /// Items of fixed objects of modules.
+    /// Items of the fixed objects of modules.
     of_modules: HashMap<(u16, u8), &'a Item>,
     /// Objects whose number of sub-indices depends on the connected modules.
     extended: HashSet<u16>,
@@ -106,7 +106,7 @@ impl<'a> MappableItems<'a> {
         self.of_device(index, sub_index).or_else(|| self.of_modules.get(&(index, sub_index)).copied())
     }
 
-    /// Returns whether modules add sub-indices to the object.
+    /// Returns whether modules add sub-indices to an object.
     pub(crate) fn is_extended(&self, index: u16) -> bool {
         self.extended.contains(&index)
     }
@@ -114,7 +114,7 @@ impl<'a> MappableItems<'a> {
 
 /// A value of a mapping object at a sub-index above 0.
 pub(crate) struct MappingValue<'a> {
-    /// Item at the sub-index.
+    /// Item that contains the value.
     pub item: &'a Item,
     /// Location of the value in the source.
     pub span: Span,
@@ -187,7 +187,7 @@ fn pdo(device: &Device, items: &MappableItems<'_>, objects: &PdoObjects<'_>) -> 
     Some(pdo)
 }
 
-/// Returns an entry for the object of a mapping value.
+/// Returns the PDO entry for a mapping value.
 fn entry(items: &MappableItems<'_>, value: &MappingValue<'_>, bit_offset: u32) -> Option<PdoEntry> {
     let MappingWord::Object(index, sub_index, bits) = value.word else { return None };
     let mut entry = PdoEntry { bit_offset, origin: value.item.origin, ..PdoEntry::new(index, sub_index, bits) };

@@ -9,7 +9,7 @@ use crate::ir::{
     Transition, TypeDef, TypeId, WindowSide,
 };
 
-/// Resolves the references of a device. Returns whether there is a reference to an item.
+/// Resolves the references of a device. Returns whether the device contains a reference to an item.
 pub(super) fn device(device: &mut Device) -> bool {
     mapped_items(&mut device.process_data.pdos, &device.groups, 0);
     messages(device);
@@ -26,7 +26,7 @@ pub(super) fn device(device: &mut Device) -> bool {
     true
 }
 
-/// Resolves the references of a module. Ids count the fixed objects of the module first.
+/// Resolves the references of a module. In ids, the fixed objects of the module count first.
 pub(super) fn module(module: &mut Module) {
     let mut names = HashMap::new();
     let Module { fixed_objects, groups, types, process_data, .. } = module;
@@ -115,7 +115,7 @@ fn messages(device: &mut Device) {
         device.parameter_spaces.iter_mut().flat_map(|space| [&mut space.read, &mut space.write, &mut space.store]);
     of_messages.chain(of_spaces).flatten().for_each(|reference| positions.resolve(reference, MessageId));
     for machine in &mut device.machines {
-        // Changing a shared list copies it.
+        // A shared list is only changed if necessary, because a change copies the list.
         let is_message = |transition: &Transition| {
             transition.command.as_ref().is_some_and(|command| positions.find(command).is_some())
         };
@@ -161,7 +161,7 @@ fn window_sides(binding: &mut Binding) -> impl Iterator<Item = &mut WindowSide> 
     window.into_iter().flat_map(|window| [&mut window.read, &mut window.write]).flatten()
 }
 
-/// Sets the ids of mapped items. `first`: number of groups before `groups`.
+/// Sets the ids of mapped items. `first` is the number of groups that precede `groups`.
 fn mapped_items(pdos: &mut [Pdo], groups: &[Group], first: u32) {
     let items = Entries::new(groups);
     for entry in pdos.iter_mut().flat_map(|pdo| &mut pdo.entries).filter(|entry| entry.kind == PdoEntryKind::Item) {

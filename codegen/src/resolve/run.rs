@@ -1,4 +1,4 @@
-//! Runs the steps of the stage.
+//! Runs the steps that derive facts.
 
 use super::{conditions, identity, implicit_pdos, mapped_objects, pdo_entries, pdo_mapping, references};
 use crate::diagnostics::Diagnostics;

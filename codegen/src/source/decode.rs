@@ -7,14 +7,14 @@ use encoding_rs::{CoderResult, Encoding as Charset, UTF_16BE, UTF_16LE, UTF_8, W
 /// The byte order mark of UTF-8.
 const MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Number of bytes that is enough for any character.
+/// Number of bytes that any single character needs at most.
 const ROOM: usize = 16;
 
-/// How a file's bytes were decoded.
+/// The encoding from which a file's bytes were decoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Encoding {
-    /// Only ASCII, or valid UTF-8 without a byte order mark.
+    /// ASCII, or valid UTF-8 without a byte order mark.
     #[cfg_attr(feature = "serde", serde(rename = "utf-8"))]
     Utf8,
     /// UTF-8 that starts with a byte order mark.
@@ -51,12 +51,12 @@ pub(super) struct Decoded {
     pub encoding: Encoding,
     /// The bytes as read, if [`encode`] does not reproduce them.
     pub original: Option<Vec<u8>>,
-    /// Whether some bytes are invalid in the encoding.
+    /// True if some bytes are invalid in the encoding.
     pub has_lost: bool,
 }
 
 impl Decoded {
-    /// Returns the bytes as read.
+    /// Returns the bytes of the file as read.
     pub fn bytes(&self) -> Cow<'_, [u8]> {
         self.original.as_deref().map_or_else(|| encode(&self.text, self.encoding), Cow::Borrowed)
     }

@@ -1,4 +1,4 @@
-//! The SHA-256 of a file, computed on first use. Only generated code contains it.
+//! The SHA-256 of a file, computed on first use. Only generated code contains the digest.
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};
@@ -49,7 +49,7 @@ impl Digest {
         Digest(Origin::File(Arc::clone(content)))
     }
 
-    /// Returns the hexadecimal digits.
+    /// Returns the hexadecimal digits of the SHA-256.
     pub fn as_str(&self) -> &str {
         match &self.0 {
             Origin::File(content) => content.sha256(),

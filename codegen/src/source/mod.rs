@@ -1,4 +1,4 @@
-//! Source files, encodings and spans. All later stages refer to them.
+//! Source files, encodings and spans. All later stages refer to sources and spans.
 //!
 //! A [`Source`] is one description file, decoded to UTF-8. A [`Span`] is a range of bytes of the decoded text. A
 //! diagnostic of any stage can therefore quote the line that caused it.
@@ -25,15 +25,14 @@ use digest::Content;
 pub struct Source {
     name: String,
     content: Arc<Content>,
-    /// Folder that contains the files that it refers to.
+    /// Folder of the files to which this source refers.
     folder: Option<PathBuf>,
     line_starts: OnceLock<Vec<u32>>,
-    /// Number of characters before each multiple of [`STRIDE`] bytes. It makes the column in a long line fast to
-    /// find.
+    /// Number of characters before each multiple of [`STRIDE`] bytes. The list speeds up the search for a column in a long line.
     characters: OnceLock<Vec<u32>>,
 }
 
-/// Number of bytes between two entries of the character count.
+/// Number of bytes between two entries of the list of character counts.
 const STRIDE: usize = 1024;
 
 /// Maximum size of an input in bytes. Spans are 32-bit offsets.
@@ -69,9 +68,9 @@ impl Source {
         Source::read_from(path, path)
     }
 
-    /// Reads the file at `location`. Diagnostics call it `path`.
+    /// Reads the file at `location`. Diagnostics show the name `path`.
     fn read_from(location: &Path, path: &Path) -> std::io::Result<Self> {
-        // A pipe or a device may never end.
+        // Reading a pipe or a device may never end.
         if crate::output::is_no_regular_file(location) {
             return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is not a regular file"));
         }
@@ -112,7 +111,7 @@ impl Source {
         self.declared_encoding().and_then(decode::charset)
     }
 
-    /// Returns the file name in diagnostics.
+    /// Returns the file name that diagnostics show.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -122,7 +121,7 @@ impl Source {
         &self.content.decoded.text
     }
 
-    /// Returns how the bytes were decoded.
+    /// Returns the encoding from which the bytes were decoded.
     pub fn encoding(&self) -> Encoding {
         self.content.decoded.encoding
     }
@@ -168,7 +167,7 @@ impl Source {
         Position { line, column: column + 1 }
     }
 
-    /// Returns the line of [`Source::position`] without counting characters.
+    /// Returns the line number of [`Source::position`] without counting characters.
     pub fn line_at(&self, offset: u32) -> u32 {
         self.line_starts().partition_point(|&start| start <= offset).max(1) as u32
     }

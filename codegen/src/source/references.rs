@@ -14,7 +14,7 @@ pub struct References<'a> {
     missing: Vec<PathBuf>,
 }
 
-/// Reason why a file is not read.
+/// The reason why a file is not read.
 #[derive(Debug)]
 pub enum Refusal {
     /// The description was read from memory, not from a folder.
@@ -47,7 +47,7 @@ impl std::error::Error for Refusal {}
 pub const MAX_REFERENCES: usize = 64;
 
 impl<'a> References<'a> {
-    /// Creates an empty list of the files that `main` refers to.
+    /// Creates an empty list of the files to which `main` refers.
     pub fn new(main: &'a Source) -> Self {
         References { main, read: Vec::new(), missing: Vec::new() }
     }
@@ -68,7 +68,7 @@ impl<'a> References<'a> {
         if name.is_empty() || name.contains(':') || !inside {
             return Err(Refusal::Outside);
         }
-        // A link in the folder may lead anywhere. The location of its target decides.
+        // A symbolic link in the folder may lead anywhere, so the location of its target is checked.
         let path = folder.join(relative);
         let real = path.canonicalize().map_err(|error| {
             if error.kind() == std::io::ErrorKind::NotFound {
@@ -86,7 +86,7 @@ impl<'a> References<'a> {
         Source::read_from(&real, &path).map_err(Refusal::Unreadable)
     }
 
-    /// Returns the number of the next file that [`References::add`] adds.
+    /// Returns the number that [`References::add`] assigns to the next file.
     pub fn next_file(&self) -> FileId {
         FileId(self.read.len() as u32 + 1)
     }
@@ -98,7 +98,7 @@ impl<'a> References<'a> {
         file
     }
 
-    /// Returns the files in the order of their numbers, and the paths of files that don't exist.
+    /// Returns the files in the order of their numbers, and the paths of files that do not exist.
     pub fn into_files(self) -> (Vec<Source>, Vec<PathBuf>) {
         (self.read, self.missing)
     }

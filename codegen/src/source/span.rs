@@ -11,11 +11,11 @@ pub struct FileId(pub u32);
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Span {
-    /// The file.
+    /// File that contains the range.
     pub file: FileId,
-    /// First byte.
+    /// Offset of the first byte.
     pub start: u32,
-    /// End of the range (exclusive).
+    /// Offset after the last byte.
     pub end: u32,
 }
 
@@ -25,7 +25,7 @@ impl Span {
         Span { file, start, end }
     }
 
-    /// Returns the bytes as a range for indexing.
+    /// Returns the byte offsets as a range for indexing.
     pub fn range(self) -> Range<usize> {
         self.start as usize..self.end as usize
     }
@@ -35,7 +35,7 @@ impl Span {
         self.start >= self.end
     }
 
-    /// Returns this span, or `other` if this one is empty.
+    /// Returns this span, or `other` if this span is empty.
     pub fn or(self, other: Span) -> Span {
         if self.is_empty() {
             other
@@ -49,7 +49,7 @@ impl Span {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Origin {
-    /// Section header, element or row that declares the element.
+    /// Span of the section header, XML element or row that declares the element.
     pub span: Span,
     /// Line of the declaration, counted from 1; 0 if the element was derived.
     pub line: u32,
@@ -66,8 +66,8 @@ impl Origin {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Position {
-    /// Line.
+    /// Line number.
     pub line: u32,
-    /// Column.
+    /// Column number.
     pub column: u32,
 }

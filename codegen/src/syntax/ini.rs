@@ -15,13 +15,13 @@ use crate::source::{FileId, Span};
 pub struct Document<'a> {
     text: &'a str,
     file: FileId,
-    /// End of the text.
+    /// Offset of the end of the text, without trailing blanks and zeros.
     end: usize,
     sections: Vec<Section>,
     preamble: Vec<Entry>,
-    /// Violations found so far.
+    /// Violations of the grammar found so far.
     oddities: RefCell<Vec<(Oddity, Span)>>,
-    /// For each section: whether the violations of the section were recorded.
+    /// For each section, true if the violations in the section were recorded.
     noted: Vec<Cell<bool>>,
 }
 
@@ -31,7 +31,7 @@ pub struct Section {
     name: Range,
     /// Line of the header, counted from 1.
     pub line: u32,
-    /// The lines below it.
+    /// Range of the lines below the header.
     body: Range,
     /// Offset of a comment after the header; 0 if there is none.
     comment: u32,
@@ -113,7 +113,7 @@ impl<'a> Document<'a> {
         sections.iter().flat_map(|section| self.entries(section))
     }
 
-    /// Returns whether two spans are in the same section, with no header between them.
+    /// Returns whether two spans are in the same section.
     pub fn is_same_section(&self, one: Span, other: Span) -> bool {
         let above = |place: Span| self.sections.partition_point(|section| section.name.0 <= place.start);
         above(one) == above(other)
@@ -138,12 +138,12 @@ impl<'a> Document<'a> {
         self.slice(section.name)
     }
 
-    /// Returns the span of the name of a section.
+    /// Returns the span of a section's name.
     pub fn name_span(&self, section: &Section) -> Span {
         self.span(section.name)
     }
 
-    /// Returns the key of an entry. For a comment, it is the comment mark (`;`, or `#` after a header).
+    /// Returns the key of an entry. For a comment, returns the comment mark (`;`, or `#` after a header).
     pub fn key(&self, entry: &Entry) -> &'a str {
         self.slice(entry.key)
     }
@@ -153,12 +153,12 @@ impl<'a> Document<'a> {
         self.slice(entry.value)
     }
 
-    /// Returns the span of the key.
+    /// Returns the span of an entry's key.
     pub fn key_span(&self, entry: &Entry) -> Span {
         self.span(entry.key)
     }
 
-    /// Returns the span of the value. For an empty value, it is the span of the whole entry.
+    /// Returns the span of an entry's value. For an empty value, returns the span of the whole entry.
     pub fn value_span(&self, entry: &Entry) -> Span {
         if entry.value.0 < entry.value.1 {
             self.span(entry.value)
@@ -211,7 +211,8 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// Reads the header in the line from `start` to `end`. `bracket` is the offset of its `[`, `body` that of the next line.
+    /// Reads the header in the line from `start` to `end`. `bracket` is the offset of `[`, and `body` is the offset of the next
+    /// line.
     fn header(&mut self, start: usize, bracket: usize, end: usize, line: u32, body: usize) {
         let bytes = self.text.as_bytes();
         let mut odd = Vec::new();
@@ -249,7 +250,7 @@ impl<'a> Document<'a> {
         });
     }
 
-    /// Returns the comments above the first header. Entries there are violations.
+    /// Returns the comments above the first header. Records entries above the first header as violations.
     fn above(&self) -> Vec<Entry> {
         let end = self.sections.first().map_or(self.end, |section| {
             let bracket = memchr::memrchr(b'[', &self.text.as_bytes()[..section.name.0 as usize]).unwrap_or(0);
@@ -283,7 +284,7 @@ struct Lines {
 struct Line {
     start: usize,
     end: usize,
-    /// Offset of the first `=`.
+    /// Offset of the first `=` in the line.
     equals: Option<usize>,
     number: u32,
 }
@@ -338,7 +339,8 @@ pub struct Entries<'d> {
     lines: Lines,
     comment: u32,
     number: Option<u32>,
-    /// Recorded after the last line was read, so that each violation is recorded once.
+    /// Violations in the section. The violations are recorded after the last line was read, so that each violation is recorded
+    /// once.
     odd: Vec<(Oddity, usize, usize)>,
 }
 
@@ -364,7 +366,7 @@ impl Iterator for Entries<'_> {
 }
 
 impl Entries<'_> {
-    /// Returns the comment after the header. Records any other text.
+    /// Returns the comment after the header. Records any other text after the header as a violation.
     #[cold]
     fn comment_after_header(&mut self, bytes: &[u8]) -> Option<Entry> {
         let first = std::mem::take(&mut self.comment) as usize;
@@ -436,7 +438,7 @@ fn trim(bytes: &[u8], start: usize, end: usize) -> (usize, usize) {
     (start, end_of(bytes, start, end))
 }
 
-/// Returns the first byte in `start..end` that is not a blank or tab.
+/// Returns the offset of the first byte in `start..end` that is not a blank or tab.
 #[inline]
 fn start_of(bytes: &[u8], mut start: usize, end: usize) -> usize {
     while start < end && matches!(bytes[start], b' ' | b'\t') {
@@ -445,7 +447,7 @@ fn start_of(bytes: &[u8], mut start: usize, end: usize) -> usize {
     start
 }
 
-/// Returns the end of the last byte in `start..end` that is not a blank or tab.
+/// Returns the offset after the last byte in `start..end` that is not a blank or tab.
 #[inline]
 fn end_of(bytes: &[u8], start: usize, mut end: usize) -> usize {
     while start < end && matches!(bytes[end - 1], b' ' | b'\t') {

@@ -3,7 +3,7 @@
 use crate::note;
 use lexibus_codegen::ir::{Access, Group, Item, Limits, Mappable, ObjectCode, Type, Value};
 
-/// The name of sub-index 0 if the file does not name it (CiA 306).
+/// The name of sub-index 0 in a compact object if the file does not name it (CiA 306).
 const COUNT_NAME: &str = "NrOfObjects";
 
 /// The elements of a compact object.
@@ -11,7 +11,7 @@ pub(super) struct Elements<'g> {
     group: &'g Group,
     /// Number of elements, without sub-index 0.
     pub(super) count: u8,
-    /// The first element. All other elements are equal to this one.
+    /// The first element. All other elements equal the first element.
     pub(super) template: &'g Item,
 }
 
@@ -64,7 +64,7 @@ fn is_like(item: &Item, other: &Item) -> bool {
         && has_no_other_facts(item)
 }
 
-/// Returns whether an element has no property that requires its own section or a note.
+/// Returns whether an element has no property that requires a separate section or a note.
 fn has_no_other_facts(item: &Item) -> bool {
     item.extensions.is_empty()
         && item.names.is_empty()
@@ -98,7 +98,7 @@ impl Elements<'_> {
         self.numbered().filter_map(|(sub, item)| Some((sub, text(item)?))).collect()
     }
 
-    /// Returns the number of configured elements.
+    /// Returns the number of elements with configured values.
     pub(super) fn configured(&self) -> usize {
         self.numbered().filter(|(_, item)| item.configured.is_some()).count()
     }

@@ -3,7 +3,7 @@
 use super::note::NoteKind;
 use lexibus_codegen::ir::{Shape, Type, TypeDef};
 
-/// Maximum number of names between a type and its basic type.
+/// Maximum number of named types in the chain from a type to its basic type.
 const MAX_DEPTH: usize = 8;
 
 /// Data type of an EDS entry.
@@ -11,9 +11,9 @@ const MAX_DEPTH: usize = 8;
 pub(super) struct DataType {
     /// Number of the type; `None` if the source gives no type.
     pub(super) code: Option<u32>,
-    /// The type that determines the notation of the values.
+    /// Type that determines the notation of the values.
     pub(super) ty: Type,
-    /// A note if the type was changed or omitted.
+    /// Note to add if the type was changed or omitted.
     pub(super) note: Option<NoteKind>,
 }
 

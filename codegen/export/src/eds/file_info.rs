@@ -1,4 +1,4 @@
-//! The section `[FileInfo]`.
+//! Writes the section `[FileInfo]`.
 //!
 //! The export keeps the header of a CiA 306 file. Other formats have ISO 8601 dates and possibly no version; the export
 //! converts dates and completes the version.

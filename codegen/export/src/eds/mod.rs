@@ -63,9 +63,9 @@ pub enum Reals {
 /// The options of an export.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// The kind of file.
+    /// Kind of the file to write: EDS or DCF.
     pub flavour: Flavour,
-    /// The notation of real numbers.
+    /// Notation of real numbers in the file.
     pub reals: Reals,
 }
 
@@ -120,16 +120,16 @@ pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -
     Some(Export { text, notes })
 }
 
-/// Data for the writers of all parts of the file.
+/// Data that the writers of all parts of the file use.
 struct Context<'a> {
     device: &'a Device,
     flavour: Flavour,
     reals: Reals,
     /// Name of the source file.
     file_name: &'a str,
-    /// Whether the source is a CiA 306 file. If so, missing facts stay missing and spellings are kept.
+    /// True if the source is a CiA 306 file, whose spellings and missing facts the export keeps.
     is_verbatim: bool,
-    /// Whether the source describes a CANopen device.
+    /// True if the source describes a CANopen device.
     is_canopen: bool,
 }
 

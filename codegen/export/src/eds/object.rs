@@ -1,4 +1,4 @@
-//! Objects and their entries.
+//! Writes objects and their entries.
 
 use std::collections::HashMap;
 
@@ -71,7 +71,7 @@ impl<'a> Object<'a> {
     fn single_value(&self) -> Option<&'a Item> {
         let [item] = self.group.items.as_slice() else { return None };
         let is_alone = item.object().is_some_and(|(_, sub)| sub == 0) && !self.code.has_subs();
-        // If the name differs or the object has flags, the device description has a section for sub-index 0.
+        // If the name differs or the object has flags, the source has a separate section for sub-index 0.
         let is_the_object = item.name == self.group.name && self.group.flags == 0;
         (is_alone && (is_the_object || self.code == ObjectCode::Var)).then_some(item)
     }
@@ -115,7 +115,7 @@ impl<'a> Object<'a> {
         all.get(..all.len() - self.refinements_of_missing().len()).unwrap_or(all)
     }
 
-    /// Returns the extension attributes from the first one that belongs to a section such as `[xxxxName]`.
+    /// Returns the extension attributes of the object, starting with the first attribute of a section such as `[xxxxName]`.
     fn refinements_of_missing(&self) -> &'a [Extension] {
         let all = &self.group.extensions;
         let is_first =
@@ -255,7 +255,7 @@ impl<'a> Object<'a> {
     }
 }
 
-/// Returns whether the section is one that refines the sub-indices of an object, such as `2000Name`.
+/// Returns whether a section refines the sub-indices of an object, such as `2000Name`.
 fn is_refinement(section: &str) -> bool {
     let rest =
         section.trim_start_matches(|letter: char| letter.is_ascii_hexdigit() || matches!(letter, 'x' | 'X' | ' '));
@@ -276,8 +276,8 @@ fn flags(writer: &mut Writer, flags: u32) {
     }
 }
 
-/// Returns the AccessType and PDOMapping that express `access` and `mappable`. If none fit exactly, returns the closest
-/// ones and a note.
+/// Returns the AccessType and PDOMapping that express `access` and `mappable`. If no combination fits exactly, returns the
+/// closest combination and a note.
 fn access(access: Access, mappable: Mappable) -> (Access, bool, Option<NoteKind>) {
     if !mappable.any() {
         return (access, false, None);

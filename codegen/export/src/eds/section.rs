@@ -5,14 +5,14 @@ use super::note::Subject;
 use super::writer::Writer;
 use lexibus_codegen::ir::CompactString;
 
-/// The bit rates of CiA 306 in kbit/s.
+/// The bit rates in CiA 306, in kbit/s.
 pub(super) const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
 /// A header section. Writing the first entry opens the section.
 pub(super) struct Section<'w> {
     writer: &'w mut Writer,
     header: Header,
-    /// Whether the section is open.
+    /// True if the section is open.
     pub(super) is_open: bool,
 }
 

@@ -7,24 +7,25 @@ use super::writer::quoted;
 use super::Reals;
 use lexibus_codegen::ir::{Type, Value};
 
-/// The role of a value.
+/// The role of a value in an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
-    /// A default or a configured value.
+    /// The default value or the configured value of an item.
     Value,
-    /// The lower limit.
+    /// The minimum of an item.
     Low,
-    /// The upper limit.
+    /// The maximum of an item.
     High,
 }
 
-/// The text and a note if the value was changed or omitted. The text is `None` if the type cannot hold the value.
+/// The text of a value, and a note if the value was changed or omitted. The text is `None` if the type cannot represent the
+/// value.
 type Written = (Option<String>, Option<NoteKind>);
 
 /// The notation of numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Form {
-    /// Whether unsigned integers are written in hexadecimal.
+    /// True if unsigned integers are written in hexadecimal.
     pub hex: bool,
     pub reals: Reals,
 }
@@ -92,7 +93,7 @@ fn real(value: &Value, ty: Type) -> Written {
     }
 }
 
-/// Returns the IEEE 754 bit pattern in hexadecimal: 8 digits for a REAL32, 16 for a REAL64.
+/// Returns the IEEE 754 bit pattern of a value in hexadecimal: 8 digits for a REAL32, 16 digits for a REAL64.
 fn pattern(value: &Value, ty: Type) -> Written {
     match (value.as_real().filter(|value| value.is_finite()), ty) {
         (Some(value), Type::Real32) => written(format!("0x{:08X}", (value as f32).to_bits())),

@@ -7,18 +7,18 @@ use std::fmt::{Display, Write as _};
 use super::note::{Note, NoteKind, Notes, Subject};
 use lexibus_codegen::ir::Extension;
 
-/// Line end of CiA 306.
+/// The line end that CiA 306 requires.
 const END: &str = "\r\n";
 
 /// Maximum number of characters in a line (CiA 306).
 const MAX_LINE: usize = 255;
 
-/// A file in progress.
+/// An EDS or DCF file that is being written.
 pub(super) struct Writer {
     text: String,
     /// Keys of the current section, in lowercase.
     keys: HashSet<String>,
-    /// Whether the source is an EDS. If so, keys of extension attributes may contain any characters and occur twice.
+    /// True if the source is an EDS, in which keys of extension attributes may contain any characters and occur twice.
     is_verbatim: bool,
     pub(super) notes: Notes,
 }
@@ -28,7 +28,7 @@ impl Writer {
         Writer { text: String::new(), keys: HashSet::new(), is_verbatim, notes: Notes::default() }
     }
 
-    /// Starts a section.
+    /// Writes the header of a section.
     pub(super) fn section(&mut self, name: impl Display) {
         if !self.text.is_empty() {
             self.text += END;
@@ -48,7 +48,7 @@ impl Writer {
         let _ = write!(self.text, "{key}={value}{END}");
     }
 
-    /// Writes 0 or 1.
+    /// Writes an entry with the value 0 or 1.
     pub(super) fn flag(&mut self, key: &'static str, value: bool) {
         self.entry(key, u8::from(value));
     }
@@ -122,8 +122,7 @@ impl Writer {
     }
 }
 
-/// Returns whether the key is possible in a line. CiA 306 allows only letters and digits; real files contain other
-/// characters.
+/// Returns whether a line can contain the key. CiA 306 allows only letters and digits; real files contain other characters.
 fn is_key(key: &str) -> bool {
     !key.is_empty() && key.trim() == key && !key.starts_with([';', '#', '[']) && !key.contains(['=', '\r', '\n'])
 }

@@ -5,7 +5,7 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{ClockMode, ClockSyncManager, ClockTime, DistributedClocks};
 
-/// Attributes of the Dc element.
+/// Attributes of the Dc element that the IR stores unchanged.
 const ATTRIBUTES: [&str; 5] =
     ["UnknownFRMW", "Unknown64Bit", "ExternalRefClock", "PotentialReferenceClock", "TimeLoopControlOnly"];
 
@@ -35,7 +35,7 @@ fn mode(xml: &mut Xml, mode: &ClockMode) {
     xml.close();
 }
 
-/// Writes a time unless it equals the default.
+/// Writes a clock time unless it equals the default.
 fn time(xml: &mut Xml, element: &'static str, time: ClockTime) {
     if time == ClockTime::default() {
         return;

@@ -7,7 +7,7 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{CompactString, Device, Direction, EtherCatSettings, Pdo};
 
-/// Writes a device.
+/// Writes the Device element of a device.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     let unknown = EtherCatSettings::default();
     let settings = device.ethercat.as_deref().unwrap_or(&unknown);

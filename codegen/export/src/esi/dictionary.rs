@@ -62,7 +62,7 @@ fn data_types(xml: &mut Xml, types: &mut Types<'_>, notes: &mut Notes) {
     for (at, def) in (0u32..).zip(types.defs) {
         data_type(xml, types, at, def, notes);
     }
-    // Added types do not refer to other added types.
+    // Types that the export adds do not refer to each other, so their order does not matter.
     for added in &types.added {
         added_type(xml, added, notes);
     }
@@ -180,7 +180,7 @@ fn sub_item(xml: &mut Xml, item: &SubItem<'_>, facts: Option<&FieldFacts>, notes
     }
 }
 
-/// Writes access rights, category and mapping.
+/// Writes the access rights, category and PDO mapping of an object or sub-item.
 pub(super) fn flags(
     xml: &mut Xml,
     facts: &FieldFacts,

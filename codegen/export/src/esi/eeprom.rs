@@ -7,7 +7,7 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::EtherCatSettings;
 
-/// Addresses of the registers that the schema defines.
+/// Addresses of the ESC registers that the schema defines.
 const REGISTERS: [u16; 4] = [0x0108, 0x0400, 0x0410, 0x0420];
 
 /// Writes the ESC element.

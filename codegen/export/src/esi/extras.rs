@@ -8,7 +8,7 @@ use crate::xml::Xml;
 use lexibus_codegen::etg::language;
 use lexibus_codegen::ir::{Device, EtherCatSettings, Extension};
 
-/// Attributes of the Type element.
+/// Attributes of the Type element that the IR stores as extensions.
 const OF_TYPE: [&str; 9] = [
     "Type@CheckProductCode",
     "Type@CheckRevisionNo",
@@ -24,12 +24,12 @@ const OF_TYPE: [&str; 9] = [
 /// Elements of a profile that contain a number.
 const OF_PROFILE: [&str; 2] = ["AddInfo", "SubAddInfo"];
 
-/// Time limits of the state machine and of the mailbox. If the file has one limit of a list, the schema requires all of
-/// that list.
+/// Time limits of the state machine and of the mailbox. If the file has one time limit of a list, the schema requires all limits
+/// in that list.
 const STATE_TIMES: [&str; 4] = ["PreopTimeout", "SafeopOpTimeout", "BackToInitTimeout", "BackToSafeopTimeout"];
 const MAILBOX_TIMES: [&str; 2] = ["RequestTimeout", "ResponseTimeout"];
 
-/// Elements of Info after the time limits. Each has a required text format.
+/// Elements that follow the time limits in Info. Each element has a required text format.
 const CONTROLLER: [&str; 3] =
     ["EtherCATController/DpramSize", "EtherCATController/SmCount", "EtherCATController/FmmuCount"];
 const LAST: [&str; 3] = ["Info/StationAliasSupported", "Info/IdentificationAdo", "Info/IdentificationReg134"];
@@ -69,7 +69,7 @@ pub(super) fn of_type(xml: &mut Xml, device: &Device) {
     }
 }
 
-/// Writes the URLs of a device. If the IR has the language of a URL, it comes before the URL.
+/// Writes the URLs of a device. In the IR, the language of a URL precedes the URL.
 pub(super) fn urls(xml: &mut Xml, device: &Device) {
     let mut lcid = None;
     for extension in &device.extensions {

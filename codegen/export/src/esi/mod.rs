@@ -96,7 +96,7 @@ fn is_esi(catalog: &Catalog) -> bool {
     catalog.files.first().is_some_and(|file| file.format == Format::Esi)
 }
 
-/// Data for the writers of all parts of the file.
+/// Data that the writers of all parts of the file use.
 struct Context<'a> {
     catalog: &'a Catalog,
     options: &'a TrackedOptions<'a>,
@@ -104,7 +104,7 @@ struct Context<'a> {
     missing: MissingFacts,
     /// ETG.2000 unit numbers, keyed by unit symbol.
     units: HashMap<CompactString, Option<String>>,
-    /// Whether the source is an ESI. If so, missing facts stay missing.
+    /// True if the source is an ESI, to which the export adds no missing facts.
     is_esi: bool,
 }
 
@@ -115,7 +115,7 @@ impl Context<'_> {
         self.missing.require(given.or(found), key, Options::KEYS)
     }
 
-    /// Returns the ETG.2000 number of a unit. The symbol of an unknown unit is its number.
+    /// Returns the ETG.2000 number of a unit. The IR contains the number itself for a unit without a known symbol.
     fn unit(&mut self, symbol: &CompactString) -> Option<String> {
         if symbol.is_empty() {
             return None;
@@ -210,7 +210,7 @@ fn vendor(xml: &mut Xml, context: &mut Context<'_>, device: Option<&&Device>, id
     xml.close();
 }
 
-/// Writes the groups of the devices, including groups that the source does not define.
+/// Writes the device groups, including groups that the source does not define.
 fn groups(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
     xml.open("Groups");
     let catalog = context.catalog;

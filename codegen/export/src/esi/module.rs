@@ -1,4 +1,4 @@
-//! Writes modules.
+//! Writes the modules of modular devices.
 
 use super::mailbox::init_command;
 use super::text::{hex, names};
@@ -24,7 +24,7 @@ const COE: [&str; 9] = [
 /// Extension that marks a module whose mailbox supports CoE.
 const HAS_COE: &str = "Mailbox/CoE";
 
-/// Writes a module.
+/// Writes the Module element of a module.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     let subject = Subject::Named(&module.name);
     xml.open("Module");

@@ -1,4 +1,4 @@
-//! Writes objects.
+//! Writes the objects of a dictionary.
 
 use compact_str::CompactString;
 
@@ -14,7 +14,7 @@ use lexibus_codegen::ir::{Category, Extension, Group, GroupKind, Item, Storage};
 /// Extension attributes that become flags of an object in ETG.2000.
 const FLAGS: [&str; 3] = ["Attribute", "Transition", "SdoAccess"];
 
-/// Writes an object with the given entries.
+/// Writes the Object element of an object with the given entries.
 pub(super) fn write(
     xml: &mut Xml,
     context: &mut Context<'_>,
@@ -194,7 +194,7 @@ fn losses(context: &mut Context<'_>, group: &Group, items: &[(u8, &Item)]) {
     notes.add_many(NoteKind::Setting, group.links.len(), Subject::object(group));
     for (_, item) in items {
         let subject = Subject::item(item);
-        // An item that has an address on two buses is a single item.
+        // Only one address of each item is exported, and each other address counts as a lost fact.
         let other_buses = item.bindings.len().saturating_sub(1);
         notes.add_many(NoteKind::Binding, other_buses, subject);
         let more = item.behaviour.as_ref().is_some_and(|behaviour| {

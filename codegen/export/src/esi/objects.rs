@@ -21,7 +21,7 @@ pub(super) fn of_registers(device: &Device, notes: &mut Notes) -> Vec<Group> {
     objects
 }
 
-/// Returns whether an item exists on EtherCAT. If the device is not an EtherCAT slave, all its objects do.
+/// Returns whether an item exists on EtherCAT. If the device is not an EtherCAT slave, all its items count as EtherCAT items.
 fn is_on_ethercat(device: &Device, item: &Item) -> bool {
     let buses = item.availability.as_ref().map_or(Buses::NONE, |availability| availability.buses);
     let has_address = item.bindings.iter().any(|binding| matches!(binding, Binding::Object { buses, .. } if buses.coe));

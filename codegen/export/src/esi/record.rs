@@ -7,7 +7,7 @@ use crate::note::{NoteKind, Notes, Subject};
 use lexibus_codegen::ir::{Access, Bus, Documentation, Field, Group, Item, Mappable, ObjectCode, Texts, Type};
 use lexibus_codegen::unique::Unique;
 
-/// The bus whose facts are exported.
+/// The bus whose facts an ESI contains.
 pub(super) const BUS: Bus = Bus::EtherCat;
 
 /// A sub-index of an object that has a record type.
@@ -15,7 +15,7 @@ pub(super) const BUS: Bus = Bus::EtherCat;
 pub(super) struct Entry {
     pub(super) sub_index: u8,
     pub(super) ty: Type,
-    /// Position of the field within the record.
+    /// Position of the field in the record.
     pub(super) field: usize,
     /// Element number if the field is an array.
     pub(super) element: Option<u32>,
@@ -66,8 +66,8 @@ pub(super) struct Plan {
     /// Name of the type.
     pub(super) ty: CompactString,
     pub(super) bits: u32,
-    /// Names of the sub-items in the type. The names apply to entries without a name in the object. `None` means that
-    /// the object has a single value.
+    /// Names of the sub-items in the type, for entries without a name in the object. `None` means that the object has a single
+    /// value.
     pub(super) names: Option<Vec<CompactString>>,
 }
 

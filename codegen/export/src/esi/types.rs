@@ -20,15 +20,15 @@ pub(super) struct Types<'a> {
     /// Unique names of the declared types.
     names: Vec<CompactString>,
     used_names: Unique,
-    /// Names of basic types.
+    /// Names of basic types that the file defines.
     basic: HashMap<Type, CompactString>,
     /// Additional types, written after those of the device.
     pub(super) added: Vec<AddedType>,
-    /// For each declared record that is the type of an object: the properties of its fields.
+    /// Properties of the fields of each declared record that is the type of an object.
     pub(super) uses: HashMap<u32, Vec<FieldFacts>>,
     /// Declared records, keyed by the sub-indices and types of their entries.
     pub(super) records: HashMap<Vec<(u8, Type)>, Vec<u32>>,
-    /// Whether the source is an ESI. If so, its facts are kept.
+    /// True if the source is an ESI, whose facts the export keeps.
     pub(super) is_esi: bool,
 }
 
@@ -44,7 +44,7 @@ pub(super) enum AddedType {
     Record { name: CompactString, bits: u32, fields: Vec<AddedField> },
 }
 
-/// A sub-item of an added record.
+/// A sub-item of a record type that the export adds.
 pub(super) struct AddedField {
     pub(super) name: CompactString,
     pub(super) sub_index: u8,
@@ -200,7 +200,7 @@ pub(super) fn is_self_named(def: &TypeDef, name: &str) -> bool {
     }
 }
 
-/// Replaces a basic type with one that has the declared size.
+/// Returns the basic type with the declared size.
 fn sized(ty: Type, bits: Option<u32>) -> Type {
     let Some(bits) = bits.filter(|&bits| bits > 0) else { return ty };
     let bytes = Some(bits / 8).filter(|_| bits % 8 == 0);

@@ -47,7 +47,7 @@ fn number(value: &Value) -> Option<String> {
     value.as_int().map(|value| value.to_string())
 }
 
-/// Returns the value as little-endian bytes.
+/// Returns a value of type `ty` as little-endian bytes.
 fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
     Some(match (value, ty) {
         (Value::Bytes(bytes), _) => bytes.clone(),

@@ -8,10 +8,10 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Device, GroupKind, Menu, ModuleUse, ProfinetSettings, SubmoduleKind};
 
-/// Maximum length of a record if the file does not declare one.
+/// Maximum length of a record in bytes if the file does not declare one.
 const RECORD_SIZE: u32 = 4068;
 
-/// Writes a device access point.
+/// Writes the element of a device access point.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     let none = ProfinetSettings::default();
     let settings = device.profinet.as_deref().unwrap_or(&none);

@@ -38,7 +38,7 @@ pub(super) static RELATIONS: Element = element("ApplicationRelations", &TIMING);
 pub(super) static MAU_TYPES: Element = element("MAUTypeList", &MAU_TYPE);
 pub(super) static FAMILY: Element = leaf("Family");
 
-/// The child element of an interface before its records. The static items below list the elements after the records.
+/// The child element of an interface that precedes its records. The static items below list the elements that follow the records.
 pub(super) static GENERAL: Element = element("General", &SIGNAL);
 pub(super) static OF_INTERFACE: [Element; 4] =
     [leaf("RT_Class3Properties"), leaf("SynchronisationMode"), leaf("TimeSynchronisation"), leaf("ReportingSystem")];
@@ -123,11 +123,11 @@ pub(super) fn kept(xml: &mut Xml, attributes: &Attributes) {
     }
 }
 
-/// An open element.
+/// An element whose start tag has been written.
 struct Opened<'e> {
     name: &'static str,
     seen: Vec<&'e str>,
-    /// Whether the element already has children. If so, no attributes can follow.
+    /// True if the element already has children, so that no attributes can follow.
     is_full: bool,
 }
 

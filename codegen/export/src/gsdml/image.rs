@@ -14,13 +14,13 @@ use lexibus_codegen::ir::{
     TypeDef,
 };
 
-/// Subslots of the first interface and its first port.
+/// Subslot numbers of the first interface and of its first port.
 const INTERFACE: u16 = 0x8000;
 const PORT: u16 = 0x8001;
 const MAX_PORTS: u16 = 0x0FFF;
 
-/// Returns a GSDML catalog with the devices of `source` that have fixed process images. Returns `None` if no device has
-/// any.
+/// Returns a GSDML catalog with the devices of `source` that have fixed process images. Returns `None` if no device has a fixed
+/// process image.
 pub(super) fn catalog(
     source: &Catalog,
     options: &TrackedOptions<'_>,
@@ -43,7 +43,7 @@ struct Maker<'m> {
     missing: &'m mut MissingFacts,
     notes: &'m mut Notes,
     target: &'m mut Catalog,
-    /// Number of devices before this one in the file.
+    /// Position of the device in the file, counted from 0.
     position: usize,
 }
 
@@ -227,7 +227,7 @@ impl Maker<'_> {
     }
 }
 
-/// Splits a text at each `;`.
+/// Splits a text at each `;` into words.
 fn list(text: &str) -> Vec<CompactString> {
     text.split(';').map(str::trim).filter(|word| !word.is_empty()).map(Into::into).collect()
 }

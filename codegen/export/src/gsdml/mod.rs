@@ -9,7 +9,7 @@
 //! | file | subject |
 //! |---|---|
 //! | `options` | facts from the caller |
-//! | `texts` | the text list |
+//! | `options` | facts that the caller gives |
 //! | `elements` | elements whose attributes the IR stores unchanged |
 //! | `device`, `module`, `submodule` | device access points, modules, submodules |
 //! | `image` | a device access point for fixed process images |
@@ -97,7 +97,7 @@ pub fn file_name(catalog: &Catalog, options: &Options) -> Option<String> {
     let vendor =
         options.vendor_name.as_deref().or_else(|| device.map(|device| device.identity.vendor_name.as_str()))?;
     let family = options.product_family.as_deref().or_else(|| device.map(|device| device.name.as_str()))?;
-    // The parts of the name are separated by a hyphen.
+    // A hyphen separates the parts of the file name, so it is replaced within a part.
     let part = |text: &str| -> String {
         let is_safe = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '_' | '.' | '+');
         text.trim().chars().map(|letter| if is_safe(letter) { letter } else { '_' }).collect()
@@ -114,7 +114,7 @@ fn version(catalog: &Catalog) -> &str {
     version.filter(|version| is_gsdml(catalog) && !version.is_empty()).unwrap_or(VERSION)
 }
 
-/// Data for the writers of all parts of the file.
+/// Data that the writers of all parts of the file use.
 struct Context<'a> {
     catalog: &'a Catalog,
     options: &'a TrackedOptions<'a>,
@@ -124,7 +124,7 @@ struct Context<'a> {
     texts: TextList,
     /// Positions of the pluggable ports among the submodules.
     pluggable_ports: HashSet<u32>,
-    /// Whether the source is a GSDML. If so, missing facts stay missing.
+    /// True if the source is a GSDML, to which the export adds no missing facts.
     is_gsdml: bool,
 }
 
@@ -153,7 +153,7 @@ fn root(xml: &mut Xml, context: &mut Context<'_>) {
     lost(context);
 }
 
-/// The header of ISO 15745-1. All GSDML files have the same header.
+/// The header according to ISO 15745-1. All GSDML files have the same header.
 const HEADER: [(&str, &str); 5] = [
     ("ProfileIdentification", "PROFINET Device Profile"),
     ("ProfileRevision", "1.00"),

@@ -90,7 +90,7 @@ pub(super) fn graphics_of<'g>(xml: &mut Xml, list: impl Iterator<Item = (&'g str
     });
 }
 
-/// Writes a module.
+/// Writes the ModuleItem element of a module.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     let is_attribute = |extension: &&Extension| !extension.key.contains('/');
     let attributes: Vec<(CompactString, CompactString)> = module

@@ -41,7 +41,7 @@ pub(super) fn list(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodu
 struct Menus<'m> {
     /// Menus that no record has used so far.
     left: Vec<Option<&'m Menu>>,
-    /// Positions of menus, keyed by their own names and by the parameters and menus that they show.
+    /// Positions of menus, by the identifier of the menu and by the parameters and menus that it contains.
     by_name: HashMap<&'m str, Vec<usize>>,
 }
 
@@ -56,13 +56,13 @@ impl<'m> Menus<'m> {
         Menus { left: menus.iter().map(Some).collect(), by_name }
     }
 
-    /// Removes and returns the menus that show parameters of a record and the menus connected with them. The order is
-    /// that of the source.
+    /// Removes and returns the menus that contain parameters of a record, and the menus connected with them. The order is that of
+    /// the source.
     fn take(&mut self, group: &'m Group) -> Vec<&'m Menu> {
         let mut menus = BTreeMap::new();
         let mut names: Vec<&str> = group.items.iter().filter_map(id).map(CompactString::as_str).collect();
         while let Some(name) = names.pop() {
-            // Following each name once is sufficient.
+            // Each name is removed after its first use, because following it once is sufficient.
             for at in self.by_name.remove(name).into_iter().flatten() {
                 if let Some(menu) = self.left.get_mut(at).and_then(Option::take) {
                     names.extend(menu.targets.iter().chain([&menu.id]).map(CompactString::as_str));
@@ -73,7 +73,7 @@ impl<'m> Menus<'m> {
         menus.into_values().collect()
     }
 
-    /// Returns the number of menus that no record uses.
+    /// Returns the number of menus that no record has used.
     fn others(&self) -> usize {
         self.left.iter().flatten().count()
     }

@@ -83,7 +83,7 @@ impl TextList {
         xml.reference(element, "TextId", self.id(text, names));
     }
 
-    /// Writes an element that refers to a description.
+    /// Writes an element that refers to the text of a description.
     pub(super) fn documentation(&mut self, xml: &mut Xml, element: &'static str, documentation: &Documentation) {
         self.text(xml, element, &documentation.text, &documentation.translations);
     }

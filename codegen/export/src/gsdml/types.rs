@@ -5,10 +5,10 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Shape, Type, TypeDef};
 
-/// Maximum number of names between a type and its basic type.
+/// Maximum number of named types in the chain from a type to its basic type.
 const MAX_DEPTH: usize = 8;
 
-/// The name of a data type.
+/// The GSDML name of a data type.
 pub(super) struct Name<'t> {
     pub(super) name: &'t str,
     pub(super) needs_length: bool,
@@ -49,7 +49,7 @@ pub(super) fn name(ty: Type, bits: u32, types: &[TypeDef]) -> Name<'_> {
     found
 }
 
-/// Writes the type and offset of a value in a record.
+/// Writes the attributes for the type and offset of a value in a record.
 pub(super) fn position(xml: &mut Xml, context: &mut Context<'_>, ty: Type, offset: u32, bits: u32, subject: &str) {
     let is_byte = offset.is_multiple_of(8);
     let is_bits = match ty {

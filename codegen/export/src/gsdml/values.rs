@@ -35,7 +35,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>) {
     xml.close();
 }
 
-/// Writes the values of a list. Each value gets its own text.
+/// Writes the values of a list. Each value gets a separate text.
 fn assignments(xml: &mut Xml, context: &mut Context<'_>, values: &[EnumValue]) {
     let mut used = HashSet::new();
     xml.open("Assignments");

@@ -41,22 +41,22 @@ pub struct Info {
     pub warnings: BTreeMap<&'static str, usize>,
 }
 
-/// One device.
+/// The summary of a device.
 #[derive(Clone, Debug, Serialize)]
 pub struct DeviceInfo {
-    /// Vendor ID.
+    /// Vendor ID of the device.
     pub vendor_id: Option<u32>,
     /// Product code; for GSDML, the DeviceID.
     pub product_code: Option<u32>,
-    /// Revision number.
+    /// Revision number of the device.
     pub revision: Option<u32>,
     /// Name of the product.
     pub name: String,
     /// Order code, or Type of ETG.2000; empty if there is none.
     pub order_code: String,
-    /// Number of distinct indices that the file and a dictionary file of the device declare.
+    /// Number of distinct indices that the file and the dictionary file of the device declare.
     pub objects: usize,
-    /// Number of addressable sub-entries that these files declare, sub-index 0 included.
+    /// Number of addressable entries that these files declare, including sub-index 0.
     pub entries: usize,
     /// Number of registers (items of chapters), for register tables.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -67,32 +67,32 @@ pub struct DeviceInfo {
     pub tx_pdos: Vec<PdoInfo>,
 }
 
-/// A dictionary without a device.
+/// The summary of a dictionary without a device.
 #[derive(Clone, Copy, Debug, Serialize, PartialEq, Eq)]
 pub struct DictionaryInfo {
     /// Number of distinct indices that the file declares.
     pub objects: usize,
-    /// Number of addressable sub-entries that the file declares, sub-index 0 included.
+    /// Number of addressable entries that the file declares, including sub-index 0.
     pub entries: usize,
 }
 
-/// A device access point of PROFINET.
+/// The summary of a device access point of PROFINET.
 #[derive(Clone, Debug, Serialize)]
 pub struct DapInfo {
     /// ID of the device access point.
     pub id: String,
-    /// Module ident number.
+    /// Module ident number of the device access point.
     pub ident: u32,
     /// Virtual submodules of the device access point.
     pub virtual_submodules: Vec<SubmoduleInfo>,
 }
 
-/// A module.
+/// The summary of a module.
 #[derive(Clone, Debug, Serialize)]
 pub struct ModuleInfo {
     /// ID of the module (GSDML), or its Type (ETG.2000).
     pub id: String,
-    /// Module ident number.
+    /// Ident number of the module.
     pub ident: u32,
     /// The bus-specific facts of the module.
     #[serde(flatten)]
@@ -103,22 +103,22 @@ pub struct ModuleInfo {
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub enum ModuleContent {
-    /// A module of PROFINET.
+    /// The facts of a PROFINET module.
     Profinet {
-        /// Input bytes of its virtual submodules, including F message trailers.
+        /// Number of input bytes of the module's virtual submodules, including F message trailers.
         input_bytes: u32,
-        /// Output bytes of its virtual submodules, including F message trailers.
+        /// Number of output bytes of the module's virtual submodules, including F message trailers.
         output_bytes: u32,
-        /// Parameter records of its virtual submodules.
+        /// Parameter records of the module's virtual submodules.
         records: Vec<RecordInfo>,
         /// Virtual submodules of the module.
         virtual_submodules: Vec<SubmoduleInfo>,
     },
-    /// A module of EtherCAT.
+    /// The facts of an EtherCAT module.
     EtherCat {
         /// Number of distinct indices that the file declares.
         objects: usize,
-        /// Number of addressable sub-entries that the file declares, sub-index 0 included.
+        /// Number of addressable entries that the file declares, including sub-index 0.
         entries: usize,
         /// RPDOs of the module.
         rx_pdos: Vec<PdoInfo>,
@@ -127,42 +127,42 @@ pub enum ModuleContent {
     },
 }
 
-/// A submodule of PROFINET.
+/// The summary of a PROFINET submodule.
 #[derive(Clone, Debug, Serialize)]
 pub struct SubmoduleInfo {
     /// ID of the submodule.
     pub id: String,
-    /// Submodule ident number.
+    /// Ident number of the submodule.
     pub ident: u32,
-    /// API number.
+    /// API number of the submodule.
     pub api: u32,
-    /// Input bytes, including an F message trailer.
+    /// Number of input bytes, including an F message trailer.
     pub input_bytes: u32,
-    /// Output bytes, including an F message trailer.
+    /// Number of output bytes, including an F message trailer.
     pub output_bytes: u32,
     /// Parameter records of the submodule.
     pub records: Vec<RecordInfo>,
 }
 
-/// A parameter record.
+/// The summary of a parameter record.
 #[derive(Clone, Copy, Debug, Serialize, PartialEq, Eq)]
 pub struct RecordInfo {
-    /// Record index.
+    /// Index of the record.
     pub index: u16,
-    /// Length in bytes.
+    /// Length of the record in bytes.
     pub length: u32,
     /// Number of parameters in the record.
     pub refs: usize,
 }
 
-/// One PDO.
+/// The summary of a PDO.
 #[derive(Clone, Copy, Debug, Serialize, PartialEq, Eq)]
 pub struct PdoInfo {
-    /// Index of the mapping object.
+    /// Index of the mapping object of the PDO.
     pub index: u16,
-    /// Number of entries, dummy entries included.
+    /// Number of entries, including dummy entries.
     pub entries: usize,
-    /// Length in bits.
+    /// Length of the PDO in bits.
     pub bits: u32,
 }
 
@@ -207,7 +207,7 @@ pub fn info(compilation: &Compilation) -> Info {
     info
 }
 
-/// Returns whether an element is in the main file, as opposed to a file that the main file refers to.
+/// Returns whether an element is in the main file, and not in a file to which the main file refers.
 fn is_in_main_file(origin: Origin) -> bool {
     origin.span.file == FileId(0)
 }
@@ -239,7 +239,7 @@ fn device(device: &Device, catalog: &Catalog) -> DeviceInfo {
     }
 }
 
-/// Returns the number of items in chapters.
+/// Returns the number of items in the chapters of a register table.
 fn registers(device: &Device) -> usize {
     let chapters = device.groups.iter().filter(|group| matches!(group.kind, GroupKind::Chapter));
     chapters.map(|group| group.items.len()).sum()

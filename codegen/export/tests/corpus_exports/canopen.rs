@@ -22,10 +22,10 @@ const NOT_LOADABLE: [(&str, &str); 3] = [
     ("starnus-software__ros2_canopen__master.dcf.em", "a template with loops that look like repeated keys"),
 ];
 
-/// The result of loading a file: its entries or an error.
+/// The result of loading a file: its entries, or an error.
 type Loaded = Result<BTreeMap<(u16, u8), Entry>, String>;
 
-/// An entry: its data type, access type and default value.
+/// An entry of a loaded file: its data type, access type and default value.
 #[derive(Clone, Debug, PartialEq)]
 struct Entry {
     data_type: u64,

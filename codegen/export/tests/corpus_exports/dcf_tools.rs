@@ -18,7 +18,7 @@ const NOT_ACCEPTED: [(&str, &str); 1] = [(
     "the object lists omit the PDO mapping, which maps the missing object 0x6040; the export lists all objects",
 )];
 
-/// The results of `dcfchk -n 5`: with and without its list of known keys.
+/// The results of `dcfchk -n 5`, with its list of known keys and without it.
 #[derive(Debug, Deserialize)]
 struct Verdict {
     strict: bool,

@@ -99,7 +99,7 @@ fn check_passes(file: &File, text: &str) -> Vec<String> {
     let options = options();
     let (first, second) = (compile(source(file), &options), compile(Source::new("export.dcf", text.into()), &options));
     let findings = |compilation: &Compilation| -> Vec<String> {
-        // The passes cannot find these diagnostics, because the IR does not store the notation of numbers.
+        // The notation of numbers is not in the IR, so the passes cannot produce these diagnostics.
         let is_of_the_text = |id: &str| id.starts_with("EDS") || id == "TAB012";
         let findings = compilation.diagnostics.list().iter().filter(|found| !is_of_the_text(found.code.id));
         let mut findings: Vec<String> = findings.map(|found| format!("{} {}", found.code.id, found.message)).collect();

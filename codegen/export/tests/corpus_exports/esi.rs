@@ -14,7 +14,7 @@ use lexibus_export::esi::{export, NoteKind, Options, Refusal};
 use lexibus_export::Export;
 use serde_json::Value;
 
-/// Removes facts that the comparison ignores. The comments give the reasons.
+/// Removes facts that the comparison ignores. The comments in the function state the reasons.
 fn comparable(before: &mut Value, after: &mut Value) {
     for value in [&mut *before, &mut *after] {
         each_object(value, &mut |fields| {

@@ -13,7 +13,7 @@ use lexibus_export::gsdml::{export, file_name, NoteKind, Options};
 use lexibus_export::Export;
 use serde_json::Value;
 
-/// Removes facts that the comparison ignores. The comments give the reasons.
+/// Removes facts that the comparison ignores. The comments in the function state the reasons.
 fn comparable(value: &mut Value) {
     // The export writes the diagnosis lists in the order of the schema.
     if let Some(tables) = value["code_tables"].as_array_mut() {

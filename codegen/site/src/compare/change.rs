@@ -31,7 +31,7 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// No effect. Used for texts and facts about the file.
+    /// No effect, as for changes of texts and of facts about the file.
     pub const NONE: Judgement = Judgement::new(Effect::Unaffected, Effect::Unaffected, Effect::Unaffected);
     /// Breaks Rust code only.
     pub const API: Judgement = Judgement::new(Effect::Breaking, Effect::Unaffected, Effect::Unaffected);
@@ -107,16 +107,16 @@ pub enum Class {
 /// A difference between two descriptions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Change {
-    /// Name of the changed device or module. The text is empty if there is only one device or module.
+    /// Name of the changed device or module; empty if the description has only one.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub owner: String,
     /// Address and name of the changed element.
     pub element: String,
-    /// Name of the changed fact, such as `access`, `type`, `range` or `layout`; or `added` or `removed`.
+    /// Name of the changed fact, such as `access`, `type`, `range` or `layout`. `added` and `removed` concern the whole element.
     pub fact: &'static str,
-    /// Old value; empty if there is none.
+    /// Old value of the fact; empty if there is none.
     pub old: String,
-    /// New value; empty if there is none.
+    /// New value of the fact; empty if there is none.
     pub new: String,
     /// Effects of the change.
     #[serde(flatten)]
@@ -162,10 +162,10 @@ fn excerpts(old: &str, new: &str) -> (String, String) {
     (excerpt(old), excerpt(new))
 }
 
-/// Number of changes of each class.
+/// The number of changes with each effect.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
-    /// Number of all changes.
+    /// Total number of changes.
     pub changes: usize,
     /// Number of changes that break Rust code.
     pub api: usize,

@@ -40,7 +40,7 @@ fn row(old: &CodeRow, new: &CodeRow, comparison: &mut Comparison<'_>) {
         Some(last) => format!("{} to {last}", row.code),
         None => row.code.to_string(),
     };
-    // Writing the same code in another notation does not affect the communication.
+    // A change of the notation does not affect the communication, as long as the code stays the same.
     let judgement = if old.code == new.code { Judgement::API } else { Judgement::WIRE };
     comparison.texts("code", number(old), number(new), judgement);
     compare_fields!(CodeRow, old, new, comparison, {

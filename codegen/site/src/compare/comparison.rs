@@ -10,17 +10,17 @@ use super::pairing;
 use super::show::Show;
 use lexibus_codegen::ir::{Catalog, Type, TypeDef};
 
-/// The state of a comparison: the changes found so far and the current element.
+/// The state of a comparison: the changes found so far, and the current element.
 pub(super) struct Comparison<'a> {
     /// The old and the new catalog.
     pub catalogs: (&'a Catalog, &'a Catalog),
     /// The old and new types of the current device, module or submodules.
     pub types: (&'a [TypeDef], &'a [TypeDef]),
-    /// Pairs of types that have been compared. Each pair includes its owner.
+    /// Pairs of types that have been compared, each with the owner of the types.
     compared_types: HashSet<(usize, Type, Type)>,
-    /// Owner of the current types. 0 means the catalog.
+    /// Number of the owner of the current types. 0 means the catalog.
     types_owner: usize,
-    /// Number of owners of types so far.
+    /// Number of type owners that have been compared so far.
     types_owners: usize,
     pub owner: String,
     pub changes: Vec<Change>,
@@ -41,7 +41,7 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// Compares a device, module or submodule that owns types.
+    /// Compares a device, module or submodule with a separate list of types.
     pub fn in_types(&mut self, old: &'a [TypeDef], new: &'a [TypeDef], compare: impl FnOnce(&mut Self)) {
         let outer = (self.types, self.types_owner);
         (self.types, self.types_owner) = ((old, new), self.types_owners);
@@ -70,7 +70,7 @@ impl<'a> Comparison<'a> {
         of_owner.map(|(_, old, new)| (*old, *new)).unzip()
     }
 
-    /// Compares a part of the current element.
+    /// Compares a part of the current element. The name of the part is added to the element's name.
     pub fn within(&mut self, part: &str, compare: impl FnOnce(&mut Self)) {
         let length = self.element.len();
         if length > 0 {
@@ -168,7 +168,7 @@ pub(super) const KEY: &str = "a key; a change is reported as a removal and an ad
 /// Reason to ignore a field: it is compared together with another field.
 pub(super) const COMPARED: &str = "compared together with another field";
 
-/// Compares a fact. Any change of it has the same effects.
+/// Compares a fact. All changes of the fact have the same effects.
 pub(super) fn fact<T: PartialEq + Debug + Show>(
     name: &'static str,
     judgement: Judgement,
@@ -176,7 +176,7 @@ pub(super) fn fact<T: PartialEq + Debug + Show>(
     fact_as(name, judgement, T::show)
 }
 
-/// Compares a fact. Any change of it has the same effects. `show` returns the text for reports.
+/// Compares a fact. All changes of the fact have the same effects. `show` returns the text of a value for reports.
 pub(super) fn fact_as<T: PartialEq + Debug>(
     name: &'static str,
     judgement: Judgement,
@@ -194,7 +194,7 @@ pub(super) fn text<T: PartialEq + Debug + Show>(name: &'static str) -> impl Fn(&
     fact(name, Judgement::NONE)
 }
 
-/// Compares the texts of a value whose other parts contain positions in the source.
+/// Compares values by their texts, because the values contain positions in the source.
 pub(super) fn positioned<T: PartialEq>(
     name: &'static str,
     judgement: Judgement,
@@ -257,7 +257,7 @@ pub(super) fn or_default<T: Default, B: Borrow<T>>(
     }
 }
 
-/// Compares a list with a function that compares slices.
+/// Compares a list with the function `compare`, which compares slices.
 pub(super) fn slice<T, L: Deref<Target = [T]>>(
     compare: impl Fn(&[T], &[T], &mut Comparison<'_>),
 ) -> impl Fn(&L, &L, &mut Comparison<'_>) {
@@ -266,11 +266,11 @@ pub(super) fn slice<T, L: Deref<Target = [T]>>(
 
 /// Rules for the elements of a list: their titles, the keys that pair them, and the effects of additions and removals.
 pub(super) struct Elements<T> {
-    /// Returns the name of an element in reports.
+    /// Function that returns the name of an element in reports.
     pub title: fn(&T) -> String,
-    /// Returns the first key that pairs elements. An empty key pairs nothing.
+    /// Function that returns the first key that pairs elements. An empty key pairs nothing.
     pub name: fn(&T) -> String,
-    /// Returns the second key, which pairs elements that have no common first key.
+    /// Function that returns the second key, which pairs elements that have no common first key.
     pub position: fn(&T) -> String,
     pub added: fn(&T) -> Judgement,
     pub removed: fn(&T) -> Judgement,
@@ -288,7 +288,7 @@ impl<T> Elements<T> {
         }
     }
 
-    /// Changes the first key that pairs elements.
+    /// Replaces the first key that pairs elements.
     pub fn paired_by(self, name: fn(&T) -> String) -> Self {
         Elements { name, ..self }
     }

@@ -17,7 +17,7 @@ use lexibus_codegen::ir::{
     Group, Header, MessageExample, ModbusTable, Procedure, ProcessData, StateMachine, Value, Variant,
 };
 
-/// Compares all facts of a device.
+/// Compares all facts and elements of a device.
 pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {
     comparison.within("the device", |comparison| facts_of_device(old, new, comparison));
     compare_fields!(Device, old, new, comparison, {
@@ -92,7 +92,7 @@ fn node_ids(range: &Option<(u8, u8)>) -> String {
     range.map(|(first, last)| format!("{first} to {last}")).unwrap_or_default()
 }
 
-/// Compares the header of the file.
+/// Compares the headers of two files.
 fn header(old: &Header, new: &Header, comparison: &mut Comparison<'_>) {
     compare_fields!(Header, old, new, comparison, {
         file_name: text("name of the file"),
@@ -175,7 +175,7 @@ fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Compariso
     }, KEY => [space]);
 }
 
-/// Returns the effects of a changed maximum request length.
+/// Returns the effects of a change of a maximum request length.
 fn shorter(old: &Option<u16>, new: &Option<u16>) -> Judgement {
     let is_shorter = new.is_some_and(|new| old.is_none_or(|old| new < old));
     let wire = if is_shorter { Effect::Breaking } else { Effect::Compatible };
@@ -204,7 +204,7 @@ fn given(old: &GivenNumber, new: &GivenNumber, comparison: &mut Comparison<'_>) 
     }, POSITION => [origin]);
 }
 
-/// Formats constants as `Small 5, Large 10`.
+/// Formats the constants of a model, such as `Small 5, Large 10`.
 fn constants(constants: &Vec<(CompactString, Value)>) -> String {
     constants.show()
 }

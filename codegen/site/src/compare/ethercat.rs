@@ -29,12 +29,12 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
     });
 }
 
-/// Joins the list elements, formatted with `show`.
+/// Joins the elements of a list. `show` formats each element.
 pub(super) fn joined<T>(list: &[T], show: impl Fn(&T) -> String) -> String {
     list.iter().map(show).collect::<Vec<_>>().join("; ")
 }
 
-/// Appends the names of the flags that are set.
+/// Appends the names of the flags that are set to a text.
 fn with_flags(text: String, flags: &[(bool, &str)]) -> String {
     let set = flags.iter().filter(|(is_set, _)| *is_set).map(|(_, name)| *name);
     std::iter::once(text.as_str()).chain(set).collect::<Vec<_>>().join(" ")

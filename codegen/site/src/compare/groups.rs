@@ -69,7 +69,7 @@ struct Side<'a> {
 struct Entry<'a> {
     group: &'a Group,
     item: &'a Item,
-    /// Rust identifier. Empty for the value of an object without entries.
+    /// Rust identifier of the item; empty for the value of an object without entries.
     identifier: String,
 }
 
@@ -185,7 +185,7 @@ fn kind(old: &Group, new: &Group, comparison: &mut Comparison<'_>) {
             GroupKind::Object { index: one, code: old_code, category: old_category },
             GroupKind::Object { index: other, code, category },
         ) => {
-            // Otherwise the addresses of the items contain the index, and their comparison reports it.
+            // If all items have the index of their object, the comparison of the items' addresses reports the changed index.
             if !(has_index_of_items(old) && has_index_of_items(new)) {
                 fact_as("index", Judgement::WIRE, index)(one, other, comparison);
             }

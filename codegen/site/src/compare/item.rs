@@ -1,4 +1,4 @@
-//! Compares items: value, range, access rights and behavior.
+//! Compares items: their values, limits, access rights and behavior.
 
 use super::bindings;
 use super::change::{Effect, Judgement};
@@ -21,7 +21,7 @@ pub(super) fn compare(old: &Item, new: &Item, comparison: &mut Comparison<'_>) {
     compare_named(old, new, judged("name", renamed), comparison);
 }
 
-/// Compares all facts of an item. `name` is the function that compares its name.
+/// Compares all facts of an item. `name` is the function that compares the names.
 pub(super) fn compare_named(
     old: &Item,
     new: &Item,
@@ -70,7 +70,7 @@ fn related(old: &RelatedItems, new: &RelatedItems, comparison: &mut Comparison<'
     });
 }
 
-/// Returns the effects of changed access rights.
+/// Returns the effects of a change of access rights.
 fn access_effects(old: &Access, new: &Access) -> Judgement {
     let lost = old.readable() && !new.readable() || old.writable() && !new.writable();
     let gained = !old.readable() && new.readable() || !old.writable() && new.writable();
@@ -102,7 +102,7 @@ fn default(old: &Item, new: &Item, comparison: &mut Comparison<'_>) {
     }
 }
 
-/// Returns the effects of a changed value on the behavior. A value that the old description lacks breaks nothing.
+/// Returns the effects of a changed fact on the behavior. Adding a fact that the old description lacks breaks nothing.
 fn stated_effects<T>(old: &Option<T>, _: &Option<T>) -> Judgement {
     match old {
         None => Judgement::BEHAVIOR_COMPATIBLE,
@@ -120,8 +120,8 @@ fn range(items: [&Item; 2], limits: [&Limits; 2], access: Access, comparison: &m
     }
 }
 
-/// Returns the effects of changed limits. A change is breaking if a previously valid value becomes invalid for writing,
-/// or if reading can return values outside the old limits.
+/// Returns the effects of changed limits. A change is breaking if a previously valid value becomes invalid for writing, or if a
+/// read value can be outside of the old limits.
 fn range_effects(old: &Limits, new: &Limits, access: Access) -> Judgement {
     let is_broken = if access.writable() { is_narrower(old, new) } else { is_narrower(new, old) };
     if is_broken {
@@ -161,7 +161,7 @@ fn variants() -> Elements<ItemVariant> {
     .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR)
 }
 
-/// Compares a variant of an item in both descriptions. The variant applies to some models or buses.
+/// Compares a variant, which applies to some models or buses, in both descriptions.
 fn variant(items: [&Item; 2], old: &ItemVariant, new: &ItemVariant, comparison: &mut Comparison<'_>) {
     let access = new.access.unwrap_or(items[1].access);
     compare_fields!(ItemVariant, old, new, comparison, {
@@ -189,7 +189,7 @@ fn variant(items: [&Item; 2], old: &ItemVariant, new: &ItemVariant, comparison: 
     }, POSITION => [at]);
 }
 
-/// Returns the text of an optional value, for reports.
+/// Returns the text of an optional value for reports. The text is empty if there is no value.
 fn value(item: &Item, value: &Option<Value>, types: &[TypeDef]) -> String {
     value.as_ref().map(|value| facts::item::value(item, value, types)).unwrap_or_default()
 }

@@ -25,7 +25,7 @@ pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut C
     });
 }
 
-/// Compares states or commands. They become variants of an enumeration, and Rust code can match all of them.
+/// Compares states or commands. States and commands become variants of an enumeration, and Rust code can match all variants.
 fn patterns(title: fn(&Pattern) -> String) -> Elements<Pattern> {
     Elements {
         name: |pattern| pattern.name.to_string(),

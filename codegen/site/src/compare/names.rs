@@ -4,16 +4,16 @@ use lexibus_codegen::facts::address;
 use lexibus_codegen::ir::{Group, GroupKind, Item, ObjectCode};
 use lexibus_codegen::names::{self, unique, Case, NameRequest};
 
-/// Returns the Rust identifier for a unique name.
+/// Returns the Rust identifier of an element whose name is unique.
 pub(super) fn identifier(name: &str) -> String {
     names::identifier(&NameRequest::new(name, "item", ""), Case::Snake)
 }
 
 /// The Rust identifiers of the groups and items of a device or module.
 pub(super) struct Identifiers {
-    /// Identifier of each group if it is an object; otherwise empty.
+    /// Identifier of each group; empty if the group is not an object.
     pub groups: Vec<String>,
-    /// Identifiers of registers and object entries, by group. Empty for the value of an object without entries.
+    /// Identifiers of registers and object entries, by group; empty for the value of an object without entries.
     pub items: Vec<Vec<String>>,
 }
 

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// An element of the old description with its counterpart in the new description. One of them can be missing.
+/// An element of the old description with its counterpart in the new description. One of the two elements can be missing.
 pub(super) type Pair<'a, T> = (Option<&'a T>, Option<&'a T>);
 
 /// Pairs elements in the order of the old list. Added elements follow at the end.
@@ -36,7 +36,7 @@ pub(super) struct Key {
 pub(super) struct Matching {
     /// Position in the new list for each element of the old list.
     pub new_of_old: Vec<Option<usize>>,
-    /// For each element of the new list, whether it is paired with an element of the old list.
+    /// For each element of the new list, true if the element is paired with an element of the old list.
     pub is_new_paired: Vec<bool>,
 }
 

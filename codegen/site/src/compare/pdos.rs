@@ -131,7 +131,7 @@ impl Layout<'_> {
         self.entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding)
     }
 
-    /// Returns a text for each entry, such as `0: UNSIGNED16 Controlword` and `16: INTEGER32 Target position`.
+    /// Returns a text for each entry of the layout, such as `0: UNSIGNED16 Controlword` and `16: INTEGER32 Target position`.
     fn texts(&self) -> Vec<String> {
         let text =
             |entry: &PdoEntry| format!("{}: {} {}", entry.bit_offset, types::name(self.types, entry.ty), entry.name);
@@ -162,7 +162,7 @@ impl Layout<'_> {
     }
 }
 
-/// Returns the keys that pair entries: names, and for paddings their order.
+/// Returns the keys that pair entries. The key is the name, or the order for paddings.
 fn entry_keys(entries: &[PdoEntry]) -> Vec<Key> {
     let mut paddings = 0_u32..;
     let name = |entry: &PdoEntry| match entry.kind {
@@ -172,7 +172,7 @@ fn entry_keys(entries: &[PdoEntry]) -> Vec<Key> {
     entries.iter().map(name).map(|name| Key { name, position: String::new() }).collect()
 }
 
-/// Compares the lengths of entries. This is necessary because the layout texts do not contain paddings.
+/// Compares the lengths of entries. The comparison is necessary because the layout texts do not contain paddings.
 fn lengths(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
     let length = |entries: &[PdoEntry]| entries.iter().fold(0_u32, |bits, entry| bits.saturating_add(entry.bits));
     let of_all = |entries: &[PdoEntry]| format!("{} bits", length(entries));
@@ -233,7 +233,7 @@ fn objects(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
     }
 }
 
-/// Replaces the common beginning and the common end of both lists with `…`.
+/// Replaces the beginning and the end that both lists have in common with `…`.
 fn shorten(old: &mut Vec<String>, new: &mut Vec<String>) {
     let first = old.iter().zip(&*new).take_while(|(one, other)| one == other).count();
     let rest = (old.len() - first).min(new.len() - first);

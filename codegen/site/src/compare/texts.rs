@@ -1,4 +1,4 @@
-//! Compares texts of the source about an element. Changes of such texts have no effect.
+//! Compares texts about an element. Changes of texts have no effect.
 
 use super::change::Judgement;
 use super::comparison::{compare_fields, or_default, positioned, text, Comparison, CITATION};
@@ -7,7 +7,7 @@ use super::show::Show;
 use lexibus_codegen::facts::words::{origin_name, PLAIN};
 use lexibus_codegen::ir::{Documentation, Doubt, Doubts, Extensions, FactOrigin, Manual, ManualSection};
 
-/// Compares the descriptions of an element.
+/// Compares two descriptions of an element.
 pub(super) fn documentation(
     old: &Option<Box<Documentation>>,
     new: &Option<Box<Documentation>>,
@@ -22,7 +22,7 @@ pub(super) fn documentation(
     })(old, new, comparison);
 }
 
-/// Formats the origin of a fact without its file position.
+/// Formats the origin of a fact without its position in the file.
 pub(super) fn origin(origin: &FactOrigin) -> String {
     match origin {
         FactOrigin::Overlay { file, replaces: false, .. } => format!("overlay {file}"),
@@ -35,7 +35,7 @@ fn text_from(from: &Option<Box<FactOrigin>>) -> String {
     from.as_deref().map(origin).unwrap_or_default()
 }
 
-/// Joins all texts of a description.
+/// Joins all texts of a description, in all languages.
 pub(super) fn described(documentation: Option<&Documentation>) -> String {
     let Some(Documentation { text, translations, text_from, cite: _ }) = documentation else { return String::new() };
     let parts = [text.clone(), translations.show(), self::text_from(text_from)];

@@ -30,7 +30,7 @@ pub(super) fn compare_definitions(old: Type, new: Type, comparison: &mut Compari
             definitions(one, other, is_same_type, comparison);
         }
         (Some(_), Some(_)) | (None, None) => {}
-        // Both are names of the same basic type. If one had a definition, its text would differ.
+        // Both types are names of the same basic type. If one type had a definition, its text would differ.
         (one, other) if name(old_types, old) == name(new_types, new) => {
             let text = |value: Option<&TypeDef>| value.map(|value| value.name.to_string()).unwrap_or_default();
             comparison.push("name of the type", text(one), text(other), Judgement::NONE);
@@ -39,7 +39,7 @@ pub(super) fn compare_definitions(old: Type, new: Type, comparison: &mut Compari
     }
 }
 
-/// Compares an optional type.
+/// Compares two optional types.
 pub(super) fn compare_optional(
     fact: &'static str,
     judgement: Judgement,
@@ -54,7 +54,7 @@ pub(super) fn compare_optional(
     }
 }
 
-/// Compares the types that no compared element uses. They are paired by name.
+/// Compares the types that no compared element uses. Types are paired by name.
 pub(super) fn compare_unused(comparison: &mut Comparison<'_>) {
     let (old_types, new_types) = comparison.types;
     let unused = |types: &[TypeDef], compared: HashSet<Type>| -> Vec<(TypeId, String)> {
@@ -98,13 +98,13 @@ fn basic_of(types: &[TypeDef], ty: Type) -> Option<Type> {
     Some(types::basic(types, ty)).filter(|basic| *basic != Type::Opaque(None))
 }
 
-/// Returns the effects of a changed type.
+/// Returns the effects of a change of the type.
 fn effects(old: Option<Type>, new: Option<Type>) -> Judgement {
     let (Some(old), Some(new)) = (old, new) else { return Judgement::API_AND_WIRE };
     match (old, new) {
-        // The basic types are equal, but a type with names of bits or values is a different Rust type.
+        // The basic types are equal, but names of bits or values make a different Rust type.
         (old, new) if old == new => Judgement::API,
-        // The Rust type does not depend on the length.
+        // The length of a string does not affect the Rust type.
         (Type::VisibleString(_), Type::VisibleString(_))
         | (Type::OctetString(_), Type::OctetString(_))
         | (Type::UnicodeString(_), Type::UnicodeString(_)) => Judgement::BEHAVIOR,
@@ -262,7 +262,7 @@ fn bits(field: &BitFieldEntry) -> String {
 fn meanings(old: &BitMeaning, new: &BitMeaning, comparison: &mut Comparison<'_>) {
     let judgement = match (old, new) {
         (BitMeaning::Reserved { .. }, BitMeaning::Reserved { .. }) => Judgement::BEHAVIOR,
-        // The methods stay the same, but the bit is inverted.
+        // The methods stay the same, but the meaning of the bit is inverted.
         (BitMeaning::Flag { .. }, BitMeaning::Flag { .. }) => Judgement::WIRE,
         (BitMeaning::Reserved { .. }, _) => Judgement::API_COMPATIBLE,
         _ => Judgement::API,

@@ -1,4 +1,4 @@
-//! Checks the conversions that the manual prints as examples: each is at most 1 LSB from the physical value of the raw value.
+//! Checks example conversions that the manual prints: the physical value differs by at most 1 LSB from that of the raw value.
 
 use super::physical;
 use crate::check::context::Context;
@@ -6,7 +6,7 @@ use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Conversion, Device, Item, MachineUnit, Quantity, Scale};
 use crate::text::brief;
 
-/// The number of digits after the first one, enough for a raw value of 16 bits.
+/// The number of digits after the first significant digit, enough for a raw value of 16 bits.
 const DIGITS: f64 = 6.0;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -23,7 +23,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the problem of a conversion: it differs by more than 1 LSB, or cannot be computed.
+/// Returns the problem of a conversion: the values differ by more than 1 LSB, or cannot be computed.
 fn problem(device: &Device, item: &Item, quantity: &Quantity, conversion: &Conversion) -> Option<String> {
     let (raw, value) = (conversion.raw? as f64, conversion.value?);
     let name = brief(&item.name);
@@ -54,7 +54,7 @@ fn physical(device: &Device, quantity: &Quantity, conversion: &Conversion, raw: 
     })
 }
 
-/// Converts the physical value to the unit of the example.
+/// Converts the physical value to the unit of the example conversion.
 fn in_unit(device: &Device, quantity: &Quantity, conversion: &Conversion, number: f64) -> Result<f64, String> {
     let Some(unit) = conversion.unit.as_ref().filter(|unit| **unit != quantity.unit) else { return Ok(number) };
     match quantity.machine.as_deref().filter(|machine| machine.unit == *unit) {
@@ -63,7 +63,7 @@ fn in_unit(device: &Device, quantity: &Quantity, conversion: &Conversion, number
     }
 }
 
-/// Returns the ratio of machine values to physical values.
+/// Returns the ratio of a value in the machine unit to the physical value.
 fn ratio(device: &Device, unit: &MachineUnit, conversion: &Conversion) -> Result<f64, String> {
     physical::ratio(unit, |name| {
         let given = conversion.given.iter().find(|(given, _)| given == name).map(|(_, number)| *number);

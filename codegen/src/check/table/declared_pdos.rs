@@ -5,7 +5,7 @@ use crate::check::mapped_object::{direction_of, Described, Mapped, CAN_BITS};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Device, Group, Item, Pdo, PdoEntryKind};
 
-/// Reports mapped objects that do not fit. Other checks cover CANopen mapping objects and EtherCAT.
+/// Reports mapped objects that contradict the mapping. Other checks cover CANopen mapping objects and EtherCAT.
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let device = context.device;
     let described = Described::new(device);
@@ -34,7 +34,7 @@ fn length(device: &Device, pdo: &Pdo, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Checks the entries that a mapping object has by default.
+/// Checks the default entries of a mapping object.
 fn defaults(described: &Described<'_>, group: &Group, diagnostics: &mut Diagnostics) {
     let Some(direction) = group.index().and_then(direction_of) else { return };
     let count = group.sub(0).and_then(Item::default_integer).unwrap_or(i128::MAX);

@@ -1,4 +1,4 @@
-//! Reports words in texts that are almost the name of an item: manuals often spell a register differently in its row and the text.
+//! Reports words that are almost the name of an item. Manuals often spell a register differently in its row and in the text.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,7 +8,7 @@ use crate::ir::{texts, Device};
 use crate::limits;
 use crate::text::{brief, edit_distance};
 
-/// The lengths of names and words that are compared: shorter ones differ too little.
+/// The lengths of names and words that are compared. Shorter words are too similar to each other.
 const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
 
 /// The minimum number of names with a common prefix. Nine tenths of all names must have this prefix.
@@ -36,10 +36,10 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The names of a table's items.
+/// The names of the elements in a table.
 struct Names<'a> {
     all: BTreeSet<String>,
-    /// Names that cannot be words of a language.
+    /// Item names that are recognizable as identifiers, such as `targetSpeed`, because they cannot be words of a language.
     like_identifiers: Vec<&'a str>,
 }
 
@@ -47,7 +47,7 @@ impl<'a> Names<'a> {
     fn new(device: &'a Device) -> Self {
         let items = device.items().map(|item| item.name.as_str());
         let of_items = || items.clone().chain(device.groups.iter().map(|group| group.name.as_str()));
-        // The names of types, procedures and messages have the same form.
+        // Names of types, procedures and messages have the same form as item names, so they are not misspellings.
         let others = device.types.iter().map(|definition| definition.name.as_str());
         let others = others.chain(device.procedures.iter().map(|procedure| procedure.name.as_str()));
         let all = of_items().chain(others.chain(device.messages.iter().map(|message| message.name.as_str())));
@@ -59,7 +59,7 @@ impl<'a> Names<'a> {
         Names { all: all.map(str::to_lowercase).collect(), like_identifiers }
     }
 
-    /// Returns the name that a misspelled word means.
+    /// Returns the item name that a misspelled word probably means.
     fn suggestion(&self, word: &str) -> Option<&'a str> {
         let letters = word.chars().count();
         let lower = word.to_lowercase();
@@ -81,7 +81,7 @@ impl<'a> Names<'a> {
     }
 }
 
-/// Returns the capital letter with which most names begin, before a lower-case letter.
+/// Returns the capital letter with which most names begin, if a lower-case letter follows it.
 fn prefix<'n>(names: impl Iterator<Item = &'n str>) -> Option<char> {
     let (mut count, mut by_letter) = (0, BTreeMap::new());
     for name in names {

@@ -1,4 +1,4 @@
-//! Reports rows whose only limit is that of their type: the cell of the other limit is probably empty.
+//! Reports rows whose only limit equals that of their type: the cell of the other limit is probably empty by mistake.
 
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};

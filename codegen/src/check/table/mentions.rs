@@ -1,4 +1,4 @@
-//! Reports objects that texts mention and that the table does not have.
+//! Reports objects that texts of a table mention but the table does not contain.
 
 use std::ops::RangeInclusive;
 
@@ -7,7 +7,7 @@ use crate::check::mapped_object::indices;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::texts;
 
-/// Indices that a text can mention without a sub-index or the word `object`: those of the first axis of a drive profile.
+/// Indices that are recognized in a text without a sub-index or the word `object`: those of the first axis of a drive profile.
 const PROFILE: RangeInclusive<u16> = 0x6000..=0x67FF;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {

@@ -18,7 +18,7 @@ const NO_REFUSAL: Problem = "the error message has no reply, no code, or data of
 const NO_END: Problem = "no byte marks the end of a frame";
 const UNKNOWN_CHECK: Problem = "the runtime only supports the checks `xor`, `sum`, `lrc` and `crc16`";
 
-/// Reports messages and framings without code, and parameters that no message transfers.
+/// Reports messages and framings for which no code is generated, and parameters that no message transfers.
 pub(in crate::check) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let device = context.device;
     let shapes = shapes(device);
@@ -61,7 +61,8 @@ fn every_message(device: &Device, shapes: &[Shaped<'_>], diagnostics: &mut Diagn
     }
 }
 
-/// Returns why no code is generated for a framing. A bus with packets needs no code, because nothing delimits frames.
+/// Returns the reason why no code is generated for a framing. A bus with packets needs no code, because its frames have no
+/// delimiters.
 fn no_framing(framing: &Framing) -> Option<Problem> {
     let is_delimited = framing.start.is_some() || framing.escape.is_some() || !framing.check.is_empty();
     match framing.check.as_str() {
@@ -84,7 +85,7 @@ fn parameters(context: &Context<'_>, shapes: &[Shaped<'_>], diagnostics: &mut Di
             continue;
         }
         for (code, item) in numbered(context.device, &space.name) {
-            // The length of an unknown type is unknown, too.
+            // The length of an item with an unknown type cannot be checked.
             let basic = context.owner.basic(item.ty);
             if !matches!(basic, Type::Opaque(None)) && basic.bits().is_none_or(|bits| bits > LONGEST) {
                 let name = brief(&item.name);

@@ -1,5 +1,5 @@
-//! Checks messages: they consist of whole bytes, fit into a frame, and can be distinguished by the receiver. Also compares them
-//! with the tables of commands and states.
+//! Checks that messages consist of whole bytes and fit into a frame, and that the receiver can distinguish them. Also compares
+//! the messages with the tables of commands and states.
 
 use std::collections::BTreeMap;
 
@@ -9,10 +9,10 @@ use crate::ir::{CommandOutcomes, Device, Message, Outcome};
 use crate::resolve::messages::Frame;
 use crate::text::brief;
 
-/// The number of requests with the same first constant after which another constant is a probable misprint.
+/// Minimum number of requests with the same first constant. The only request with another constant is then probably a misprint.
 const ALIKE: usize = 8;
 
-/// A message with its frames.
+/// A message, with the frames of its request and reply.
 struct Framed<'d> {
     message: &'d Message,
     request: Frame,
@@ -42,7 +42,7 @@ fn report(framed: &Framed<'_>, code: &'static Code, message: String) -> Diagnost
     code.at(framed.message.origin.span, message)
 }
 
-/// Reports a problem of two messages.
+/// Creates a diagnostic about two messages.
 fn both(framed: &Framed<'_>, other: &Framed<'_>, code: &'static Code, message: String) -> Diagnostic {
     report(framed, code, message).note_at(other.message.origin.span, "the other message")
 }
@@ -68,7 +68,7 @@ fn length(framed: &Framed<'_>, max: Option<usize>, diagnostics: &mut Diagnostics
     }
 }
 
-/// Reports replies whose first constant is in the request of another message, but not in their request.
+/// Reports replies whose first constant is not in their request, but in the request of another message with this constant.
 fn replies_of_others(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let first =
         |framed: &Framed<'_>| framed.reply.constants.first_key_value().map(|(position, byte)| (*position, *byte));
@@ -107,8 +107,8 @@ fn like_their_errors(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports requests that a device cannot distinguish, unless an earlier message decides. After sorting by their first constants,
-/// requests that can be equal follow each other.
+/// Reports requests that a device cannot distinguish, unless an earlier message decides. After the requests are sorted by their
+/// first constants, requests that can be equal are adjacent.
 fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let runs = all.iter().enumerate().filter(|(_, framed)| !framed.message.request.is_empty());
     let mut runs: Vec<(Option<usize>, Vec<u8>, usize, &Framed<'_>)> = runs
@@ -141,7 +141,7 @@ fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports the only request with a different first constant. Only requests that begin with several constants count.
+/// Reports the only request with a different first constant, among requests that begin with several constants.
 fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let mut groups: BTreeMap<(usize, u8), Vec<&Framed<'_>>> = BTreeMap::new();
     for framed in all.iter().filter(|framed| framed.request.first_run().len() > 1) {

@@ -1,4 +1,4 @@
-//! Lints that only concern register tables.
+//! Lints for register tables only.
 
 pub(super) mod conversions;
 pub(super) mod declared_pdos;

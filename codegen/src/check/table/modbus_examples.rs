@@ -33,7 +33,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The common part of all requests for registers.
+/// The common fields of all requests for registers.
 struct Request {
     node: u8,
     function: u8,
@@ -84,9 +84,9 @@ impl Request {
         problems
     }
 
-    /// Returns whether this value ends with the last register of the request.
+    /// Returns whether the value starts in the requested registers and ends with the last requested register.
     fn covers(&self, register: &RegisterBinding) -> bool {
-        // A device answers a request for one register of a longer value with its lower half.
+        // If a request is for one register of a longer value, a device answers with the lower half of the value.
         if matches!(self.function, 3 | 4 | 6) && self.quantity == 1 {
             return register.address == self.start;
         }
@@ -96,7 +96,7 @@ impl Request {
     }
 }
 
-/// Returns the problems of a reply.
+/// Returns the problems of a reply frame.
 fn reply(request: Option<&Request>, bytes: &[u8]) -> Vec<String> {
     let (Some(request), [node, function, ..]) = (request, bytes) else { return Vec::new() };
     let mut problems = Vec::new();
@@ -126,7 +126,7 @@ fn reply(request: Option<&Request>, bytes: &[u8]) -> Vec<String> {
     problems
 }
 
-/// Returns the problem of the end of a frame. `length` is that of node, function and data; a CRC may follow.
+/// Returns the problem at the end of a frame. `length` is the length of node, function and data, which a CRC can follow.
 fn ending(bytes: &[u8], length: usize) -> Option<String> {
     match bytes.len().checked_sub(length) {
         Some(0) => None,
@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn crc_of_the_standard() {
-        // Node 2, function 7: 0x1241, the low byte first.
+        // Node 2, function 7: the CRC is 0x1241, and the low byte is sent first.
         assert_eq!(crc(&[0x02, 0x07]), 0x1241);
     }
 }

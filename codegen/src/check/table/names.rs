@@ -1,4 +1,4 @@
-//! Checks the names of rows: they exist, are not broken by a column, and differ in more than upper and lower case.
+//! Checks that row names exist, are not broken by a column, and differ in more than upper and lower case.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use crate::ir::{CompactString, Device, Group, GroupKind, Item};
 use crate::source::Span;
 use crate::text::brief;
 
-/// The number of words after which the name of a register is a description, if other names are single words.
+/// The maximum number of words in a register name, if other names are single words. A longer name is a description.
 const NAME_WORDS: usize = 6;
 
 /// Reports names that are missing, broken by a column, or descriptions.
@@ -74,7 +74,7 @@ fn are_words(device: &Device) -> bool {
     single > 3 * several
 }
 
-/// Returns what else a name contains: a neighboring cell was probably pasted into the cell of the name.
+/// Returns the foreign content of a name, which was probably pasted from a neighboring cell.
 fn description(name: &str, are_words: bool) -> Option<&'static str> {
     match () {
         () if name.contains('<') => Some("a tag"),
@@ -96,8 +96,8 @@ fn syllables(name: &str, at: Span, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports a name that a column breaks with a hyphen and a space, such as `Rtouchpro- befunc` for `Rtouchprobefunc`. Returns whether
-/// it is broken.
+/// Reports a name that a column breaks with a hyphen and a space, such as `Rtouchpro- befunc` for `Rtouchprobefunc`. Returns
+/// whether the name is broken.
 fn unbroken(name: &str, at: Span, diagnostics: &mut Diagnostics) -> bool {
     let is_broken = name.split_once("- ").is_some_and(|(head, tail)| {
         head.ends_with(char::is_alphanumeric) && tail.trim_start().starts_with(char::is_alphanumeric)

@@ -1,11 +1,11 @@
-//! Reports numbers of parameters that are missing between others.
+//! Reports parameter numbers that are missing between other numbers.
 
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Binding, Group, GroupKind, Item};
 use crate::text::brief;
 
-/// The number of parameters with consecutive numbers that must be on each side of a reported gap.
+/// The minimum number of parameters with consecutive numbers on each side of a reported gap.
 const ROW: usize = 2;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -14,7 +14,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports single missing numbers between parameters whose neighbors count up by one.
+/// Reports single missing numbers between parameters with consecutive numbers.
 fn chapter(group: &Group, diagnostics: &mut Diagnostics) {
     let numbered: Vec<(u32, &Item)> = group.items.iter().filter_map(|item| Some((code(item)?, item))).collect();
     for (at, pair) in numbered.windows(2).enumerate() {

@@ -2,7 +2,8 @@
 
 use crate::ir::{CompactString, Device, MachineUnit, Scale, Variant};
 
-/// Returns the physical value of a raw value. `other` returns values that scales depend on: constants of a model, and other items.
+/// Returns the physical value of a raw value. `other` returns the values that the scale depends on: constants of a model, and
+/// other items.
 pub(super) fn of_raw<E>(
     scale: Option<&Scale>,
     raw: f64,
@@ -21,25 +22,25 @@ pub(super) fn of_raw<E>(
     })
 }
 
-/// Returns the ratio of machine values to physical values. `number` returns the given numbers.
+/// Returns the ratio of a value in the machine unit to the physical value. `number` returns the value of a machine constant.
 pub(super) fn ratio<E>(unit: &MachineUnit, number: impl Fn(&CompactString) -> Result<f64, E>) -> Result<f64, E> {
     let product = |list: &[CompactString]| list.iter().map(&number).product::<Result<f64, E>>();
     Ok(product(&unit.times)? / product(&unit.over)?)
 }
 
-/// Returns a constant of a model.
+/// Returns the value of a model's constant.
 pub(super) fn constant(model: Option<&Variant>, name: &str) -> Option<f64> {
     model?.constants.iter().find(|(constant, _)| constant == name)?.1.as_real()
 }
 
-/// Returns the value of a number in `[given]` on a model, if the table fixes it.
+/// Returns the value of a machine constant (`[given]`) for a model, if the table defines the value.
 pub(super) fn given(device: &Device, model: Option<&str>, name: &str) -> Option<f64> {
     let given = device.given.iter().find(|given| given.name == name)?;
     let (_, value) = given.models.iter().find(|(other, _)| Some(other.as_str()) == model)?;
     value.as_real()
 }
 
-/// Rounds a number to `digits` digits after the first one.
+/// Rounds a number to `digits` digits after the first significant digit.
 pub(super) fn rounded(number: f64, digits: f64) -> f64 {
     let factor = 10f64.powf((digits - number.abs().log10().floor()).clamp(-300.0, 300.0));
     match (number * factor).round() / factor {

@@ -1,4 +1,4 @@
-//! Checks items that are one quantity in two scales: their defaults are the same physical value on every model.
+//! Checks items that contain the same quantity in two scales: their defaults must be the same physical value on every model.
 
 use std::convert::Infallible;
 
@@ -11,7 +11,7 @@ use crate::text::{brief, glob};
 /// The relative difference that two defaults may have because they were rounded to different raw values.
 const TOLERANCE: f64 = 0.001;
 
-/// The number of digits after the first one: five digits show a difference of a thousandth.
+/// The number of digits after the first significant digit. Five digits show a difference of a thousandth.
 const DIGITS: f64 = 4.0;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -31,7 +31,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the differences of the defaults on each model, or why they cannot be compared.
+/// Returns the differences between the defaults on each model, or the reason why the defaults cannot be compared.
 fn differences(device: &Device, one: &Item, other: &Item) -> Vec<String> {
     let models: Vec<Option<&Variant>> = match device.variants.as_slice() {
         [] => vec![None],
@@ -58,7 +58,7 @@ fn differences(device: &Device, one: &Item, other: &Item) -> Vec<String> {
     found
 }
 
-/// A default as a physical value, and as a machine value if its unit has one.
+/// A default as a physical value, and as a value in the machine unit if there is one.
 struct Physical {
     number: f64,
     unit: CompactString,
@@ -87,7 +87,8 @@ impl Physical {
     }
 }
 
-/// Returns the ratio of machine values to physical values. Unknown numbers count as 1, because both items depend on them.
+/// Returns the ratio of a value in the machine unit to the physical value. Unknown constants count as 1, because both items
+/// depend on them.
 fn machine(device: &Device, unit: &MachineUnit, model: Option<&Variant>) -> f64 {
     let model = model.map(|model| model.name.as_str());
     let number = |name: &CompactString| Ok::<_, Infallible>(physical::given(device, model, name).unwrap_or(1.0));
@@ -95,7 +96,7 @@ fn machine(device: &Device, unit: &MachineUnit, model: Option<&Variant>) -> f64 
     ratio
 }
 
-/// Returns the default of an item on a model.
+/// Returns the default value of an item on a model.
 fn default(item: &Item, model: Option<&Variant>) -> Option<f64> {
     let is_model = |name: &CompactString| model.is_some_and(|model| glob(name, &model.name));
     let variants = item.variants.iter().filter(|variant| variant.models.iter().any(is_model));

@@ -1,4 +1,4 @@
-//! Checks windows: the numbers of items fit them, and they can transfer the values of items that have no other address.
+//! Checks that item numbers fit their windows, and that windows can transfer the values of items without another address.
 
 use std::collections::HashSet;
 
@@ -28,13 +28,13 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports an item of a window that is not an integer.
+/// Creates the diagnostic for an item of a window that is not an integer.
 fn no_integer(part: &Item, what: &str) -> Diagnostic {
     let message = format!("`{}` holds {what} of a window, but is not an integer of up to 64 bits", brief(&part.name));
     codes::TABLE_VALUE.at(part.at.ty.or(part.at.name), message)
 }
 
-/// Returns the number of bits of an integer.
+/// Returns the length of an integer item in bits.
 fn integer(owner: Owner<'_>, item: &Item) -> Option<u32> {
     match owner.basic(item.ty) {
         Type::Boolean => Some(1),
@@ -57,7 +57,7 @@ fn number(owner: Owner<'_>, item: &Item, number: u32, receiver: Option<&Item>, d
     diagnostics.push(found.help("limit the window to valid numbers with `numbers`"));
 }
 
-/// Checks that a window can transfer a value that has no other address.
+/// Checks that a window can transfer the value of an item without another address.
 fn value(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     let is_only = item.bindings.iter().all(|binding| matches!(binding, Binding::Indirect(_)));
     let is_number = integer(owner, item).is_some() || matches!(owner.basic(item.ty), Type::Real32 | Type::Real64);

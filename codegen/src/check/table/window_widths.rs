@@ -1,4 +1,4 @@
-//! Checks windows: they are wide enough for the values, and procedures write the value before the number.
+//! Checks that windows are wide enough for the values, and that procedures write the value before the number.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -29,7 +29,7 @@ fn width<'d>(
 ) {
     let bits_of = |item: &Item| context.owner.basic(item.ty).bits();
     let Some(bits) = bits_of(item).map(|bits| bits.min(needed(context.owner, item))) else { return };
-    // On each bus, the widest window counts.
+    // Only the widest window of each bus is compared with the item.
     let mut widest: BTreeMap<(&str, Bus), (u32, &CompactString)> = BTreeMap::new();
     for window in windows(item) {
         let sides = [("read", &window.read), ("written", &window.write)];
@@ -89,7 +89,7 @@ fn order(
     diagnostics.push(codes::WINDOW_ORDER.at(span, message).help("write the value before the number"));
 }
 
-/// Returns the number of bits of the maximum, or `u32::MAX` if it is unknown or if values may be negative.
+/// Returns the number of bits that the maximum needs, or `u32::MAX` if the maximum is unknown or values can be negative.
 fn needed(owner: Owner<'_>, item: &Item) -> u32 {
     let (low, high) = item.limits.integers();
     match (low.or_else(|| Some(owner.basic(item.ty).integer_range()?.0)), high) {

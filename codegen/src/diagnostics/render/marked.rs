@@ -4,22 +4,22 @@ use std::ops::Range;
 
 use crate::source::{Position, Source, Span};
 
-/// Maximum number of characters of a line. Longer lines are shortened.
+/// Maximum number of characters of a displayed line. Longer lines are shortened.
 pub const MAX_CHARS: usize = 200;
 
-/// Characters that a shortened line keeps before the mark.
+/// Number of characters that a shortened line keeps before the mark.
 const CHARS_BEFORE: usize = 60;
 
-/// File, with the marked part of it.
+/// A source file with its marked part.
 #[derive(Clone, Copy)]
 pub struct MarkedSource<'a> {
-    /// File.
+    /// The source file.
     pub source: &'a Source,
-    /// Marked part; `None` for the whole file.
+    /// Marked part of the file; `None` for the whole file.
     pub mark: Option<Mark>,
 }
 
-/// Marked part of a file.
+/// The marked part of a file.
 #[derive(Clone, Copy)]
 pub struct Mark {
     /// Offset of the first byte: within the file and on the edge of a character.
@@ -33,7 +33,7 @@ pub struct Mark {
 }
 
 impl<'a> MarkedSource<'a> {
-    /// Returns whether [`MarkedSource::of`] returns `Some`, at less cost.
+    /// Returns whether [`MarkedSource::of`] returns `Some`, but takes less time.
     pub fn exists(span: Span, sources: &[Source]) -> bool {
         (span.file.0 as usize) < sources.len()
     }
@@ -60,7 +60,7 @@ impl<'a> MarkedSource<'a> {
 
 /// Returns the position of the end of `marked`, which starts at `from`.
 ///
-/// Counts the characters of the marked text. It is usually shorter than the line before it, because a file may be one long line.
+/// Counts the characters of the marked text, which is usually shorter than the line before it: a file can be one long line.
 fn end_position(source: &Source, marked: Range<usize>, from: Position) -> Position {
     let text = &source.text()[marked.clone()];
     match memchr::memchr2(b'\r', b'\n', text.as_bytes()) {
@@ -72,11 +72,11 @@ fn end_position(source: &Source, marked: Range<usize>, from: Position) -> Positi
 /// Returns the text of a line and the offset of its start in the file.
 pub fn line(source: &Source, number: u32) -> (&str, usize) {
     let line = source.line(number);
-    // Both point into the same string, so the difference is the offset of the line.
+    // The line is a part of the file's text, so the difference of both pointers is the offset of the line.
     (line, (line.as_ptr() as usize).saturating_sub(source.text().as_ptr() as usize))
 }
 
-/// Returns the part of `line` to show. It contains `at`, which is on the edge of a character.
+/// Returns the part of `line` to show. The part contains the offset `at`, which is on the edge of a character.
 pub fn shown(line: &str, at: usize) -> Range<usize> {
     if line.chars().nth(MAX_CHARS).is_none() {
         return 0..line.len();

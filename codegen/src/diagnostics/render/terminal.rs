@@ -9,16 +9,16 @@ use super::marked::{self, Mark, MarkedSource};
 use crate::source::Source;
 use crate::text::steers;
 
-/// Maximum number of lines of a mark. A longer mark is drawn only on its first line.
+/// Maximum number of lines that a mark spans. Only the first line of a longer mark is marked.
 const MAX_LINES: u32 = 6;
 
 /// Maximum number of characters of a message, label or replacement. Longer texts are shortened.
 const MAX_TEXT: usize = 2000;
 
-/// Width of the renderer. It is greater than any window, so that the renderer does not shorten lines a second time.
+/// Width of the rendered text. The width exceeds any terminal window, so that the renderer does not shorten lines a second time.
 const WIDTH: usize = 10 * marked::MAX_CHARS;
 
-/// End mark of `file:line:column`. A noncharacter, which [`visible`] removes from the text of a file.
+/// Character after `file:line:column`. The character is a noncharacter, which [`visible`] removes from the text of a file.
 const END_OF_ORIGIN: char = '\u{fdd0}';
 
 /// Renders a diagnostic with its marked lines, notes, help and fix, without a line feed at the end.
@@ -62,7 +62,7 @@ fn primary(diagnostic: &Diagnostic, location: Option<MarkedSource>) -> Group<'st
     title.elements(location.map(|location| quote(location, label))).elements(label_alone)
 }
 
-/// Returns the replacement as a change of the marked lines, or `None` if the lines are not shown in full.
+/// Returns the suggested replacement within the marked lines, or `None` if the lines are not shown in full.
 fn suggestion(diagnostic: &Diagnostic, location: Option<MarkedSource>) -> Option<Group<'static>> {
     let (fix, location) = (diagnostic.fix.as_deref()?, location?);
     let window = Window::new(location.source, location.mark?);
@@ -92,7 +92,7 @@ fn quote(location: MarkedSource, label: &str) -> Element<'static> {
     Snippet::source(window.text).line_start(window.first_line).path(origin).annotation(annotation).into()
 }
 
-/// Removes the line and column that the renderer adds after those of the file: it counts them in the window.
+/// Removes the line and column that the renderer adds after those of the file. The renderer counts both in the window.
 fn without_counted_origins(rendered: &str) -> String {
     let mut parts = rendered.split(END_OF_ORIGIN);
     let mut text = parts.next().unwrap_or_default().to_owned();
@@ -102,16 +102,16 @@ fn without_counted_origins(rendered: &str) -> String {
     text
 }
 
-/// Marked lines, prepared for the renderer, which gets nothing else of the file.
+/// The marked lines of a file, prepared for the renderer. The renderer gets no other part of the file.
 struct Window {
     /// Lines, shortened, with visible control characters, separated by line feeds.
     text: String,
     first_line: usize,
-    /// Mark in `text`.
+    /// Range of the mark in `text`.
     mark: Range<usize>,
     /// Last marked line, if it is not in the window.
     goes_on_to: Option<u32>,
-    /// Whether the window contains all marked lines in full.
+    /// True if the window contains all marked lines in full.
     is_whole: bool,
 }
 
@@ -171,7 +171,8 @@ fn visible(text: &str) -> String {
     shown
 }
 
-/// Returns untrusted text like [`visible`], but keeps its lines. The renderer indents them, so none of them looks like a separate message.
+/// Returns untrusted text like [`visible`], but keeps its lines. The renderer indents the lines, so none of them looks like a
+/// separate message.
 fn paragraph(text: &str) -> String {
     let lines: Vec<String> = text.lines().map(visible).collect();
     lines.join("\n")
@@ -279,7 +280,7 @@ mod tests {
         3 | SubNumber=0x012
           |           ++
         ");
-        // There is no marked text to replace.
+        // Without marked text, the replacement is not shown.
         insta::assert_snapshot!(plain(&at(0, 0).fix("a\u{1b}b").help("correct it"), &file(OCTAL)), @r"
         warning[EDS020]: `012` is octal
         --> drive.eds

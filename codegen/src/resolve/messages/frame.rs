@@ -1,4 +1,4 @@
-//! Fixed parts of frames: constants at their byte offsets, and lengths.
+//! Fixed parts of frames: constants at their byte offsets, and lengths of the data.
 
 use std::collections::BTreeMap;
 
@@ -10,18 +10,18 @@ use crate::ir::{Binding, Device, MessageField};
 pub(crate) struct Frame {
     /// Constant bytes before the first field with a variable length, by byte offset.
     pub constants: BTreeMap<usize, u8>,
-    /// Minimum length in bits.
+    /// Minimum length of the data in bits.
     pub min_bits: usize,
-    /// Length in bits with the maximum number of all declared repetitions.
+    /// Length in bits if all repetitions with a declared maximum occur as often as possible.
     pub max_bits: usize,
-    /// Whether the frame can be longer than `min_bits`.
+    /// True if the frame can be longer than `min_bits`.
     pub is_open: bool,
-    /// Bit offset of the first field of whole bytes that starts within a byte, or of the end of the data if it is within a byte.
+    /// Bit offset of the first field of whole bytes, or of the end of the data, that is not at a byte boundary.
     pub broken: Option<usize>,
 }
 
 impl Frame {
-    /// Creates the frame of these fields. `request`: the fields of the request if the frame is a reply.
+    /// Creates the frame of these fields. `request` contains the fields of the request, if the frame is a reply.
     pub fn new<'d>(device: &'d Device, fields: &'d [MessageField], request: &'d [MessageField]) -> Self {
         let mut frame = Frame::default();
         let groups = [device.groups.as_slice()];
@@ -33,7 +33,7 @@ impl Frame {
         frame
     }
 
-    /// Returns whether the same bytes can be a frame of both kinds.
+    /// Returns whether the same bytes can be an instance of both frames.
     pub fn overlaps(&self, other: &Frame) -> bool {
         let shared = self.constants.iter().filter_map(|(offset, byte)| Some((byte, other.constants.get(offset)?)));
         let mut shared = shared.peekable();
@@ -46,7 +46,7 @@ impl Frame {
         lengths && shared.all(|(one, other)| one == other)
     }
 
-    /// Returns the first contiguous constants.
+    /// Returns the first contiguous run of constant bytes.
     pub fn first_run(&self) -> Vec<u8> {
         let Some(first) = self.constants.keys().next().copied() else { return Vec::new() };
         (first..).map_while(|offset| self.constants.get(&offset).copied()).collect()
@@ -128,7 +128,7 @@ impl Reader<'_, '_> {
         self.frame.is_open = true;
     }
 
-    /// Returns the length of a field of the request.
+    /// Returns the length of a field of the request in bits.
     fn echoed(&self, name: &str) -> Option<u32> {
         let bits_of = |field: &MessageField| match field {
             MessageField::Value(value) if value.item.name == name => Some(self.owner.basic(value.item.ty).bits()),
@@ -137,7 +137,7 @@ impl Reader<'_, '_> {
         self.request.iter().find_map(bits_of).flatten()
     }
 
-    /// Returns the length of the shortest value in a parameter space.
+    /// Returns the length in bits of the shortest value in a parameter space.
     fn shortest_value(&self, space: &str) -> usize {
         let is_in = |binding: &Binding| matches!(binding, Binding::Parameter { space: other, .. } if other == space);
         let items = self.device.items().filter(|item| item.bindings.iter().any(is_in));

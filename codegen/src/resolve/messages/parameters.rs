@@ -15,7 +15,7 @@ const NO_CODE: Problem = "no code is generated for the message";
 /// Maximum length of a parameter value in a message, in bits.
 pub(crate) const LONGEST: u32 = 64;
 
-/// The messages of a parameter space, as positions in the list of shapes.
+/// The messages that transfer the parameters of a space, as positions in the list of shapes.
 pub(crate) struct Carriers<'d> {
     pub space: &'d str,
     pub read: Option<usize>,
@@ -33,7 +33,7 @@ pub(crate) fn carriers<'d>(device: &'d Device, shapes: &[Shaped<'_>]) -> Vec<Car
     all.filter(|carriers| carriers.read.is_some() || carriers.write.is_some()).collect()
 }
 
-/// Returns the position of the message called `name`, or why it is not suitable. Returns `None` without a name.
+/// Returns the position of the message `name`, or the reason why the message is not suitable. Returns `None` without a name.
 fn carrier(
     shapes: &[Shaped<'_>],
     name: &Option<MessageRef>,
@@ -44,7 +44,7 @@ fn carrier(
     Some(shapes.get(at).map_or(Err(NO_CODE), check).map(|()| at))
 }
 
-/// Checks that a message reads a parameter, and its request needs only the parameter number.
+/// Checks that a message reads a parameter, and that its request needs only the parameter number.
 fn reads(shaped: &Shaped<'_>, space: &str) -> Result<(), Problem> {
     let mut found = false;
     for step in &shaped.request.steps {
@@ -67,7 +67,7 @@ fn reads(shaped: &Shaped<'_>, space: &str) -> Result<(), Problem> {
     }
 }
 
-/// Checks that a message writes a parameter, and its request needs only the parameter number and value.
+/// Checks that a message writes a parameter, and that its request needs only the parameter number and the value.
 fn writes(shaped: &Shaped<'_>, space: &str) -> Result<(), Problem> {
     let mut found = false;
     for step in &shaped.request.steps {
@@ -108,7 +108,8 @@ pub(crate) fn numbered<'d>(device: &'d Device, space: &str) -> BTreeMap<u32, &'d
     all
 }
 
-/// Returns why the messages of a space cannot transfer its parameters: `reads` or `writes`, the name of the message, and the problem.
+/// Returns the problems of messages that should transfer the parameters of a space: `reads` or `writes`, the message, and the
+/// reason.
 pub(crate) fn carrier_problems<'d>(
     space: &'d ParameterSpace,
     shapes: &[Shaped<'_>],

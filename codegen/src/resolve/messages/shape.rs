@@ -28,7 +28,7 @@ impl<'a> Shaped<'a> {
         self.message.name == name
     }
 
-    /// Returns whether later messages can depend on this one.
+    /// Returns whether the reply of a later message can depend on this message.
     fn can_select(&self) -> bool {
         !self.message.request.is_empty() && !self.request.borrows()
     }
@@ -80,7 +80,7 @@ fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
     lost
 }
 
-/// Returns the position of the message that the device sends if it rejects `message`. Returns `None` if there is none, or it has no code.
+/// Returns the position of the message that the device sends if it rejects `message`. Returns `None` if no such message has code.
 pub(crate) fn refusal(shapes: &[Shaped<'_>], message: &Message) -> Option<usize> {
     let name = message.error.as_deref()?;
     shapes
@@ -93,7 +93,7 @@ pub(crate) fn problem(device: &Device, message: &Message) -> Result<(), Problem>
     sides(device, message).map(drop)
 }
 
-/// Returns whether another lint reports a problem: an unresolved name, or a field that does not start at a byte.
+/// Returns whether another lint reports the problem: an unresolved name, or a field that does not start at a byte boundary.
 pub(crate) fn is_reported_elsewhere(device: &Device, message: &Message, problem: Problem) -> bool {
     let is_broken = || {
         let request = Frame::new(device, &message.request, &[]);

@@ -21,13 +21,13 @@ const LENGTH: Problem =
     "a length is not an unsigned integer of whole bytes, or counts from a field after a part with a variable length";
 const COUNT: Problem = "the number of repetitions is not a separate unsigned integer before the repeated fields";
 
-/// The data of a request or reply.
+/// The steps of a request or reply, with the offsets of its values.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Side<'a> {
     pub steps: Vec<Step<'a>>,
-    /// Name, bit offset and length in bits of values before the first part with a variable length.
+    /// Name, bit offset and length in bits of each value before the first step with a variable length.
     offsets: Vec<(&'a str, u32, u32)>,
-    /// Names of all values.
+    /// Names of all values in the request or reply.
     names: Vec<&'a str>,
     /// Bit offset and length in bits of the first parameter number.
     code: Option<(u32, u32)>,
@@ -64,7 +64,7 @@ struct Shaper<'a, 'q> {
     owner: Owner<'a>,
     /// Name of the request field with the device address.
     station: Option<&'a str>,
-    /// The request, if this is its reply.
+    /// The request, if the steps are those of its reply.
     request: Option<&'q Side<'q>>,
 }
 
@@ -109,7 +109,7 @@ impl<'a> Shaper<'a, '_> {
             side.code = Some((at, bits));
         }
         let is_aligned = offset.is_none_or(|at: u32| at.is_multiple_of(8)) || !step.is_bytes();
-        // A step with a variable length has whole bytes.
+        // A step with a variable length consists of whole bytes.
         let next = match (offset, step.bits()) {
             _ if !is_aligned => return Err(UNALIGNED),
             (Some(at), Some(bits)) => Some(at.checked_add(bits).ok_or(UNKNOWN_LENGTH)?),
@@ -123,7 +123,7 @@ impl<'a> Shaper<'a, '_> {
         Ok(next)
     }
 
-    /// Returns the next step, and how many fields after `field` it includes.
+    /// Returns the step for `field`, and the number of following fields that it includes.
     fn step(
         &self,
         field: &'a MessageField,
@@ -177,7 +177,7 @@ impl<'a> Shaper<'a, '_> {
             return if fits { Ok(Step::Length { bits, order, from: 0, counts }) } else { Err(LENGTH) };
         }
         match fixed(&value.item).filter(|_| bits <= 64) {
-            // The low bits of the two's complement.
+            // A fixed value is sent as the low bits of its two's complement.
             Some(only) => Ok(Step::Fixed { bits, order, value: only as u64 & (u64::MAX >> (64 - bits)) }),
             None => Ok(Step::Value { bits, value }),
         }
@@ -196,14 +196,14 @@ impl<'a> Shaper<'a, '_> {
         (is_whole && is_within).then_some(Step::Echo { first: at / 8 + first, count: last - first + 1 }).ok_or(ECHO)
     }
 
-    /// Returns the byte offset of the parameter number in the request, if that has this length in bits.
+    /// Returns the byte offset of the parameter number in the request, if the number has this length in bits.
     fn requested_code(&self, bits: u32) -> Option<u32> {
         let (at, length) = self.request?.code?;
         (length == bits && at.is_multiple_of(8) && bits.is_multiple_of(8)).then_some(at / 8)
     }
 
-    /// Returns the step of a parameter number and its value, and the number of further fields in it. In a reply without the value, the
-    /// parameter number is a copy of that in the request.
+    /// Returns the step of a parameter number and its value, and the number of further fields that the step includes. In a reply
+    /// without the value, the parameter number is a copy of that in the request.
     fn code(&self, space: &'a str, bits: u32, rest: &[MessageField]) -> (Step<'a>, usize) {
         match (rest.first(), self.requested_code(bits)) {
             (Some(MessageField::ItemValue { space: other }), _) if other == space => (Step::Setting { bits, space }, 1),
@@ -235,7 +235,7 @@ impl<'a> Shaper<'a, '_> {
     }
 }
 
-/// Checks that at most one part has a variable length, and a counted list comes after its count and before that part.
+/// Checks that at most one step has a variable length, and that a counted list comes after its count and before that step.
 fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
     let list = steps.iter().position(Step::is_counted_list);
     let open = steps.iter().position(Step::is_open);
@@ -245,7 +245,7 @@ fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
     {
         return Err(SEVERAL_LENGTHS);
     }
-    // The generated type of the repeated fields has the name of the message.
+    // A message can have one list only, because the generated type of the repeated fields has the name of the message.
     if steps.iter().filter(|step| matches!(step, Step::List { .. })).count() > 1 {
         return Err(SEVERAL_LISTS);
     }

@@ -1,29 +1,29 @@
-//! Steps: the parts of the data of a frame.
+//! Steps: the parts of a frame's data.
 
 use crate::ir::MessageValue;
 
 /// A part of the data of a frame.
 #[derive(Clone, Debug)]
 pub(crate) enum Step<'a> {
-    /// Fixed bytes.
+    /// Bytes with a fixed value.
     Bytes(Vec<u8>),
-    /// Fixed bits.
+    /// Bits with a fixed value.
     Bits { bits: u32, value: u64 },
-    /// Number of unused bytes.
+    /// Unused bytes. The number is their count.
     Padding(u32),
-    /// The device address.
+    /// A field with the device address.
     Station { bits: u32, value: &'a MessageValue },
-    /// A fixed value.
+    /// A field whose value is always the same.
     Fixed { bits: u32, order: &'a [u8], value: u64 },
-    /// The number of bytes from byte `from` to the end.
+    /// A length field: the number of bytes from byte `from` to the end of the data.
     Length { bits: u32, order: &'a [u8], from: u32, counts: &'a str },
-    /// A value.
+    /// A typed value.
     Value { bits: u32, value: &'a MessageValue },
-    /// The number of repetitions of the list.
+    /// The number of repetitions in a counted list.
     Count { bits: u32, max: Option<u16> },
-    /// Bytes of the request.
+    /// A copy of these bytes of the request.
     Echo { first: u32, count: u32 },
-    /// Bytes of the request, up to the end of the request.
+    /// A copy of these bytes of the request, as far as the request has them.
     Copy { first: u32, count: u32 },
     /// Condition on the following parameter number: it has to be the same as these bytes of the request.
     Same { first: u32, count: u32 },
@@ -33,13 +33,13 @@ pub(crate) enum Step<'a> {
     Setting { bits: u32, space: &'a str },
     /// A parameter number with zeros instead of its value.
     Blank { bits: u32, space: &'a str },
-    /// Parameter numbers with their values.
+    /// A list of parameter numbers with their values.
     Settings { bits: u32, space: &'a str, max: Option<u16> },
-    /// A parameter value. Its number is in the request and has `bits` bits.
+    /// A parameter value whose number is in the request. The number has `bits` bits.
     ValueOnly { bits: u32, space: &'a str },
-    /// Repeated fields.
+    /// A list of repeated fields.
     List { steps: Vec<Step<'a>>, length: u32, is_counted: bool, max: Option<u16> },
-    /// All remaining bytes.
+    /// All remaining bytes of the data.
     Rest,
 }
 
@@ -63,7 +63,7 @@ impl Step<'_> {
         matches!(self, Step::Settings { .. } | Step::List { .. } | Step::Rest | Step::ValueOnly { .. })
     }
 
-    /// Returns whether the step extends to the following steps, or to the end.
+    /// Returns whether the step has a variable length that the following steps, or the end of the data, determine.
     pub(super) fn is_open(&self) -> bool {
         self.bits().is_none() && !self.is_counted_list()
     }
@@ -82,7 +82,7 @@ impl Step<'_> {
         }
     }
 
-    /// Returns whether the step has whole bytes, and has to start at a byte boundary.
+    /// Returns whether the step consists of whole bytes, and has to start at a byte boundary.
     pub(super) fn is_bytes(&self) -> bool {
         match self {
             Step::Value { value, .. } | Step::Station { value, .. } => !value.byte_order.is_empty(),
@@ -93,7 +93,7 @@ impl Step<'_> {
     }
 }
 
-/// Returns the number of bytes after the part with a variable length.
+/// Returns the number of bytes after the step with a variable length.
 pub(crate) fn tail(steps: &[Step<'_>]) -> u32 {
     steps.iter().filter_map(Step::bits).sum::<u32>() / 8
 }
@@ -106,7 +106,7 @@ pub(super) fn push<'a>(steps: &mut Vec<Step<'a>>, step: Step<'a>) {
     }
 }
 
-/// Returns whether all steps of whole bytes start at a byte boundary, and the data end at one.
+/// Returns whether the end of the data and the start of each step of whole bytes are at a byte boundary.
 pub(super) fn are_aligned(steps: &[Step<'_>]) -> bool {
     let mut phase = 0;
     for step in steps {

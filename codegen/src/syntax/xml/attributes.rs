@@ -12,25 +12,25 @@ use crate::limits;
 use crate::source::{FileId, Span};
 use crate::text::brief;
 
-/// An attribute.
+/// An attribute of a start tag.
 #[derive(Clone, Copy, Debug)]
 pub struct Attribute<'a> {
-    /// The name without its prefix.
+    /// Name of the attribute without its prefix.
     pub name: &'a str,
-    /// Prefix of the name; empty if there is none.
+    /// Prefix of the attribute name; empty if there is none.
     pub prefix: &'a str,
-    /// The value as written.
+    /// Value as written in the file.
     pub raw: &'a str,
-    /// Span of the name.
+    /// Span of the attribute name.
     pub name_span: Span,
     /// Span of the value, without its quotation marks.
     pub span: Span,
-    /// Whether the value needs no decoding.
+    /// True if the value needs no decoding.
     plain: bool,
 }
 
 impl<'a> Attribute<'a> {
-    /// Returns whether the name declares a namespace.
+    /// Returns whether the attribute declares a namespace.
     pub fn is_namespace(&self) -> bool {
         self.prefix == "xmlns" || (self.prefix.is_empty() && self.name == "xmlns")
     }
@@ -52,7 +52,7 @@ impl<'a> Attribute<'a> {
     }
 }
 
-/// Iterator over the attributes of a tag.
+/// Iterator over the attributes of a start tag.
 #[derive(Clone, Debug)]
 pub struct Attributes<'a> {
     rest: &'a str,
@@ -120,7 +120,7 @@ impl<'a> Iterator for Attributes<'a> {
 }
 
 impl<'a> Attributes<'a> {
-    /// Returns the attribute whose value starts after its opening quotation mark.
+    /// Returns the attribute whose value starts at the current position, after the opening quotation mark.
     #[inline]
     fn value(&mut self, full: &'a str, name: Name, name_span: Span, quote: u8) -> Option<Result<Attribute<'a>, Error>> {
         let Some(Value { length, plain }) = Value::of(quote, self.rest.as_bytes()) else {

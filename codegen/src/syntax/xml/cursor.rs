@@ -18,7 +18,7 @@ pub struct Cursor<'a> {
     file: FileId,
     /// Names of the open elements with their prefixes, starting with the root.
     open: Vec<&'a str>,
-    /// Whether the last start tag was that of an empty element. Its end is then the next event.
+    /// True if the last start tag was that of an empty element. The end of this element is then the next event.
     empty: bool,
     root_seen: bool,
     /// Line number of the byte `line_at`.
@@ -27,14 +27,14 @@ pub struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
-    /// Creates a cursor before the first element of `text`.
+    /// Creates a cursor at the start of the document `text`.
     pub fn new(text: &'a str, file: FileId) -> Self {
         let base = text.len() - text.trim_start_matches('\u{feff}').len();
         Cursor::start(text, base, file, 1)
     }
 
-    /// Creates a cursor before the element with its start tag at `origin`, to read it again. The cursor does not know
-    /// the parent elements.
+    /// Creates a cursor at the start tag `origin` of an element, to read the element again. The cursor does not know the parent
+    /// elements.
     pub fn resume(text: &'a str, origin: Origin) -> Self {
         let at = (origin.span.start as usize).min(text.len());
         let at = if text.is_char_boundary(at) { at } else { text.len() };
@@ -54,8 +54,8 @@ impl<'a> Cursor<'a> {
     ///
     /// # Errors
     ///
-    /// Returns an error if the document is not well-formed, or is nested deeper than [`limits::MAX_XML_DEPTH`].
-    /// Reading can't continue after an error.
+    /// Returns an error if the document is not well-formed, or is nested deeper than [`limits::MAX_XML_DEPTH`]. Reading cannot
+    /// continue after an error.
     pub fn read(&mut self) -> Result<Option<Event<'a>>, Error> {
         if std::mem::take(&mut self.empty) {
             self.open.pop();
@@ -163,12 +163,12 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Returns line and span of a start tag.
+    /// Returns the line and the span of a start tag.
     pub fn origin(&mut self, tag: &Tag<'a>) -> Origin {
         Origin { span: tag.span, line: self.line(tag.span.start) }
     }
 
-    /// Returns the line of a byte of the document, counted from 1. It is fast if offsets increase from call to call.
+    /// Returns the line of a byte of the document, counted from 1. The function is fast if offsets increase from call to call.
     pub fn line(&mut self, offset: u32) -> u32 {
         let offset = (offset as usize).min(self.text.len());
         let (from, to) = (self.line_at.min(offset), self.line_at.max(offset));
@@ -255,7 +255,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Skips markup that starts with `opening` bytes at `start` and ends with `end`.
+    /// Skips markup that begins at `start` with an opening of `opening` bytes, and ends with the text `end`.
     fn skip_to(&mut self, end: &str, start: usize, opening: usize, missing: &str) -> Result<(), Error> {
         let after = scan::after(self.text.as_bytes(), start + opening, end);
         self.at = after.ok_or_else(|| malformed(self.span(start, start + 1), missing))?;
@@ -288,7 +288,7 @@ impl<'a> Cursor<'a> {
         Ok(text)
     }
 
-    /// Returns an error for text outside the root element.
+    /// Returns an error if text is outside the root element.
     fn inside(&self, span: Span) -> Result<(), Error> {
         if !self.open.is_empty() {
             return Ok(());

@@ -7,7 +7,7 @@ use memchr::{memchr, memchr2};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::source::Span;
 
-/// How blanks are normalized.
+/// The normalization of blanks.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Blanks {
     /// In text, line ends become LF.

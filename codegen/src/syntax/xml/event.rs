@@ -46,17 +46,17 @@ pub enum Event<'a> {
 /// The start tag of an element.
 #[derive(Clone, Copy, Debug)]
 pub struct Tag<'a> {
-    /// The name without its prefix.
+    /// Name of the element without its prefix.
     pub name: &'a str,
-    /// Prefix of the tag; empty if there is none.
+    /// Prefix of the element name; empty if there is none.
     pub prefix: &'a str,
-    /// The tag from `<` to `>`.
+    /// Span of the tag from `<` to `>`.
     pub span: Span,
-    /// Number of open elements, including this one.
+    /// Number of open elements, including this element.
     pub depth: usize,
-    /// Whether the tag is an empty-element tag (`<empty/>`).
+    /// True if the tag is an empty-element tag (`<empty/>`).
     pub empty: bool,
-    /// Text between the name and the end of the tag.
+    /// Text between the name and the end of the tag, which contains the attributes.
     pub(super) attributes: &'a str,
     pub(super) attributes_at: u32,
 }
@@ -93,14 +93,14 @@ impl<'a> Tag<'a> {
     }
 }
 
-/// A piece of text.
+/// A piece of text in an element.
 #[derive(Clone, Copy, Debug)]
 pub struct Text<'a> {
-    /// The text as written; for CDATA its content.
+    /// The text as written in the file. For CDATA, the content of the section.
     pub raw: &'a str,
     /// Span of the text.
     pub span: Span,
-    /// Whether the text is CDATA, which contains no references.
+    /// True if the text is CDATA, which contains no references.
     pub cdata: bool,
 }
 

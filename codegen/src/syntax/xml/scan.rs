@@ -31,7 +31,7 @@ impl Name {
         Some(Name { length, colon })
     }
 
-    /// Returns prefix and name. `full` is the text of the name.
+    /// Splits the name into prefix and local name. `full` is the text of the name.
     pub fn split(self, full: &str) -> (&str, &str) {
         self.colon.map_or(("", full), |colon| (&full[..colon], &full[colon + 1..]))
     }
@@ -47,7 +47,7 @@ pub(super) fn after_blanks(bytes: &[u8], at: usize) -> usize {
     at + rest.iter().position(|&byte| !is_blank(byte)).unwrap_or(rest.len())
 }
 
-/// Returns the position of the first `byte`. It is usually so near that a loop is faster than a vectorized search.
+/// Returns the position of the first `byte`. The byte is usually so near that a loop is faster than a vectorized search.
 pub(super) fn find_near(byte: u8, bytes: &[u8]) -> Option<usize> {
     const NEAR: usize = 16;
     let near = &bytes[..bytes.len().min(NEAR)];
@@ -57,11 +57,11 @@ pub(super) fn find_near(byte: u8, bytes: &[u8]) -> Option<usize> {
     }
 }
 
-/// An attribute value up to its closing quotation mark.
+/// The length of an attribute value up to its closing quotation mark.
 #[derive(Clone, Copy)]
 pub(super) struct Value {
     pub length: usize,
-    /// Whether the value needs no decoding: it has no reference and no control character.
+    /// True if the value needs no decoding: it has no reference and no control character.
     pub plain: bool,
 }
 
@@ -90,7 +90,7 @@ impl Value {
     }
 }
 
-/// Returns the offset after the first `end` at or after `at`.
+/// Returns the offset after the first occurrence of `end` at or after `at`.
 pub(super) fn after(bytes: &[u8], at: usize, end: &str) -> Option<usize> {
     let rest = bytes.get(at..)?;
     Some(at + memmem::find(rest, end.as_bytes())? + end.len())
@@ -115,8 +115,8 @@ pub(super) fn tag_end(bytes: &[u8], from: usize) -> Option<usize> {
     }
 }
 
-/// Returns whether the quotation marks are paired, so that the first `>` ends the tag. The loop has no early exit, so
-/// that the compiler can vectorize it.
+/// Returns whether the quotation marks are paired, so that the first `>` ends the tag. The loop has no early exit, which allows
+/// vectorization.
 fn has_pairs_of_quotes(bytes: &[u8]) -> bool {
     let (odd, single) = bytes
         .iter()
