@@ -454,7 +454,7 @@ impl Inputs {
             levels.set(code, *level).map_err(|error| Failure::Usage(error.to_string()))?;
         }
         let overlay = |path: &PathBuf| {
-            Source::read(path).map_err(|error| Failure::Usage(format!("can't read {}: {error}", path.display())))
+            Source::read(path).map_err(|error| Failure::Usage(format!("cannot read {}: {error}", path.display())))
         };
         let overlays: Result<Vec<Source>, Failure> = self.overlay.iter().map(overlay).collect();
         let select =

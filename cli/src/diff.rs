@@ -36,7 +36,7 @@ pub(super) fn run(diff: &Diff) -> Result<bool, Failure> {
     let text = report(diff, &changes, summary)?;
     match &diff.out {
         Some(path) => write_if_changed(path, &text)
-            .map_err(|error| Failure::Usage(format!("can't write {}: {error}", path.display())))?,
+            .map_err(|error| Failure::Usage(format!("cannot write {}: {error}", path.display())))?,
         None => std::io::stdout().lock().write_all(text.as_bytes())?,
     }
     Ok(summary.api == 0 && summary.wire == 0)
@@ -55,7 +55,7 @@ fn last_class(shown: Shown) -> Class {
 /// Compiles a description. If the description has errors, reports the errors and returns `None`.
 fn read(path: &Path, options: &Options) -> Result<Option<Compilation>, Failure> {
     let source =
-        Source::read(path).map_err(|error| Failure::Usage(format!("can't read {}: {error}", path.display())))?;
+        Source::read(path).map_err(|error| Failure::Usage(format!("cannot read {}: {error}", path.display())))?;
     let compilation = compile::check(source, options);
     if compilation.is_usable() && compilation.catalog.is_some() {
         return Ok(Some(compilation));

@@ -77,5 +77,5 @@ fn write(path: &Path, page: &Page) -> Result<(), String> {
     let folder = path.parent().map_or(Ok(()), std::fs::create_dir_all);
     folder
         .and_then(|()| write_if_changed(path, &page.text))
-        .map_err(|error| format!("can't write {}: {error}", path.display()))
+        .map_err(|error| format!("cannot write {}: {error}", path.display()))
 }

@@ -17,7 +17,7 @@ pub(super) fn run(import: &Import) -> Result<bool, Failure> {
         levels.set(code, Level::Allow).map_err(|error| Failure::Usage(error.to_string()))?;
     }
     let source = Source::read(&import.path)
-        .map_err(|error| Failure::Usage(format!("can't read {}: {error}", import.path.display())))?;
+        .map_err(|error| Failure::Usage(format!("cannot read {}: {error}", import.path.display())))?;
     let options = Options { levels, map: import.map.clone(), delimiter: import.delimiter, name: import.name.clone() };
     let imported = lexibus_import::import(source, &options);
     let mut reporter = Reporter::with(import.message_format, import.color, false);

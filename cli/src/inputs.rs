@@ -48,7 +48,7 @@ fn compile_all(
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads(inputs.jobs, files.len()))
         .build()
-        .map_err(|error| Failure::Usage(format!("can't start the threads: {error}")))?;
+        .map_err(|error| Failure::Usage(format!("cannot start the threads: {error}")))?;
     let progress = progress(files.len());
     let (sender, receiver) = mpsc::channel();
     std::thread::scope(|scope| {
@@ -100,7 +100,7 @@ fn compile_file(path: &Path, options: &Options) -> Compilation {
         Ok(source) => compile::check(source, options),
         Err(error) => {
             let mut diagnostics = Diagnostics::new(options.levels.clone());
-            let message = format!("can't read the file: {error}");
+            let message = format!("cannot read the file: {error}");
             diagnostics.push(Diagnostic::new(&codes::UNREADABLE_FILE, Span::new(FileId(0), 0, 0), message));
             let source = Source::new(path.to_string_lossy(), Vec::new());
             Compilation::of_diagnostics(source, diagnostics)

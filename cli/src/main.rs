@@ -52,7 +52,7 @@ fn main() -> ExitCode {
         Err(Failure::Output(error)) => {
             // If the reader has closed the pipe, it would not see a message. The exit code still reports the failure.
             if error.kind() != std::io::ErrorKind::BrokenPipe {
-                say(&format!("error: can't write the output: {error}"));
+                say(&format!("error: cannot write the output: {error}"));
             }
             ExitCode::from(FAILED)
         }

@@ -40,7 +40,7 @@ impl<'g> Target<'g> {
         let folder = out.and_then(|out| if is_folder { Some(out) } else { out.parent() });
         if let Some(out) = folder.filter(|out| !check && !out.as_os_str().is_empty()) {
             std::fs::create_dir_all(out)
-                .map_err(|error| Failure::Usage(format!("can't create the folder {}: {error}", out.display())))?;
+                .map_err(|error| Failure::Usage(format!("cannot create the folder {}: {error}", out.display())))?;
         }
         Ok(Target { out, check, is_folder, many, names: BTreeSet::new(), is_reported: false, files: 0 })
     }
@@ -67,7 +67,7 @@ impl<'g> Target<'g> {
         if self.check {
             check(&path, text, reporter);
         } else if let Err(error) = write_if_changed(&path, text) {
-            reporter.error(&format!("can't write {}: {error}", path.display()));
+            reporter.error(&format!("cannot write {}: {error}", path.display()));
         } else {
             self.files += 1;
             if self.is_one_file() && self.is_reported {
@@ -109,7 +109,7 @@ pub(super) fn create(path: &Path, text: &str) -> Result<(), Failure> {
         std::io::ErrorKind::AlreadyExists => {
             Failure::Usage(format!("{} exists already and is not overwritten", path.display()))
         }
-        _ => Failure::Usage(format!("can't write {}: {error}", path.display())),
+        _ => Failure::Usage(format!("cannot write {}: {error}", path.display())),
     })
 }
 

@@ -60,7 +60,7 @@ fn a_pipe_and_a_device_are_written_to() {
     if Path::new("/dev/full").exists() {
         for command in ["generate", "export --format eds", "diff $DEMO"] {
             let full = shell(&folder, &format!("$LEXIBUS {command} $DEMO --out /dev/full"));
-            assert!(!full.status.success() && error(&full).contains("can't write /dev/full"), "{}", error(&full));
+            assert!(!full.status.success() && error(&full).contains("cannot write /dev/full"), "{}", error(&full));
         }
         let checked = shell(&folder, "$LEXIBUS generate $DEMO --out /dev/full --check");
         assert!(
@@ -76,7 +76,7 @@ fn a_pipe_is_no_input() {
     let folder = folder("input");
     let checked = shell(&folder, "mkfifo p.eds; $LEXIBUS check p.eds");
     assert_eq!(checked.status.code(), Some(1));
-    assert!(error(&checked).contains("can't read the file: it is not a regular file"), "{}", error(&checked));
+    assert!(error(&checked).contains("cannot read the file: it is not a regular file"), "{}", error(&checked));
     // When a folder is searched, only regular files are read, so the pipe is skipped.
     let searched = shell(&folder, "cp $DEMO .; $LEXIBUS check .");
     assert!(error(&searched).contains("1 file"), "{}", error(&searched));
@@ -89,7 +89,7 @@ fn a_full_disk_leaves_the_old_file() {
     // Limit the file size to one block, and ignore the signal for exceeding the limit.
     let output = shell(&folder, "trap '' XFSZ; ulimit -f 1; exec $LEXIBUS generate $DEMO --out drive.rs");
     assert_eq!(output.status.code(), Some(1), "{}", error(&output));
-    assert!(error(&output).contains("can't write drive.rs"), "{}", error(&output));
+    assert!(error(&output).contains("cannot write drive.rs"), "{}", error(&output));
     assert_eq!(std::fs::read_to_string(folder.join("drive.rs")).expect("the file"), "old");
     assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 1, "no temporary file remains");
 }

@@ -90,7 +90,8 @@ pub fn choice(text: &str) -> Option<(String, String)> {
 }
 
 /// Message for a usable compilation for which [`Compilation::rust`] returns `None`.
-pub const NOTHING_TO_GENERATE: &str = "nothing to generate, because the file describes no device and no module";
+pub const NOTHING_TO_GENERATE: &str =
+    "there is nothing to generate, because the file describes no device and no module";
 
 /// Reads `source` into the IR, without selection, overlays or checks.
 pub fn read(source: Source, options: &Options) -> Compilation {

@@ -322,7 +322,7 @@ fn nearest(existing: &BTreeSet<u16>, filter: ObjectFilter) -> String {
     });
     match (below, above) {
         (Some(below), Some(above)) => format!("the nearest objects are {below} and {above}"),
-        (Some(only), None) | (None, Some(only)) => format!("the nearest objects are {only}"),
+        (Some(only), None) | (None, Some(only)) => format!("the nearest object or range of objects is {only}"),
         (None, None) => "the file has no objects".to_owned(),
     }
 }

@@ -236,7 +236,7 @@ fn objects_have_other_addresses_beside() {
         ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", part = 1 }", "`part` has no effect"),
         ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", swap = true }", "`order` has no effect"),
         ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", why = \"x\" }", "`why` has no effect"),
-        ("0x2000 = { name = \"a\", code = \"record\", access = \"ro\" }", "`access` applies to a value"),
+        ("0x2000 = { name = \"a\", code = \"record\", access = \"ro\" }", "`access` applies only to a single value"),
         ("0x2000 = { name = \"a {m}\", type = \"u8\", access = \"ro\" }", "the placeholder in the name"),
         ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", buses = [\"modbus\"] }", "on neither"),
     ] {
@@ -332,7 +332,7 @@ fn buses_and_tables_of_modbus() {
     }
     let other =
         facts.replace("[[chapters]]", "[spaces.other]\nmodbus = { table = \"holding\", max_read = 9 }\n[[chapters]]");
-    assert!(reported(&other)[0].contains("another space has other requests"));
+    assert!(reported(&other)[0].contains("another space declares different requests"));
     assert!(reported(&facts.replace("1..90", "0..300"))[0].contains("node IDs must be"));
     let wide = reported(&facts.replace("max_read = 125", "max_read = 126"));
     assert!(wide.len() == 1 && wide[0].contains("reads at most 125 registers"), "{wide:?}");
@@ -368,7 +368,7 @@ fn one_address_of_two_models_and_one_name_in_two_chapters() {
 #[test]
 fn process_data_map_objects() {
     let text = a("") + "[[pdos]]\nindex = 0x1A00\ndirection = \"tx\"\nentries = [\"b\"]\n";
-    assert!(reported(&text)[0].contains("`b` is not an object, and PDOs map objects only"));
+    assert!(reported(&text)[0].contains("`b` has no object address, but PDOs map only objects"));
 }
 
 #[test]

@@ -25,9 +25,9 @@ pub enum Refusal {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Refusal::Nothing => f.write_str("it describes nothing that the format can hold"),
+            Refusal::Nothing => f.write_str("the description contains nothing that the format can express"),
             Refusal::Missing(facts) => {
-                f.write_str("the format requires facts that are not in the source; set")?;
+                f.write_str("the format requires facts that the description does not contain; set")?;
                 for (fact, comma) in facts.iter().zip(std::iter::once(" ").chain(std::iter::repeat(", "))) {
                     write!(f, "{comma}`{}` ({})", fact.key, fact.what.trim_end_matches('.'))?;
                 }
@@ -96,7 +96,7 @@ impl OptionValue for u16 {
 }
 
 impl OptionValue for String {
-    const WHAT: &'static str = "a text that isn't empty";
+    const WHAT: &'static str = "a text that is not empty";
 
     fn parse(text: &str) -> Option<Self> {
         let text = text.trim();
@@ -187,6 +187,9 @@ mod tests {
         assert_eq!(missing.require(Some(1u32), "one", &[]), 1);
         assert_eq!(missing.require(None::<u32>, "two", &[("two", "The second.")]), 0);
         let refusal = missing.finish(String::new(), Vec::new()).expect_err("one is missing");
-        assert_eq!(refusal.to_string(), "the format requires facts that are not in the source; set `two` (The second)");
+        assert_eq!(
+            refusal.to_string(),
+            "the format requires facts that the description does not contain; set `two` (The second)"
+        );
     }
 }

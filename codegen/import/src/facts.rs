@@ -284,13 +284,13 @@ impl Reader<'_, '_> {
                 let what = if is_bits { "bit" } else { "value" };
                 let message =
                     format!("{} has no {what} {}", ty.text(), if fits(entry.first) { last } else { entry.first });
-                self.report(&codes::CSV_UNREADABLE_CELL, span, message, "left out; the rest is kept");
+                self.report(&codes::CSV_UNREADABLE_CELL, span, message, "left out; the rest of the list is kept");
                 continue;
             }
             let (key, value) = if is_bits { bit_entry(entry) } else { value_entry(entry) };
             if !keys.insert(key.clone()) {
                 let message = format!("`{}` occurs twice in the list", key.trim_matches('"'));
-                self.report(&codes::CSV_UNREADABLE_CELL, span, message, "the first is kept");
+                self.report(&codes::CSV_UNREADABLE_CELL, span, message, "the first entry is kept");
                 continue;
             }
             entries.push((key, value));

@@ -83,7 +83,7 @@ fn within_budget(rows: &mut [Row], diagnostics: &mut Diagnostics) {
         match left.checked_sub(count as usize * (1 + row.name.len() / ROW_BYTES_PER_ITEM)) {
             Some(rest) => left = rest,
             None => {
-                let message = format!("with this row, the repetitions of rows exceed {MAX_DERIVED_ITEMS} items");
+                let message = format!("the repeated rows up to this one describe more than {MAX_DERIVED_ITEMS} items");
                 let found = Diagnostic::new(&codes::CSV_NO_ROW, row.span, message);
                 diagnostics.push(found.label("kept as a comment"));
                 row.address = Err("too many items");
@@ -189,7 +189,8 @@ fn wire<'r>(rows: impl Iterator<Item = &'r Row>, diagnostics: &mut Diagnostics) 
             Some((first, span)) => {
                 let message = format!("the two addresses differ by {difference}, but by {first} in the rows above");
                 let diagnostic = Diagnostic::new(&codes::CSV_UNREADABLE_CELL, row.span, message);
-                diagnostics.push(diagnostic.label("the first address is used").note_at(span, "the first row is here"));
+                diagnostics
+                    .push(diagnostic.label("the first address is used").note_at(span, "first row with both addresses"));
             }
         }
     }
@@ -260,7 +261,7 @@ fn distinct_addresses(rows: &mut [Row], spaces: &[Space], diagnostics: &mut Diag
             Some(&first) => {
                 let message = "another row has this address";
                 let diagnostic = Diagnostic::new(&codes::CSV_NO_ROW, row.span, message);
-                diagnostics.push(diagnostic.label("kept as a comment").note_at(first, "the first one is here"));
+                diagnostics.push(diagnostic.label("kept as a comment").note_at(first, "first row with this address"));
                 row.address = Err("the address is used twice");
             }
             None => used.extend(occupied.into_iter().map(|address| (address, row.span))),
@@ -292,7 +293,7 @@ fn distinct_objects(rows: &mut [Row], diagnostics: &mut Diagnostics) {
         *object = None;
         let found = Diagnostic::new(&codes::CSV_UNREADABLE_CELL, row.span, message).label("the object is left out");
         diagnostics.push(match first {
-            Some(first) => found.note_at(first, "the first one is here"),
+            Some(first) => found.note_at(first, "first row with this object"),
             None => found,
         });
     }
@@ -342,15 +343,15 @@ fn distinct_names(rows: &mut [Row], diagnostics: &mut Diagnostics) {
             *number += 1;
         }
         if let Some(first) = first {
-            let message = format!("`{}` is the name of another row", brief(&base));
+            let message = format!("another row has the name `{}`", brief(&base));
             if row.address.is_err() {
                 let diagnostic = Diagnostic::new(&codes::CSV_NO_ROW, row.span, message);
-                diagnostics.push(diagnostic.label("kept as a comment").note_at(first, "the first one is here"));
+                diagnostics.push(diagnostic.label("kept as a comment").note_at(first, "first row with this name"));
                 continue;
             }
             let diagnostic = Diagnostic::new(&codes::CSV_SAME_NAME, row.span, message);
-            diagnostics
-                .push(diagnostic.label(format!("renamed to `{}`", row.name)).note_at(first, "the first one is here"));
+            let label = format!("renamed to `{}`", row.name);
+            diagnostics.push(diagnostic.label(label).note_at(first, "first row with this name"));
         }
         used.extend(names(row).map(|name| (name, row.span)));
     }

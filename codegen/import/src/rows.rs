@@ -154,7 +154,7 @@ pub(super) fn read(records: &Records, columns: &Columns, diagnostics: &mut Diagn
     let header = columns.header.and_then(|line| records.list.get(line));
     let no_access = rows.iter().all(|row| row.access.is_none());
     if let Some(header) = header.filter(|_| no_access) {
-        reader.assume("access", header.span, "no column states access rights: all registers are read-only");
+        reader.assume("access", header.span, "no column states access rights, so all registers are read-only");
     }
     Rows { rows, definitions: reader.definitions.into_list(), no_access, from_one: style.addresses[0].is_x }
 }
@@ -251,7 +251,7 @@ impl Reader<'_, '_> {
         let last = record.filled().last().map_or(0, |(at, _)| at + 1);
         let cells = cells.min(last.max(width));
         if cells != width && width > 0 {
-            let message = format!("the line has {cells} cells, but there are {width} titles");
+            let message = format!("the line has {cells} cells, but the list has {width} titles");
             self.report(&codes::CSV_RAGGED_ROW, record.span, message, "cells are assigned to titles from the left");
         }
     }
@@ -265,7 +265,7 @@ impl Reader<'_, '_> {
         if let Some(cell) = index {
             return match address::object(&cell.text, sub) {
                 Some((index, sub)) => Ok(RowAddress::Object { index, sub }),
-                None => self.no_row(cell, "an object index", "the object can't be read"),
+                None => self.no_row(cell, "an object index", "the object cannot be read"),
             };
         }
         if let Some(cell) = self.cell(record, Field::Param) {
@@ -273,7 +273,7 @@ impl Reader<'_, '_> {
                 cells::number(&cell.text, false).and_then(Number::int).and_then(|number| u32::try_from(number).ok());
             return match number {
                 Some(number) => Ok(RowAddress::Parameter(number)),
-                None => self.no_row(cell, "a parameter number", "the number can't be read"),
+                None => self.no_row(cell, "a parameter number", "the number cannot be read"),
             };
         }
         let message = "the line has no address".to_owned();
@@ -306,7 +306,7 @@ impl Reader<'_, '_> {
         object: Option<(u16, Option<u8>)>,
     ) -> Result<RowAddress, &'static str> {
         let Some(printed) = address::read(&cell.text, self.style.addresses[0]) else {
-            return self.no_row(cell, "a register address", "the address can't be read");
+            return self.no_row(cell, "a register address", "the address cannot be read");
         };
         let table = self.cell(record, Field::Table).and_then(|cell| {
             let found = address::table(&cell.text);
@@ -327,7 +327,7 @@ impl Reader<'_, '_> {
         let table = table.or(printed.table);
         Ok(match wire {
             Some((cell, second)) if object.is_none() && is_index(printed, second) => {
-                let message = "the second address is hexadecimal and greater than the first: read as an object index";
+                let message = "a hexadecimal second address that is greater than the first is read as an object index";
                 self.assume("index", cell.span, message);
                 RowAddress::Register { printed, table, wire: None, object: Some((second.first as u16, None)) }
             }
@@ -387,13 +387,15 @@ impl Reader<'_, '_> {
                 let ty = guess(size);
                 let lists = [Field::Bits, Field::Enum].into_iter().any(|field| !self.text(record, field).is_empty());
                 if !lists {
-                    let message = format!("the type is not stated: {} is assumed", ty.text());
+                    let message = format!("the line states no type: {} is assumed", ty.text());
                     let span = self.cell(record, Field::Reg).map_or(record.span, |cell| cell.span);
                     match self.columns.get(Field::Type) {
                         Some(_) => self.diagnostics.push(Diagnostic::new(&codes::CSV_ASSUMPTION, span, message)),
-                        None => {
-                            self.assume("type", span, "no column states types: they follow from the length, or are u16")
-                        }
+                        None => self.assume(
+                            "type",
+                            span,
+                            "no column states types, so each type is derived from the length, or is u16",
+                        ),
                     }
                 }
                 ty

@@ -200,9 +200,12 @@ fn every_cell_that_cannot_be_read_is_told() {
     ];
     assert_eq!(findings(&import), expected);
     let table = import.table.expect("a table");
-    for line in
-        ["# the address can't be read: b | x", "\"a 2\" = {", "# the address is used twice: g | 7", "# no address: i |"]
-    {
+    for line in [
+        "# the address cannot be read: b | x",
+        "\"a 2\" = {",
+        "# the address is used twice: g | 7",
+        "# no address: i |",
+    ] {
         assert!(table.contains(line), "{line}\n{table}");
     }
     // A row with an unreadable cell is kept. If a cell should contain a list but does not, its text becomes
@@ -511,7 +514,7 @@ fn item_25_a_row_of_ten_cells_and_a_title_of_none() {
     assert_eq!(findings(&import), expected);
     let list = import.compilation.diagnostics.list().iter();
     let messages: Vec<&str> = list.map(|diagnostic| diagnostic.message.as_str()).collect();
-    assert!(messages.contains(&"the line has 10 cells, but there are 9 titles"), "{messages:?}");
+    assert!(messages.contains(&"the line has 10 cells, but the list has 9 titles"), "{messages:?}");
     assert!(!import.table.as_deref().expect("a table").contains("[units]"));
 }
 
@@ -526,7 +529,7 @@ fn item_26_a_line_of_dashes() {
     assert_eq!(codes, ["CSV004", "CSV003", "CSV003"]);
     let message = &import.compilation.diagnostics.list()[1].message;
     assert_eq!(message, "`-------` is not a register address");
-    assert!(rows(&import)[1].starts_with("# the address can't be read: ------- | "));
+    assert!(rows(&import)[1].starts_with("# the address cannot be read: ------- | "));
 }
 
 #[test]
@@ -548,7 +551,7 @@ fn items_18_and_19_indices_beside_numbers() {
     let device = check(Source::new("list.toml", table.as_bytes().to_vec()), &Options::default());
     let list = device.diagnostics.list().iter();
     let codes: Vec<_> = list.map(|diagnostic| (diagnostic.code.id, diagnostic.message.as_str())).collect();
-    let series = "the row has object 0x4803, but 0x4804 follows from the neighboring rows";
+    let series = "the row has object 0x4803, but the neighboring rows suggest 0x4804";
     assert_eq!(codes, [("TAB001", series)]);
     let device = device.catalog.expect("a catalog").devices.remove(0);
     let bindings = &item(&device, "Ralmbuffres").bindings;

@@ -12,7 +12,7 @@ use crate::text::brief;
 pub(super) fn conflicts(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         for (span, problem) in contradictions(item).into_iter().flatten() {
-            let message = format!("`{}` is {} and {problem}", brief(&item.name), item.access.name());
+            let message = format!("`{}` is {}{problem}", brief(&item.name), item.access.name());
             let found = codes::ACCESS_CONFLICT.at(access_span(item, span), message);
             let help = "check both facts in the manual, correct the wrong one, and add a `doubt`";
             diagnostics.push(found.help(help));
@@ -25,9 +25,9 @@ pub(super) fn readings(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         let Some(low) = positive_limit_of_reading(context.owner, item) else { continue };
         let (name, access) = (brief(&item.name), item.access.name());
-        let message = format!("`{name}` is {access} and signed, but has the lower limit {low}");
+        let message = format!("`{name}` is {access} and signed, but has the minimum {low}");
         let help =
-            "remove the limit if it belongs to a setpoint and the value can be zero; otherwise use an unsigned type";
+            "remove the minimum if it belongs to a setpoint and the value can be zero; otherwise use an unsigned type";
         diagnostics.push(codes::READING_LIMITS.at(access_span(item, item.at.low), message).help(help));
     }
 }
@@ -43,17 +43,17 @@ fn contradictions(item: &Item) -> [Option<(Span, &'static str)>; 3] {
     let behaviour = item.behaviour.as_deref();
     let saved = behaviour.filter(|behaviour| matches!(behaviour.storage, Storage::Immediate | Storage::OnCommand(_)));
     let saved = match saved {
-        Some(_) if !writable => conflict(Span::default(), "non-volatile"),
-        Some(saved) if saved.self_clearing => conflict(Span::default(), "non-volatile, but the device clears it"),
+        Some(_) if !writable => conflict(Span::default(), ", but non-volatile"),
+        Some(saved) if saved.self_clearing => conflict(Span::default(), " and non-volatile, but the device clears it"),
         _ => None,
     };
     let mapped = match item.mappable {
-        mappable if mappable.rpdo && !writable => conflict(item.at.mappable, "can be mapped into an RPDO"),
-        mappable if mappable.tpdo && !readable => conflict(item.at.mappable, "can be mapped into a TPDO"),
+        mappable if mappable.rpdo && !writable => conflict(item.at.mappable, ", but can be mapped into an RPDO"),
+        mappable if mappable.tpdo && !readable => conflict(item.at.mappable, ", but can be mapped into a TPDO"),
         _ => None,
     };
     let is_written = !writable && behaviour.is_some_and(|behaviour| !behaviour.writable_values.is_empty());
-    let written = is_written.then_some((Span::default(), "has a list of writable values"));
+    let written = is_written.then_some((Span::default(), ", but has a list of writable values"));
     [saved, mapped, written]
 }
 

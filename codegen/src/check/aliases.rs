@@ -7,7 +7,7 @@ use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{Device, Item, ItemRef, Quantity, Scale, Shape};
 use crate::source::Span;
-use crate::text::{brief, more, numbered};
+use crate::text::{brief, count_of, more, numbered};
 
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
@@ -15,11 +15,11 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         let Some(alias) = item.related.as_ref().and_then(|related| related.same_as.as_ref()) else { continue };
         let Some(other) = context.device.referred(alias).filter(|other| !std::ptr::eq(*other, item)) else { continue };
         let differences = differences(context.owner, item, other);
-        if !differences.is_empty() {
-            let (name, other_name, differences) = (brief(&item.name), brief(alias), differences.join("; "));
-            let message =
-                format!("`{name}` and `{other_name}` are declared as the same value, but differ: {differences}");
+        if let Some((first, others)) = differences.split_first() {
+            let names = format!("`{}` and `{}`", brief(&item.name), brief(alias));
+            let message = format!("{names} are declared as the same value, but {first}");
             let found = codes::SAME_VALUE_DIFFERS.at(difference_span(item, alias), message);
+            let found = others.iter().fold(found, |found, other| found.note(format!("{names} also differ: {other}")));
             diagnostics.push(found.note_at(other.origin.span, format!("`{}` is defined here", brief(alias))));
         }
     }
@@ -59,14 +59,13 @@ fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
         return found;
     }
     if types.0 != types.1 {
-        found.push(format!("types {} and {}", types.0, types.1));
+        found.push(format!("their types are {} and {}", types.0, types.1));
     }
-    let limits =
-        [("lower limit", &one.limits.low, &other.limits.low), ("upper limit", &one.limits.high, &other.limits.high)];
+    let limits = [("minimum", &one.limits.low, &other.limits.low), ("maximum", &one.limits.high, &other.limits.high)];
     for (limit, one, other) in limits {
         if let (Some(one), Some(other)) = (one, other) {
             if one.as_real().is_some() && one.as_real() != other.as_real() {
-                found.push(format!("{limit}s {one} and {other}"));
+                found.push(format!("their {limit} values are {one} and {other}"));
             }
         }
     }
@@ -84,7 +83,7 @@ fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
 fn quantities(one: &Quantity, other: &Quantity) -> Vec<String> {
     let mut found = Vec::new();
     if !one.unit.is_empty() && !other.unit.is_empty() && one.unit != other.unit {
-        found.push(format!("units {} and {}", brief(&one.unit), brief(&other.unit)));
+        found.push(format!("their units are {} and {}", brief(&one.unit), brief(&other.unit)));
     }
     if one.scale != other.scale {
         let factor = |scale: &Option<Scale>| match scale {
@@ -93,8 +92,8 @@ fn quantities(one: &Quantity, other: &Quantity) -> Vec<String> {
             Some(_) => None,
         };
         found.push(match (factor(&one.scale), factor(&other.scale)) {
-            (Some(one), Some(other)) if one != other => format!("scale factors {one} and {other}"),
-            _ => "scaling".to_owned(),
+            (Some(one), Some(other)) if one != other => format!("their scale factors are {one} and {other}"),
+            _ => "their scales differ".to_owned(),
         });
     }
     found
@@ -112,8 +111,9 @@ fn names(one: &Shape, other: &Shape) -> Option<String> {
         Some((values, names.values().next()?, others.values().next()?))
     });
     let (values, one, other) = differing.next()?;
-    let more = more(differing.count(), |more| format!(" (and {more} more)"));
-    Some(format!("{what} {} is named `{}` and `{}`{more}", range(values), brief(one), brief(other)))
+    let more = more(differing.count(), |more| format!(" ({})", count_of(more, "more difference")));
+    let named = numbered(what, &[range(values)]);
+    Some(format!("the names of {named} are `{}` and `{}`{more}", brief(one), brief(other)))
 }
 
 type Labels<'n> = BTreeMap<(i128, i128), BTreeMap<String, &'n str>>;
@@ -147,7 +147,7 @@ fn meanings(one: &Shape, other: &Shape) -> Option<String> {
     let (what, one, other) = match (one, other) {
         (Shape::Enumeration { .. }, Shape::Enumeration { .. }) => ("value", named(one), named(other)),
         (Shape::BitField { .. }, Shape::BitField { .. }) => ("bit", named(one), named(other)),
-        _ => return Some("one is an enumeration, the other a bit field".to_owned()),
+        _ => return Some("one is an enumeration and the other is a bit field".to_owned()),
     };
     let only: Vec<String> = one.symmetric_difference(&other).map(range).collect();
     (!only.is_empty()).then(|| format!("only one of them names {}", numbered(what, &only)))
@@ -183,10 +183,10 @@ mod tests {
         assert_eq!(differences(owner, &one, &one), [""; 0]);
         assert_eq!(
             differences(owner, &one, &item(Type::Unsigned(32), 0, 500_000)),
-            ["types INTEGER32 and UNSIGNED32", "upper limits 200000 and 500000"]
+            ["their types are INTEGER32 and UNSIGNED32", "their maximum values are 200000 and 500000"]
         );
         let half = item(Type::Unsigned(16), 0, 65_535);
         assert_eq!(differences(owner, &half, &one), [""; 0]);
-        assert_eq!(differences(owner, &one, &half)[0], "types INTEGER32 and UNSIGNED16");
+        assert_eq!(differences(owner, &one, &half)[0], "their types are INTEGER32 and UNSIGNED16");
     }
 }

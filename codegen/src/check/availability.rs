@@ -46,8 +46,9 @@ fn corrected(text: &str) -> Option<String> {
 fn window(what: &str, availability: &Availability, span: Span, diagnostics: &mut Diagnostics) {
     for text in [&availability.since, &availability.until].into_iter().flatten() {
         if version(text).is_none() {
-            let message = format!("{what} has the firmware version `{}`, which is not a dotted number", brief(text));
-            let found = codes::VERSION_FORM.at(span, message).label("not compared");
+            let message =
+                format!("{what} has the firmware version `{}`, which does not have the form `6.15`", brief(text));
+            let found = codes::VERSION_FORM.at(span, message).label("not compared with other versions");
             diagnostics.push(found.help(match corrected(text) {
                 Some(version) => format!("write `{version}`"),
                 None => "write the version as numbers separated by points, such as `6.15`".to_owned(),
@@ -57,7 +58,8 @@ fn window(what: &str, availability: &Availability, span: Span, diagnostics: &mut
     let (since, until) = (availability.since.as_deref(), availability.until.as_deref());
     if compare(since, until).is_some_and(|order| order != Ordering::Less) {
         let (since, until) = (since.unwrap_or_default(), until.unwrap_or_default());
-        let message = format!("{what} exists since {since} and until {until}, so no firmware version has it");
+        let message =
+            format!("{what} is added in firmware {since} and removed in firmware {until}, so no version has it");
         diagnostics.push(codes::FIRMWARE_WINDOW.at(span, message));
     }
 }
@@ -77,11 +79,11 @@ fn replacement(device: &Device, item: &Item, availability: &Availability, diagno
     };
     let ends = availability.until.as_deref();
     let message = match (compare(since, ends), compare(until, ends)) {
-        (_, Some(Ordering::Less | Ordering::Equal)) => "its replacement no longer exists then".to_owned(),
-        (Some(Ordering::Less), _) => format!("its replacement already exists since {}", since.unwrap_or_default()),
-        (Some(Ordering::Greater), _) => format!("its replacement exists only since {}", since.unwrap_or_default()),
+        (_, Some(Ordering::Less | Ordering::Equal)) => "its replacement no longer exists in this version".to_owned(),
+        (Some(Ordering::Less), _) => format!("its replacement is added earlier, in {}", since.unwrap_or_default()),
+        (Some(Ordering::Greater), _) => format!("its replacement is added later, in {}", since.unwrap_or_default()),
         _ => return,
     };
-    let message = format!("`{name}` exists until {}, but {message}", ends.unwrap_or_default());
+    let message = format!("`{name}` is removed in firmware {}, but {message}", ends.unwrap_or_default());
     diagnostics.push(codes::FIRMWARE_WINDOW.at(span, message).note_at(other.origin.span, "the replacement"));
 }

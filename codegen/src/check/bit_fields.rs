@@ -5,7 +5,7 @@ use crate::ir::firmware::apart;
 use crate::ir::owner::{reserved, Owner, TypeUses};
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Type, TypeDef, TypeId, Value};
 use crate::source::Span;
-use crate::text::{brief, more, numbered};
+use crate::text::{brief, count_of, more, numbered};
 
 /// Maximum width of an enumerated field whose values all need a name.
 const MAX_LISTED_BITS: u8 = 4;
@@ -43,7 +43,7 @@ fn outside(
     let width = base.bits()?;
     let mut beyond = fields.iter().filter(|field| field.end() > width);
     let first = beyond.next()?;
-    let others = more(beyond.count(), |others| format!(" and {others} more"));
+    let others = more(beyond.count(), |others| format!(" and {}", count_of(others, "other field")));
     let message = format!("{base} has {width} bits, but `{}` names {}{others}", brief(&definition.name), called(first));
     let found = codes::BIT_OUTSIDE_TYPE.at(used(), message);
     let found = found.note_at(first.at.0.or(definition.origin.span), "definition of the bits");
@@ -56,10 +56,10 @@ fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Di
     for (at, other) in fields.iter().enumerate() {
         let clashes = |one: &&BitFieldEntry| one.mask() & other.mask() != 0 && !are_distinct(one, other);
         let Some(one) = fields.iter().take(at).find(clashes) else { continue };
-        let message = format!("{} and {} of `{}` share bits", called(one), called(other), brief(&definition.name));
+        let message = format!("{} and {} of `{}` overlap", called(one), called(other), brief(&definition.name));
         let found = codes::BITS_OVERLAP.at(other.at.0.or(definition.origin.span), message);
         diagnostics.push(
-            found.help("add `when`, `since`, `until` or `models` to each field, if the bits have several meanings"),
+            found.help("add `when`, `since`, `until` or `models` to each field if the bits have several meanings"),
         );
     }
 }
@@ -150,7 +150,7 @@ mod tests {
             found(vec![field("low", 0, 5), field("high", 4, 5)]),
             [
                 "UNSIGNED8 has 8 bits, but `Status` names bits 8-4 (`high`)",
-                "bits 4-0 (`low`) and bits 8-4 (`high`) of `Status` share bits"
+                "bits 4-0 (`low`) and bits 8-4 (`high`) of `Status` overlap"
             ]
         );
         assert_eq!(found(vec![field("all but two", 2, 6)]), ["`Status` does not describe bits 0, 1"]);
@@ -163,7 +163,7 @@ mod tests {
         let fields = (0..900).map(|number| field(&number.to_string(), 0, 8)).collect();
         let found = found(fields);
         assert_eq!(found.len(), 899);
-        assert_eq!(found[898], "bits 7-0 (`0`) and bits 7-0 (`899`) of `Status` share bits");
+        assert_eq!(found[898], "bits 7-0 (`0`) and bits 7-0 (`899`) of `Status` overlap");
     }
 
     #[test]

@@ -43,7 +43,7 @@ fn possible(context: &Context<'_>, condition: &Condition, span: Span, diagnostic
     for value in condition.values.iter().filter_map(Value::as_int) {
         let is_outside = low.is_some_and(|low| value < low) || high.is_some_and(|high| value > high);
         let why = match context.owner.enumeration(item.ty) {
-            _ if is_outside => "is outside of the limits",
+            _ if is_outside => "is outside of the limits of the item",
             Some((labels, _)) => match reserved(labels, value) {
                 None => "has no name",
                 Some(true) => "is reserved",

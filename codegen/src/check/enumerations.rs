@@ -6,7 +6,7 @@ use crate::ir::firmware::apart;
 use crate::ir::owner::{Owner, TypeUses};
 use crate::ir::{CodeRow, EnumValue, Shape, Type, TypeDef, TypeId};
 use crate::source::Span;
-use crate::text::{brief, more};
+use crate::text::{brief, count_of};
 
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     let uses = TypeUses::new(owner);
@@ -60,8 +60,9 @@ fn overlap<'v, V>(
 
 /// Reports two elements whose ranges overlap. `names` contains the number and the name of each element.
 fn report(owner: &str, span: Span, names: [(String, &str); 2], diagnostics: &mut Diagnostics) {
+    let problem = if names[0].0 == names[1].0 { "have the same value" } else { "overlap" };
     let [one, other] = names.map(|(number, name)| format!("`{}` ({number})", brief(name)));
-    let message = format!("{one} and {other} of `{}` have the same value", brief(owner));
+    let message = format!("{one} and {other} of `{}` {problem}", brief(owner));
     diagnostics.push(codes::VALUE_NAMED_TWICE.at(span, message));
 }
 
@@ -70,9 +71,12 @@ fn outside(definition: &TypeDef, base: Type, values: &[EnumValue], used: impl Fn
     let (low, high) = base.integer_range()?;
     let mut beyond = values.iter().filter(|value| value.value < low || value.range().1 > high);
     let first = beyond.next()?;
-    let others = more(beyond.count(), |others| format!(" and {others} more"));
+    let others = match beyond.count() {
+        0 => " is".to_owned(),
+        others => format!(" and {} are", count_of(others, "other value")),
+    };
     let value = if first.value < low { first.value } else { first.range().1 };
-    let message = format!("{value} (`{}`{others}) is outside of the range of {base}", brief(&first.name));
+    let message = format!("{value} (`{}`){others} outside of the range of {base}", brief(&first.name));
     let found = codes::NAME_OUTSIDE_TYPE.at(used(), message);
     let found = found.note_at(first.at.0.or(definition.origin.span), "definition of the value");
     Some(match (base, value) {
@@ -108,11 +112,11 @@ mod tests {
         let good = vec![value("off", 0, None), value("on", 1, None), value("reserved", 2, Some(255))];
         assert_eq!(found(Type::Unsigned(8), good), [""; 0]);
         let twice = vec![value("reserved", 8, Some(127)), value("off", 0, None), value("csv", 9, None)];
-        assert_eq!(
-            found(Type::Unsigned(8), twice),
-            ["`reserved` (8 to 127) and `csv` (9) of `Mode` have the same value"]
-        );
+        assert_eq!(found(Type::Unsigned(8), twice), ["`reserved` (8 to 127) and `csv` (9) of `Mode` overlap"]);
         let beyond = vec![value("back", -1, None), value("far", 256, None)];
-        assert_eq!(found(Type::Unsigned(8), beyond), ["-1 (`back` and 1 more) is outside of the range of UNSIGNED8"]);
+        assert_eq!(
+            found(Type::Unsigned(8), beyond),
+            ["-1 (`back`) and 1 other value are outside of the range of UNSIGNED8"]
+        );
     }
 }

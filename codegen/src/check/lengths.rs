@@ -55,7 +55,7 @@ fn text(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
         _ => return,
     };
     if max > 0 && given > max as usize {
-        let message = format!("the default has {given} bytes, but `{}` has at most {max}", brief(&item.name));
+        let message = format!("the default has {given} bytes, but `{}` holds at most {max}", brief(&item.name));
         report(item, &codes::LENGTH_MISMATCH, item.at.default, message, diagnostics);
     }
 }

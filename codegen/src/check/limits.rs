@@ -21,11 +21,11 @@ pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
 pub(super) fn one_given(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         let (given, other, span) = match (&item.limits.low, &item.limits.high) {
-            (Some(_), None) => ("a lower", "upper", item.at.low),
-            (None, Some(_)) => ("an upper", "lower", item.at.high),
+            (Some(_), None) => ("minimum", "maximum", item.at.low),
+            (None, Some(_)) => ("maximum", "minimum", item.at.high),
             _ => continue,
         };
-        let message = format!("`{}` has {given} limit, but no {other} limit", brief(&item.name));
+        let message = format!("`{}` has a {given}, but no {other}", brief(&item.name));
         diagnostics.push(codes::ONE_LIMIT.at(span.or(item.origin.span), message));
     }
 }
@@ -36,11 +36,12 @@ fn with_other_sign(ty: Type, low: &Value, high: &Value) -> Option<String> {
     match ty {
         Type::Unsigned(bits @ 1..=64) if low >> (bits - 1) == 1 => {
             let signed = low - (1i128 << bits);
-            (signed <= high).then(|| format!("use INTEGER{bits} if the value is signed: {low:#X} is {signed} then"))
+            (signed <= high)
+                .then(|| format!("use INTEGER{bits} if the value is signed: {low:#X} is {signed} in this type"))
         }
         Type::Integer(bits @ 1..=64) if low >= 0 && high < 0 => {
             let unsigned = high + (1i128 << bits);
-            Some(format!("use UNSIGNED{bits} if the value is unsigned: {unsigned:#X} is {unsigned} then"))
+            Some(format!("use UNSIGNED{bits} if the value is unsigned: {unsigned:#X} is {unsigned} in this type"))
         }
         _ => None,
     }
@@ -50,9 +51,9 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     let (low, high) = (item.limits.low.as_ref(), item.limits.high.as_ref());
     if let (Some(low), Some(high)) = (low, high) {
         if low.compare(high) == Some(Ordering::Greater) {
-            let message = format!("the lower limit {low} is greater than the upper limit {high}");
+            let message = format!("the minimum {low} is greater than the maximum {high}");
             let found = codes::LIMITS_SWAPPED.at(item.at.low.or(item.origin.span), message);
-            let found = found.label("kept, but generated code does not check them");
+            let found = found.label("the limits are kept, but generated code does not check them");
             diagnostics.push(match with_other_sign(owner.basic(item.ty), low, high) {
                 Some(help) => found.help(help),
                 None => found,
@@ -81,6 +82,6 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
 /// Returns the limit that a number violates, for messages.
 pub(super) fn beyond(item: &Item, number: i128) -> Option<String> {
     let (low, high) = item.limits.integers();
-    let low = low.filter(|&low| number < low).map(|low| format!("lower limit is {low}"));
-    low.or_else(|| high.filter(|&high| number > high).map(|high| format!("upper limit is {high}")))
+    let low = low.filter(|&low| number < low).map(|low| format!("minimum is {low}"));
+    low.or_else(|| high.filter(|&high| number > high).map(|high| format!("maximum is {high}")))
 }

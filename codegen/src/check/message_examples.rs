@@ -58,8 +58,7 @@ impl<'a> Frame<'a> {
             let Some(bits) = self.bits(field) else { return problems };
             let last = at + bits;
             if last > self.bytes.len() * 8 {
-                problems
-                    .push(format!("has {}, which is less than the fields need", count_of(self.bytes.len(), "byte")));
+                problems.push(format!("has {}, but the fields need more", count_of(self.bytes.len(), "byte")));
                 return problems;
             }
             problems.extend(self.field(field, at..last));
@@ -121,7 +120,7 @@ impl<'a> Frame<'a> {
         let (found, sent) = (found.get(..count)?, sent.get(..count)?);
         (found != sent).then(|| {
             format!(
-                "has {} as the copy of the request from byte {first}, but the request has {}",
+                "has {} as the copy of the request bytes from byte {first} on, but the request has {}",
                 hex(found),
                 hex(sent)
             )
@@ -156,7 +155,7 @@ impl<'a> Frame<'a> {
                     Some(true) => Some("is reserved"),
                     Some(false) => None,
                 };
-                problem.map(|why| format!("has {number:#X} in `{name}`, where this value {why}")).into_iter().collect()
+                problem.map(|why| format!("has {number:#X} in `{name}`, but this value {why}")).into_iter().collect()
             }
             Some(Shape::BitField { fields, .. }) => {
                 let mut problems = Vec::new();

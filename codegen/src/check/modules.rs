@@ -90,7 +90,7 @@ fn lengths(module: &Module, limits: Limits, catalog: &Catalog, diagnostics: &mut
     for (bytes, limit, what) in sums {
         let Some((limit, device)) = limit.filter(|&(limit, _)| bytes > limit) else { continue };
         let message = format!(
-            "the module has {} of {what}, but a device that accepts it allows at most {limit}",
+            "the module has {} of {what}, but a device that accepts the module allows at most {limit}",
             count_of(bytes, "byte")
         );
         diagnostics.push(noted(codes::IO_LENGTH.at(module.origin.span, message), catalog.devices.get(device)));
@@ -129,7 +129,8 @@ fn slots(device: &Device, settings: &ProfinetSettings, modules: &[Module], diagn
         let Some(&(first, last)) = ranges.into_iter().find(|range| !contains(&present, **range)) else { continue };
         let name = modules.get(module.module.0 as usize).map_or("", |module| module.id.as_str());
         let range = if first == last { first.to_string() } else { format!("{first}..{last}") };
-        let message = format!("the module `{name}` is for slots {range}, but the device does not have all of them");
+        let message =
+            format!("the module `{name}` is for slots {range}, but the device does not have all of these slots");
         diagnostics.push(
             codes::SLOT_RANGE.at(device.origin.span, message).label("PhysicalSlots lists the slots of the device"),
         );

@@ -5,7 +5,7 @@ use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::owner::{fixed, reserved, Owner};
 use crate::ir::{BitFieldEntry, BitMeaning, EnumValue, Item, Shape, Type, TypeDef, Value};
 use crate::source::Span;
-use crate::text::{brief, more};
+use crate::text::{brief, count_of, more};
 
 /// Maximum number of values that a message lists.
 const MAX_LISTED: usize = 6;
@@ -50,7 +50,7 @@ impl Check<'_, '_> {
         let found = code.at(span.or(self.item.origin.span), message);
         let found = found.note_at(self.definition.origin.span, "definition of the names");
         self.diagnostics.push(found.help(match code.id {
-            "TAB016" => "widen the limit, or define separate bits or values for the item",
+            "TAB016" => "correct the limit, or define separate bits or values for the item",
             "TAB018" => "correct the number, or name the value if the manual does",
             _ => "correct the number, or name the bits if the manual does",
         }));
@@ -72,8 +72,8 @@ impl Check<'_, '_> {
             return Vec::new();
         }
         let (limits, at) = (&self.item.limits, &self.item.at);
-        let low = Number::of("lower limit", limits.low.as_ref(), at.low);
-        low.into_iter().chain(Number::of("upper limit", limits.high.as_ref(), at.high)).collect()
+        let low = Number::of("minimum", limits.low.as_ref(), at.low);
+        low.into_iter().chain(Number::of("maximum", limits.high.as_ref(), at.high)).collect()
     }
 
     fn enumeration(&mut self, base: Type, values: &[EnumValue], closed: bool) {
@@ -85,7 +85,7 @@ impl Check<'_, '_> {
             self.named(values, true, Number { what: "writable value", value, span: Span::default() });
         }
         for limit in self.limits() {
-            let (value, is_upper) = (limit.value, limit.what == "upper limit");
+            let (value, is_upper) = (limit.value, limit.what == "maximum");
             self.within(values, is_upper, limit);
             if base.integer_range().is_some_and(|(low, high)| value == low || value == high) {
                 continue;
@@ -115,15 +115,13 @@ impl Check<'_, '_> {
 
     /// Reports a limit that excludes named values.
     fn within(&mut self, values: &[EnumValue], is_upper: bool, limit: Number) {
-        let Number { value: limit, span, .. } = limit;
+        let Number { what, value: limit, span } = limit;
         let extreme = |label: &EnumValue| if is_upper { label.range().1 } else { label.value };
         let is_beyond = |value: i128| if is_upper { value > limit } else { value < limit };
         let mut beyond = values.iter().filter(|label| label.is_named() && is_beyond(extreme(label)));
         let Some(first) = beyond.next() else { return };
-        let others = more(beyond.count(), |others| format!(" and {others} more"));
-        let side = if is_upper { "upper" } else { "lower" };
-        let message =
-            format!("the {side} limit {limit} excludes {} (`{}`){others}", extreme(first), brief(&first.name));
+        let others = more(beyond.count(), |others| format!(" and {}", count_of(others, "other value")));
+        let message = format!("the {what} {limit} excludes {} (`{}`){others}", extreme(first), brief(&first.name));
         self.report(&codes::NAME_OUTSIDE_LIMITS, span, message);
     }
 
@@ -142,7 +140,7 @@ impl Check<'_, '_> {
             if !is_count(bits, width, fields) && !base.is_signed() {
                 self.meaningless(fields, limit, bits);
             }
-            if limit.what == "upper limit" && !base.is_signed() {
+            if limit.what == "maximum" && !base.is_signed() {
                 self.reaches(fields, bits, limit.span);
             }
         }
@@ -151,10 +149,11 @@ impl Check<'_, '_> {
     /// Reports a value that sets reserved bits, or lacks reserved bits that are always set.
     fn meaningless(&mut self, fields: &[BitFieldEntry], number: Number, bits: u64) {
         let Number { what, span, .. } = number;
+        let is_limit = matches!(what, "minimum" | "maximum");
         for field in always(fields) {
             let BitMeaning::Reserved { write } = field.meaning else { continue };
             let problem = match write {
-                Some(true) if !what.ends_with("limit") && bits & field.mask() != field.mask() => "lacks",
+                Some(true) if !is_limit && bits & field.mask() != field.mask() => "clears",
                 Some(false) | None if bits & field.mask() != 0 => "sets",
                 _ => continue,
             };
@@ -170,7 +169,7 @@ impl Check<'_, '_> {
         let named = fields.iter().fold(0, |all, field| all | field.mask());
         if bits & !named != 0 && named != 0 {
             let (unnamed, name) = (bits & !named, brief(&self.definition.name));
-            let message = format!("the {what} {bits:#X} sets bits {unnamed:#X}, which `{name}` does not name");
+            let message = format!("the {what} {bits:#X} sets the bits {unnamed:#X}, which `{name}` does not name");
             self.report(&codes::RESERVED_BITS, span, message);
         }
         for field in always(fields) {
@@ -183,7 +182,7 @@ impl Check<'_, '_> {
                 Some(true) => "which is reserved".to_owned(),
                 None => format!("but only {} named", listed(values)),
             };
-            let message = format!("the {what} {bits:#X} has {value} in {}, {problem}", called(field));
+            let message = format!("the {what} {bits:#X} sets {} to {value}, {problem}", called(field));
             self.report(&codes::UNNAMED_VALUE, span, message);
         }
     }
@@ -193,8 +192,8 @@ impl Check<'_, '_> {
         let is_beyond = |field: &&BitFieldEntry| 1u64.checked_shl(field.offset.into()) > Some(limit);
         let mut beyond = fields.iter().filter(|field| !field.is_reserved()).filter(is_beyond);
         let Some(first) = beyond.next() else { return };
-        let others = more(beyond.count(), |others| format!(" and {others} more"));
-        let message = format!("the upper limit {limit} excludes {}{others}", called(first));
+        let others = more(beyond.count(), |others| format!(" and {}", count_of(others, "other field")));
+        let message = format!("the maximum {limit} excludes {}{others}", called(first));
         self.report(&codes::NAME_OUTSIDE_LIMITS, span, message);
     }
 }
@@ -269,12 +268,12 @@ mod tests {
         let is = |found: Vec<(&'static str, String)>, code, message: &str| {
             assert_eq!(found, [(code, message.to_owned())]);
         };
-        is(found(modes(false), limits(0, 2)), "TAB018", "the upper limit 2 has no name in `Mode`");
-        is(found(modes(true), limits(0, 5)), "TAB018", "the upper limit 5 has no name in `Mode`");
-        is(found(modes(false), limits(0, 8)), "TAB018", "the upper limit 8 is reserved in `Mode`");
-        is(found(modes(false), limits(0, 0x7F)), "TAB018", "the upper limit 127 is reserved in `Mode`");
+        is(found(modes(false), limits(0, 2)), "TAB018", "the maximum 2 has no name in `Mode`");
+        is(found(modes(true), limits(0, 5)), "TAB018", "the maximum 5 has no name in `Mode`");
+        is(found(modes(false), limits(0, 8)), "TAB018", "the maximum 8 is reserved in `Mode`");
+        is(found(modes(false), limits(0, 0x7F)), "TAB018", "the maximum 127 is reserved in `Mode`");
         let one = found(modes(false), limits(1, 200));
-        is(one, "TAB016", "the lower limit 1 excludes 0 (`off`)");
+        is(one, "TAB016", "the minimum 1 excludes 0 (`off`)");
         let default = |value| move |item: &mut Item| item.default = Some(Value::Int(value));
         assert_eq!(found(modes(false), default(3)), []);
         is(found(modes(true), default(3)), "TAB018", "the default 3 has no name in `Mode`");
@@ -295,16 +294,16 @@ mod tests {
         };
         assert_eq!(found(flags(), limits(0, 0xFFFF)), []);
         let max = found(flags(), limits(0, 0x4000));
-        assert_eq!(max, [("TAB016", "the upper limit 16384 excludes bit 15 (`error`)".to_owned())]);
+        assert_eq!(max, [("TAB016", "the maximum 16384 excludes bit 15 (`error`)".to_owned())]);
         let holes = found(flags(), limits(0, 0xF0F7));
-        assert_eq!(holes, [("TAB019", "the upper limit 0xF0F7 sets bits 7-3 (reserved) of `Mode`".to_owned())]);
+        assert_eq!(holes, [("TAB019", "the maximum 0xF0F7 sets bits 7-3 (reserved) of `Mode`".to_owned())]);
         let constant = found(flags(), |item| {
             limits(0x0005, 0x0005)(item);
             item.default = Some(Value::Int(5));
         });
         let expected = [
-            ("TAB019", "the fixed value 0x5 lacks bit 8 (reserved) of `Mode`".to_owned()),
-            ("TAB019", "the fixed value 0x5 sets bits 0x4, which `Mode` does not name".to_owned()),
+            ("TAB019", "the fixed value 0x5 clears bit 8 (reserved) of `Mode`".to_owned()),
+            ("TAB019", "the fixed value 0x5 sets the bits 0x4, which `Mode` does not name".to_owned()),
         ];
         assert_eq!(constant, expected);
     }

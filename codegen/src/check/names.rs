@@ -47,7 +47,9 @@ fn meanings(definition: &TypeDef, diagnostics: &mut Diagnostics) {
                 |one: &EnumValue, other: &EnumValue| apart(one.availability.as_deref(), other.availability.as_deref());
             let named = values.iter().filter(|value| value.is_named());
             let found = repeated(named, |value| value.name.as_str(), apart);
-            found.map(|(one, other)| (one.name.as_str(), one.value.to_string(), other.value.to_string()))
+            found.map(|(one, other)| {
+                (one.name.as_str(), format!("value {}", one.value), format!("value {}", other.value))
+            })
         }
         _ => None,
     };

@@ -4,7 +4,7 @@ use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{excluded, AxisStep, Device, Format, Group, Item, ObjectCode, Value};
-use crate::text::more;
+use crate::text::{count_of, more};
 
 /// Reports contradictory objects and missing mandatory objects.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -80,7 +80,7 @@ fn names(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     let mut items = described_items(group).filter(|item| item.name.is_empty());
     let Some(first) = items.next() else { return };
     // One diagnostic covers all unnamed elements of an object, because there can be hundreds of them.
-    let others = more(items.count(), |others| format!(" (and {others} more of the object)"));
+    let others = more(items.count(), |others| format!(" (and {} of the object)", count_of(others, "other")));
     nameless(first.at.name.or(first.origin.span), format!("0x{index:04X} sub-index {:#x}{others}", sub_of(first)));
 }
 
@@ -91,7 +91,8 @@ fn structure(group: &Group, index: u16, format: Format, diagnostics: &mut Diagno
         diagnostics.push(codes::NO_SUBS.at(span, format!("0x{index:04X} has {lacks}")).help(help));
     } else if sub0(group).is_none() {
         let message = format!("sub-index 0 of 0x{index:04X} is not described");
-        let help = format!("describe it as UNSIGNED8 with the highest sub-index {} as default", highest(group));
+        let help =
+            format!("describe sub-index 0 as UNSIGNED8 with the highest sub-index {} as its default", highest(group));
         diagnostics.push(codes::NO_SUB0.at(span, message).help(help));
     }
 }
@@ -131,9 +132,11 @@ fn sub0_access(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     let entries_writable =
         described_items(group).any(|item| !matches!(sub_of(item), 0 | 0xFF) && item.access.writable());
     let message = match (sub0.access.writable(), entries_writable) {
-        (true, false) if !is_counter(index) => "can be written, but no entry of the object can",
+        (true, false) if !is_counter(index) => "is writable, but no other sub-index of the object is",
         // Changing a mapping requires writing 0 to sub-index 0 first (CiA 301 7.5.2.36).
-        (false, true) if is_counter(index) && index != 0x1003 => "cannot be written, but the entries of the object can",
+        (false, true) if is_counter(index) && index != 0x1003 => {
+            "is not writable, but other sub-indices of the object are"
+        }
         _ => return,
     };
     let span = sub0.at.access.or(sub0.origin.span);
@@ -145,7 +148,8 @@ fn element_types(group: &Group, index: u16, owner: Owner<'_>, diagnostics: &mut 
     let Some(first) = elements.next() else { return };
     // Elements may differ in the names of bits and values, because the dictionary does not contain these names.
     if let Some(other) = elements.find(|item| owner.integer(item.ty) != owner.integer(first.ty)) {
-        let message = format!("an element of the array 0x{index:04X} is {}, but the first is {}", other.ty, first.ty);
+        let message =
+            format!("an element of the array 0x{index:04X} is {}, but the first element is {}", other.ty, first.ty);
         let found = codes::ARRAY_TYPES.at(other.at.ty.or(other.origin.span), message);
         diagnostics.push(found.note_at(first.at.ty.or(first.origin.span), "the first element"));
     }

@@ -29,7 +29,7 @@ fn against(entry: &PdoEntry, direction: Direction, item: &Item, diagnostics: &mu
             format!("is mapped into {name}, but PdoMapping of the object allows only {other}"),
         ))
     } else if !is_accessible && !item.at.access.is_empty() {
-        Some((&codes::MAPPED_READ_ONLY, format!("is {} and mapped into {name}", item.access.name())))
+        Some((&codes::MAPPED_READ_ONLY, format!("is {}, but mapped into {name}", item.access.name())))
     } else {
         None
     };

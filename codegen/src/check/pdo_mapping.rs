@@ -28,7 +28,8 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 pub(super) fn lengths(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     for pdo in &owner.data.pdos {
         for entry in pdo.entries.iter().filter(|entry| entry.index != 0 && entry.bits > crate::limits::MAX_FIELD_BITS) {
-            let message = format!("an entry of the PDO 0x{:04X} has {} bits", pdo.mapping_index, entry.bits);
+            let (index, bits, max) = (pdo.mapping_index, entry.bits, crate::limits::MAX_FIELD_BITS);
+            let message = format!("an entry of the PDO 0x{index:04X} has {bits} bits, but at most {max} are possible");
             diagnostics
                 .push(codes::ENTRY_TOO_LONG.at(entry.origin.span, message).label("no struct is generated for the PDO"));
         }
@@ -80,7 +81,8 @@ impl Mapping<'_, '_> {
             match value.word {
                 MappingWord::Object(.., length) => {
                     if let Some(gap) = gap.take() {
-                        let message = format!("an entry of the mapping 0x{index:04X} is empty");
+                        let message =
+                            format!("an entry of the mapping 0x{index:04X} is empty, but later entries are not");
                         self.report(&codes::MAPPING_GAP, gap, message);
                     }
                     self.object(&value);
@@ -114,7 +116,7 @@ impl Mapping<'_, '_> {
         }
         let span = mapping.sub(0).map_or(mapping.origin.span, |item| item.at.configured.or(item.at.default));
         let message = format!(
-            "sub-index 0 declares {}, but {found} of the entries have a value",
+            "sub-index 0 declares {}, but the number of entries with a value is {found}",
             count_of(announced, "mapped object")
         );
         self.report(&codes::MAPPING_COUNT, span.or(mapping.origin.span), message);

@@ -48,8 +48,9 @@ fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
     };
     let outside = |name: &str, mask: u64, value: &Value| {
         let outside = value.as_int().is_some_and(|value| mask != u64::MAX && value & !i128::from(mask) != 0);
-        outside
-            .then(|| format!("has the value {value} for `{}` & {mask:#X}, with bits outside of the mask", brief(name)))
+        outside.then(|| {
+            format!("has the value {value} for `{}` & {mask:#X}, but {value} has bits outside of the mask", brief(name))
+        })
     };
     match step {
         Step::Write(name, value) => {
@@ -93,12 +94,12 @@ fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     let writable = item.behaviour.iter().flat_map(|behaviour| &behaviour.writable_values);
     let writable: Vec<i128> = writable.filter_map(Value::as_int).collect();
     if !writable.is_empty() && !writable.contains(&number) {
-        return Some("which is not one of the writable values".to_owned());
+        return Some("but this value is not one of the writable values".to_owned());
     }
     let (labels, closed) = owner.enumeration(item.ty)?;
     match reserved(labels, number) {
-        None => closed.then(|| "where this value has no name".to_owned()),
-        Some(is_reserved) => is_reserved.then(|| "where this value is reserved".to_owned()),
+        None => closed.then(|| "but this value has no name".to_owned()),
+        Some(is_reserved) => is_reserved.then(|| "but this value is reserved".to_owned()),
     }
 }
 

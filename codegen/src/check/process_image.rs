@@ -25,7 +25,7 @@ pub(super) fn excluded(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     for pdo in &data.pdos {
         let missing = pdo.excludes.iter().find(|index| !known.contains(index));
         if let Some(index) = missing {
-            let message = format!("0x{:04X} excludes 0x{index:04X}, which is not described", pdo.mapping_index);
+            let message = format!("the PDO 0x{:04X} excludes 0x{index:04X}, which is not described", pdo.mapping_index);
             diagnostics.push(codes::EXCLUDED_PDO_MISSING.at(pdo.origin.span, message));
         }
     }
@@ -33,15 +33,18 @@ pub(super) fn excluded(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
 
 fn sync_manager_exists(pdo: &Pdo, data: &ProcessData, diagnostics: &mut Diagnostics) {
     let Some(number) = pdo.sync_manager.filter(|&number| !data.has_sync_manager(number)) else { return };
-    let message = format!("0x{:04X} is assigned to sync manager {number}, which is not described", pdo.mapping_index);
-    diagnostics.push(codes::NO_SUCH_SYNC_MANAGER.at(pdo.origin.span, message).label("left out of the process image"));
+    let message =
+        format!("the PDO 0x{:04X} is assigned to sync manager {number}, which is not described", pdo.mapping_index);
+    diagnostics
+        .push(codes::NO_SUCH_SYNC_MANAGER.at(pdo.origin.span, message).label("left out of the default process image"));
 }
 
 fn conflicts(by_default: &DefaultAssignment, diagnostics: &mut Diagnostics) {
     // The lint `pdo-entries` reports PDOs that share an index.
     for (pdo, other) in by_default.left_out.iter().filter(|(pdo, other)| other.mapping_index != pdo.mapping_index) {
         let (first, second) = (other.mapping_index, pdo.mapping_index);
-        let message = format!("0x{first:04X} and 0x{second:04X} are both assigned by default, but exclude each other");
+        let message =
+            format!("the PDOs 0x{first:04X} and 0x{second:04X} are both assigned by default, but exclude each other");
         let found = codes::DEFAULT_PDOS_CONFLICT.at(pdo.origin.span, message);
         let found = found.label("left out of the default process image");
         diagnostics.push(found.note_at(other.origin.span, "used in the default process image"));
@@ -60,8 +63,9 @@ fn lengths(by_default: &DefaultAssignment, sync_managers: &[SyncManager], diagno
         let number = manager.number;
         let (count, bits) = inside[usize::from(number)];
         if count > MAX_PDO_SUBS {
-            let message =
-                format!("sync manager {number} has {count} default PDOs, but an assignment has at most {MAX_PDO_SUBS}");
+            let message = format!(
+                "sync manager {number} has {count} default PDOs, but an assignment holds at most {MAX_PDO_SUBS}"
+            );
             diagnostics.push(codes::TOO_MANY_PDOS.at(manager.origin.span, message));
         }
         let Some(max) = manager.size_range.1.filter(|&max| max > 0) else { continue };

@@ -35,7 +35,7 @@ fn distinct(uses: &[SubmoduleUse], submodules: &[Submodule], diagnostics: &mut D
 
 fn report(subslot: u16, pair: [Option<&Submodule>; 2], diagnostics: &mut Diagnostics) {
     let [Some(first), Some(second)] = pair else { return };
-    let message = format!("another submodule already has subslot {subslot:#06x}");
+    let message = format!("another submodule already occupies subslot {subslot:#06x}");
     let found = codes::SUBSLOT_TAKEN.at(second.origin.span, message).label("both are kept");
     diagnostics.push(found.note_at(first.origin.span, "the other submodule"));
 }

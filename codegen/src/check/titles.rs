@@ -38,6 +38,6 @@ fn titles<'n>(definition: &TypeDef, names: impl Iterator<Item = &'n str>, diagno
         let message = format!("the name `{}` in `{}` is a column title", brief(name), brief(&definition.name));
         let found = codes::BROKEN_NAME.at(definition.origin.span, message);
         diagnostics
-            .push(found.help("compare the adjacent rows with the manual, because the text of the table has shifted"));
+            .push(found.help("compare the adjacent rows with the manual, because the cells have probably shifted"));
     }
 }

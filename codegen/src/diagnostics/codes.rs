@@ -106,9 +106,9 @@ codes! {
         the reason. Check the path and the permissions. If the command takes a list of files, check the working \
         directory too."
     IO002 UNKNOWN_FORMAT Error Deny "the file is not a device description"
-        "Neither the content nor the name of the file matches a format that Lexibus reads. These are EDS and DCF (CiA \
-        306), XDD and XDC (CiA 311), ESI (ETG.2000), GSDML, and register tables in TOML. The message names the actual \
-        format if Lexibus recognizes it. Check that it is the file you meant."
+        "Neither the content nor the name of the file matches a format that Lexibus reads. The formats are EDS and DCF \
+        (CiA 306), XDD and XDC (CiA 311), ESI (ETG.2000), GSDML, and register tables in TOML. The message names the \
+        actual format if Lexibus recognizes it. Check that this is the right file."
     IO003 INPUT_TOO_LARGE Error Deny "the description exceeds a limit"
         "The file declares more elements, or nests them deeper, than any real device does. Lexibus rejects it, because \
         reading it would take too much time or memory. The module `lexibus_codegen::limits` documents all limits. \
@@ -120,17 +120,17 @@ codes! {
         "ODVA uses the name EDS for descriptions of EtherNet/IP, DeviceNet and ControlNet devices. Their sections are \
         `[File]`, `[Device]` and `[Params]`, and their lists end in `;`. They share only the name and the square \
         brackets with CANopen files. Lexibus rejects the file. Ask the vendor for the CANopen EDS of the device."
-    EDS002 NOT_AN_EDS Error Deny "the file has no section of CiA 306"
+    EDS002 NOT_AN_EDS Error Deny "the file has no section that CiA 306 defines"
         "The file name ends in `.eds` or `.dcf`, but the file has no `[DeviceInfo]`, no object list and no object such \
-        as `[1000]`. It may be a link that was checked out as text. Lexibus rejects it. Check that it is the file you \
-        meant."
+        as `[1000]`. The file may be a symbolic link that was checked out as text. Lexibus rejects the file. Check \
+        that this is the right file."
     EDS003 JUNK_LINE Repair Warn "a line is neither a section header, an entry nor a comment"
         "CiA 306 defines section headers, `Key=Value` entries and comment lines that start with `;`. Any other line is \
-        often a wrapped value, a merge marker or an include of another tool. Lexibus skips the line. Delete it, or \
-        join it with the value that it belongs to."
+        often a wrapped value, a merge marker or an include of another tool. Lexibus skips the line. Delete the line, \
+        or join it with the value that it continues."
     EDS004 ENTRY_OUTSIDE_SECTION Repair Warn "an entry is above the first section"
-        "An entry belongs to the section above it, so an entry without a section has no meaning. Lexibus skips it. \
-        Move it below a section header."
+        "An entry belongs to the section above it, so an entry without a section has no meaning. Lexibus skips the \
+        entry. Move the entry below a section header."
     EDS005 MALFORMED_HEADER Repair Warn "a section header is not `[name]`"
         "A section header is the section name between `[` and `]`. Only a comment may follow it. Lexibus reads a \
         header without `]` up to the end of the line, and skips text after `]`. Close the bracket, or delete the text."
@@ -146,20 +146,20 @@ codes! {
         306 does not define the key, Lexibus keeps both entries. Delete the wrong entry."
     EDS009 LONG_LINE Lint Warn "a line has more than 255 characters"
         "CiA 306 limits a line to 255 characters. Tools with a fixed buffer cut the line, or read the rest as a \
-        separate line. Lexibus reads the whole line. Shorten it if other tools use the file."
+        separate line. Lexibus reads the whole line. Shorten the line if other tools use the file."
     EDS010 ILLEGAL_SECTION_NAME Repair Warn "a section name breaks the grammar of CiA 306"
         "The section of an object is its index in four hexadecimal digits, such as `[2000]`. The section of a \
         sub-index is `[2000sub1]`, with the sub-index in hexadecimal. More leading zeros, a `0x` prefix and blanks are \
         not allowed. Lexibus reads `[0x2000]`, for example, as `[2000]`. Correct the name, because other tools may \
         lose the object."
     EDS011 UNKNOWN_SECTION Lint Warn "a section is not defined in CiA 306"
-        "Often the name is misspelled. Lexibus keeps the entries as extension attributes of the device. Correct the \
-        name, or allow this code if the section is meant for another tool."
+        "The section name is often misspelled. Lexibus keeps the entries as extension attributes of the device. \
+        Correct the name, or allow this code if the section is meant for another tool."
     EDS012 UNKNOWN_KEY Lint Allow "a key is not defined in CiA 306"
         "Lexibus keeps the entry as an extension attribute of its object. Many tools add keys, so this lint is off by \
-        default. Turn it on to find misspelled keys."
+        default. Turn the lint on to find misspelled keys."
     EDS013 NOT_UTF8 Repair Warn "the file is neither ASCII nor UTF-8"
-        "CiA 306 allows only ASCII. This file has bytes that are not valid UTF-8 either. Lexibus reads it as \
+        "CiA 306 allows only ASCII. This file has bytes that are not valid UTF-8 either. Lexibus reads the file as \
         Windows-1252, the usual encoding of German and French tools. Save the file as ASCII or UTF-8."
     EDS014 HASH_COMMENT Repair Warn "a comment starts with `#`"
         "CiA 306 defines only comment lines that start with `;`. Lexibus skips lines that start with `#`. In a value \
@@ -169,11 +169,11 @@ codes! {
         "The value of this key has a fixed form, such as a number, but more text follows it. Lexibus ignores the text, \
         and also the suffix of a C literal, as in `50u`. Delete the text."
     EDS016 QUOTED_VALUE Repair Warn "a text is in quotation marks"
-        "CiA 306 writes texts without quotation marks. Tools that follow the standard show them as part of the name. \
-        Lexibus removes one pair of them. Delete the quotation marks."
+        "CiA 306 writes texts without quotation marks. Tools that follow the standard show the quotation marks as part \
+        of the name. Lexibus removes one pair of quotation marks. Delete the quotation marks."
     EDS020 OCTAL_NUMBER Repair Warn "a number with a leading zero is octal"
-        "In CiA 306, as in C, `012` is the octal number 10. Few authors intend that. Lexibus follows the standard and \
-        reads the number as octal. Write it in decimal or as `0x…`."
+        "In CiA 306, as in C, `012` is the octal number 10. Few authors intend an octal number. Lexibus follows the \
+        standard and reads the number as octal. Write the number in decimal or as `0x…`."
     EDS021 LEADING_ZERO Repair Warn "a number with a leading zero is read as decimal"
         "A leading zero makes a number octal. This number has the digits 8 or 9, or has the same value in octal and \
         decimal. Lexibus reads it as decimal. Delete the leading zero."
@@ -184,38 +184,40 @@ codes! {
         "CiA 306 writes hexadecimal numbers with the prefix `0x`. Lexibus reads `1Fh` as 0x1F. Write the prefix, \
         because other tools may not read the suffix."
     EDS024 TWOS_COMPLEMENT Repair Warn "a signed value is given as a bit pattern"
-        "The number does not fit the signed data type, but its bits do. Lexibus reads it as two's complement: \
+        "The number does not fit the signed data type, but its bits do. Lexibus reads the bits as two's complement: \
         `0xFFFFFFFF` is -1 for an INTEGER32. Write the negative number."
     EDS025 OUT_OF_TYPE Lint Warn "a value does not fit its data type"
-        "The data type cannot hold a value that large or small. Lexibus keeps it in the intermediate representation. \
-        Generated code clamps a limit to the type and leaves out a default value. Correct the value or the data type."
+        "The data type cannot hold a value that large or small. Lexibus keeps the value in the intermediate \
+        representation. Generated code clamps a limit to the type and leaves out a default value. Correct the value or \
+        the data type."
     EDS026 REVERSED_NODEID Repair Warn "a formula does not start with `$NODEID`"
         "CiA 306 requires the form `$NODEID+0x180`. Tools that follow the grammar drop a value in the reverse order. \
-        Lexibus reads it as the standard form. Write `$NODEID` first."
+        Lexibus reads the formula as the standard form. Write `$NODEID` first."
     EDS027 UNKNOWN_FORMULA Repair Warn "a formula has an unknown form"
         "CiA 306 defines only sums of `$NODEID` and numbers. Lexibus keeps any other formula as text. Correct the \
         formula. If it contains another name of the node-ID, declare the name with `--node-id-alias`."
     EDS028 REAL_FOR_INTEGER Repair Warn "a decimal fraction is given for an integer"
         "The data type is an integer, but the number has a decimal point. Lexibus drops a fraction of zero: `20.0` is \
-        20. It keeps any other fraction as text. Write an integer, or correct the data type."
+        20. Lexibus keeps any other fraction as text. Write an integer, or correct the data type."
     EDS029 DECIMAL_COMMA Repair Warn "a real number has a decimal comma"
         "Lexibus reads the comma as the decimal point: `1,5` is 1.5. Other tools may reject the number or drop the \
         digits after the comma. Write a decimal point."
     EDS030 REAL_AS_HEX Repair Warn "a real number has the wrong number of hexadecimal digits"
-        "Lexibus reads exactly 8 digits of a REAL32, or 16 of a REAL64, as the bits of an IEEE 754 number. It reads \
-        any other count of digits as an integer: `0x02` is 2. Write the number in decimal, or all digits of its bits."
+        "Lexibus reads exactly 8 digits of a REAL32, or 16 of a REAL64, as the bits of an IEEE 754 number. Lexibus \
+        reads any other number of digits as an integer: `0x02` is 2. Write the number in decimal, or all digits of its \
+        bits."
     EDS031 DOMAIN_DEFAULT Repair Warn "a domain has a default value"
         "A DOMAIN is a block of data of any length, and has no default value. Lexibus keeps the value as text. Delete \
-        it, or correct the data type."
+        the value, or correct the data type."
     EDS032 NOT_BOOLEAN Repair Warn "a flag is neither 0 nor 1"
         "The key is a flag, such as PDOMapping. Lexibus reads the value by its meaning: `True`, `0x1` and `2` as 1, \
         `no` as 0. Write 0 or 1, because other tools may read the value differently."
     EDS033 UNKNOWN_ACCESS Repair Warn "an access type is not one of ro, wo, rw, rwr, rww, const"
-        "Lexibus reads `r` as ro and `w` as wo. It makes any other item read-only, so that generated code never writes \
-        it by mistake. Write one of the six access types."
+        "Lexibus reads `r` as ro and `w` as wo. Lexibus makes items with any other access type read-only, so that \
+        generated code never writes them by mistake. Write one of the six access types."
     EDS034 MISSING_ACCESS Repair Warn "an object has no access type"
         "AccessType is mandatory except for domains. Lexibus makes the item read-only, so generated code cannot write \
-        it. Add AccessType."
+        the item. Add AccessType."
     EDS035 MISSING_DATA_TYPE Repair Warn "a variable has no data type"
         "DataType is mandatory for variables. Lexibus keeps the item as read-only raw bytes. Add DataType, such as \
         `0x0007` for UNSIGNED32."
@@ -227,54 +229,55 @@ codes! {
         digits for each byte."
     EDS038 EMPTY_NAME Lint Warn "an object has no name"
         "ParameterName is mandatory. Generated code names the object by its index. In a register table, this code also \
-        reports values and bits with an empty label. Add the name."
+        reports values and bits with an empty label. Add the missing name."
     EDS039 COMPLEX_DATA_TYPE Lint Warn "an entry has a reserved data type or the type of a record"
-        "A single value cannot have a record type (0x20 to 0x23) or a reserved code. Lexibus keeps it as raw bytes. \
-        Correct DataType."
+        "A single value cannot have a record type (0x20 to 0x23) or a reserved code. Lexibus keeps the value as raw \
+        bytes. Correct DataType."
     EDS040 ORPHAN_SUB Repair Warn "a sub-index has no object"
-        "The file has a section for a sub-index, but none for its object. Lexibus creates a RECORD without a name to \
-        hold it. Describe the object with ObjectType and SubNumber."
+        "The file has a section for a sub-index, but none for its object. Lexibus creates an unnamed RECORD for the \
+        sub-index. Describe the object with ObjectType and SubNumber."
     EDS041 LISTED_NOT_DESCRIBED Lint Warn "an object is listed but not described"
         "A list names an object that has no section. Lexibus leaves the object out, because nothing is known about it. \
         Add the section, or delete the object from the list."
     EDS042 NOT_LISTED Lint Warn "an object is described but not listed"
         "Every object belongs in `[MandatoryObjects]`, `[OptionalObjects]` or `[ManufacturerObjects]`. Many tools read \
-        only the objects in these lists. Lexibus keeps the object. Add it to its list."
-    EDS043 LIST_COUNT Repair Warn "a list announces a wrong number of entries"
+        only the objects in these lists. Lexibus keeps the object. Add the object to its list."
+    EDS043 LIST_COUNT Repair Warn "the number of entries of a list is wrong"
         "SupportedObjects, or a similar key, is the number of entries, which are numbered from 1. Lexibus uses the \
         entries that exist. Correct the number, because other tools may ignore entries beyond it."
     EDS044 LISTED_TWICE Lint Warn "an object is listed twice"
-        "One entry in the object lists is enough. Lexibus ignores the second one. Delete it."
+        "One entry in the object lists is enough. Lexibus ignores the second entry. Delete the second entry."
     EDS045 WRONG_LIST Lint Warn "an object is in the wrong list"
         "`[MandatoryObjects]` lists 0x1000, 0x1001 and 0x1018. `[ManufacturerObjects]` lists 0x2000 to 0x5FFF. \
-        `[OptionalObjects]` lists all others from 0x1000 on. Lexibus keeps the object. Move it to the right list."
+        `[OptionalObjects]` lists all others from 0x1000 on. Lexibus keeps the object. Move the object to the right \
+        list."
     EDS046 SUB_NUMBER Repair Warn "SubNumber is not the number of sub-indices"
         "SubNumber counts the described sub-indices, including 0 but not 0xFF. Lexibus uses the sections that exist. \
         Correct the number, or add the missing sections."
     EDS047 VAR_WITH_SUBS Repair Warn "a VAR has sub-indices"
-        "An object of type VAR is a single value. This one has sub-indices and no data type, so Lexibus treats it as a \
-        RECORD. Write ObjectType `0x9` for a RECORD or `0x8` for an ARRAY."
+        "An object of type VAR is a single value. This object has sub-indices and no data type, so Lexibus treats the \
+        object as a RECORD. Write ObjectType `0x9` for a RECORD or `0x8` for an ARRAY."
     EDS048 COMPACT_AND_SUBS Repair Warn "CompactSubObj and SubNumber are both given"
         "An object describes its sub-indices one by one, or all at once with CompactSubObj. Lexibus keeps the \
         sub-indices that have a section, and fills the gaps from CompactSubObj. Delete one of the keys."
     EDS049 SUB0_MISMATCH Lint Warn "sub-index 0 does not state the highest sub-index"
         "The default value of sub-index 0 is the highest sub-index (CiA 301, 7.4.3). Tools that read all entries need \
-        it. PDO mappings, PDO assignments and 0x1003 are exempt, because their sub-index 0 is the number of valid \
-        entries. Lexibus keeps the value. Correct it, or describe the missing sub-indices."
+        this number. PDO mappings, PDO assignments and 0x1003 are exempt, because their sub-index 0 is the number of \
+        valid entries. Lexibus keeps the value. Correct the value, or describe the missing sub-indices."
     EDS050 DEFAULT_OUT_OF_LIMITS Lint Warn "a default value is outside of its limits"
-        "The device would reject its own default value, so one of the numbers is wrong. Lexibus keeps them all. In a \
-        register table, this code also reports fixed values (`fixed`), allowed values and writable values. Compare the \
-        numbers with the manual and correct one."
+        "The device would reject its own default value, so one of the numbers is wrong. Lexibus keeps all numbers. In \
+        a register table, this code also reports fixed values (`fixed`), allowed values and writable values. Compare \
+        the numbers with the manual and correct the wrong number."
     EDS051 LIMITS_SWAPPED Lint Warn "the minimum is greater than the maximum"
-        "No value satisfies the limits. Lexibus keeps them, but generated code does not check them. Correct LowLimit \
-        or HighLimit. If one of them has the wrong sign, check the data type too."
+        "No value satisfies the limits. Lexibus keeps the limits, but generated code does not check them. Correct \
+        LowLimit or HighLimit. If one of the limits has the wrong sign, check the data type too."
     EDS052 HEADER_FORMAT Lint Warn "a version, date or time has the wrong form"
         "In CiA 306, versions are whole numbers, and EDSVersion is `x.y`. Dates are `mm-dd-yyyy`, and times are \
-        `hh:mm` with AM or PM. Lexibus keeps the text. Correct its form."
+        `hh:mm` with AM or PM. Lexibus keeps the text. Correct the form of the text."
     EDS053 OLD_EDS_VERSION Lint Warn "the file is older than EDS 4.0"
-        "Files before version 4.0 have no CompactSubObj, no ObjFlags and no `$NODEID` in limits. They also describe \
-        modules differently. A missing EDSVersion means 3.0. Ask the vendor for a newer file, or add EDSVersion if \
-        only the key is missing."
+        "Files before version 4.0 have no CompactSubObj, no ObjFlags and no `$NODEID` in limits. These files also \
+        describe modules differently. A missing EDSVersion means 3.0. Ask the vendor for a newer file, or add \
+        EDSVersion if only the key is missing."
     EDS054 UNRESOLVED_MODULE Lint Warn "a module or extension is announced but not described"
         "The sections of a module are `[M<n>ModuleInfo]`, `[M<n>FixedObjects]`, `[M<n>SubExtends]` and so on. Lexibus \
         keeps an announced module without these sections as an empty one. Add the sections, or correct the list."
@@ -293,12 +296,12 @@ codes! {
         count the entries read it first. Lexibus keeps the object without it. Describe sub-index 0 as an UNSIGNED8."
     EDS059 ARRAY_TYPES Lint Warn "the elements of an array have different types"
         "All elements of an ARRAY have one data type. An object with different types is a RECORD. Lexibus keeps the \
-        types. Correct them, or change the object to a RECORD."
-    EDS060 SUB0_ACCESS Lint Allow "sub-index 0 is writable and its entries are not, or the reverse"
+        types. Correct the types, or change the object to a RECORD."
+    EDS060 SUB0_ACCESS Lint Allow "sub-index 0 is writable and the other sub-indices are not, or the reverse"
         "Sub-index 0 is writable only if the number of valid entries can change, as in a PDO mapping or an error list. \
-        Then the entries are writable too, or writing 0 clears the list. Lexibus keeps the access rights. This lint is \
-        off by default. Compare the access rights with the manual."
-    EDS061 IDENTITY_MISMATCH Lint Warn "object 0x1018 and `[DeviceInfo]` disagree"
+        In such an object, the entries are writable too, or writing 0 clears the list. Lexibus keeps the access \
+        rights. This lint is off by default. Compare the access rights with the manual."
+    EDS061 IDENTITY_MISMATCH Lint Warn "object 0x1018 contradicts `[DeviceInfo]`"
         "VendorNumber, ProductNumber and RevisionNumber are the default values of 0x1018, sub-index 1 to 3. A master \
         that checks the identity of a node would reject the device, or accept another one. Lexibus uses \
         `[DeviceInfo]`. Read 0x1018 from the device and correct the file."
@@ -312,18 +315,18 @@ codes! {
         "The key has a small set or range of values, such as 1 to 127 for a node-ID. Lexibus keeps the value if the \
         intermediate representation can hold it. Correct the value."
     EDS065 COMPACT_WITHOUT_TYPE Lint Warn "a compact object has no data type"
-        "The elements of CompactSubObj have the data type of the object. Lexibus keeps them as read-only raw bytes if \
-        DataType is missing. Add DataType."
+        "The elements of CompactSubObj have the data type of the object. Lexibus keeps the elements as read-only raw \
+        bytes if DataType is missing. Add DataType."
     EDS066 STRUCTURE_ENTRY Lint Warn "sub-index 0xFF is counted as an element"
         "Sub-index 0xFF describes the structure of the object (CiA 301, 7.4.7.2). It is not an element, so SubNumber \
-        does not count it. Lexibus keeps its description. Correct SubNumber."
+        does not count it. Lexibus keeps the description of sub-index 0xFF. Correct SubNumber."
     EDS067 UNKNOWN_OBJECT_TYPE Repair Warn "an object type is unknown"
         "ObjectType is 0 (NULL), 2 (DOMAIN), 5 (DEFTYPE), 6 (DEFSTRUCT), 7 (VAR), 8 (ARRAY) or 9 (RECORD). A sub-index \
         is a VAR or a DOMAIN. Lexibus reads an object with sub-indices as a RECORD and any other as a VAR. Correct \
         ObjectType."
     EDS068 TYPE_AREA_OBJECT Lint Warn "an object is in the data type area"
-        "Objects below 0x1000 define data types. They have the object type DEFTYPE or DEFSTRUCT, and no value to read. \
-        Lexibus keeps the object as described. Correct the index or ObjectType."
+        "Objects below 0x1000 define data types. Such objects have the object type DEFTYPE or DEFSTRUCT, and no value \
+        to read. Lexibus keeps the object as described. Correct the index or ObjectType."
     EDS069 MISSING_SECTION Lint Warn "a mandatory section is missing"
         "An EDS has the sections `[FileInfo]`, `[DeviceInfo]` and `[MandatoryObjects]`. A file that describes modules \
         has `[SupportedModules]`. Lexibus reads the sections that exist. Add the missing section, because other tools \
@@ -339,29 +342,30 @@ codes! {
         "A tag is not closed, an attribute is not quoted, or the file is cut off. Lexibus cannot read beyond this \
         position and rejects the file. Correct the XML, or get a complete copy of the file."
     XML002 ENTITY_REFERENCE Repair Warn "an entity is not defined in XML"
-        "XML defines the entities `&amp;`, `&lt;`, `&gt;`, `&quot;` and `&apos;`. Lexibus expands no others, so that a \
-        small file cannot grow into a large one. It keeps the reference as text. Write the character itself, and \
-        `&amp;` for `&`."
+        "XML defines the entities `&amp;`, `&lt;`, `&gt;`, `&quot;` and `&apos;`. Lexibus expands no other entities, \
+        so that a small file cannot grow into a large one. Lexibus keeps other references as text. Write the character \
+        itself, and `&amp;` for `&`."
     XML003 WRONG_ENCODING Repair Warn "the file is not in its declared encoding"
         "The XML declaration names an encoding. The default is UTF-8. Lexibus reads bytes that are valid UTF-8 as \
-        UTF-8, whatever is declared. It reads other bytes in the declared encoding, or as Windows-1252 if that fails. \
-        Bytes without a character in that encoding are lost. Declare the actual encoding."
+        UTF-8, whatever is declared. Lexibus reads other bytes in the declared encoding, or as Windows-1252 if that \
+        fails. Bytes without a character in that encoding are lost. Declare the actual encoding."
     XML004 SECOND_ROOT Repair Warn "content follows the root element"
-        "A document has one root element, and only comments may follow it. Often the rest of an older, longer version \
-        of the file is left. Lexibus ignores the content. Delete it."
+        "A document has one root element, and only comments may follow it. The content is often the rest of an older, \
+        longer version of the file. Lexibus ignores the content. Delete the content."
     XML005 REFERENCED_FILE Lint Warn "a referenced file was not read"
         "Lexibus follows references only to files in the folder of the description and in folders below it. The \
-        content of the referenced file is missing. Put the file there, under the name in the reference."
+        content of the referenced file is missing. Put the file into one of these folders, under the name in the \
+        reference."
     ESI001 ESI_VALUE Repair Warn "a text or attribute has an unknown form"
         "ETG.2000 fixes the form of the value, such as a decimal number, `#x` with hexadecimal digits, or one of a few \
         words. Lexibus leaves the value out, or keeps it as text if the intermediate representation can hold it. \
         Correct the value."
     ESI002 ESI_UNKNOWN_ELEMENT Lint Allow "an element or attribute is not defined in ETG.2000"
-        "Lexibus keeps it as an extension attribute. Tools add elements outside of VendorSpecific, so this lint is off \
-        by default. Turn it on to find misspelled names."
+        "Lexibus keeps the element or attribute as an extension attribute. Tools add elements outside of \
+        VendorSpecific, so this lint is off by default. Turn the lint on to find misspelled names."
     ESI003 BARE_HEX Repair Warn "a hexadecimal number has no `#x`"
-        "A number is decimal unless it starts with `#x`. This one has hexadecimal letters, so Lexibus reads it as \
-        hexadecimal. It reads numbers without letters as decimal, although the author may have meant them as \
+        "A number is decimal unless it starts with `#x`. This number has hexadecimal letters, so Lexibus reads it as \
+        hexadecimal. Lexibus reads numbers without letters as decimal, although the author may have meant them as \
         hexadecimal too. Write `#x` before all hexadecimal numbers."
     ESI010 UNRESOLVED_TYPE Repair Warn "a data type is unknown"
         "The name is neither a DataType of this dictionary nor a basic type (ETG.1000.6), or the DataType defines only \
@@ -369,26 +373,26 @@ codes! {
         UINT."
     ESI011 TYPE_ALIAS Lint Allow "a basic type has a name of another standard"
         "ETG.1000.6 calls the basic types USINT, UINT, UDINT and so on. This file uses the name of the same type in \
-        CiA 301 or C, such as UNSIGNED16. Lexibus reads it as the basic type. This lint is off by default. Use the \
-        name of ETG.1000.6 if another tool requires it."
+        CiA 301 or C, such as UNSIGNED16. Lexibus reads the name as the basic type. This lint is off by default. Use \
+        the name of ETG.1000.6 if another tool requires it."
     ESI012 GUESSED_TYPE Repair Warn "a data type was guessed from the beginning of its name"
         "The name begins with a basic type (`UINT_hex`), the sizes agree, and nothing else defines the type. Lexibus \
         uses the basic type. Define the type, or use the name of the basic type."
     ESI013 DUPLICATE_TYPE Repair Warn "two data types have the same name"
-        "A reference can mean either type. Lexibus uses the first one, as most tools do. Rename one of them."
+        "A reference can mean either type. Lexibus uses the first type, as most tools do. Rename one of the types."
     ESI014 SUB_ITEM_NAME Lint Warn "a sub-item has no unique name"
-        "The name is missing, or another sub-item of the data type has the same one. Generated code distinguishes them \
-        by sub-index. Give each sub-item a unique name."
+        "The name is missing, or another sub-item of the data type has the same name. Generated code distinguishes the \
+        sub-items by sub-index. Give each sub-item a unique name."
     ESI015 ENDLESS_TYPE Repair Warn "a data type contains itself"
-        "A BaseType or SubItem leads back to the data type, or there are too many levels. Lexibus keeps that part as \
-        raw bytes. Correct the reference."
+        "A BaseType or SubItem leads back to the data type, or there are too many levels. Lexibus keeps the nested \
+        data as raw bytes. Correct the reference."
     ESI016 MISSING_BASE_TYPE Repair Warn "an enumeration or array has no usable BaseType"
         "BaseType is the integer type of an enumeration, or the element type of an array. Lexibus reads an enumeration \
-        without it as an unsigned integer of its BitSize, and keeps an array as raw bytes. Add BaseType."
+        without BaseType as an unsigned integer of its BitSize, and keeps an array as raw bytes. Add BaseType."
     ESI017 ARRAY_BOUNDS Repair Warn "the number of elements of an array is missing or wrong"
         "ArrayInfo has LBound and Elements, and BitSize is the size of all elements together. Lexibus derives a \
-        missing number from the sizes, and uses any other number. An array has at most three dimensions, and Lexibus \
-        leaves out the others. Correct ArrayInfo or BitSize."
+        missing number of elements from the sizes, and otherwise uses the declared number. An array has at most three \
+        dimensions, and Lexibus leaves out further dimensions. Correct ArrayInfo or BitSize."
     ESI018 SUB_ITEM_MISMATCH Repair Warn "the sub-items of an object do not match its data type"
         "Lexibus finds the sub-item of the data type by name. If the data type has no such name, Lexibus uses the \
         position. Values may then belong to the wrong sub-index. Use the names of the data type."
@@ -396,148 +400,150 @@ codes! {
         "The size of an object or data type contradicts the type that it consists of. The diagnostic says which size \
         Lexibus uses. Correct BitSize or the type."
     ESI020 ODD_HEX Repair Warn "the number of hexadecimal digits is odd"
-        "Two digits are one byte. Lexibus adds a zero before the first digit. Write all digits, and check that none \
-        was lost."
+        "Two digits are one byte. Lexibus adds a zero before the first digit. Write all digits, and check that no \
+        digit was lost."
     ESI021 HEX_LENGTH Lint Warn "DefaultData, MinData or MaxData does not have the length of the type"
         "The bytes are in the order of memory: the least significant byte comes first. Lexibus reads missing bytes as \
-        zeros and drops surplus zeros. If there are other surplus bytes, it keeps the value as bytes. Write as many \
-        bytes as the type has."
+        zeros and drops surplus zeros. Lexibus keeps the value as bytes if there are other surplus bytes. Write as \
+        many bytes as the type has."
     ESI022 ESI_OUT_OF_TYPE Lint Warn "a value does not fit its data type"
-        "The data type cannot hold a value that large or small. Lexibus keeps it in the intermediate representation. \
-        Generated code clamps a limit to the type and leaves out a default value. Correct the value or the data type."
+        "The data type cannot hold a value that large or small. Lexibus keeps the value in the intermediate \
+        representation. Generated code clamps a limit to the type and leaves out a default value. Correct the value or \
+        the data type."
     ESI023 VALUE_FORM Repair Warn "a value has the form of another type"
         "Examples are a fraction for an integer, and a text for a number. Lexibus converts the value if it can mean \
         only one thing. Otherwise it keeps the value as text. Write the value in the form of its type."
     ESI024 MINUS_ONE Repair Warn "-1 is given for an unsigned integer"
-        "In C, -1 is an unsigned integer with all bits set. Lexibus reads it as this number. Write the unsigned \
-        number."
+        "In C, -1 is an unsigned integer with all bits set. Lexibus reads -1 as this number. Write the unsigned number."
     ESI025 SUB_ITEM_PLACE Lint Warn "a sub-item shares bits with another, or exceeds its data type"
-        "BitOffs and BitSize state the position of a sub-item in the whole value, and BitSize of the data type the \
-        length of that value. CoE complete access transfers the whole value, so a wrong position mixes up the \
-        sub-items. Lexibus keeps them. Correct BitOffs or BitSize."
+        "BitOffs and BitSize of a sub-item state its position in the whole value. BitSize of the data type states the \
+        length of the whole value. CoE complete access transfers the whole value, so a wrong position mixes up the \
+        sub-items. Lexibus keeps the sub-items. Correct BitOffs or BitSize."
     ESI030 ESI_MISSING_ACCESS Lint Warn "an object has no access rights"
-        "The flags of an object or sub-item contain Access: ro, rw or wo. Lexibus makes an item without it read-only, \
-        so that generated code never writes it by mistake. Add Access."
+        "The flags of an object or sub-item contain Access: ro, rw or wo. Lexibus makes an item without Access \
+        read-only, so that generated code never writes the item by mistake. Add Access."
     ESI031 UNKNOWN_FLAG Repair Warn "a flag has an unknown value"
         "Access is ro, rw or wo. Category is m, o or c. PdoMapping is R, T or RT. SafetyMapping is si, so, sio or sp. \
-        The diagnostic says how Lexibus reads the value. Write one of the values above."
+        The diagnostic says how Lexibus reads the value. Write one of these values."
     ESI032 ESI_DUPLICATE_OBJECT Repair Warn "an object or sub-index occurs twice"
-        "An index must be unique in a device, and a sub-index in its object. Lexibus uses the first one and leaves out \
-        the second. Delete the wrong one."
+        "An index must be unique in a device, and a sub-index in its object. Lexibus uses the first definition and \
+        leaves out the second one. Delete the wrong definition."
     ESI033 ESI_MISSING_INDEX Repair Warn "an object, PDO entry or module has no usable number"
         "An object without an index cannot be addressed. A module without an ident number fits no slot. Lexibus leaves \
-        both out. It keeps a PDO entry without an index if the entry has a name and a type, and otherwise reads it as \
-        padding. Add the number."
+        out such objects and modules. Lexibus keeps a PDO entry without an index if the entry has a name and a type, \
+        and otherwise reads the entry as padding. Add the number."
     ESI034 SUB_INDEX_RANGE Repair Warn "an object has more than 255 sub-indices"
         "A sub-index is a number of one byte. Lexibus keeps an array with too many elements as one value, and leaves \
         out a sub-item after sub-index 255. Check the number of elements of the array, which is often wrong."
     ESI040 SYNC_MANAGER_PURPOSE Repair Warn "the purpose of a sync manager is unknown"
-        "The text of Sm is MBoxOut, MBoxIn, Outputs or Inputs. Otherwise, Lexibus derives the purpose from the PDOs \
-        that name the sync manager, or from its control byte or position. Write one of the four words."
+        "The text of Sm is MBoxOut, MBoxIn, Outputs or Inputs. If Sm has another text, Lexibus derives the purpose \
+        from the PDOs that name the sync manager, or from its control byte or position. Write one of the four words."
     ESI041 PDO_WITHOUT_INDEX Repair Warn "a PDO has no index"
         "Lexibus keeps the entries, but the PDO cannot be assigned to a sync manager. In an old file, Ref of a PDO \
         names a template: a Pdo with this RefName in Descriptions/Pdos of the same file. Add the index or the \
         template."
     ESI042 DUPLICATE_PDO Lint Warn "two PDOs have the same index"
-        "Some devices offer a PDO on two sync managers, of which only one can be assigned. Lexibus keeps \
-        both. Correct the index, or allow this code if the device works this way."
+        "Some devices offer a PDO on two sync managers, of which only one can be assigned. Lexibus keeps both PDOs. \
+        Correct the index, or allow this code if the device works this way."
     ESI043 UNNAMED_PDO Lint Warn "a PDO has no name"
-        "Name is mandatory. Generated code names the PDO by its index. Add the name."
+        "Name is mandatory. Generated code names the PDO by its index. Add the name of the PDO."
     ESI044 ENTRY_LENGTH Lint Warn "the length of a PDO entry is not that of its data type"
         "Lexibus uses BitLen for the layout and DataType for the type. A wrong BitLen shifts all entries after it. \
-        Compare both with the manual and correct one."
+        Compare BitLen and DataType with the manual, and correct the wrong one."
     ESI050 DUPLICATE_MODULE Lint Warn "two modules have the same ident number"
-        "A device identifies a module by its ident number. Lexibus keeps both modules. Correct one of the numbers."
+        "A device identifies a module by its ident number. Lexibus keeps both modules. Correct one of the ident \
+        numbers."
     ESI051 NO_MODULE_FITS Lint Warn "no module fits into a slot"
         "The slot names ident numbers or classes that no module has, neither in this description nor in the files that \
         it references. Lexibus leaves the slot empty. Put the file with the modules next to the description, or \
         correct the slot."
-    ESI060 MISSING_IDENTITY Lint Warn "the number of the vendor or product is missing"
+    ESI060 MISSING_IDENTITY Lint Warn "the vendor ID or product code is missing"
         "A master finds the description of a slave by vendor number, product code and revision. Lexibus reads the file \
-        without the number. Add Id of the vendor, or ProductCode of the device."
+        without the number. Add the Id of the vendor, or the ProductCode of the device."
     XDD002 POWERLINK_XDD Error Deny "the file is an Ethernet POWERLINK XDD, not a CANopen XDD"
         "Ethernet POWERLINK uses XDD files with the same outer elements (EPSG 311), but other communication profiles. \
         Lexibus rejects the file. Ask the vendor for the CANopen XDD of the device."
     XDD003 NOT_A_CANOPEN_XDD Error Deny "the XML is not a CANopen device description"
-        "The root element of an XDD or XDC is ISO15745ProfileContainer or ISO15745Profile. It contains a profile body \
-        for the device and one for the CANopen communication network. Lexibus rejects any other file. Check that it is \
-        the file you meant."
+        "The root element of an XDD or XDC is ISO15745ProfileContainer or ISO15745Profile. The root element contains a \
+        profile body for the device and one for the CANopen communication network. Lexibus rejects any other file. \
+        Check that this is the right file."
     XDD004 DANGLING_REFERENCE Repair Warn "a uniqueIDRef has no target"
         "An object, template or text refers to an element by its uniqueID, and no element has it. Lexibus ignores the \
         reference, so the content of the target is missing. Correct the uniqueID, or add the element."
     XDD005 UNKNOWN_ELEMENT Lint Allow "an element or attribute is not defined in CiA 311"
-        "Lexibus keeps it as an extension attribute if it has a value. This lint is off by default. Turn it on to find \
-        misspelled names."
+        "Lexibus keeps the element or attribute as an extension attribute if it has a value. This lint is off by \
+        default. Turn the lint on to find misspelled names."
     XDD006 XDD_VALUE Repair Warn "the value of an attribute has an unknown form"
         "CiA 311 fixes the form of the attribute. Indices and data types, for example, are hexadecimal digits without \
-        a prefix. Lexibus skips a prefix. It leaves out any other value, or keeps it as text if the intermediate \
+        a prefix. Lexibus skips a prefix. Lexibus leaves out any other value, or keeps it as text if the intermediate \
         representation can hold it. Correct the value."
     XDD007 DUPLICATE_OBJECT Repair Warn "an object or sub-object occurs twice"
-        "An index must be unique in an object list, and a sub-index in its object. Lexibus uses the last one. Delete \
-        the wrong one."
+        "An index must be unique in an object list, and a sub-index in its object. Lexibus uses the last definition. \
+        Delete the wrong definition."
     XDD008 MISSING_INDEX Repair Warn "an object has no usable index"
-        "An object needs an index and a sub-object a sub-index, in hexadecimal digits. Otherwise it cannot be \
-        addressed, and Lexibus leaves it out. Add the index or sub-index."
+        "An object needs an index and a sub-object a sub-index, in hexadecimal digits. Lexibus leaves out objects and \
+        sub-objects without such a number, because they cannot be addressed. Add the index or sub-index."
     GSD001 NOT_A_GSDML Error Deny "the XML is not a GSDML file"
         "A GSDML file has the root element ISO15745Profile, which contains a ProfileBody with an ApplicationProcess. \
-        This file has another root element, and Lexibus rejects it. Check that it is the file you meant."
+        This file has another root element, and Lexibus rejects it. Check that this is the right file."
     GSD002 NO_DEVICE_ACCESS_POINT Lint Warn "a GSDML file describes no device"
-        "Every DeviceAccessPointItem is a device. Lexibus has nothing to generate code for if there is none. Check \
+        "Every DeviceAccessPointItem is a device. Without a device, Lexibus has nothing to generate code for. Check \
         that the file is complete."
     GSD003 GSDML_FILE_NAME Lint Allow "the name of a GSDML file has the wrong form"
         "Engineering tools look for names such as `GSDML-V2.35-Vendor-Device-20200131.xml`, with the version of the \
-        schema after `V`. Some reject other names. Lexibus recognizes the file by its content, so this lint is off by \
-        default. Rename the file if you use it in such a tool."
+        schema after `V`. Some tools reject other names. Lexibus recognizes the file by its content, so this lint is \
+        off by default. Rename the file if you use it in such a tool."
     GSD004 UNKNOWN_GSDML_ELEMENT Lint Allow "an element or attribute is not defined in GSDML V2.35"
-        "Lexibus keeps it as an extension attribute. Files of later versions have such elements, so this lint is off \
-        by default. Turn it on to find misspelled names."
+        "Lexibus keeps the element or attribute as an extension attribute. Files of later versions have such elements, \
+        so this lint is off by default. Turn the lint on to find misspelled names."
     GSD005 GSDML_VALUE Repair Warn "the value of an attribute has an unknown form"
         "The schema fixes the form of the attribute, such as a decimal number, `true`, or a list like `1..3 7`. \
-        Lexibus reads a value that can mean only one thing, and leaves out any other. Correct the value."
+        Lexibus reads a value that can mean only one thing, and leaves out any other value. Correct the value."
     GSD006 GSDML_MISSING Repair Warn "a mandatory attribute or element is missing"
-        "The schema requires the attribute or element. The diagnostic says what Lexibus assumes without it. Add it, \
-        because engineering tools may reject the file."
+        "The schema requires the attribute or element. The diagnostic says what Lexibus assumes instead. Add the \
+        attribute or element, because engineering tools may reject the file."
     GSD007 ATTRIBUTE_CASE Repair Warn "the name of an attribute has the wrong case"
-        "XML is case-sensitive, so engineering tools do not see the attribute. Lexibus reads it all the same. Write \
-        its name as in the schema."
-    GSD008 MISSING_TEXT Repair Warn "a text is not in the text list"
+        "XML is case-sensitive, so engineering tools do not see the attribute. Lexibus reads the attribute all the \
+        same. Write the name as in the schema."
+    GSD008 MISSING_TEXT Repair Warn "a text is missing in the text list"
         "Names are references to ExternalTextList. Lexibus uses the identifier as the name if the list does not \
         contain it. Add the text to the list."
     GSD009 MISSING_TRANSLATION Lint Warn "a language lacks texts that the primary language has"
         "Readers of that language see these texts in the primary language, which is English. Add the translations."
     GSD010 DUPLICATE_ID Repair Warn "an identifier, text, language or element occurs twice"
         "An ID must be unique among the elements of one kind. Texts and languages must be unique in the text list, and \
-        some elements in their parent. The diagnostic says which one Lexibus uses. References lead to the first one. \
-        Rename or delete the duplicate."
+        some elements in their parent. The diagnostic says which of them Lexibus uses. References refer to the first \
+        element with the ID. Rename or delete the duplicate."
     GSD011 UNRESOLVED_TARGET Repair Warn "a reference has no target"
         "An attribute such as ModuleItemTarget names an element by its ID, and no element of that kind has it. IDs are \
         case-sensitive. Lexibus ignores the reference, so the content of the target is missing. Correct the ID, or add \
         the element."
     GSD012 UNKNOWN_GSDML_TYPE Repair Warn "a data type is unknown"
-        "The name is not a data type of GSDML. Lexibus accepts a name in the wrong case. It keeps any other value as \
-        raw bytes of the given length. Without a length, the value takes no space, and the offsets after it may be \
-        wrong. Correct the data type."
+        "The name is not a data type of GSDML. Lexibus accepts a name in the wrong case. Lexibus keeps values of any \
+        other type as raw bytes of the given length. Without a length, the value takes no space, and the offsets after \
+        it may be wrong. Correct the data type."
     GSD013 GSDML_DEFAULT Repair Warn "a default value does not have the form of its data type"
         "Numbers are decimal, octets are written as `0x00,0x1F`, and a bit is 0 or 1. Lexibus reads a hexadecimal \
         number, and keeps any other value as text. Correct the value."
     GSD014 ALLOWED_VALUES Repair Warn "a part of AllowedValues is neither a number nor a range"
-        "The list contains numbers and ranges, separated by blanks: `0..4 7 9`. Lexibus swaps the ends of a range in \
-        descending order, and leaves out any other part. Correct the list."
+        "The list contains numbers and ranges, separated by blanks: `0..4 7 9`. Lexibus swaps the limits of a \
+        descending range, and leaves out any other part. Correct the list."
     GSD015 RECORD_BOUNDS Lint Warn "a parameter or constant exceeds its record"
         "The content of the record is longer than its Length. A device rejects a record of the wrong length. Lexibus \
         keeps the content. Correct Length, ByteOffset or the data type."
     GSD016 PARAMETERS_OVERLAP Lint Warn "two parameters of a record share bits"
-        "Writing one parameter changes the other. Lexibus keeps both. Correct the offset or data type of one."
+        "Writing one parameter changes the other. Lexibus keeps both parameters. Correct the offset or data type of \
+        one parameter."
     GSD017 BIT_DATA_ITEM Repair Warn "a named bit does not match its data item"
         "A BitDataItem names a bit of a data item with UseAsBits. The bit must be within the length of the item and \
         have only one name. Lexibus leaves out any other bit. It reads the item as bits even if UseAsBits is missing. \
         Correct the data item."
     GSD018 IO_LENGTH Lint Warn "a module has more data than its device exchanges"
         "MaxInputLength, MaxOutputLength and MaxDataLength limit the data of all submodules, including their status \
-        bytes. The device cannot use a module that exceeds them. Lexibus keeps the module. Correct the lengths."
+        bytes. The device cannot use a module that exceeds these limits. Lexibus keeps the module. Correct the lengths."
     GSD019 RECORD_SIZE Lint Warn "a record is longer than the device accepts"
         "MaxSupportedRecordSize is the maximum length of a record, 4068 bytes by default. The device rejects a longer \
-        record. Lexibus keeps the record. Correct its Length or MaxSupportedRecordSize."
+        record. Lexibus keeps the record. Correct the Length of the record or MaxSupportedRecordSize."
     GSD020 SLOT_RANGE Lint Warn "a module is for slots that the device does not have"
         "PhysicalSlots lists the slots of the device. The other slots that the module names cannot be used. Lexibus \
         keeps the module. Correct PhysicalSlots or the slots of the module."
@@ -564,7 +570,7 @@ codes! {
         for the layout. Correct the mapping or the data type."
     PDO006 MAPPING_GAP Lint Warn "a PDO mapping has a gap"
         "An entry is empty, but later entries are not. Lexibus ignores the empty entry and keeps the order of the \
-        later ones. Fill the entry, or move the later ones up."
+        later entries. Fill the empty entry, or move the later entries up."
     PDO007 UNMAPPABLE_TYPE Lint Warn "a PDO maps a type of variable length"
         "Strings and domains have no fixed length, so they cannot be mapped unless the device fixes their length. \
         Lexibus keeps the entry. Compare the mapping with the manual."
@@ -572,36 +578,37 @@ codes! {
         "Dummy entries (0x0001 to 0x0007) reserve space in an RPDO. A TPDO must not contain any (CiA 301, 7.4.9). \
         Lexibus keeps the entry. Map an object of the device instead."
     PDO009 DUMMY_NOT_SUPPORTED Lint Warn "a PDO maps a dummy entry that `[DummyUsage]` excludes"
-        "`[DummyUsage]` lists the data types that the device accepts as dummy entries. This one is missing or 0 there. \
-        Lexibus keeps the entry. Correct the mapping or `[DummyUsage]`."
+        "`[DummyUsage]` lists the data types that the device accepts as dummy entries. The data type of this entry is \
+        missing in `[DummyUsage]`, or is 0. Lexibus keeps the entry. Correct the mapping or `[DummyUsage]`."
     PDO010 PDO_COUNT Lint Warn "NrOfRXPDO or NrOfTXPDO is not the number of PDOs"
-        "The file describes more PDOs than `[DeviceInfo]` announces. Or it describes fewer, and no CompactPDO \
+        "The file describes more PDOs than `[DeviceInfo]` announces. Or it describes fewer PDOs, and no CompactPDO \
         describes the others. Lexibus uses the described PDOs. Correct the number, or describe the missing PDOs."
     PDO011 GRANULARITY Lint Warn "a mapping is finer than the granularity of the device"
-        "Granularity is the smallest unit of mapping in bits: 8 for bytes, 1 for bits. It is 0 if mappings are fixed. \
-        The length of this entry is not a multiple of it. Lexibus keeps the entry. Correct the mapping or Granularity."
+        "Granularity is the smallest unit of mapping in bits: 8 for bytes, 1 for bits. Granularity is 0 if mappings \
+        are fixed. The length of this entry is not a multiple of Granularity. Lexibus keeps the entry. Correct the \
+        mapping or Granularity."
     PDO012 MULTIPLEXED_PDO Lint Warn "a device without multiplexed PDOs describes one"
         "Sub-index 0 of the mapping is 254 or 255, which marks a multiplexed PDO. GroupMessaging is 0, which means \
-        that the device has none. Correct one of the two."
-    PDO013 PDO_COUNT_1004 Lint Warn "object 0x1004 and `[DeviceInfo]` disagree"
-        "The upper 16 bits of 0x1004 are the number of RPDOs, the lower 16 bits the number of TPDOs. They differ from \
-        NrOfRXPDO and NrOfTXPDO. Lexibus uses the described PDOs. Correct the wrong number."
+        that the device has none. Correct sub-index 0 or GroupMessaging."
+    PDO013 PDO_COUNT_1004 Lint Warn "object 0x1004 contradicts `[DeviceInfo]`"
+        "The upper 16 bits of 0x1004 are the number of RPDOs, the lower 16 bits the number of TPDOs. These numbers \
+        differ from NrOfRXPDO and NrOfTXPDO. Lexibus uses the described PDOs. Correct the wrong number."
     PDO014 HALF_A_PDO Lint Warn "a PDO has a communication or a mapping object, but not both"
-        "Two objects describe a PDO: 0x1400+n and 0x1600+n an RPDO, 0x1800+n and 0x1A00+n a TPDO. One of them is \
-        missing. Describe it."
+        "Two objects describe a PDO: 0x1400+n and 0x1600+n describe an RPDO, 0x1800+n and 0x1A00+n a TPDO. One of the \
+        two objects is missing. Describe the missing object."
     PDO015 MAPPING_UNREADABLE Lint Warn "a PDO mapping entry is not a number"
-        "A mapping entry is index, sub-index and length in bits, in one UNSIGNED32. It cannot depend on the node-ID. \
-        Lexibus ignores the entry. Write the number."
-    PDO016 MAPPING_COUNT Lint Warn "sub-index 0 of a mapping and its entries disagree"
-        "Sub-index 0 is the number of mapped objects. It announces more entries than have a value. Lexibus uses the \
-        entries with a value. Correct the number, or fill the entries."
-    PDO017 UNCLEAR_DIRECTION Lint Allow "the access type of a mapped object states no direction"
+        "A mapping entry consists of index, sub-index and length in bits, in one UNSIGNED32. An entry cannot depend on \
+        the node-ID. Lexibus ignores the entry. Write the entry as a number."
+    PDO016 MAPPING_COUNT Lint Warn "sub-index 0 of a PDO mapping exceeds the number of its entries"
+        "Sub-index 0 is the number of mapped objects. This number is greater than the number of entries with a value. \
+        Lexibus uses the entries with a value. Correct sub-index 0, or fill the entries."
+    PDO017 UNCLEAR_DIRECTION Lint Allow "the access type of a mapped object does not state the PDO direction"
         "CiA 306 has rwr for objects in a TPDO and rww for objects in an RPDO. Plain rw allows both directions, and a \
-        tool cannot know which one the device means. This lint is off by default. Write rwr or rww if the object has \
-        one direction."
+        tool cannot know which one the device means. This lint is off by default. Write rwr or rww if the object can \
+        be mapped in only one direction."
     PDO018 DEFAULT_PDOS_CONFLICT Lint Warn "two PDOs that exclude each other are both assigned by default"
-        "A PDO with an Sm is assigned by default. It cannot be assigned together with a PDO that it excludes, and the \
-        slave rejects both. Lexibus puts the first one into the default process image, and the other one stays \
+        "A PDO with an Sm is assigned by default. This PDO cannot be assigned together with a PDO that it excludes, \
+        and the slave rejects both. Lexibus puts the first PDO into the default process image, and the other PDO stays \
         selectable. Delete Sm of one PDO."
     PDO019 NO_SUCH_SYNC_MANAGER Lint Warn "a PDO is assigned to a sync manager that is not described"
         "Sm of a PDO is the position of an Sm element, counted from 0. Lexibus leaves the PDO out of the default \
@@ -622,57 +629,57 @@ codes! {
         "The assignment object of a sync manager has 254 sub-indices, so no master can write a longer list. Generated \
         code has no `STARTUP`. Assign fewer PDOs by default."
     TAB001 REGISTER_FORMULA Lint Warn "an object does not match the rule for its register"
-        "The rule of a space derives the object from the register number. This row names another object, or names none \
-        although the rows around it do. Lexibus uses what the row says. One of the two numbers is probably misprinted. \
-        Compare the neighboring rows, record the ambiguity in `doubt`, and `allow` this code on the row."
+        "The rule of a space derives the object from the register number. This row names another object, or names no \
+        object although the neighboring rows do. Lexibus uses the object of the row. One of the two numbers is \
+        probably misprinted. Compare the neighboring rows, record the ambiguity in `doubt`, and `allow` this code on \
+        the row."
     TAB002 TABLE_SYNTAX Error Deny "a register table is not valid TOML"
         "The file name ends in `.toml`, or the file begins like a register table, but it breaks the grammar of TOML \
         1.1. Lexibus rejects the whole file. Correct the marked line."
     TAB003 UNKNOWN_TABLE_KEY Error Deny "a key is not defined in the table format"
         "Lexibus ignores the key, reads the rest and produces no output. `dictionaries/README.md` lists all keys. \
-        `lexibus schema` prints a JSON Schema that lets editors complete them. Correct the key."
+        `lexibus schema` prints a JSON Schema that lets editors complete the keys. Correct the key."
     TAB004 TABLE_VALUE Error Deny "a value is not valid for its key"
-        "The message says what is expected. Lexibus leaves out the row with the value, or the part of the row, and \
-        produces no output. Correct the value."
+        "The message says what is expected. Lexibus leaves out the affected row or part of the row, and produces no \
+        output. Correct the value."
     TAB005 UNRESOLVED_NAME Error Deny "a name has no definition"
         "Rows refer to units, bit fields, enumerations, spaces, models, options and other items by name. Nothing of \
         the required kind has this name. Lexibus suggests the most similar name and produces no output. Correct the \
         name, or add the definition."
     TAB006 TABLE_PLACE Error Deny "an address, a range or a bit number cannot be read"
         "Write registers as `63` or `\"63-64\"`, and objects as `0x6040` or `\"0x1018:1\"`. Write ranges of objects as \
-        `\"0x1400..0x1403:1\"`, and bits as `7` or `\"3-2\"`. Lexibus produces no output until all of them are \
-        correct."
+        `\"0x1400..0x1403:1\"`, and bits as `7` or `\"3-2\"`. Lexibus produces no output until all addresses, ranges \
+        and bit numbers are correct."
     TAB007 TABLE_DUPLICATE Error Deny "a name or an address occurs twice"
         "Names of registers become Rust names, and an address has one value. Lexibus produces no output if a name, an \
-        address or an index is not unique. Correct the wrong one. If the manual has one name for two registers, add a \
-        suffix to one of them and a `doubt`."
+        address or an index is not unique. Correct the wrong name, address or index. If the manual has one name for \
+        two registers, add a suffix to one of them and a `doubt`."
     TAB008 ROW_WITHOUT_ADDRESS Error Deny "a row has no address"
         "An item needs an address on a bus of the device. Write `reg` for a register, `obj` for an object, `param` for \
-        a parameter, `ascii` for a name, or `esc` for an EtherCAT slave controller. Lexibus produces no output without \
-        it."
+        a parameter, `ascii` for a name, or `esc` for an EtherCAT slave controller. Lexibus produces no output if a \
+        row has no address."
     TAB009 REGISTER_SPAN Lint Warn "the printed register numbers do not match the type"
         "A value of 32 bits takes two registers of 16 bits. Lexibus uses the type. Compare the type and the printed \
-        numbers with the manual, and correct one."
+        numbers with the manual, and correct the wrong one."
     TAB010 ACCESS_NOT_GIVEN Lint Warn "an item has no access rights"
         "Neither the row nor the defaults of its chapter or file have `access`. Lexibus makes the item read-only, so \
-        generated code cannot write it. Add `access` to the row or to `defaults`."
+        generated code cannot write the item. Add `access` to the row or to `defaults`."
     TAB011 UNKNOWN_UNIT Lint Warn "a unit is unknown"
         "A unit is an SI symbol, a symbol that is usual for drives, or a name in `[units]`, which defines its symbol \
         and scale. An unknown symbol is often a misspelled name, and then the scale is missing. Lexibus keeps the text \
         as the symbol. Correct the name, or define the unit in `[units]`."
-    TAB012 HEX_DIGITS Lint Warn "a hexadecimal number does not have the digits of its type"
-        "A number of 32 bits, for example, has more than 8 digits (`0x007FFFFFFF`), or has leading zeros but fewer \
-        digits (`0x0000`). Or an index does not have four digits (`0x20A`) or the prefix `0x`. Usually a digit was \
-        doubled or lost, or the type is wrong. This code also reports the prefix `0X`. Lexibus uses the number. \
-        Compare it with the manual.\n\
-        In an EDS, numbers as long as those of a longer type are reported only if you set a level of this code."
+    TAB012 HEX_DIGITS Lint Warn "the number of hexadecimal digits does not match the type"
+        "A number has more digits than its type, such as `0x007FFFFFFF` for 32 bits, or fewer digits with leading \
+        zeros, such as `0x0000`. Or an index does not have four digits (`0x20A`), or has no prefix `0x`. Usually a \
+        digit was doubled or lost, or the type is wrong. This code also reports the prefix `0X`. Lexibus uses the \
+        number. Compare the number with the manual.\n\
+        In an EDS, numbers with exactly the digits of a longer type are reported only if you set a level for this code."
     TAB013 BIT_OUTSIDE_TYPE Lint Warn "a bit is outside of its integer"
         "The bit field names a bit that the integer does not have. Generated code leaves the field out. The type is \
         too short, or the manual counts bits from 1. Correct the type or the number of the bit."
     TAB014 BITS_OVERLAP Lint Warn "two fields share bits"
         "A bit has one meaning at a time. If the meaning depends on another item, the firmware or the model, state the \
-        condition in each field: `when`, `since`, `until` or `models`. Otherwise correct the bits of the field that is \
-        wrong."
+        condition in each field: `when`, `since`, `until` or `models`. Otherwise correct the bits of the wrong field."
     TAB015 NAME_OUTSIDE_TYPE Lint Warn "an enumeration names a value that its integer cannot have"
         "The value is negative and the integer unsigned, or the value has more bits than the integer or field. Correct \
         the type or the value."
@@ -687,70 +694,71 @@ codes! {
         "The enumeration reserves the value, or is closed and does not name it. The code also reports unnamed writable \
         values, and a limit next to the last named value. In a bit field, it checks the default and fixed values of \
         each field. Name the value if the manual does, or correct the number."
-    TAB019 RESERVED_BITS Lint Warn "a default value, limit or fixed value sets bits without a meaning"
+    TAB019 RESERVED_BITS Lint Warn "a default value, limit or fixed value sets reserved or unnamed bits"
         "The number sets a bit that is reserved or has no name, or clears a bit that is always set. A limit that sets \
         all bits up to the end of the type or the last named bit is not reported. Correct the number, or name the bits \
         if the manual does."
-    TAB020 LENGTH_MISMATCH Lint Warn "a length is not that of the type"
+    TAB020 LENGTH_MISMATCH Lint Warn "a length is not the length of the type"
         "A default text is longer than its type, or a printed `length` is not the length of the item's type or the \
-        PDO's entries. Compare both with the manual, and correct one."
-    TAB021 SUMMARY_DIFFERS Lint Warn "another place of the manual contradicts the row"
+        PDO's entries. Compare the lengths with the manual, and correct the wrong one."
+    TAB021 SUMMARY_DIFFERS Lint Warn "another section of the manual contradicts the row"
         "`summary` of the row holds what a table of contents, an overview or the prose says about the item. Lexibus \
-        uses the row. Write the correct fact in the row and the other one in `doubt`, and `allow` this code on the \
+        uses the row. Write the correct fact in the row and the other fact in `doubt`, and `allow` this code on the \
         row."
     TAB022 SAME_VALUE_DIFFERS Lint Warn "two rows for the same value differ"
         "`same_as` declares that two rows are one value, but their types, limits, units, scales or names differ. Or a \
-        row and its replacement (`replaced_by`) have different access rights. Lexibus keeps both rows. Compare them \
-        with the manual, and correct one."
-    TAB023 READING_LIMITS Lint Warn "a signed value that is only read has a minimum above zero"
-        "A measured value is signed because it can be negative, so it can be zero too. Often the limits were copied \
-        from a set-point, or the type is unsigned. Lexibus keeps the limit. Correct the limit or the type."
+        row and its replacement (`replaced_by`) have different access rights. Lexibus keeps both rows. Compare the \
+        rows with the manual, and correct the wrong one."
+    TAB023 READING_LIMITS Lint Warn "a read-only signed value has a minimum above zero"
+        "A measured value is signed because it can be negative, so the value can be zero too. Often the limits were \
+        copied from a set-point, or the type is unsigned. Lexibus keeps the limit. Correct the limit or the type."
     TAB024 ACCESS_CONFLICT Lint Warn "access rights contradict storage or process data"
         "For example, a read-only value is saved or in an RPDO, a write-only value is in a TPDO, or a Modbus input is \
-        writable. Lexibus keeps all facts. Keep the one that the manual's text supports, and record the other in \
+        writable. Lexibus keeps all facts. Keep the fact that the manual's text supports, and record the other fact in \
         `doubt`.\n\
-        In other formats than register tables, this lint runs only if you set a level of this code."
+        In formats other than register tables, this lint runs only if you set a level for this code."
     TAB025 MENTIONED_OBJECT Lint Warn "a text mentions an object or item that the table does not have"
         "Lexibus searches documentation, names and effects for objects (`object 0x2010`, `0x1003:1`), registers \
         (`register 10015`) and names of items. A row is missing, or the mention is misprinted. A word is reported as a \
         misspelled name if it differs from a name by one or two letters. Add the row, or correct the text."
     TAB026 FIRMWARE_WINDOW Lint Warn "firmware ranges contradict each other"
-        "`since` is the first firmware that has something, `until` the first firmware that does not. A range is empty, \
-        or the replacement of an item appears before or after the item ends. Compare the versions with the manual, and \
-        correct one."
+        "`since` is the first firmware version that has an item, bit, value or message. `until` is the first later \
+        version that does not have it. A range is empty, or the replacement of an item appears before or after the \
+        item ends. Compare the versions with the manual, and correct the wrong one."
     TAB027 VERSION_FORM Lint Warn "a firmware version cannot be compared"
-        "A version is numbers with points between them. Each number is compared separately: 6.27 is later than 6.3. \
-        Lexibus does not compare this version with others. Write it as numbers and points."
+        "A firmware version consists of numbers separated by points. Each number is compared separately: 6.27 is later \
+        than 6.3. Lexibus does not compare this version with others. Write the version as numbers separated by points."
     TAB028 STATES_OVERLAP Lint Deny "two states of a machine have the same status value"
-        "Some values of the status item belong to both states, so the state of the device is ambiguous. This lint is \
-        an error by default. Correct the mask or value of one state."
+        "Some values of the status item match both states, so the state of the device is ambiguous. This lint is an \
+        error by default. Correct the mask or value of one state."
     TAB029 COMMANDS_OVERLAP Lint Allow "two commands of a machine have the same control value"
-        "Some values of the control item are both commands. This is correct if the state determines which command is \
+        "Some values of the control item match both commands. This is correct if the state determines which command is \
         meant, as in CiA 402, so this lint is off by default. Otherwise correct the mask or value of one command."
     TAB030 OVERLAY_NO_MATCH Lint Warn "an overlay entry matches nothing"
         "The devices of the overlay have no such object or item, or no row of the overlay uses the definition. A newer \
-        version of the description may have renamed or removed it. Lexibus ignores the entry. Correct or delete it, or \
-        add the item with `add = true`."
+        version of the description may have renamed or removed it. Lexibus ignores the entry. Correct or delete the \
+        entry, or add the item with `add = true`."
     TAB031 OVERLAY_NO_CHANGE Lint Warn "an overlay entry changes nothing"
-        "The description already contains everything that the entry states. A newer version of it may have been \
-        corrected. Delete the entry."
+        "The description already contains everything that the entry states. The vendor may have corrected a newer \
+        version of the description. Delete the entry."
     TAB032 OVERLAY_NOT_FOR Lint Warn "an overlay matches no device of the description"
         "`for` in `[overlay]` names a vendor, product code, revision, device or module that the description, or the \
         selected part of it, does not have. Lexibus applies nothing of the overlay. Correct `for`, or remove the \
         overlay."
     TAB033 STEP_IMPOSSIBLE Lint Warn "a step of a procedure is impossible"
         "The step writes a read-only item or a value that the item cannot have, or waits for a value that never \
-        occurs. Or it gives a PDO the COB-ID of another PDO. Lexibus keeps the step. Compare the step with the manual, \
-        and correct it."
+        occurs. Or the step assigns the COB-ID of another PDO to a PDO. Lexibus keeps the step. Compare the step with \
+        the manual, and correct the step."
     TAB034 ASSIGNED_PDO_MISSING Lint Warn "an assigned PDO is not described"
         "0x1C12 and 0x1C13 hold the indices of the assigned PDOs. A default value or a step of a procedure writes the \
         index of a PDO that the table does not have. Describe the PDO, or correct the index."
-    TAB035 MAPPED_NOT_ASSIGNED Lint Warn "a procedure maps a PDO and assigns others"
+    TAB035 MAPPED_NOT_ASSIGNED Lint Warn "a procedure maps a PDO, but assigns other PDOs"
         "The mapping has no effect, because the procedure assigns other PDOs to the sync manager. Correct the \
         index of the mapped or of the assigned PDO."
     TAB036 UNNAMED_BITS Lint Allow "a bit field does not describe all bits"
         "Some bits are neither named nor reserved, or a narrow field has an unnamed value between named ones. Manuals \
-        often omit them, so this lint is off by default. Name or reserve them if the manual does."
+        often omit such bits and values, so this lint is off by default. Name or reserve the bits and values if the \
+        manual does."
     TAB037 MODE_WITHOUT_BITS Lint Warn "bits that depend on a mode have no meaning in one of the modes"
         "The manual's table of bits has no column for the mode, or the mode does not use the bits. The value 0 is not \
         checked, because it usually means no mode. Describe the bits, or `allow` this code on the bit field if the \
@@ -759,27 +767,27 @@ codes! {
         "The row has a minimum or a maximum, but not both. Often the missing limit is that of the type, so this lint \
         is off by default. Add the other limit if the manual has it."
     TAB039 PATTERN_OUTSIDE_MASK Lint Warn "a state or command has bits outside of its mask"
-        "The value sets bits that the mask does not contain, so nothing ever matches it. Correct the mask or the \
-        value."
+        "The value sets bits that the mask does not contain, so no value matches the state or command. Correct the \
+        mask or the value."
     TAB040 NAME_TWICE Lint Warn "two objects, bits or values have the same name"
         "The code also reports sub-entries of one object, and registers whose names differ only in case. Often the \
         name was copied from the line above. Generated code adds a number to one of the names. Correct the name.\n\
-        In other formats than register tables, this lint runs only if you set a level of this code."
+        In formats other than register tables, this lint runs only if you set a level for this code."
     TAB041 BROKEN_NAME Lint Warn "a name contains a line break or a description, or is a column title"
-        "In a narrow column, the manual breaks a name with a hyphen. Its prose often has the whole name. Or the cell \
-        of a name also contains values (`0 = Stop`) or a sentence. Or a bit has the title of a column, such as \
-        `Definition`, because a line of the table is shifted. Write only the name, and the rest as `doc`."
-    TAB042 EMPTY_LIMIT Lint Warn "the only limit of a row is that of its type"
+        "In a narrow column, the manual breaks a name with a hyphen. The prose of the manual often has the whole name. \
+        Or the cell of a name also contains values (`0 = Stop`) or a sentence. Or a bit has the title of a column, \
+        such as `Definition`, because a line of the table is shifted. Write only the name, and the rest as `doc`."
+    TAB042 EMPTY_LIMIT Lint Warn "the only limit of a row is the limit of its type"
         "A minimum of 0, for example, does not restrict an unsigned value. The other cell of the manual is empty, or \
-        its limit was lost. Write both limits or none."
+        its limit was lost. Write both limits, or neither."
     TAB043 SHARED_REGISTERS Lint Warn "two items share registers or bits of one register"
-        "One of the items has the wrong number, or a type that is too long. Lexibus keeps both. Correct the item. If \
-        the device shows a part of a value in separate registers, declare it with `part`, or with `same_as` and \
-        `allow`."
+        "One of the items has the wrong number, or a type that is too long. Lexibus keeps both items. Correct the \
+        wrong item. If the device shows a part of a value in separate registers, declare it with `part`, or with \
+        `same_as` and `allow`."
     TAB044 EXAMPLE_DIFFERS Lint Warn "an example frame contradicts its message"
-        "Lexibus compares the requests and replies that the manual prints with the fields of the message. It checks \
-        the length, constants, echoes, reserved bits and named values. One of the two is misprinted. Keep what the \
-        other frames support, and record the other in `doubt`."
+        "Lexibus compares the requests and replies that the manual prints with the fields of the message. The lint \
+        checks the length, constants, echoes, reserved bits and named values. The frame or the field is misprinted. \
+        Keep the bytes that the other frames support, and record the ambiguity in `doubt`."
     TAB045 CELLS_TWICE Lint Warn "two codes have the same cells"
         "The table declares with `distinct` that no two codes have the same cells. The manual probably repeats a row. \
         Record the ambiguity in `doubt`, and `allow` this code on the table."
@@ -797,46 +805,49 @@ codes! {
         "A row of the manual's table may be missing. Devices often skip numbers, so this lint is off by default. Look \
         for the parameter in the manual."
     TAB052 CONVERSION_DIFFERS Lint Warn "a conversion in the manual contradicts the scale"
-        "`conversions` holds raw values and the physical values that the manual gives for them. The scale gives \
-        another value, more than one raw step away. A digit is misprinted, or the scale, a machine value or the base \
-        is wrong. Keep the numbers that fit each other, and add a `doubt`."
+        "`conversions` holds raw values and the physical values that the manual gives for them. The scale gives a \
+        physical value that differs by more than one raw step. A digit is misprinted, or the scale, a machine value or \
+        the base is wrong. Keep the numbers that fit each other, and add a `doubt`."
     TAB053 OVERLAY_SHARED Lint Warn "an overlay also changes a device that its `for` does not name"
         "`for` in `[overlay]` names some devices. Another device has the same module or submodule, which is described \
-        once, so the overlay changes it there too. If this is correct, name the module or the other device in `for`."
+        once, so the overlay also changes that device. If this is correct, name the module or the other device in \
+        `for`."
     MSG001 FRAMING_BYTES Lint Warn "start, end and escape bytes of frames contradict each other"
-        "Start, end and escape are three different bytes, and each is escaped in data. None of the bytes that replace \
-        them is one of the three. Otherwise frames end in the wrong place. Compare `[framing]` with the manual, and \
-        correct it."
+        "The escape byte must differ from the start byte and the end byte. All three must be escaped in data, and no \
+        escaped byte may be sent as one of them. Otherwise, receivers find the end of a frame at the wrong byte. \
+        Compare `[framing]` with the manual, and correct the wrong byte."
     MSG002 MESSAGE_LENGTH Lint Warn "a message has incomplete bytes or exceeds a frame"
         "Adjacent fields shorter than a byte must fill whole bytes. The data of a message with all its repetitions \
         must not exceed the maximum number of data bytes in the framing. Correct a length, or the `max` of repeated \
         fields."
     MSG003 MESSAGES_ALIKE Lint Warn "two requests can have the same bytes"
-        "The device could not distinguish the two requests, so a constant is probably misprinted. Correct it. If the \
-        meaning depends on the message before, declare it with `after`."
+        "The device could not distinguish the two requests, so a constant is probably misprinted. Correct the \
+        constant. If the meaning depends on an earlier message, declare that message with `after`."
     MSG004 REPLY_OF_ANOTHER Lint Warn "a reply has the constant of another message"
-        "The constant at the start of a reply is also in its request. This one is in the request of another message, \
-        so the manual's table was probably copied. Compare both tables with the prose, and correct the constant."
+        "The constant at the start of a reply is also in its request. This constant is in the request of another \
+        message, so the manual's table was probably copied. Compare both tables with the prose, and correct the \
+        constant."
     MSG005 ERROR_ALIKE Lint Warn "a reply and its error message can have the same bytes"
         "A client cannot determine from the bytes whether the device answered or refused. Correct a constant. If the \
         device never refuses the request, delete `error`."
-    MSG006 BYTE_NUMBERS Lint Warn "the printed numbers of bytes are not consecutive"
+    MSG006 BYTE_NUMBERS Lint Warn "the printed byte numbers of a message are not consecutive"
         "The byte numbers of the manual (`at`) skip or repeat bytes between two fields. A row of the manual's table is \
         missing or shifted, or a number is misprinted. Compare the fields with the manual."
-    MSG007 ODD_REQUEST Lint Warn "one request begins with another constant than all others of its form"
-        "At least nine requests have the same form, and all except one begin with the same constant. That one is an \
-        exception or a misprint. Say which in a `doubt`, and `allow` this code."
-    MSG008 STATES_DIFFER Lint Warn "a message and the table of commands disagree about a state"
-        "One section of the manual lists the states that accept the command. The table of commands and states differs \
-        for a state. Keep the statement that lists the states one by one, and record the other in `doubt`."
+    MSG007 ODD_REQUEST Lint Warn "one request begins with a different constant than all others of its form"
+        "At least nine requests have the same form, and all except one begin with the same constant. That request is \
+        an exception, or its constant is a misprint. Record the assumption in a `doubt`, and `allow` this code."
+    MSG008 STATES_DIFFER Lint Warn "a message contradicts the table of commands and states"
+        "One section of the manual lists the states that accept the command. The table of commands and states \
+        contradicts this list for a state. Keep the statement that lists the states one by one, and record the other \
+        statement in `doubt`."
     MSG009 MESSAGE_UNSHAPED Lint Warn "no code is generated for a message or a part of the protocol"
         "The fields of a message must be writable and readable one after the other. The diagnostic says what prevents \
-        this, such as an incomplete byte or two parts of variable length. The code also reports error replies, \
+        this, such as an incomplete byte or two fields of variable length. The code also reports error replies, \
         framings that the runtime does not support, and parameters whose message has other fields. The documentation \
         of the table format lists what is possible. Correct the description, or send the message yourself."
-    MSG010 PARAMETERS_ALIKE Lint Warn "two spaces that messages carry have a parameter with the same number"
-        "A client selects a parameter by its number, and sends the message of the first space that has it. Use the \
-        other parameter's message directly to reach it."
+    MSG010 PARAMETERS_ALIKE Lint Warn "two parameter spaces with messages have a parameter with the same number"
+        "A client selects a parameter by its number, and sends the message of the first space that has it. To transfer \
+        the other parameter, use its message directly."
     MOD001 MODULE_INDEX_CLASH Lint Warn "a fixed object of a module is also an object of the device"
         "The index would identify two objects. Correct the index in the module or in the device."
     MOD002 SUB_EXTEND Lint Warn "a sub-index extension breaks the rules of CiA 306"
@@ -848,15 +859,16 @@ codes! {
         other column, and writes no table without them. Use `--map FIELD=TITLE` for other titles, and `--map \
         FIELD=#NUMBER` for a list without titles."
     CSV002 CSV_UNKNOWN_COLUMN Lint Warn "a column is not imported"
-        "Lexibus does not know the title of this column. Use `--map FIELD=TITLE` to assign it to a field, or `--map \
-        doc=TITLE` to keep its text as documentation."
+        "Lexibus does not know the title of this column. Use `--map FIELD=TITLE` to assign the column to a field, or \
+        `--map doc=TITLE` to keep the text of the column as documentation."
     CSV003 CSV_UNREADABLE_CELL Repair Warn "a cell of a register list cannot be read"
         "The cell does not fit its column, or contradicts another cell. Lexibus keeps the rest of the row and leaves \
         the cell out, unless the diagnostic says otherwise. Correct the cell in the list, or the row in the table."
-    CSV004 CSV_NO_ROW Repair Warn "a line of a register list cannot become a row"
-        "The line has no address, an unreadable address, or the address of another line. Or its repeated lines declare \
-        too many items, or repeat a name. Lexibus writes the line into the table as a comment. Complete the row by \
-        hand. If the lines are bits of one register, add a column with the bit number."
+    CSV004 CSV_NO_ROW Repair Warn "a line of a register list cannot be converted to a row"
+        "The line has no address, an unreadable address, or the address of another line. Or the line declares too many \
+        repetitions, or its repetitions have the names of other rows. Lexibus writes the line into the table as a \
+        comment. Complete the row by hand. If several lines describe bits of one register, add a column with the bit \
+        number."
     CSV005 CSV_RAGGED_ROW Repair Warn "a line has more or fewer cells than there are titles"
         "Often a cell that is not in quotation marks contains the delimiter, and all cells after it are in the wrong \
         column. Lexibus reads the cells from the left. Put the cell in quotation marks."
@@ -864,9 +876,9 @@ codes! {
         "Names of registers become Rust names. Lexibus adds a number to the second name. Rename the register in the \
         table."
     CSV007 CSV_ASSUMPTION Lint Warn "the list does not state a fact that the table needs"
-        "Register lists often leave out types or access rights, or use one word for different things. Lexibus makes \
-        one assumption for the whole list, and the message states it. Compare it with the manual, and correct the \
-        table."
+        "Register lists often leave out types or access rights, or use one word with several meanings. Lexibus makes \
+        one assumption for the whole list, and the message states it. Compare the assumption with the manual, and \
+        correct the table."
     CSV008 CSV_UNCLOSED_QUOTE Repair Warn "a quotation mark is never closed"
         "Lexibus reads everything up to the end of the file as one cell. If tabs separate the cells, it reads the \
         quotation mark as a character and continues with the next line. Close the quotation mark."

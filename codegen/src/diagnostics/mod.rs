@@ -274,10 +274,10 @@ fn is_closing(diagnostic: &Diagnostic) -> bool {
 /// Creates the diagnostic that states how many more diagnostics of a code a file has.
 fn closing(file: FileId, code: &'static Code, count: usize) -> Diagnostic {
     let plural = if count == 1 { "diagnostic" } else { "diagnostics" };
-    let message = format!("{count} more {plural} of {} in this file", code.id);
+    let message = format!("this file has {count} more {plural} of {}", code.id);
     let allow = if code.class == Class::Error { String::new() } else { format!(", or allow {}", code.id) };
     Diagnostic::new(code, Span::new(file, END, END), message)
-        .help(format!("correct the first {MAX_SAME_DIAGNOSTICS}{allow}"))
+        .help(format!("correct the causes of the first {MAX_SAME_DIAGNOSTICS} diagnostics{allow}"))
 }
 
 fn hash(text: &str) -> u64 {
@@ -307,7 +307,7 @@ mod tests {
         let of_first: Vec<_> =
             diagnostics.list().iter().filter(|diagnostic| diagnostic.span.file == FileId(0)).collect();
         let last = of_first.last().expect("a diagnostic");
-        assert_eq!(last.message, "3 more diagnostics of EDS003 in this file");
+        assert_eq!(last.message, "this file has 3 more diagnostics of EDS003");
     }
 
     #[test]

@@ -133,8 +133,8 @@ pub(crate) enum Excluded<'l> {
 impl fmt::Display for Excluded<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Excluded::Below(low) => write!(f, "below the lower limit {low}"),
-            Excluded::Above(high) => write!(f, "above the upper limit {high}"),
+            Excluded::Below(low) => write!(f, "below the minimum {low}"),
+            Excluded::Above(high) => write!(f, "above the maximum {high}"),
             Excluded::NotAllowed => f.write_str("not one of the allowed values"),
         }
     }

@@ -315,10 +315,10 @@ mod tests {
             "level": "warning"
           },
           "fullDescription": {
-            "text": "Lexibus keeps the entry as an extension attribute of its object. Many tools add keys, so this lint is off by default. Turn it on to find misspelled keys."
+            "text": "Lexibus keeps the entry as an extension attribute of its object. Many tools add keys, so this lint is off by default. Turn the lint on to find misspelled keys."
           },
           "help": {
-            "text": "Lexibus keeps the entry as an extension attribute of its object. Many tools add keys, so this lint is off by default. Turn it on to find misspelled keys."
+            "text": "Lexibus keeps the entry as an extension attribute of its object. Many tools add keys, so this lint is off by default. Turn the lint on to find misspelled keys."
           },
           "id": "EDS012",
           "name": "UnknownKey",

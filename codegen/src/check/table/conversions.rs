@@ -17,7 +17,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         for conversion in &quantity.conversions {
             if let Some(text) = problem(device, item, quantity, conversion) {
                 let found = codes::CONVERSION_DIFFERS.at(conversion.at, text);
-                diagnostics.push(found.help("keep the consistent numbers, and add a `doubt`"));
+                diagnostics.push(found.help("keep the numbers that are consistent, and add a `doubt`"));
             }
         }
     }
@@ -39,7 +39,7 @@ fn problem(device: &Device, item: &Item, quantity: &Quantity, conversion: &Conve
     let is_within = low <= value && value <= high || low.is_nan() || high.is_nan();
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     (!is_within)
-        .then(|| format!("`{name}`: the raw value {raw} is {}{unit}, not {value}", physical::rounded(exact, DIGITS)))
+        .then(|| format!("the raw value {raw} of `{name}` is {}{unit}, not {value}", physical::rounded(exact, DIGITS)))
 }
 
 /// Returns the physical value of a raw value.

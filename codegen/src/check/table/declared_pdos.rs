@@ -26,8 +26,8 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 fn length(device: &Device, pdo: &Pdo, diagnostics: &mut Diagnostics) {
     let (bits, index) = (pdo.bits(), pdo.mapping_index);
     let mut report = |message| diagnostics.push(codes::PDO_TOO_LONG.at(pdo.origin.span, message));
-    if let Some(max) = pdo.max_bytes.filter(|&max| bits > u32::from(max) * 8) {
-        report(format!("the PDO 0x{index:04X} has {bits} bits, but at most {max} bytes are allowed"));
+    if let Some(max) = pdo.max_bytes.map(|max| u32::from(max) * 8).filter(|&max| bits > max) {
+        report(format!("the PDO 0x{index:04X} has {bits} bits, but at most {max} are allowed"));
     }
     if device.canopen.is_some() && device.ethercat.is_none() && bits > CAN_BITS {
         report(format!("the PDO 0x{index:04X} has {bits} bits, but a CAN frame has 64"));

@@ -8,15 +8,13 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let owner = context.owner;
     for item in owner.items() {
         let Some((minimum, maximum)) = owner.basic(item.ty).integer_range() else { continue };
-        let (given, missing, span) = match (&item.limits.low, &item.limits.high, item.limits.integers()) {
-            (Some(_), None, (low, _)) if low == Some(minimum) => (minimum, "upper", item.at.low),
-            (None, Some(_), (_, high)) if high == Some(maximum) => (maximum, "lower", item.at.high),
+        let (given, [stated, missing], span) = match (&item.limits.low, &item.limits.high, item.limits.integers()) {
+            (Some(_), None, (low, _)) if low == Some(minimum) => (minimum, ["minimum", "maximum"], item.at.low),
+            (None, Some(_), (_, high)) if high == Some(maximum) => (maximum, ["maximum", "minimum"], item.at.high),
             _ => continue,
         };
-        let message = format!(
-            "`{}` has no {missing} limit, and its only limit {given} is the one of its type",
-            brief(&item.name)
-        );
+        let message =
+            format!("`{}` has no {missing}, and its {stated} {given} is the {stated} of its type", brief(&item.name));
         diagnostics
             .push(codes::EMPTY_LIMIT.at(span.or(item.origin.span), message).help("write both limits, or neither"));
     }

@@ -16,7 +16,7 @@ const SELECTOR: Problem =
 const FIRST: Problem = "`default` needs `after`, the message that selects another answer";
 const NO_REFUSAL: Problem = "the error message has no reply, no code, or data of variable length";
 const NO_END: Problem = "no byte marks the end of a frame";
-const UNKNOWN_CHECK: Problem = "the runtime only supports the checks `xor`, `sum`, `lrc` and `crc16`";
+const UNKNOWN_CHECK: Problem = "the runtime supports only the checks `xor`, `sum`, `lrc` and `crc16`";
 
 /// Reports messages and framings for which no code is generated, and parameters that no message transfers.
 pub(in crate::check) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -96,7 +96,8 @@ fn parameters(context: &Context<'_>, shapes: &[Shaped<'_>], diagnostics: &mut Di
                 None => _ = carried.insert(code, &space.name),
                 Some(first) => {
                     let (name, first) = (brief(&item.name), brief(first));
-                    let text = format!("`{name}` has the number {code:#X}, which the space `{first}` also has");
+                    let text =
+                        format!("`{name}` has the number {code:#X}, which a parameter of the space `{first}` also has");
                     let text = text + ": clients transfer only the parameter of that space";
                     diagnostics.push(codes::PARAMETERS_ALIKE.at(item.origin.span, text));
                 }

@@ -62,7 +62,7 @@ fn length(framed: &Framed<'_>, max: Option<usize>, diagnostics: &mut Diagnostics
             (_, longest) if longest > max => format!("is {longest} bytes long with all repetitions"),
             _ => continue,
         };
-        let message = format!("the {what} of `{name}` {problem}, but a frame holds at most {max}");
+        let message = format!("the {what} of `{name}` {problem}, but a frame holds at most {max} data bytes");
         let found = report(framed, &codes::MESSAGE_LENGTH, message);
         diagnostics.push(found.help("correct a length, or the `max` of repeated fields"));
     }
@@ -85,11 +85,12 @@ fn replies_of_others(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
         let (name, other_name) = (brief(&framed.message.name), brief(&other.message.name));
         let message = format!(
             "the reply of `{name}` has the constant 0x{byte:02X}, which is in the request of `{other_name}`, but not in \
-             that of `{name}`"
+             the request of `{name}`"
         );
         let found = both(framed, other, &codes::REPLY_OF_ANOTHER, message);
-        diagnostics
-            .push(found.help("compare both tables with the manual's text: one was probably copied from the other"));
+        diagnostics.push(
+            found.help("compare both tables with the manual's text, because one was probably copied from the other"),
+        );
     }
 }
 
@@ -158,7 +159,8 @@ fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     }
     let (name, ((position, common), others)) = (brief(&framed.message.name), (others.0, others.1.len()));
     let message = format!(
-        "`{name}` has the constant 0x{byte:02X} in byte {position}, but {others} other requests have 0x{common:02X}"
+        "`{name}` has the constant 0x{byte:02X} in byte {position}, but {others} other requests have 0x{common:02X} \
+         in this byte"
     );
     let found = report(framed, &codes::ODD_REQUEST, message);
     diagnostics.push(
@@ -187,12 +189,13 @@ fn cells(machine: &str, row: &CommandOutcomes, message: &Message, diagnostics: &
             continue;
         }
         let (stated, table) = match is_stated {
-            true => ("lists", "refused"),
-            false => ("does not list", "accepted"),
+            true => ("lists", "refuses"),
+            false => ("does not list", "accepts"),
         };
         let (name, state, machine) = (brief(&message.name), brief(&cell.state), brief(machine));
         let text = format!(
-            "the message `{name}` {stated} the state `{state}`, but the table of `{machine}` shows it as {table} in that state"
+            "the message `{name}` {stated} the state `{state}`, but in the table of `{machine}`, \
+             this state {table} the command"
         );
         let found = codes::STATES_DIFFER.at(message.origin.span, text);
         diagnostics.push(found.help("keep the statement that lists the states one by one, and add a `doubt`"));

@@ -39,7 +39,7 @@ fn case_only<'g>(names: &mut HashMap<CompactString, &'g Item>, item: &'g Item, d
     let first = *names.entry(item.name.to_lowercase()).or_insert(item);
     if first.name != item.name {
         let (name, other) = (brief(&item.name), brief(&first.name));
-        let message = format!("`{name}` and `{other}` differ only in upper and lower case");
+        let message = format!("the names `{name}` and `{other}` differ only in upper and lower case");
         let found = codes::NAME_TWICE.at(name_span(item), message).note_at(name_span(first), "the other name");
         diagnostics.push(found.help("use one spelling if both are the same name"));
     }
@@ -54,8 +54,9 @@ fn registers(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
             diagnostics.push(codes::EMPTY_NAME.at(at, "the row has no name"));
         }
         if let Some(what) = description(&item.name, are_words) {
-            let message = format!("`{}` contains {what}", brief(&item.name));
-            diagnostics.push(codes::BROKEN_NAME.at(at, message).help("write only the name, and the rest as `doc`"));
+            let message = format!("the name `{}` contains {what}", brief(&item.name));
+            diagnostics
+                .push(codes::BROKEN_NAME.at(at, message).help("write only the name, and move the rest to `doc`"));
         } else if !unbroken(&item.name, at, diagnostics) {
             syllables(&item.name, at, diagnostics);
         }
@@ -109,7 +110,7 @@ fn unbroken(name: &str, at: Span, diagnostics: &mut Diagnostics) -> bool {
 }
 
 fn broken(name: &str, whole: &str, at: Span, diagnostics: &mut Diagnostics) {
-    let message = format!("`{}` probably contains a hyphen from a line break", brief(name));
+    let message = format!("the name `{}` probably contains a hyphen from a line break", brief(name));
     let found = codes::BROKEN_NAME.at(at, message);
     diagnostics.push(found.help(format!("write `{}` if the manual's text does", brief(whole))));
 }

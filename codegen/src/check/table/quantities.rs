@@ -21,11 +21,11 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         let other = view.and_then(|view| device.referred(view)).filter(|other| !std::ptr::eq(*other, item));
         let Some(other) = other else { continue };
         let differences = differences(device, item, other);
-        if !differences.is_empty() {
-            let (name, other_name, differences) = (brief(&item.name), brief(&other.name), differences.join("; "));
-            let message =
-                format!("`{name}` and `{other_name}` are the same quantity, but their defaults differ: {differences}");
+        if let Some((first, others)) = differences.split_first() {
+            let names = format!("`{}` and `{}`", brief(&item.name), brief(&other.name));
+            let message = format!("{names} are the same quantity, but {first}");
             let found = codes::QUANTITIES_DIFFER.at(item.at.default.or(item.origin.span), message);
+            let found = others.iter().fold(found, |found, other| found.note(format!("{names} also differ: {other}")));
             diagnostics.push(found.note_at(other.at.default.or(other.origin.span), "the other item"));
         }
     }
@@ -45,14 +45,15 @@ fn differences(device: &Device, one: &Item, other: &Item) -> Vec<String> {
             _ if one.unit == other.unit => ((one.number, one.unit), (other.number, other.unit)),
             (Some(machine), Some(others)) if machine.1 == others.1 => (machine.clone(), others.clone()),
             _ => {
-                found.push(format!("the units `{}` and `{}`", brief(&one.unit), brief(&other.unit)));
+                found.push(format!("their units are `{}` and `{}`", brief(&one.unit), brief(&other.unit)));
                 break;
             }
         };
         if (one.0 - other.0).abs() > TOLERANCE * one.0.abs().max(other.0.abs()) {
-            let of = model.map(|model| format!(" ({})", brief(&model.name))).unwrap_or_default();
+            let on = model.map(|model| format!(" on {}", brief(&model.name))).unwrap_or_default();
             let [number, other] = [one.0, other.0].map(|number| physical::rounded(number, DIGITS));
-            found.push(format!("{number} and {other} {}{of}", brief(&one.1)));
+            let unit = if one.1.is_empty() { String::new() } else { format!(" {}", brief(&one.1)) };
+            found.push(format!("their defaults{on} are {number} and {other}{unit}"));
         }
     }
     found

@@ -64,7 +64,7 @@ fn value(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     if is_only && !is_number {
         let name = brief(&item.name);
         let message =
-            format!("`{name}` is only accessible through a window, which transfers integers, but it is not an integer");
+            format!("`{name}` is accessible only through a window, which transfers integers, but is not an integer");
         diagnostics.push(codes::TABLE_VALUE.at(item.at.ty.or(item.at.name), message));
     }
 }

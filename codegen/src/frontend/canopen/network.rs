@@ -22,7 +22,7 @@ pub fn granularity(bits: u8, span: Span, diagnostics: &mut Diagnostics) {
 pub fn node_id(number: u32, span: Span, diagnostics: &mut Diagnostics) -> Option<u8> {
     let node_id = u8::try_from(number).ok().filter(|node_id| (1..=127).contains(node_id));
     if node_id.is_none() {
-        let message = format!("{number} is not a node-ID");
+        let message = format!("{number} is not a valid node-ID");
         diagnostics.push(Diagnostic::new(&codes::VALUE_NOT_ALLOWED, span, message).label("expected 1 to 127"));
     }
     node_id

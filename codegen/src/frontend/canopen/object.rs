@@ -79,7 +79,9 @@ pub fn type_by_code(code: u32, span: Span, defined: Option<Type>, diagnostics: &
         return ty;
     }
     let (kind, message) = match code {
-        0x20..=0x23 => (&codes::COMPLEX_DATA_TYPE, format!("{code:#06x} is a record type, not the type of a value")),
+        0x20..=0x23 => {
+            (&codes::COMPLEX_DATA_TYPE, format!("{code:#06x} is a record type, but a single value needs a basic type"))
+        }
         0x0E | 0x17 | 0x1C..=0x1F => (&codes::COMPLEX_DATA_TYPE, format!("the data type {code:#06x} is reserved")),
         _ => (&codes::UNKNOWN_DATA_TYPE, format!("{code:#06x} is not a data type of CiA 301 or of this file")),
     };

@@ -37,7 +37,7 @@ impl Converter<'_> {
             Type::VisibleString(_) | Type::UnicodeString(_) => Value::Text(self.unquoted(text, span).into()),
             Type::OctetString(_) => self.octets(text, span),
             Type::Domain => {
-                self.report(&codes::DOMAIN_DEFAULT, span, "a DOMAIN cannot have a value in the file", "kept as text");
+                self.report(&codes::DOMAIN_DEFAULT, span, "a DOMAIN cannot have a value or a limit", "kept as text");
                 raw(text)
             }
             Type::TimeOfDay | Type::TimeDifference => self.time(text, span, ty),
@@ -207,7 +207,7 @@ impl Converter<'_> {
             Some(0) => Value::Bool(false),
             Some(1) => Value::Bool(true),
             Some(value) => {
-                self.report(&codes::OUT_OF_TYPE, span, format!("{text} is not a BOOLEAN"), "expected 0 or 1");
+                self.report(&codes::OUT_OF_TYPE, span, format!("{text} is not a BOOLEAN value"), "expected 0 or 1");
                 Value::Int(value)
             }
             None => self.illegal(text, span, Type::Boolean),
@@ -225,7 +225,7 @@ impl Converter<'_> {
         if let Some(value) = text.contains(',').then(|| finite(&text.replacen(',', ".", 1))).flatten() {
             let fix = text.replacen(',', ".", 1);
             self.diagnostics.push(
-                Diagnostic::new(&codes::DECIMAL_COMMA, span, format!("{text} uses a decimal comma"))
+                Diagnostic::new(&codes::DECIMAL_COMMA, span, format!("{text} has a decimal comma"))
                     .label(format!("read as {value}"))
                     .fix(fix),
             );
@@ -290,7 +290,8 @@ impl Converter<'_> {
         match u16::try_from(days) {
             Ok(days) if milliseconds < 1 << 28 => Value::Time { milliseconds: milliseconds as u32, days },
             _ => {
-                let message = format!("{text} is not a {ty} (bits 0 to 27 are milliseconds, bits 32 to 47 are days)");
+                let message =
+                    format!("{text} is not a {ty} value (bits 0 to 27 are milliseconds, bits 32 to 47 are days)");
                 self.report(&codes::OUT_OF_TYPE, span, message, "kept as text");
                 raw(text)
             }

@@ -60,7 +60,7 @@ pub(super) fn numbered(
         }
     };
     if let (Some(((number, entry), expected)), true) = (gap, agrees) {
-        let message = format!("the next entry of the list is {number}, expected {expected}");
+        let message = format!("the next entry of the list has the number {number}, expected {expected}");
         reader.diagnostics.push(
             Diagnostic::new(&codes::LIST_COUNT, reader.doc.key_span(entry), message)
                 .label("the existing entries are used")

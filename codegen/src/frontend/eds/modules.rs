@@ -150,7 +150,9 @@ fn missing(
         if !exists(*index) {
             let span = reader.doc.value_span(entry);
             let message = format!("the section {} is missing", section_name(*index));
-            reader.diagnostics.push(Diagnostic::new(&codes::UNRESOLVED_MODULE, span, message).label("announced here"));
+            reader.diagnostics.push(
+                Diagnostic::new(&codes::UNRESOLVED_MODULE, span, message).label("this entry announces the section"),
+            );
         }
     }
 }
@@ -161,8 +163,7 @@ fn extended_object(reader: &mut Reader<'_, '_>, index: u16, span: Span, device: 
     if let Some(code) = object.object_code().filter(|code| !code.has_subs()) {
         let message = format!("object 0x{index:04X} of the device is a {}, which has no sub-indices", code.name());
         reader.diagnostics.push(
-            Diagnostic::new(&codes::SUB_EXTEND, span, message)
-                .note_at(object.origin.span, "the device describes it here"),
+            Diagnostic::new(&codes::SUB_EXTEND, span, message).note_at(object.origin.span, "description in the device"),
         );
     }
 }
@@ -171,7 +172,7 @@ fn clash(reader: &mut Reader<'_, '_>, group: &Group, device: &Device) {
     let Some(object) = group.index().and_then(|index| device.object(index)) else { return };
     reader.diagnostics.push(
         Diagnostic::new(&codes::MODULE_INDEX_CLASH, group.origin.span, "the device already has this object")
-            .note_at(object.origin.span, "the device describes it here"),
+            .note_at(object.origin.span, "description in the device"),
     );
 }
 

@@ -280,7 +280,7 @@ impl<'a, 'd> Reader<'a, 'd> {
     }
 
     pub(super) fn duplicate_section(&mut self, first: &Section, later: &Section, label: &str) {
-        let message = format!("section [{}] occurs twice", self.doc.name(later));
+        let message = format!("the section [{}] occurs twice", self.doc.name(later));
         let found = Diagnostic::new(&codes::DUPLICATE_SECTION, self.doc.name_span(later), message).label(label);
         self.diagnostics.push(found.note_at(self.doc.name_span(first), "first occurrence"));
     }

@@ -39,7 +39,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(D
         reader.report(
             &codes::MISSING_IDENTITY,
             parent.span,
-            "this device has no Type",
+            "this device has no <Type>",
             "the device has no product code",
         );
     }

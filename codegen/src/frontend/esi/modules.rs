@@ -44,7 +44,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(M
         }
     }
     if !has_type {
-        missing_index(reader, parent.span, "this module has no Type with an ident number");
+        missing_index(reader, parent.span, "this module has no <Type> with an ident number");
     }
     (module.name, module.names) = (names.name(), names.others());
     module.profiles = profiles.numbers;

@@ -61,7 +61,7 @@ impl<'a> Pdos<'a> {
 fn check(reader: &mut Reader<'_, '_>, tag: &Tag<'_>, pdo: &Pdo, has_index: bool) {
     if !has_index {
         let message = format!("this {} has no index", tag.name);
-        reader.report(&codes::PDO_WITHOUT_INDEX, tag.span, message, "it cannot be assigned to a sync manager");
+        reader.report(&codes::PDO_WITHOUT_INDEX, tag.span, message, "the PDO cannot be assigned to a sync manager");
     }
     if pdo.name.is_empty() {
         let message = format!("this {} has no name", tag.name);

@@ -557,8 +557,8 @@ fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32
         given => {
             let elements = by_size.unwrap_or(0);
             let message = match given {
-                Some(_) => "the array has no elements",
-                None => "the array has no number of elements",
+                Some(_) => "the array declares 0 elements",
+                None => "the number of elements of the array is missing",
             };
             let label = format!("read as {elements} elements from BitSize");
             reader.report(&codes::ARRAY_BOUNDS, dimension.origin.span, message, label);

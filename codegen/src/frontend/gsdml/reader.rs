@@ -87,7 +87,7 @@ impl<'a> Reader<'a, '_> {
             return;
         }
         if let Some(first) = self.format.links.register(kind, id, position) {
-            let message = format!("there already is a <{}> with the ID `{}`", brief(tag.name), brief(&id.text));
+            let message = format!("another <{}> has the ID `{}`", brief(tag.name), brief(&id.text));
             let diagnostic = Diagnostic::new(&codes::DUPLICATE_ID, id.span, message);
             self.diagnostics.push(diagnostic.label("references resolve to the first one").note_at(first, "first one"));
         }

@@ -99,7 +99,7 @@ impl<'a> Reader<'a, '_> {
         match octets(&data.text) {
             Some(bytes) => record.constants.push((offset, bytes)),
             None => {
-                self.bad(&data, "list of octets such as `0x00,0x1F`", "left out");
+                self.bad(&data, "list of octets, such as `0x00,0x1F`", "left out");
                 self.note("Const@Data", &data);
             }
         }

@@ -26,7 +26,7 @@ impl<'a> Reader<'a, '_> {
                 Type::Boolean => "0 or 1",
                 Type::Integer(_) | Type::Unsigned(_) => "an integer",
                 Type::Real32 | Type::Real64 => "a number",
-                Type::OctetString(_) => "octets such as `0x00,0x1F`",
+                Type::OctetString(_) => "a list of octets, such as `0x00,0x1F`",
                 _ => "a value of its data type",
             };
             let message = format!("the default value `{}` is not {what}", brief(text));
@@ -61,7 +61,8 @@ impl<'a> Reader<'a, '_> {
     fn check_length(&mut self, given: &Given<'_>, bits: u32) {
         let length = given.text.chars().count();
         if length > bits as usize / 8 {
-            let message = format!("the default value has {length} characters, but the parameter has only {}", bits / 8);
+            let message =
+                format!("the default value has {length} characters, but the parameter holds only {}", bits / 8);
             self.diagnostics.push(Diagnostic::new(&codes::OUT_OF_TYPE, given.span, message).label("kept unchanged"));
         }
     }

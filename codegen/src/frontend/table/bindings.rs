@@ -96,7 +96,9 @@ impl Rows {
         if row.count.is_some() && count > 1 && !key.value.contains("{n") {
             let message = format!("all {count} items of the row have the name `{}`", brief(&key.value));
             let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), message);
-            reader.diagnostics.push(found.help("write `{n}`, which counts from 0, or `{n+1}` in the name"));
+            reader
+                .diagnostics
+                .push(found.help("write `{n}`, which counts from 0, or `{n+1}`, which counts from 1, in the name"));
         }
     }
 
@@ -249,9 +251,8 @@ impl Rows {
             let all = repeat.step.saturating_mul(repeat.count - 1).saturating_add(needed);
             if ![needed, all, repeat.step.saturating_mul(repeat.count)].contains(&printed) {
                 let of_all = if repeat.count > 1 { format!(", or {all} for all items") } else { String::new() };
-                let numbers = if printed == 1 { "register number" } else { "register numbers" };
-                let message =
-                    format!("the row has {printed} {numbers} of {unit} bits, but the type needs {needed}{of_all}");
+                let registers = count_of(printed, "register");
+                let message = format!("the row names {registers} of {unit} bits, but the type needs {needed}{of_all}");
                 reader
                     .diagnostics
                     .push(Diagnostic::new(&codes::REGISTER_SPAN, reader.span(reg), message).label("the type is used"));
@@ -308,7 +309,7 @@ impl Rows {
         let found = notation::objects(&text).filter(|found| found.indices.0 == found.indices.1);
         let index = found.and_then(|found| u16::try_from(u32::from(found.indices.0).checked_add(shift)?).ok());
         let (Some(found), Some(index)) = (found, index) else {
-            let message = format!("`{}` is not an object", brief(&text));
+            let message = format!("`{}` is not an object address", brief(&text));
             let help = "write an index such as `0x6040`, or an index with a sub-index such as `\"0x2000:1\"`";
             reader.report_with_help(&codes::TABLE_PLACE, reader.span(object), message, help);
             return;

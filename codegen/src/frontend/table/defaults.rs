@@ -116,9 +116,10 @@ fn check(reader: &mut Reader<'_, '_>, node: &mut Node<'_>) {
     for key in found {
         table.remove(&key);
         let (span, name) = (key.span(), key.get_ref());
-        let message = format!("rows do not inherit `{name}` from `defaults`: write it in each row");
+        let message = format!("rows do not inherit `{name}` from `defaults`");
         let span = Span::new(reader.file, span.start as u32, span.end as u32);
         let found = Diagnostic::new(&codes::TABLE_VALUE, span, message);
-        reader.diagnostics.push(found.help(format!("rows inherit {}", INHERITED.join(", "))));
+        let help = format!("write `{name}` in each row; rows inherit only {}", INHERITED.join(", "));
+        reader.diagnostics.push(found.help(help));
     }
 }

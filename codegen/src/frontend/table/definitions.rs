@@ -413,7 +413,8 @@ fn nameless(reader: &mut Reader<'_, '_>, name: &str, key: &At<String>, owner: &s
     if is_empty {
         let message = format!("{what} {} of `{}` has an empty name", brief(&key.value), brief(owner));
         let found = Diagnostic::new(&codes::EMPTY_NAME, reader.span(key), message);
-        let help = "write a name, mark it as reserved, or delete it if the manual does not have it";
+        let help =
+            format!("write a name, mark the {what} as reserved, or delete the {what} if the manual does not have it");
         reader.diagnostics.push(found.label(format!("named `{what} {}`", brief(&key.value))).help(help));
     }
     is_empty

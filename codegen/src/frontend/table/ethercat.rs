@@ -82,7 +82,7 @@ fn sync_manager(reader: &mut Reader<'_, '_>, given: &At<SyncManagerTable>, devic
         return None;
     }
     if manager.size.zip(manager.max).is_some_and(|(size, max)| size > max) {
-        let message = format!("the default size of the sync manager {number} exceeds its maximum size");
+        let message = format!("the default size of sync manager {number} exceeds its maximum size");
         reader.report(&codes::TABLE_VALUE, reader.span(given), message);
     }
     Some(SyncManager {

@@ -53,13 +53,14 @@ fn bytes_of_framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>) {
             special[..at].iter().find(|(other, other_byte)| other_byte == byte && (*other, *name) != ("start", "end"));
         problems.extend(same.map(|(other, _)| format!("`{other}` and `{name}` are both 0x{byte:02X}")));
         if framing.escape.is_some() && !framing.escaped.contains(byte) {
-            problems.push(format!("0x{byte:02X} is the `{name}` of frames, but is not escaped"));
+            problems.push(format!("the `{name}` byte 0x{byte:02X} of frames is not escaped"));
         }
     }
     for byte in framing.escaped.iter().filter(|_| framing.escape.is_some()) {
         let sent = byte ^ framing.escape_xor;
         if special.iter().any(|(_, special_byte)| *special_byte == sent) {
-            problems.push(format!("0x{byte:02X} is escaped as 0x{sent:02X}, which is a special byte itself"));
+            problems
+                .push(format!("0x{byte:02X} is escaped as 0x{sent:02X}, which is itself a start, end or escape byte"));
         }
     }
     for message in problems {

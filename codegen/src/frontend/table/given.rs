@@ -56,7 +56,7 @@ fn symbol(reader: &mut Reader<'_, '_>, unit: &At<String>) {
         let found = Diagnostic::new(&codes::UNKNOWN_UNIT, reader.span(unit), message);
         reader.diagnostics.push(match units::usual(&unit.value) {
             Some(usual) => found.help(format!("did you mean `{usual}`?")),
-            None => found.label("kept as it is"),
+            None => found.label("kept unchanged"),
         });
     }
 }

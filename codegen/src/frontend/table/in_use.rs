@@ -81,7 +81,7 @@ impl InUse {
                 free.insert(item.at.name);
             }
             Entry::Occupied(first) => {
-                let help = "write a `title` in each chapter: names must be unique in a chapter only";
+                let help = "write a `title` in each chapter: names must then be unique only within a chapter";
                 twice(reader, &format!("the name `{}`", brief(&item.name)), item, *first.get(), Some(help));
             }
         }
@@ -153,7 +153,7 @@ impl InUse {
         };
         if let Some(other) = parts.iter().find(shares) {
             let (name, other_name) = (brief(&item.name), brief(&other.name));
-            let message = format!("`{name}` and `{other_name}` are parts of {address} and share bits");
+            let message = format!("`{name}` and `{other_name}` are parts of {address}, but overlap");
             let found = Diagnostic::new(&codes::SHARED_REGISTERS, item.at.name, message);
             let found = found.note_at(other.span, "the other item");
             reader.diagnostics.push(found.help("correct `part` or the register number of one item"));

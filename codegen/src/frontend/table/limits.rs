@@ -55,9 +55,9 @@ impl Rows {
 /// Reports a value that contradicts the rest of its row.
 fn exclude(reader: &mut Reader<'_, '_>, span: Span, message: String) {
     let found = Diagnostic::new(&codes::DEFAULT_OUT_OF_LIMITS, span, message);
-    reader.diagnostics.push(
-        found.help("one of the two is misprinted: keep the value that the manual's text supports, and add a `doubt`"),
-    );
+    reader.diagnostics.push(found.help(
+        "keep the value that the manual's text supports, and add a `doubt`, because one of the values is misprinted",
+    ));
 }
 
 /// Reads the default value of a row, or the element for this item in a list of default values.

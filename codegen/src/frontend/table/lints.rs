@@ -38,14 +38,15 @@ pub(super) fn number(reader: &mut Reader<'_, '_>, given: &At<Literal>, value: &V
 fn capital(reader: &mut Reader<'_, '_>, span: Span) {
     let text = reader.source.slice(span).trim_matches(['"', '\'']);
     if text.starts_with("0X") {
-        let message = format!("`{}` begins with `0X`, but other numbers begin with `0x`", brief(text));
+        let message = format!("`{}` has the prefix `0X` instead of `0x`", brief(text));
         let found = Diagnostic::new(&codes::HEX_DIGITS, span, message).label("read as a hexadecimal number");
         reader.diagnostics.push(found.help("write `0x`, unless the X replaces a lost digit"));
     }
 }
 
 /// Help text for a wrong number of digits.
-const DIGITS: &str = "compare both with the manual: a digit was doubled or lost, or the type is wrong";
+const DIGITS: &str =
+    "compare the number and its type with the manual: a digit was doubled or lost, or the type is wrong";
 
 /// Reports a key for values that has more digits than the type of the values. Types below 8 bits are not checked.
 pub(super) fn key(reader: &mut Reader<'_, '_>, given: &At<String>, base: Type) {
@@ -67,7 +68,7 @@ pub(super) fn range(reader: &mut Reader<'_, '_>, value: &Value, ty: Type, span: 
         Value::Real(number) => format!("{number} is outside of the range of {ty}"),
         _ => return,
     };
-    let found = Diagnostic::new(&codes::OUT_OF_TYPE, span, message).label("kept as it is");
+    let found = Diagnostic::new(&codes::OUT_OF_TYPE, span, message).label("kept unchanged");
     reader.diagnostics.push(match (ty, value) {
         (Type::Unsigned(bits), Value::Int(..0)) => found.help(format!("check whether the type is `i{bits}`")),
         (Type::Integer(bits @ 1..=64), Value::Int(number)) if (0..1i128 << bits).contains(number) => {
@@ -91,7 +92,7 @@ pub(super) fn index<T>(reader: &mut Reader<'_, '_>, given: &At<T>) {
     let text = reader.source.slice(reader.span(given)).trim_matches(['"', '\'']);
     let first = text.split([':', '.']).next().unwrap_or_default();
     if let Some(number) = first.parse::<u16>().ok().filter(|number| *number > 0) {
-        let message = format!("the index `{first}` is decimal, which is 0x{number:04X}");
+        let message = format!("the index `{first}` has no prefix `0x` and is read as 0x{number:04X}");
         let found = Diagnostic::new(&codes::HEX_DIGITS, reader.span(given), message);
         reader.diagnostics.push(found.help(format!("write 0x{number:04X}, or 0x{first} if the manual omits `0x`")));
     }
@@ -167,7 +168,7 @@ pub(super) fn series(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)]
         let is_member = is_member.clone().count() > 0 && is_member.into_iter().all(|other| row.is_near(other));
         if row.offset() != expected && !by_rule && is_member {
             let message = format!(
-                "the row has object 0x{:04X}, but 0x{:04X} follows from the neighboring rows",
+                "the row has object 0x{:04X}, but the neighboring rows suggest 0x{:04X}",
                 row.index,
                 row.number.wrapping_add(expected)
             );

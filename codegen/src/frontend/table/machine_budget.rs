@@ -35,12 +35,12 @@ impl MachineBudget {
             return true;
         }
         let message = format!(
-            "up to `{}`, the state machines have more than {MAX_MACHINE_ROWS} states, commands, transitions and rows, \
-             which includes copies of long texts",
+            "the state machines up to `{}` have more than {MAX_MACHINE_ROWS} states, commands, transitions and rows, \
+             including copies of long texts",
             brief(&name.value)
         );
         let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, reader.span(name), message);
-        reader.diagnostics.push(found.label("this machine and those after it are left out"));
+        reader.diagnostics.push(found.label("this and all later state machines are left out"));
         false
     }
 }

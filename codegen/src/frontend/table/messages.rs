@@ -138,7 +138,7 @@ fn message(
 fn too_many(reader: &mut Reader<'_, '_>, table: &At<MessageTable>) {
     let message = format!("the table has more than {} messages", limits::MAX_MESSAGES);
     let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, reader.span(table), message);
-    reader.diagnostics.push(found.label("this message and those after it are left out"));
+    reader.diagnostics.push(found.label("this and all later messages are left out"));
 }
 
 /// Reports a `counts` key that names a field which the frame does not have.
@@ -337,7 +337,7 @@ impl Fields<'_, '_, '_> {
                 let first = *first.get_or_insert(number);
                 if number != first {
                     let message = format!(
-                        "the field has the printed byte number {}, but {} follows from the fields before it",
+                        "the printed byte number of the field is {}, but the preceding fields require {}",
                         at.value,
                         first + i64::from(bits / 8)
                     );
@@ -436,7 +436,7 @@ impl Fields<'_, '_, '_> {
         if let Some((order, bytes)) =
             given.order.as_ref().zip(bytes.filter(|&bytes| !byte_order.is_empty() && byte_order.len() != bytes))
         {
-            let message = format!("the order has {} bytes, but the type has {bytes}", byte_order.len());
+            let message = format!("the byte order has {} bytes, but the type has {bytes}", byte_order.len());
             self.reader.report(&codes::TABLE_VALUE, self.reader.span(order), message);
         }
         let counts = given.counts.as_ref().map(text);

@@ -27,7 +27,7 @@ pub(super) fn add(
     chapter: Option<&Row>,
 ) {
     let Some(objects) = notation::objects(&key.value) else {
-        let message = format!("`{}` is not an object", brief(&key.value));
+        let message = format!("`{}` is not an object address", brief(&key.value));
         let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message).help(notation::OBJECT_HELP);
         reader.diagnostics.push(match super::lints::digits_of_index(reader, key) {
             Some(digits) => found.note(digits),
@@ -103,11 +103,11 @@ fn head(
         group.doubts = reader.doubts_of(complete, group.origin);
         if let Some(of_value) = super::misplaced::of_value(&row.value).filter(|_| number == 0) {
             let key_text = brief(&key.value);
-            let message = format!("`{key_text}` has sub-entries, but `{of_value}` applies to a value");
+            let message = format!("`{key_text}` has sub-entries, but `{of_value}` applies only to a single value");
             let found = crate::diagnostics::Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
             reader
                 .diagnostics
-                .push(found.help(format!("write the fact for one of the sub-entries, as in `\"{key_text}:1\"`")));
+                .push(found.help(format!("write `{of_value}` in the row of a sub-entry, such as `\"{key_text}:1\"`")));
         }
         rows.summaries.extend(complete.summary.clone().map(|summary| (index, summary)));
     } else {
@@ -144,7 +144,7 @@ fn subs(
     let GivenRow { key, row, complete } = given;
     let number = u32::from(index - objects.indices.0);
     dictionary.entry(index).or_insert_with(|| {
-        let message = format!("object 0x{index:04X} has sub-entries, but no row above them");
+        let message = format!("object 0x{index:04X} has a row for a sub-entry, but no row for the object above it");
         reader.report(&codes::TABLE_PLACE, reader.span(key), message);
         Group { origin: reader.origin(key), ..Group::object(index, ObjectCode::Record) }
     });

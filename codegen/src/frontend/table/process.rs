@@ -126,7 +126,7 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) 
         let ty = typed.map_or(Type::Opaque(None), |named| named.ty);
         let bits = bits.or(ty.bits()).filter(|&bits| bits > 0 && !name.is_empty());
         if bits.is_none() {
-            let message = "an entry without an object needs a name, and a length or type";
+            let message = "a PDO entry without an object needs a name, and a length or type";
             let help = "write the length as in `? torque limit/16`, or the type as in `? torque limit/i16`";
             reader.report_with_help(&codes::TABLE_PLACE, reader.span(text), message, help);
         }
@@ -140,7 +140,7 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) 
     };
     let Some((index, sub_index)) = by_address().or_else(|| by_name().and_then(Item::object)) else {
         if by_name().is_some() {
-            let message = format!("`{}` is not an object, and PDOs map objects only", brief(what));
+            let message = format!("`{}` has no object address, but PDOs map only objects", brief(what));
             let found = crate::diagnostics::Diagnostic::new(&codes::UNRESOLVED_NAME, reader.span(text), message);
             reader.diagnostics.push(found.help("add `obj` to the row, or a rule for CANopen or EtherCAT to its space"));
             return None;

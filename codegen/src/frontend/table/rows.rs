@@ -295,7 +295,7 @@ impl Rows {
                 let diagnostic = Diagnostic::new(&codes::UNKNOWN_UNIT, reader.span(unit), message);
                 reader.diagnostics.push(match similar {
                     Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
-                    None => diagnostic.label("kept as it is").help("define it in `[units]`"),
+                    None => diagnostic.label("kept unchanged").help("define it in `[units]`"),
                 });
             }
         }
@@ -366,7 +366,7 @@ impl Rows {
             behaviour.pdi_access = reader.word(pdi, "access right", &ACCESSES);
             if !item.bindings.iter().any(|binding| matches!(binding, crate::ir::Binding::EscMemory { .. })) {
                 let message =
-                    "`pdi` needs an address in the memory of an EtherCAT slave controller, and the row has none";
+                    "`pdi` needs an address in the memory of an EtherCAT slave controller, but the row has none";
                 reader.report(&codes::TABLE_VALUE, reader.span(pdi), message);
             }
         }

@@ -108,7 +108,7 @@ pub(super) fn modbus_tables(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceT
         };
         match found.iter().find(|other| other.space == table.space) {
             Some(other) if *other != table => {
-                let message = "another space has other requests for the same Modbus table";
+                let message = "another space declares different requests for the same Modbus table";
                 reader.report(&codes::TABLE_VALUE, reader.span(name), message);
             }
             Some(_) => {}

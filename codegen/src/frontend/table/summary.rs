@@ -60,12 +60,12 @@ pub(super) fn objects(
 }
 
 fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, message: String) {
-    let found = Diagnostic::new(&codes::SUMMARY_DIFFERS, span, message).label("the row is used");
+    let found = Diagnostic::new(&codes::SUMMARY_DIFFERS, span, message).label("the fact in the row is used");
     let found = found.help(
         "write the correct value in the row, record the other value in a `doubt`, and allow this code on the row",
     );
     reader.diagnostics.push(match &summary.cite {
-        Some(cite) => found.note(format!("citation of the summary: {}", cited(cite))),
+        Some(cite) => found.note(format!("location of the summary in the manual: {}", cited(cite))),
         None => found,
     });
 }
@@ -122,7 +122,7 @@ fn of_item(
         if access.is_some_and(|access| rights(access) != rights(item.access)) {
             differs.push((
                 reader.span(given),
-                format!("the access right {}", given.value),
+                format!("the access rights {}", given.value),
                 item.access.name().to_owned(),
             ));
         }
@@ -139,8 +139,8 @@ fn of_item(
     }
     if let (Some(given), Some(bits)) = (&summary.length, definitions.bits_of(item.ty)) {
         if given.value != bits.div_ceil(8) {
-            let has = base.bits().map_or_else(|| bits.div_ceil(8).to_string(), |_| base.to_string());
-            differs.push((reader.span(given), count_of(given.value, "byte"), has));
+            let has = base.bits().map_or_else(|| bits.div_ceil(8).to_string(), |_| format!("the type {base}"));
+            differs.push((reader.span(given), format!("a length of {}", count_of(given.value, "byte")), has));
         }
     }
     numbers(reader, summary, item, base, &mut differs);

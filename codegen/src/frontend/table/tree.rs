@@ -62,7 +62,7 @@ impl<'a> Reader<'a, '_> {
             let line = self.source.line_at(span.start);
             let follows = std::mem::replace(&mut last_line, line) == line || error.span().is_none();
             if position == 0 || !follows {
-                let message = format!("not valid TOML: {}", first_line(error.message()));
+                let message = format!("invalid TOML: {}", first_line(error.message()));
                 let diagnostic = Diagnostic::new(&codes::TABLE_SYNTAX, self.visible(span), message);
                 self.diagnostics.push(match hint(error.message()) {
                     Some(hint) => diagnostic.help(hint),

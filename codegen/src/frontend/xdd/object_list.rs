@@ -24,7 +24,7 @@ impl ObjectList {
                         None => missing_index(reader, &tag, "this object has no index"),
                     }
                 }
-                "CANopenSubObject" => missing_index(reader, &tag, "this sub-object is outside an object"),
+                "CANopenSubObject" => missing_index(reader, &tag, "this sub-object is outside of an object"),
                 _ => reader.unknown(&tag)?,
             }
         }

@@ -8,17 +8,17 @@ use crate::ir::{Device, Message, MessageField, MessageValue, Type};
 pub(super) const UNRESOLVED: Problem = "a field refers to a field that does not exist";
 pub(super) const UNALIGNED: Problem = "a field of whole bytes starts within a byte, or the data end within a byte";
 const UNKNOWN_LENGTH: Problem = "a value is neither a number of 1 to 64 bits nor a string of fixed length";
-const SEVERAL_LENGTHS: Problem = "two parts have a variable length, or such a part comes before a counted list";
+const SEVERAL_LENGTHS: Problem = "two fields have a variable length, or such a field comes before a counted list";
 const SEVERAL_LISTS: Problem = "the message has two lists of repeated fields";
 const LONE_VALUE: Problem = "a parameter value does not come directly after its parameter number";
 const LONG_CODE: Problem = "a parameter number has more than 32 bits";
 const ECHO: Problem = "the offset of a copied field in the request is variable, or the field does not have whole bytes";
 const COPY: Problem = "a request cannot copy bytes of a request";
 const REPEATED: Problem =
-    "repeated fields have parts other than values and fixed bytes, or no value, or do not fill whole bytes";
+    "repeated fields include more than values and fixed bytes, include no value, or do not fill whole bytes";
 const STATION: Problem = "the device address is not an unsigned integer of up to 32 bits";
 const LENGTH: Problem =
-    "a length is not an unsigned integer of whole bytes, or counts from a field after a part with a variable length";
+    "a length is not an unsigned integer of whole bytes, or counts from a field after a field of variable length";
 const COUNT: Problem = "the number of repetitions is not a separate unsigned integer before the repeated fields";
 
 /// The steps of a request or reply, with the offsets of its values.

@@ -88,7 +88,7 @@ fn unknown_reference(reference: &str, span: Span, offset: usize, diagnostics: &m
     let span = Span::new(span.file, start, start + reference.len() as u32);
     let message = match reference {
         "&" => "this `&` does not start a reference".to_owned(),
-        _ => format!("`{reference}` is not an entity of XML"),
+        _ => format!("XML does not define the entity `{reference}`"),
     };
     diagnostics.push(
         Diagnostic::new(&codes::ENTITY_REFERENCE, span, message)

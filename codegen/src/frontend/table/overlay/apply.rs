@@ -205,9 +205,9 @@ impl<'o> Applied<'o> {
         let procedures = patch.procedures.iter().map(|(name, _)| ("procedures", reader.span(name)));
         let all: Vec<_> = axes.chain(codes).chain(machines).chain(procedures).collect();
         for (key, span) in all {
-            let message = format!("a module cannot have `{key}`, which belong to its device");
+            let message = format!("a module cannot have `{key}`, because they belong to its device");
             let found = Diagnostic::new(&codes::TABLE_VALUE, span, message);
-            reader.diagnostics.push(found.help("move them to an overlay whose `for` has no `module`"));
+            reader.diagnostics.push(found.help("move the table to an overlay whose `for` has no `module`"));
         }
     }
 
@@ -301,9 +301,10 @@ impl<'o> Applied<'o> {
             match effect {
                 RowEffect::NoMatch => self.no_match(reader, row),
                 RowEffect::NoChange => {
-                    let message = format!("the description already has the values of `{}`", brief(&row.key.value));
+                    let message =
+                        format!("the description already has all values of the row `{}`", brief(&row.key.value));
                     let found = Diagnostic::new(&codes::OVERLAY_NO_CHANGE, reader.span(&row.key), message);
-                    reader.diagnostics.push(found.label("changes nothing"));
+                    reader.diagnostics.push(found.label("the row changes nothing"));
                 }
                 RowEffect::Changed => {}
             }
@@ -331,7 +332,7 @@ impl<'o> Applied<'o> {
         let found = |message| Diagnostic::new(&codes::OVERLAY_NO_MATCH, reader.span(&row.key), message);
         let found = match row.target {
             Target::Objects(_) => {
-                let found = found(format!("the description has no `{key}`"));
+                let found = found(format!("the description has no object `{key}`"));
                 let removes = row.row.value.remove == Some(true);
                 if removes {
                     found

@@ -134,7 +134,7 @@ fn rows<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>) -> Vec<PatchRow>
             match notation::objects(&key.value) {
                 Some(objects) => rows.push(complete(reader, key, row, Target::Objects(objects))),
                 None => {
-                    let message = format!("`{}` is not an object", brief(&key.value));
+                    let message = format!("`{}` is not an object address", brief(&key.value));
                     let help = notation::OBJECT_HELP;
                     reader.report_with_help(&codes::TABLE_PLACE, reader.span(&key), message, help);
                 }
