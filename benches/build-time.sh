@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Measures what the compiler costs as a build dependency. Runs a cold `cargo build` of a crate whose build script uses the
-# compiler, in the dev profile.
+# Measures the build time that the compiler adds as a build dependency. Runs a cold `cargo build` in the dev profile for a crate
+# whose build script uses the compiler.
 #
 #     benches/build-time.sh                 # Lexibus, with EDS and tables, with EDS alone, prost-build, svd2rust
-#     benches/build-time.sh lexibus         # one of them
+#     benches/build-time.sh lexibus         # only Lexibus
 #     COMMIT=main~20 benches/build-time.sh lexibus
 #
 # Prints processor seconds and wall-clock seconds. Run the script on an idle machine. The script downloads dependencies
@@ -19,7 +19,7 @@ if [[ -n ${COMMIT:-} ]]; then
     root=$work/source
 fi
 
-# Creates a crate. $2 is its build dependency, and $3 is its build script.
+# Creates the crate $1 with the build dependency $2 and the build script $3.
 crate() {
     mkdir -p "$work/$1/src"
     printf '[package]\nname = "driver"\nversion = "0.1.0"\nedition = "2021"\n[build-dependencies]\n%s\n[workspace]\n' "$2" >"$work/$1/Cargo.toml"
@@ -44,15 +44,15 @@ lexibus() {
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
     measure lexibus
 }
-# Uses the compiler with only these features.
+# Measures the compiler with only the features $2, under the name $1.
 lexibus-with() {
     crate "$1" "lexibus-codegen = { path = \"$root/codegen\", default-features = false, features = [$2] }" \
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
     measure "$1"
 }
-# Uses the compiler for EDS with profiles and overlays.
+# Measures the compiler for EDS with overlays.
 lexibus-eds-table() { lexibus-with lexibus-eds-table '"eds", "table"'; }
-# Uses the compiler for EDS with profiles.
+# Measures the compiler for EDS alone.
 lexibus-eds() { lexibus-with lexibus-eds '"eds"'; }
 prost-build() {
     crate prost-build 'prost-build = "0.14"' 'fn main() { let _ = prost_build::Config::new(); }'

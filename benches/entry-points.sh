@@ -35,7 +35,7 @@ echo 'pub mod bench { include!(concat!(env!("OUT_DIR"), "/bench.rs")); }' >> "$w
 echo 'fn main() -> Result<(), lexibus_codegen::BuildError> { lexibus_codegen::Builder::new().compile("bench.eds") }' \
     > "$work/build-script/build.rs"
 
-median_ms() { # CRATE, and what cargo is to do
+median_ms() { # CRATE CARGO-ARGUMENT...
     local folder=$work/$1 start
     shift
     cargo "$@" --quiet --manifest-path "$folder/Cargo.toml" 2>"$work/errors" || { cat "$work/errors" >&2; exit 1; }

@@ -1,4 +1,4 @@
-// Types queries into the search of a site's first page, and prints the times per keystroke: until its handler ends, and until the page is drawn.
+// Types queries into the search field of a site's first page. Measures two times per keystroke: until the event handlers end, and until the page is drawn.
 import { statSync } from "node:fs";
 import path from "node:path";
 import { pagesOf, Window, withBrowser } from "../cli/tests/browser/browser.mjs";
@@ -39,7 +39,7 @@ await withBrowser(async (browser) => {
   window.clean();
 });
 
-// Measures two times per keystroke within the page.
+// Adds event listeners to the page that record both times of each keystroke in `window.times`.
 function measure() {
   window.times = [];
   const input = document.getElementById("search");

@@ -7,7 +7,7 @@ fn main() -> Result<(), BuildError> {
     for description in ["examples/pump.eds", "examples/motor.toml", "../examples/inverter.toml"] {
         builder.compile(description)?;
     }
-    // These descriptions have warnings on purpose.
+    // Allow warnings, because the following descriptions have warnings on purpose.
     let lenient = builder.level("warnings", Level::Allow);
     lenient.compile_as("examples/station.gsdml.xml", "station.rs")?;
     lenient.compile("../tests/data/press.toml")?;

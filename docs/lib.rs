@@ -1,9 +1,9 @@
 //! Tests the examples of [the book](https://github.com/lexibus/lexibus/tree/main/docs/src/SUMMARY.md).
 //!
-//! The Rust blocks of the chapters are documentation tests of this crate. Each block compiles, and runs if it needs no
-//! hardware. The build script generates the bindings that they use, as a reader would.
+//! The Rust blocks of the chapters are documentation tests of this crate. Each block must compile, and is run if it needs no
+//! hardware. The build script generates the bindings that the blocks use.
 
-/// Bindings of `docs/examples` and of the workspace's test data.
+/// Declares a module with the generated bindings for each description.
 macro_rules! bindings {
     ($($(#[$documentation:meta])* $name:ident;)*) => {
         $(
@@ -37,7 +37,7 @@ bindings! {
     safe;
 }
 
-/// The chapters: each file of `docs/src`. A test of the book checks this list.
+/// One module for each chapter in `docs/src`. A test of the book checks this list.
 #[cfg(doctest)]
 mod chapters {
     #[doc = include_str!("src/introduction.md")]

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Draws random sentences of what people read, so that a fresh reader can judge the prose.
+"""Prints random sentences of the texts in this repository, so that a person can judge the prose.
 
 usage: docs/sample.py [--seed TEXT] [--count NUMBER] [AREA...]
 
-Areas: book, tables, diagnostics, rustdoc, dictionaries, comments; all without arguments. The seed is the current commit, so
-everybody draws the same sentences. Prints `file:line: sentence`.
+The areas are book, tables, diagnostics, rustdoc, dictionaries and comments. Without an area, the script samples all areas. The default
+seed is the current commit, so that all readers get the same sentences. The output has the form `file:line: sentence`.
 """
 import argparse
 import pathlib
@@ -14,7 +14,7 @@ import subprocess
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# Chapters and labels that later issues rewrite are left out: clients, documentation site, `--help`.
+# Names of chapters that are not sampled: the chapters about buses and clients, the documentation site and the list of lints.
 CLIENTS = {"buses", "canopen", "ethercat", "modbus", "profinet", "serial", "simulation", "recipes", "site", "lints"}
 TEXT_KEYS = {"doc", "says", "chose", "why", "effects", "remedy", "cause", "note"}
 
@@ -36,7 +36,7 @@ def sentences(text):
 
 
 def markdown(path):
-    """Paragraphs, list items and cells, without code blocks."""
+    """Yields the sentences of paragraphs, list items and table cells. Code blocks are left out."""
     paragraph, start, in_code = [], 0, False
     for number, line in enumerate([*read(path).splitlines(), ""], 1):
         if line.lstrip().startswith("```"):
@@ -58,7 +58,7 @@ def markdown(path):
 
 
 def comments(path, mark):
-    """Blocks of comments that begin with `mark`."""
+    """Yields the sentences of comments whose lines begin with `mark`."""
     block, start = [], 0
     for number, line in enumerate([*read(path).splitlines(), ""], 1):
         found = re.match(rf"\s*({mark})(?: (.*))?$", line)

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Generates the files that are checked in: the bindings in generated/src and benches/instructions, the schema of register tables,
-# the profiles, and the book's catalog of diagnostics. With --check, compares the files instead. Set `$LEXIBUS` to use an existing
-# compiler.
+# the profiles, and the book's catalog of diagnostics. With --check, only checks that the files are up to date. Set
+# `$LEXIBUS` to use an existing compiler.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 lexibus() {
     if [[ -n ${LEXIBUS:-} ]]; then "$LEXIBUS" "$@"; else cargo run --quiet -p lexibus-cli -- "$@"; fi
 }
-# Unit tests of the compiler write the files that are embedded in it: the schema and the profiles.
+# Unit tests of the compiler write the files that are embedded in the compiler: the schema and the profiles.
 if [[ ${1:-} != --check && -z ${LEXIBUS:-} ]]; then
     LEXIBUS_BLESS=1 cargo test --quiet -p lexibus-codegen --lib -- frontend::table::schema profiles::stored
 fi

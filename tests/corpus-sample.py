@@ -42,7 +42,7 @@ SIZE_LIMIT = 250_000
 # Number of bytes that is added to the size of each file, so that the script prefers a medium-sized file to many tiny ones.
 FILE_COST = 50_000
 
-# Formats that share a front end, or that become the same part of the intermediate representation.
+# Family of each format. The formats of a family share a front end or a part of the intermediate representation.
 FAMILIES = {"eds": "canopen", "dcf": "canopen", "xdd": "canopen", "esi": "ethercat", "gsdml": "profinet"}
 # Keys that are not read, because their values are positions or free text.
 IGNORED = {"at", "documentation", "doubts", "extensions", "files", "header", "name_at", "names", "origin", "span", "step_spans",
@@ -50,7 +50,7 @@ IGNORED = {"at", "documentation", "doubts", "extensions", "files", "header", "na
 # Keys whose text is the name of an enumeration variant. The text of other keys is data.
 ENUMERATIONS = {"access", "code", "completion", "direction", "kind", "meaning", "pdi_access", "purpose", "space", "storage",
                 "trigger", "type", "zone"}
-# Keys whose value is a type. They occur in items, arrays, aliases and enumerations.
+# Keys in items, arrays, aliases and enumerations whose value is a type.
 TYPES = {"ty", "element", "alias", "base"}
 # Widths in bits that count as separate features. All other widths count as one feature.
 WIDTHS = {1, 8, 16, 24, 32, 64}
@@ -170,7 +170,7 @@ def ir_features(value, family, path):
             if key in IGNORED:
                 continue
             inner = ("type",) if key in TYPES else path + (key,)
-            # A map with one key is an enumeration variant. Its name counts even if its content is empty.
+            # A map with one key is an enumeration variant. The name of a variant counts even if its content is empty.
             if len(value) == 1:
                 yield "ir", f"{family}: {'/'.join(inner[-KEYS:])}"
             yield from ir_features(part, family, inner)
@@ -214,7 +214,7 @@ def features_of_file(lexibus, warn, file):
 
 def choose_sample(files):
     """Returns the chosen files, each with the features that it was chosen for, and the features that only large files have."""
-    # Sort the files, because `max` returns the first of equal files. The result is then reproducible.
+    # Sort the files to make the result reproducible, because `max` returns the first of equal files.
     eligible = {file: entry for file, entry in sorted(files.items()) if entry[0] <= SIZE_LIMIT}
     features_of = {file: features for file, (_, features) in eligible.items()}
     everything = set().union(*features_of.values())

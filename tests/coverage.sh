@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Measures line coverage: tests/coverage.sh [DETAILS.json]. Requires `cargo llvm-cov` and the LLVM tools of the toolchain
-# (`rustup component add llvm-tools`, or LLVM_COV and LLVM_PROFDATA). Takes about an hour. tests/COVERAGE.md contains the last
-# result.
+# (`rustup component add llvm-tools`, or LLVM_COV and LLVM_PROFDATA). Takes about an hour. tests/COVERAGE.md contains the
+# latest result.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export CARGO_INCREMENTAL=0 LEXIBUS_LANE=full
-# Let all programs that tests start share four profile files. Otherwise, they would write thousands of files.
+# All programs that the tests start share four profile files. Otherwise, the programs would write thousands of files.
 export LLVM_PROFILE_FILE_NAME='lexibus-%4m.profraw'
 python=${LEXIBUS_PYTHON:-$PWD/target/python/bin/python}
 if "$python" -c 'import canopen, lxml' 2>/dev/null; then export LEXIBUS_PYTHON=$python; fi

@@ -2,9 +2,9 @@
 # Runs the full lane: all tests with the whole corpus. Continues after a failure. At the end, prints a table of results and times.
 #
 #     tests/full.sh                   # all parts
-#     tests/full.sh clippy browser    # these parts
-#     tests/full.sh --list            # their names
-#     tests/full.sh coverage          # only on request: takes an hour
+#     tests/full.sh clippy browser    # only the given parts
+#     tests/full.sh --list            # print the names of the parts
+#     tests/full.sh coverage          # not part of a full run: takes an hour
 #
 # Logs are written to target/full. Parts that need the corpus are skipped with a message if ../shared is absent.
 set -uo pipefail
@@ -40,15 +40,15 @@ tests() {
 part_programs() { tests/programs.sh; }
 part_format() { cargo fmt --all --check; }
 part_clippy() { cargo clippy --quiet --workspace --all-targets --all-features -- -D warnings; }
-# Each feature of the runtime must compile without the others.
+# Each feature of the runtime must compile without the other features.
 part_features() {
     local features failed=0
     for features in "" std canopen socketcan socketcan-tokio ethercat modbus serial macros serde,defmt; do
         echo "features: $features"
         cargo check --quiet -p lexibus --no-default-features --features "$features" || failed=1
     done
-    # Each front end of the compiler must compile without the others. The test checks the error for formats whose front end is
-    # missing.
+    # Each front end of the compiler must compile without the other front ends. The test `features` checks the errors for formats
+    # whose front end is missing.
     for features in "" eds xdd esi gsdml table messages eds,table; do
         echo "front ends: $features"
         cargo check --quiet -p lexibus-codegen --no-default-features --features "$features" || failed=1

@@ -15,7 +15,7 @@ crates=(lexibus lexibus-codegen lexibus-macros lexibus-site lexibus-export lexib
 rm -rf "$source" "$scratch" "$folder/installed"
 mkdir -p "$source" "$scratch"
 
-# Use --no-verify, because the builds below replace the verification by Cargo, which would compile everything again.
+# Use --no-verify, because Cargo's verification would compile everything once more. The following builds replace the verification.
 cargo package --quiet --allow-dirty --no-verify --target-dir "$folder" "${crates[@]/#/-p}" 2> >(grep -v "^warning: ignoring" >&2)
 
 cargo vendor --quiet --locked "$source" >/dev/null
@@ -29,7 +29,7 @@ for crate in "${crates[@]}"; do
     printf '{"files":{},"package":"%s"}' "$(sha256sum "$package" | cut -d' ' -f1)" >"$unpacked/.cargo-checksum.json"
 done
 
-# `cargo install` ignores the configuration in the current folder. Both commands therefore get it as arguments.
+# `cargo install` ignores the configuration in the current folder. Both commands therefore get the configuration as arguments.
 packages=(--offline --config 'source.crates-io.replace-with = "packages"' --config "source.packages.directory = \"$source\"")
 
 cp -r tests/drive-crate/{build.rs,pump.eds,src} "$scratch"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the programs that tests use in addition to Cargo: Python with canopen, pymodbus, jsonschema and lxml; valgrind; Chromium with
-# playwright-core. Writes environment variables for them to target/programs.env. Reports the programs that cannot be installed.
+# playwright-core. Writes the environment variables of these programs to target/programs.env. Reports the programs that cannot be
+# installed.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 mkdir -p target
@@ -20,7 +21,7 @@ if tests/interop/setup.sh >/dev/null; then
 else
     echo "no Python with canopen, pymodbus, jsonschema and lxml: the tests against them are skipped, and nothing is validated by schema"
 fi
-# If a browser is available, tests of the site must not be skipped.
+# If a browser is available, this variable prevents the tests of the site from being skipped.
 if cli/tests/browser/setup.sh >/dev/null; then
     echo "export LEXIBUS_BROWSER=required" >>target/programs.env
 else

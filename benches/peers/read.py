@@ -1,7 +1,8 @@
-"""Reads files as a user of Python would, and prints how long that took.
+"""Reads files with Python libraries and prints the time of each.
 
-A line of standard input is a reader, a number of repetitions and a path, with tabs between; the answer is a line, seconds or what
-went wrong. Files are read from the disk's cache; that is part of the time, and a hundredth of it at most.
+Each line of standard input contains the name of a reader, the number of repetitions, and a path, separated by tabs. The script answers
+each line with a line that contains the time in seconds or an error. The time includes reading the file from the disk cache, which
+takes at most a hundredth of it.
 """
 
 import gc
@@ -31,7 +32,7 @@ def texts(element, *paths):
 
 
 def read_esi(path):
-    """What a script with lxml takes from an ESI: identity, dictionary, PDOs."""
+    """Returns the facts that a typical lxml script reads from an ESI: identity, dictionary and PDOs."""
     devices = []
     for device in etree.parse(path).getroot().iterfind("Descriptions/Devices/Device"):
         kind = device.find("Type")
@@ -62,7 +63,7 @@ def read_esi(path):
 
 
 def read_gsdml(path):
-    """What a script with lxml takes from a GSDML: texts, modules, submodules, records."""
+    """Returns the facts that a typical lxml script reads from a GSDML: texts, modules, submodules and records."""
     space = {"g": "http://www.profibus.com/GSDML/2003/11/DeviceProfile"}
     root = etree.parse(path).getroot()
     names = {text.get("TextId"): text.get("Value") for text in root.xpath("//g:PrimaryLanguage/g:Text", namespaces=space)}
@@ -104,6 +105,6 @@ for line in sys.stdin:
     reader, repetitions, path = line.rstrip("\n").split("\t")
     try:
         reply = f"{seconds(READERS[reader], path, int(repetitions)):.9f}"
-    except Exception as error:  # Any exception is the result for this file.
+    except Exception as error:  # The answer for this file is the exception.
         reply = " ".join(f"{type(error).__name__}: {error}".split())
     print(reply, flush=True)

@@ -13,7 +13,7 @@ use lexibus_import::Field;
 
 use super::Failure;
 
-/// The object-dictionary compiler: device descriptions in, typed Rust out.
+/// The object-dictionary compiler: generates typed Rust from device descriptions.
 #[derive(Debug, Parser)]
 #[command(name = "lexibus", version, arg_required_else_help = true)]
 pub(super) struct Arguments {
@@ -25,97 +25,97 @@ pub(super) struct Arguments {
 pub(super) enum Command {
     /// Generate Rust bindings.
     Generate(Generate),
-    /// Write device descriptions in another format.
+    /// Convert device descriptions to another format.
     Export(Export),
-    /// Write a site of documentation: pages that open from disk, with a search.
+    /// Write a documentation site with a search. The pages can be opened from disk.
     Docs(Docs),
     /// Compare two versions of a description. The exit code is 1 if a change breaks Rust code or the communication.
     Diff(Diff),
     /// Read and check device descriptions.
     Check(Check),
-    /// Sum up device descriptions.
+    /// Summarize device descriptions.
     Info(Info),
     /// Print the intermediate representation as JSON.
     Dump(Dump),
-    /// Start a register table.
+    /// Create a register table with example rows.
     New(New),
-    /// Turn a list of registers (CSV) into a register table.
+    /// Convert a list of registers (CSV) to a register table.
     Import(Import),
     /// Print the JSON Schema of register tables.
     Schema(Schema),
-    /// Explain a diagnostic code; without one, list all of them.
+    /// Explain a diagnostic code. Without a code, list all codes.
     Explain {
-        /// Identifier or name of the code, such as EDS020 or octal-number.
+        /// Identifier or name of a diagnostic code, such as EDS020 or octal-number.
         code: Option<String>,
-        /// How it is printed.
+        /// Output format of the explanation.
         #[arg(long, value_enum, value_name = "FORMAT", default_value_t = ExplainFormat::Text)]
         format: ExplainFormat,
     },
     /// Print a completion script for a shell.
     Completions {
-        /// The shell.
+        /// Shell that runs the completion script.
         shell: Shell,
     },
 }
 
-/// Files to read, and how.
+/// Input files, and options for reading them.
 #[derive(Debug, Args)]
 pub(super) struct Inputs {
-    /// Device descriptions, and folders of them (searched for .eds, .dcf, .xdd, .xdc, .xpd, .xml and .toml).
+    /// Device descriptions, or folders to search for them (.eds, .dcf, .xdd, .xdc, .xpd, .xml and .toml files).
     #[arg(required = true, value_name = "FILE")]
     pub paths: Vec<PathBuf>,
-    /// Turn every repair of the input into an error.
+    /// Report repairs of the input as errors.
     #[arg(long)]
     pub strict: bool,
-    /// Don't report this code (an identifier, a name, or `warnings`).
+    /// Do not report this diagnostic code (an identifier, a name, or `warnings`).
     #[arg(short = 'A', long = "allow", value_name = "CODE")]
     pub allow: Vec<String>,
-    /// Report this code as a warning.
+    /// Report this diagnostic code as a warning.
     #[arg(short = 'W', long = "warn", value_name = "CODE")]
     pub warn: Vec<String>,
-    /// Report this code as an error.
+    /// Report this diagnostic code as an error.
     #[arg(short = 'D', long = "deny", value_name = "CODE")]
     pub deny: Vec<String>,
-    /// The three lists above in the order of the command line: the last setting of a code counts.
+    /// Entries of `allow`, `warn` and `deny` in the order of the command line. The last entry for a code takes precedence.
     #[arg(skip)]
     pub levels: Vec<(String, Level)>,
-    /// Another name that formulas use for $NODEID.
+    /// Additional name for $NODEID in formulas.
     #[arg(long, value_name = "NAME")]
     pub node_id_alias: Vec<String>,
-    /// Choose what the manual of a register table leaves open; may be repeated.
+    /// Set an option that the register table defines; can be repeated.
     #[arg(long, value_name = "NAME=CHOICE", value_parser = choice)]
     pub option: Vec<(String, String)>,
-    /// Take this device only (a name, order code or product code, with @REVISION or @latest); may be repeated.
+    /// Use only this device (a name, order code or product code, optionally with @REVISION or @latest); can be repeated.
     #[arg(long, value_name = "DEVICE")]
     pub device: Vec<DeviceFilter>,
-    /// Take this module only (a name, identifier or ident number); may be repeated.
+    /// Use only this module (a name, identifier or ident number); can be repeated.
     #[arg(long, value_name = "MODULE", value_parser = module_filter)]
     pub module: Vec<Filter>,
-    /// Take these objects only (an index or a range, such as 0x6000..0x67FF); may be repeated.
+    /// Use only these objects (an index or a range, such as 0x6000..0x67FF); can be repeated.
     #[arg(long, value_name = "OBJECTS")]
     pub objects: Vec<ObjectFilter>,
-    /// Apply this overlay, a table that corrects descriptions and adds to them; may be repeated.
+    /// Apply this overlay, a table that corrects and extends descriptions; can be repeated.
     #[arg(long, value_name = "FILE")]
     pub overlay: Vec<PathBuf>,
-    /// Profiles (CiA 301, CiA 402, CoE, PROFIdrive) add nothing to the objects of devices that follow them.
+    /// Do not add facts from profiles (CiA 301, CiA 402, CoE, PROFIdrive) to devices.
     #[arg(long)]
     pub no_profiles: bool,
-    /// How findings are printed.
+    /// Output format of diagnostics.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = MessageFormat::Text)]
     pub message_format: MessageFormat,
-    /// When to use colours.
+    /// When to print diagnostics in color.
     #[arg(long, value_enum, value_name = "WHEN", default_value_t = ColorChoice::Auto)]
     pub color: ColorChoice,
-    /// Number of files to read at once; by default, one a processor.
+    /// Number of files to read in parallel; by default, the number of processors.
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum MessageFormat {
-    /// For people: the place, the line, a label.
+    /// Human-readable text with position, source line and labels.
     Text,
-    /// One JSON object a line.
+    /// One JSON object per line.
     Json,
     /// One SARIF 2.1.0 document.
     Sarif,
@@ -123,52 +123,52 @@ pub(super) enum MessageFormat {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum ColorChoice {
-    /// On a terminal.
+    /// Use colors if the output is a terminal.
     Auto,
-    /// Always.
+    /// Always use colors.
     Always,
-    /// Never.
+    /// Never use colors.
     Never,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum ExplainFormat {
-    /// For people; without a code, a line a code.
+    /// Human-readable text. The list of codes has one line per code.
     Text,
-    /// Markdown, each code with its explanation.
+    /// Markdown. The list of codes includes their explanations.
     Markdown,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct Diff {
-    /// The old description.
+    /// Old version of the description.
     pub old: PathBuf,
-    /// The new one.
+    /// New version of the description.
     pub new: PathBuf,
-    /// The format of the report.
+    /// Output format of the report.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = DiffFormat::Text)]
     pub format: DiffFormat,
-    /// The changes to show. The summary and the exit code count all of them.
+    /// Changes to show. The summary and the exit code count all changes.
     #[arg(long, value_enum, value_name = "CHANGES", default_value_t = Shown::All)]
     pub show: Shown,
-    /// The file to write; standard output where it isn't given.
+    /// File to write; by default, standard output.
     #[arg(short, long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Choose what the manual of a register table leaves open; may be repeated.
+    /// Set an option that the register table defines; can be repeated.
     #[arg(long, value_name = "NAME=CHOICE", value_parser = choice)]
     pub option: Vec<(String, String)>,
-    /// Profiles (CiA 301, CiA 402, CoE, PROFIdrive) add nothing to the objects of devices that follow them.
+    /// Do not add facts from profiles (CiA 301, CiA 402, CoE, PROFIdrive) to devices.
     #[arg(long)]
     pub no_profiles: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum DiffFormat {
-    /// One line per change, and a summary.
+    /// One line per change, followed by a summary.
     Text,
-    /// One JSON object per change, each on a line.
+    /// One JSON object per change and line.
     Json,
-    /// A page.
+    /// HTML page.
     Html,
 }
 
@@ -176,7 +176,7 @@ pub(super) enum DiffFormat {
 pub(super) enum Shown {
     /// All changes.
     All,
-    /// Changes that break something, and compatible ones: all except those of texts.
+    /// All changes except those without an effect, such as changed texts.
     Compatible,
     /// Changes that break Rust code, the communication or the behavior.
     Behavior,
@@ -188,22 +188,22 @@ pub(super) enum Shown {
 pub(super) struct Docs {
     #[command(flatten)]
     pub inputs: Inputs,
-    /// The folder to write to.
+    /// Folder to write to.
     #[arg(short, long, value_name = "FOLDER")]
     pub out: PathBuf,
-    /// What the pages are written in.
+    /// Format of the pages.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = DocsFormat::Html)]
     pub format: DocsFormat,
-    /// Write nothing; fail where a page isn't what would be written.
+    /// Write nothing, and fail if a page is missing or out of date.
     #[arg(long)]
     pub check: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum DocsFormat {
-    /// A site that opens from disk, with drawings and a search.
+    /// HTML site with drawings and a search. The pages can be opened from disk.
     Html,
-    /// Pages for repositories and for mdBook.
+    /// Markdown pages for repositories and for mdBook.
     Markdown,
 }
 
@@ -217,16 +217,16 @@ pub(super) struct Check {
 pub(super) struct Info {
     #[command(flatten)]
     pub inputs: Inputs,
-    /// How the summary is printed.
+    /// Output format of the summary.
     #[arg(long, value_enum, default_value_t = InfoFormat::Text)]
     pub format: InfoFormat,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum InfoFormat {
-    /// For people.
+    /// Human-readable text.
     Text,
-    /// One JSON object a line.
+    /// One JSON object per line.
     Json,
 }
 
@@ -240,37 +240,37 @@ pub(super) struct Dump {
 pub(super) struct Generate {
     #[command(flatten)]
     pub inputs: Inputs,
-    /// The file to write (for one input), or the folder to write to; standard output where neither is given.
+    /// File (for one input) or folder to write to; by default, standard output.
     #[arg(short, long, value_name = "PATH")]
     pub out: Option<PathBuf>,
-    /// Write nothing; fail where the output is missing or isn't what would be written.
+    /// Write nothing, and fail if an output file is missing or out of date.
     #[arg(long, requires = "out")]
     pub check: bool,
-    /// Name of the device's type.
+    /// Name of the generated device type.
     #[arg(long, value_name = "NAME")]
     pub device_name: Option<String>,
-    /// Path of the runtime crate.
+    /// Rust path of the runtime crate in the generated code.
     #[arg(long, value_name = "PATH", default_value = "::lexibus", value_parser = rust_path)]
     pub runtime: String,
-    /// Handles only: no device type with accessor methods.
+    /// Generate only handles, and no device type with accessor methods.
     #[arg(long)]
     pub no_accessors: bool,
-    /// No PDO structs.
+    /// Do not generate PDO structs.
     #[arg(long)]
     pub no_pdos: bool,
-    /// The static table of all entries: always, never, or feature=NAME.
+    /// When to generate the static table of all entries: always, never, or feature=NAME.
     #[arg(long, value_name = "WHEN", default_value = "never", value_parser = presence)]
     pub table: Presence,
-    /// Debug on generated types: always, never, or feature=NAME.
+    /// When generated types implement Debug: always, never, or feature=NAME.
     #[arg(long, value_name = "WHEN", default_value = "always", value_parser = presence)]
     pub debug: Presence,
-    /// PartialEq on generated types: always, never, or feature=NAME.
+    /// When generated types implement PartialEq: always, never, or feature=NAME.
     #[arg(long, value_name = "WHEN", default_value = "always", value_parser = presence)]
     pub partial_eq: Presence,
-    /// defmt::Format on generated types: always, never, or feature=NAME.
+    /// When generated types implement defmt::Format: always, never, or feature=NAME.
     #[arg(long, value_name = "WHEN", default_value = "never", value_parser = presence)]
     pub defmt: Presence,
-    /// serde's traits on generated types: always, never, or feature=NAME.
+    /// When generated types implement the traits of serde: always, never, or feature=NAME.
     #[arg(long, value_name = "WHEN", default_value = "never", value_parser = presence)]
     pub serde: Presence,
 }
@@ -279,41 +279,41 @@ pub(super) struct Generate {
 pub(super) struct Export {
     #[command(flatten)]
     pub inputs: Inputs,
-    /// What to write.
+    /// Format to write.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub format: ExportFormat,
-    /// A fact that the format wants and the source doesn't say, such as physics=YY; counts before what the source says, and may
-    /// be repeated. Which ones there are is told where one is missing, or unknown.
+    /// Fact that the format requires, such as physics=YY; can be repeated. The fact takes precedence over the input. If a key is
+    /// missing or unknown, the error message lists the keys.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = fact)]
     pub facts: Vec<(String, String)>,
-    /// The form of REAL32 and REAL64 values in an EDS or DCF [default: decimal]
+    /// Notation of REAL32 and REAL64 values in an EDS or DCF [default: decimal]
     #[arg(long, value_enum, value_name = "FORM")]
     pub real: Option<RealForm>,
-    /// The file to write (for one device), or the folder to write to; standard output where neither is given.
+    /// File (for one device) or folder to write to; by default, standard output.
     #[arg(short, long, value_name = "PATH")]
     pub out: Option<PathBuf>,
-    /// Write nothing; fail where the output is missing or isn't what would be written.
+    /// Write nothing, and fail if an output file is missing or out of date.
     #[arg(long, requires = "out")]
     pub check: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum RealForm {
-    /// Decimal numbers, which Python's `canopen` reads.
+    /// Decimal numbers, which Python's `canopen` can read.
     Decimal,
-    /// The bits of IEEE 754 in hexadecimal, which the tools of lely read.
+    /// IEEE 754 bit patterns in hexadecimal, which the tools of lely can read.
     Hex,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum ExportFormat {
-    /// CANopen electronic data sheet (CiA 306): what all devices of the type have in common.
+    /// CANopen electronic data sheet (CiA 306), which describes all devices of a type.
     Eds,
-    /// CANopen device configuration file (CiA 306): also the node-ID and the values of one device.
+    /// CANopen device configuration file (CiA 306), which also contains the node-ID and configured values of one device.
     Dcf,
-    /// EtherCAT slave information (ETG.2000), of all devices of an input in one file.
+    /// EtherCAT slave information (ETG.2000). One file describes all devices of an input.
     Esi,
-    /// PROFINET device description (GSDML), of all devices of an input in one file.
+    /// PROFINET device description (GSDML). One file describes all devices of an input.
     Gsdml,
 }
 
@@ -327,61 +327,61 @@ fn fact(text: &str) -> Result<(String, String), String> {
 pub(super) struct New {
     /// Name of the device.
     pub name: String,
-    /// The file to write, which must not exist; by default, the name with the ending .toml.
+    /// File to create, which must not exist; by default, the name of the device with the extension .toml.
     #[arg(short, long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// The bus that the rows of the table are for.
+    /// Bus of the example rows.
     #[arg(long, value_enum, value_name = "BUS", default_value_t = Bus::Modbus)]
     pub bus: Bus,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Bus {
-    /// Registers and coils.
+    /// Modbus registers and coils.
     Modbus,
-    /// An object dictionary on CAN.
+    /// CANopen object dictionary.
     Canopen,
-    /// An object dictionary on EtherCAT.
+    /// Object dictionary on EtherCAT (CoE).
     Ethercat,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct Import {
-    /// A list of registers with a line of column titles: comma, semicolon or tab between cells.
+    /// List of registers with a row of column titles. Commas, semicolons or tabs separate the cells.
     #[arg(value_name = "TABLE.csv")]
     pub path: PathBuf,
-    /// The file to write, which must not exist; standard output where it isn't given.
+    /// File to create, which must not exist; by default, standard output.
     #[arg(short, long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Which column is what: FIELD=TITLE or FIELD=#NUMBER, such as reg="Start address"; may be repeated.
+    /// Column that contains a field: FIELD=TITLE or FIELD=#NUMBER, such as reg="Start address"; can be repeated.
     #[arg(long, value_name = "FIELD=COLUMN", value_parser = lexibus_import::mapping)]
     pub map: Vec<(Field, String)>,
-    /// What stands between cells: a character, `tab`, `comma` or `semicolon`; by default, what fits.
+    /// Cell delimiter: a character, `tab`, `comma` or `semicolon`; by default, it is detected.
     #[arg(long, value_name = "CHARACTER", value_parser = lexibus_import::delimiter)]
     pub delimiter: Option<u8>,
-    /// Name of the device; by default, that of the file.
+    /// Name of the device; by default, the name of the file.
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
-    /// Turn every cell that can't be read into an error.
+    /// Report unreadable cells as errors.
     #[arg(long)]
     pub strict: bool,
-    /// Don't report this code (an identifier, a name, or `warnings`).
+    /// Do not report this diagnostic code (an identifier, a name, or `warnings`).
     #[arg(short = 'A', long = "allow", value_name = "CODE")]
     pub allow: Vec<String>,
-    /// How findings are printed.
+    /// Output format of diagnostics.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = MessageFormat::Text)]
     pub message_format: MessageFormat,
-    /// When to use colours.
+    /// When to print diagnostics in color.
     #[arg(long, value_enum, value_name = "WHEN", default_value_t = ColorChoice::Auto)]
     pub color: ColorChoice,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct Schema {
-    /// The file to write; standard output where it isn't given.
+    /// File to write; by default, standard output.
     #[arg(short, long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Write nothing; fail where the file is missing or isn't what would be written.
+    /// Write nothing, and fail if the file is missing or out of date.
     #[arg(long, requires = "out")]
     pub check: bool,
 }
@@ -410,7 +410,7 @@ fn presence(text: &str) -> Result<Presence, String> {
 }
 
 impl Arguments {
-    /// Parses the arguments of this process. Levels keep the order of the command line.
+    /// Parses the arguments of this process. `levels` has the order of the command line.
     pub(super) fn parse_in_order() -> Self {
         let matches = Arguments::command().get_matches();
         let mut arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
@@ -432,7 +432,7 @@ impl Arguments {
 }
 
 impl Inputs {
-    /// Stores the levels in the order of the command line.
+    /// Fills `levels` in the order of the command line.
     fn order_levels(&mut self, matches: &ArgMatches) {
         let settings = [
             ("allow", &self.allow, Level::Allow),

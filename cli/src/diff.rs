@@ -22,7 +22,7 @@ struct Report<'c> {
     summary: Summary,
 }
 
-/// Compares two descriptions. Returns whether no change breaks Rust code or the communication.
+/// Compares two descriptions. Returns `false` if a change breaks Rust code or the communication, or if a description has errors.
 pub(super) fn run(diff: &Diff) -> Result<bool, Failure> {
     let options = Options { choices: diff.option.clone(), no_profiles: diff.no_profiles, ..Options::default() };
     let (Some(old), Some(new)) = (read(&diff.old, &options)?, read(&diff.new, &options)?) else { return Ok(false) };
@@ -42,7 +42,7 @@ pub(super) fn run(diff: &Diff) -> Result<bool, Failure> {
     Ok(summary.api == 0 && summary.wire == 0)
 }
 
-/// Returns the last class of changes that the user wants to see.
+/// Returns the last class of changes to show. Classes are sorted by severity.
 fn last_class(shown: Shown) -> Class {
     match shown {
         Shown::Breaking => Class::Breaking,

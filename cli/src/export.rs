@@ -46,7 +46,7 @@ impl Format {
         Ok(format)
     }
 
-    /// Returns the message for an input without anything to export.
+    /// Returns the error message for an input that contains nothing to export.
     fn nothing(&self) -> &'static str {
         match self {
             Format::Eds(_) => "no device with objects",
@@ -127,7 +127,7 @@ fn write(
 
 /// Returns the exported files of an input: one EDS per device, or one file for all devices.
 ///
-/// Returns `None` if the input contains nothing to export. This is an error if there is only one input.
+/// Returns `None` if nothing can be exported. An input that contains nothing to export is an error only if it is the only input.
 fn files<'c>(
     format: &Format,
     input: &Path,

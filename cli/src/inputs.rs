@@ -185,11 +185,11 @@ fn is_description(path: &Path) -> bool {
 }
 
 fn is_xml_description(path: &Path) -> bool {
-    // Keep an unreadable file so that an error is reported for it.
+    // Keep unreadable files, so that their errors are reported.
     head(path).is_none_or(|head| frontend::format(&head, FileId(0)).is_ok())
 }
 
-/// Returns whether a TOML file is a register table with a device. Overlays and profiles are not.
+/// Returns whether a TOML file is a register table with a device, and not an overlay or a profile.
 fn is_table_of_device(path: &Path) -> bool {
     head(path).is_none_or(|head| {
         let mut lines = head.text().lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));

@@ -6,7 +6,7 @@ use super::args::{Bus, New};
 use super::output::create;
 use super::Failure;
 
-// Table templates with the placeholders `{name}` and `{file}`.
+// These templates contain the placeholders `{name}` and `{file}`.
 const MODBUS: &str = include_str!("../templates/table/modbus.toml");
 const CANOPEN: &str = include_str!("../templates/table/canopen.toml");
 const ETHERCAT: &str = include_str!("../templates/table/ethercat.toml");

@@ -77,7 +77,7 @@ impl<'g> Target<'g> {
         Ok(())
     }
 
-    /// Returns whether a single input is written to a single file. Only then are details about the content reported.
+    /// Returns whether a single input is written to a single file. Details about the content are reported only in this case.
     pub(super) fn is_one_file(&self) -> bool {
         self.out.is_some() && !self.check && !self.many
     }

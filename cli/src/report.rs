@@ -62,7 +62,7 @@ impl Reporter {
         Reporter { format, color, is_result, errors: 0, warnings: 0, files: 0, kept: Vec::new(), sources: Vec::new() }
     }
 
-    /// Reports the diagnostics of an input.
+    /// Reports the diagnostics of one input.
     pub(super) fn report(&mut self, compilation: &Compilation) -> Result<(), Failure> {
         self.files += 1;
         self.errors += compilation.diagnostics.count(Severity::Error);

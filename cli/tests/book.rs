@@ -14,7 +14,7 @@ use lexibus_codegen::diagnostics::Severity;
 use lexibus_codegen::source::Source;
 use table_support::whole;
 
-/// Programs that the test does not run, because they take too long or may not be installed.
+/// Programs that the test does not run, because they take too long or are not always installed.
 const OTHERS: [&str; 5] = ["cargo", "cd", "cp", "mdbook", "xdg-open"];
 
 /// Returns the file names of the book's chapters.
@@ -100,7 +100,7 @@ fn agrees(lines: &[String], expected: &[&str]) -> bool {
     }
 }
 
-/// Runs a block of commands. Each command must succeed, unless its comment says that it fails.
+/// Runs the commands of a block and returns their number. Each command must succeed, unless its comment states that it fails.
 fn commands(block: &Block, folder: &Path, position: &str) -> usize {
     let mut count = 0;
     for line in block.text.replace("\\\n", " ").lines().filter(|line| !line.trim().is_empty()) {

@@ -225,7 +225,7 @@ fn control_characters_stay_out_of_what_is_printed() {
     let esi = esi.replace("CP-32 coupler", "Cou&#10;breaks api: pler\u{9b}");
     let modular = file(&folder, "c\u{1b}c.xml", &esi);
     let missing = folder.join("no\u{1b}[2J\nerror: file.eds").to_string_lossy().into_owned();
-    // Each command has a part of the hostile text that its output must contain.
+    // Each command is followed by a part of the hostile text that its output must contain.
     let calls: [(&[&str], &str); 8] = [
         (&["diff", &old, &new], "ain"),
         (&["diff", &modular, &old], "pler"),
@@ -351,7 +351,7 @@ fn links_and_pipes_in_a_folder() {
     let deep = folder.join("a/b");
     std::fs::create_dir_all(&deep).expect("a folder");
     file(&deep, "drive.eds", QUIRKY);
-    // Each folder contains two links to its parent. Following all of them would give 2^32 paths.
+    // Each folder contains two links to its parent. A search that follows all links would visit 2^32 paths.
     for name in ["one", "other"] {
         std::os::unix::fs::symlink(&folder, deep.join(name)).expect("a link");
     }
@@ -557,7 +557,7 @@ fn export_writes_a_gsdml_under_its_name() {
     }
 }
 
-/// The commands in the documentation export the three device descriptions of the Eco drive.
+/// Runs the commands in the documentation that export the table of the Eco drive as EDS, ESI and GSDML.
 #[test]
 fn the_eco_as_eds_esi_and_gsdml() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

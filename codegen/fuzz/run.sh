@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Fuzzes: codegen/fuzz/run.sh SECONDS [TARGET...]. Needs `cargo fuzz` (cargo install cargo-fuzz) and a nightly toolchain (rustup
-# toolchain install nightly). Inputs that fail are in codegen/fuzz/artifacts, one file each. Inputs with new coverage are kept
-# in codegen/fuzz/corpus.
+# Runs fuzz targets: codegen/fuzz/run.sh SECONDS [TARGET...]. Requires `cargo fuzz` (cargo install cargo-fuzz) and a nightly toolchain
+# (rustup toolchain install nightly). Each failing input is written to a file in codegen/fuzz/artifacts. Inputs with new coverage are
+# added to codegen/fuzz/corpus.
 set -euo pipefail
 cd "$(dirname "$0")"
 seconds=${1:?usage: run.sh SECONDS [TARGET...]}
@@ -10,8 +10,8 @@ targets=("$@")
 if [[ ${#targets[@]} == 0 ]]; then targets=(eds xdd esi gsdml table overlay import macro_input messages pdo ir); fi
 corpus=../../../shared/corpus
 
-# Seeds of a target: files of the repository, and real files if the corpus exists. Long files are left out, because a fuzzer
-# that changes single bytes makes no progress in them.
+# Prints the paths of the seeds of a target: files of the repository, and real files if the corpus exists. Long files are left out,
+# because a fuzzer that changes single bytes makes no progress in them.
 seeds() {
     case $1 in
     eds) named "$corpus/eds" '*.eds' '*.dcf' ;;
@@ -40,7 +40,7 @@ named() { # CORPUS PATTERN...
     done
 }
 
-# The contents and length of a table select the description that it corrects, so each table is added for all three descriptions.
+# The length of an overlay selects one of three descriptions. Each overlay is therefore added with zero, one and two line feeds.
 overlays() {
     local file lines name
     mkdir -p corpus/overlays
@@ -53,8 +53,8 @@ overlays() {
     done
 }
 
-# A request of every code to node 1, and a reply of zeros. `arbitrary` reads a list of bytes with 01 before each byte and 00
-# after the last one.
+# Creates a request with each code to node 1, followed by a reply of zeros. `arbitrary` reads a list of bytes as 01 before each byte,
+# and 00 after the last byte.
 requests() {
     local code number
     mkdir -p corpus/requests
@@ -70,7 +70,7 @@ requests() {
     find corpus/requests -type f
 }
 
-# Process data of every length that the drives use.
+# Creates process data of every length that the drives use.
 process_data() {
     local length
     mkdir -p corpus/process_data
@@ -81,7 +81,7 @@ process_data() {
     find corpus/process_data -type f
 }
 
-# A description is generated from a few kilobytes of random bytes.
+# Creates files of random bytes. The fuzz target `ir` generates a catalog from each.
 random() {
     mkdir -p corpus/random
     for number in {1..64}; do
@@ -105,7 +105,7 @@ for target in "${targets[@]}"; do
     mkdir -p "corpus/$target"
     seeds "$target" | while read -r file; do cp "$file" "corpus/$target/$(sha1sum "$file" | cut -c1-16)"; done
     options=(-max_total_time="$seconds" -max_len=65536 -timeout=60 -rss_limit_mb=4096 -print_final_stats=1)
-    # Counting rare branches costs more than it gains for targets that run most of the compiler.
+    # For targets that run most of the compiler, counting rare branches takes more time than it saves.
     case $target in overlay | ir) options+=(-entropic=0) ;; esac
     if [[ $target == ir ]]; then options+=(-len_control=0 -max_len=8192 -timeout=60); fi
     words=$(dictionary "$target")

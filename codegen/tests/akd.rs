@@ -1,5 +1,5 @@
 //! Compares the table of the Kollmorgen AKD with the text of its manual. Each printed row must be in the table, cite its line,
-//! and have the properties in the printed cells. Each deliberate difference must have a doubt.
+//! and have the properties in the printed cells. Each deliberate difference must have a `doubt` entry.
 
 #[path = "table_support/manual.rs"]
 mod manual_text;
@@ -139,11 +139,11 @@ fn registers_of_the_slave_controller() {
     assert_eq!((printed.len(), items.iter().filter(in_memory).count()), (18, 18));
 }
 
-/// Lines of printed bit tables that the register table corrects: the printed cell, the first bit, and the number of bits.
+/// Lines of printed bit tables that the register table corrects, with the printed cell, the first bit, and the number of bits.
 const CORRECTED: [(usize, &str, (u8, u8)); 4] =
     [(573, "Da 3 a 7", (6, 2)), (593, "0x201", (10, 1)), (594, "0x201", (11, 1)), (596, "SyncManager 7", (12, 4))];
 
-/// Compares a bit field with printed rows of parameter, address and bits.
+/// Compares a bit field with printed rows, which contain a parameter, an address and bits.
 fn table_of_bits(manual: &[String], device: &Device, name: &str, (first, last): (usize, usize), base: u32) -> usize {
     let fields = fields(device, name);
     let mut held = 0;
@@ -247,7 +247,7 @@ fn status_codes_and_transitions_of_the_communication() {
     }
 }
 
-/// Returns the mask and value of cells that contain `0`, `1` or `X`. `over` lists the bits that the cells describe.
+/// Returns the mask and value of cells that contain `0`, `1` or `X`. `over` lists the bit number of each cell.
 fn pattern(cells: &[&str], over: &[u32]) -> (u32, u32) {
     cells.iter().zip(over).fold((0, 0), |(mask, value), (cell, bit)| match *cell {
         "0" => (mask | 1 << bit, value),
@@ -334,7 +334,7 @@ fn modes(manual: &[String], device: &Device) {
     }
 }
 
-/// Returns the cyclic values: line, name, object and type.
+/// Returns the printed rows of the cyclic values: line, name, object and type.
 fn cyclic(manual: &[String]) -> Vec<(usize, String, (u16, u8), Type)> {
     let both = rows(manual, 982, 987).into_iter().chain(rows(manual, 992, 1001));
     both.map(|(line, cells)| {
@@ -605,7 +605,7 @@ fn mailbox_frames_and_their_example() {
     };
     let example = &message.examples[0];
     assert_eq!(example.request, bytes(1211));
-    // The length and type of the reply have doubts: the manual prints 0x0E and 0x20.
+    // The manual prints the wrong length 0x0E and the wrong type 0x20 for the reply. The table has a `doubt` entry for both numbers.
     let mut reply = bytes(1230);
     assert_eq!((reply[0], reply[7]), (0x0E, 0x20));
     (reply[0], reply[7]) = (0x0A, 0x30);
@@ -629,7 +629,7 @@ fn mailbox_frames_and_their_example() {
     }
 }
 
-/// Compares the printed rows of a frame, `Byte 0` to `Byte 15`, with the message fields that contain these bytes.
+/// Compares the printed rows `Byte 0` to `Byte 15` of a frame with the message fields that contain these bytes.
 fn frame(manual: &[String], device: &Device, fields: &[MessageField], (first, last): (usize, usize)) {
     let mut bytes: Vec<Option<BTreeSet<usize>>> = Vec::new();
     for field in fields {
@@ -677,7 +677,7 @@ fn objects_and_parameters() {
         device.groups.iter().flat_map(|group| &group.items).filter_map(Item::object).collect();
     let missing: Vec<_> = pairs.iter().filter(|pair| !items.contains(pair)).collect();
     assert_eq!(missing, [&(0, 0); 0]);
-    // The table may have more entries of mapping objects than the manual, up to four per object.
+    // The table can have more entries of mapping objects than the manual, but at most four per object.
     let more: Vec<_> = items.iter().filter(|pair| !pairs.contains(pair)).collect();
     assert!(more.iter().all(|(index, sub)| matches!(index, 0x1600..=0x1603 | 0x1A00..=0x1A03) && *sub <= 4));
     let mut names: Vec<&str> = Vec::new();

@@ -1,8 +1,7 @@
-//! Lists the 48 items in section 4 of the notes on the Kollmorgen AKD manual, and what covers each item. An item is covered
-//! by the diagnostics of a verbatim transcription (the `manual-akd` cases in `tests/ui`), or by a doubt in
-//! dictionaries/kollmorgen-akd.toml.
+//! Lists the 48 items in section 4 of the notes on the Kollmorgen AKD manual. Each item is covered by the diagnostics of a
+//! verbatim transcription (the `manual-akd` cases in `tests/ui`), or by a `doubt` entry in dictionaries/kollmorgen-akd.toml.
 //!
-//! The tests compare the list with these cases and doubts. If the manual is available, they also compare it with the lines
+//! The tests compare the list with these cases and entries. If the manual is available, they also compare it with the lines
 //! of the manual.
 
 #[path = "table_support/cases.rs"]
@@ -18,15 +17,15 @@ use std::collections::BTreeSet;
 
 use How::{Doubt, Finding};
 
-/// Area of the test cases.
+/// Folder of the test cases in `tests/ui`.
 const AREA: &str = "manual-akd";
 
-/// What covers an item.
+/// Test case or `doubt` entry that covers an item.
 enum How {
-    /// A test case and parts of its diagnostics: codes or words of a message.
+    /// A test case, with codes or words that its diagnostics must contain.
     Finding(&'static str, &'static [&'static str]),
-    /// Lines of the manual that a doubt cites, each with a part of its text. Used if the compiler cannot detect the
-    /// contradiction.
+    /// Lines of the manual that a `doubt` entry cites, each with a part of its text. This variant is for contradictions
+    /// that the compiler cannot detect.
     Doubt(&'static [(usize, &'static str)]),
 }
 
@@ -95,7 +94,7 @@ const ITEMS: &[(u8, How)] = &[
     (40, Doubt(&[(1081, "8-12"), (1096, "8-11")])),
     (41, Finding("items-40-41-bit-that-is-left-out", &["TAB036"])),
     (41, Doubt(&[(1079, "4"), (1094, "4")])),
-    // The field's documentation states that 3 is a number and not a bit. The test `akd` checks its values.
+    // The documentation of the field states that 3 is a number and not a bit. The test `akd` checks its values.
     (42, Doubt(&[(1096, "z1zz")])),
     (43, Doubt(&[(1100, "12-15"), (1103, "stato 1")])),
     // Section 4.6: the mailbox.

@@ -1,4 +1,4 @@
-//! Tests the builder for build scripts.
+//! Tests `Builder`, the entry point for build scripts.
 
 use std::path::{Path, PathBuf};
 
@@ -36,7 +36,7 @@ fn output_is_named_after_the_input_and_written_once() {
     assert!(folder.join("other.rs").is_file());
 }
 
-/// Checks the lines that a build script with only a call of `generate` prints for Cargo. To capture them, the test runs its
+/// Checks the lines that a call of `generate` prints for Cargo in a build script. To capture these lines, the test runs its
 /// own program as a child process.
 #[test]
 fn cargo_watches_the_input_and_what_it_was_compiled_with() {

@@ -38,7 +38,7 @@ impl Case {
     }
 }
 
-/// Compiles all files from memory, so files that they refer to do not exist.
+/// Compiles all files from memory, so that the compiler does not find the files to which they refer.
 fn cases() -> Option<Vec<Case>> {
     let folder = folder_of("esi")?;
     let text = std::fs::read_to_string(folder.join("oracle.json")).expect("the oracle");
@@ -97,18 +97,18 @@ fn files_that_are_cut_off_are_errors() {
     }
 }
 
-/// Compares a text of both results. The script keeps surrounding whitespace and does not decode characters that the declared
-/// encoding does not have.
+/// Compares a text from the script with a text from the compiler. The script keeps surrounding whitespace and does not decode
+/// characters outside the declared encoding.
 fn same_text(oracle: &Value, value: &Value) -> bool {
     let (Some(oracle), Some(value)) = (oracle.as_str(), value.as_str()) else { return false };
     let same = |(one, other): (char, char)| one == other || one == char::REPLACEMENT_CHARACTER;
     oracle.trim().chars().count() == value.chars().count() && oracle.trim().chars().zip(value.chars()).all(same)
 }
 
-/// An element of the file with the script's counts.
+/// The script's counts for an element of a file.
 struct Counts<'c> {
     oracle: &'c Value,
-    /// All mismatches, for a common message.
+    /// Descriptions of all mismatches, which are reported together.
     wrong: Vec<String>,
 }
 
@@ -172,7 +172,7 @@ impl Counts<'_> {
     }
 }
 
-/// Objects that a file declares twice. The compiler keeps one of them and reports the other; the script counts both elements.
+/// Objects that a file declares twice. The compiler keeps the first element and reports the second one; the script counts both.
 #[derive(Clone, Copy, Default)]
 struct Twice {
     objects: usize,
@@ -231,7 +231,7 @@ fn the_ir_has_what_the_oracle_counts() {
     assert!(devices >= least_devices && modules >= least_modules, "only {devices} devices and {modules} modules");
 }
 
-/// Checks the items that the compiler adds to complete a device. All positions that it refers to must exist.
+/// Checks completed devices: objects are sorted, mapped objects exist, and diagnostics have positions in their files.
 #[test]
 fn checked_files_are_consistent() {
     let Some(folder) = folder_of("esi") else { return };

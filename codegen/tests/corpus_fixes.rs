@@ -1,4 +1,4 @@
-//! Tests the suggested fixes for corpus files. Each fix must remove its diagnostic and cause no other.
+//! Tests the suggested fixes for corpus files. Each fix must remove its diagnostic and cause no other diagnostic.
 
 mod corpus_support;
 

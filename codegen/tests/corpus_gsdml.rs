@@ -1,5 +1,5 @@
-//! Compares all GSDML files of the corpus with independent counts (`oracle.json`). Compares their names with the text lists,
-//! which a simple scanner reads.
+//! Compares the results for all GSDML files of the corpus with independent counts (`oracle.json`), and the names in these files
+//! with the text lists that a simple scanner reads.
 
 mod corpus_support;
 
@@ -130,8 +130,7 @@ fn vendor_name(case: &Case) -> String {
     again.unwrap_or_else(|| name.to_owned())
 }
 
-/// Returns attribute names that differ from `VendorId` and `DeviceId` only in case. The oracle does not read these
-/// attributes.
+/// Tests attributes such as `VendorId`, whose names have a different case in the schema. The oracle ignores such attributes.
 #[test]
 fn attributes_in_another_case() {
     let Some(cases) = cases(true) else { return };
@@ -141,7 +140,7 @@ fn attributes_in_another_case() {
     assert!(case.compilation.diagnostics.list().iter().any(|found| found.code.id == "GSD007"));
 }
 
-/// Returns the input and output lengths of some submodules, including F message trailers.
+/// Returns the total input and output lengths of submodules, including F message trailers.
 fn lengths<'s>(submodules: impl Iterator<Item = &'s Submodule>) -> (u64, u64) {
     let bytes = |data: &Option<Box<IoData>>| data.as_ref().map_or(0, |data| data.image.length + data.image.overhead);
     let add = |(input, output), submodule: &Submodule| {
@@ -175,7 +174,7 @@ fn submodule(catalog: &Catalog, SubmoduleId(id): SubmoduleId) -> &Submodule {
     &catalog.submodules[id as usize]
 }
 
-/// Returns the built-in submodules: virtual submodules, or interfaces and ports.
+/// Returns the built-in submodules of a device or module: virtual submodules, or interfaces and ports.
 fn built_in<'c>(
     catalog: &'c Catalog,
     uses: &'c [SubmoduleUse],
@@ -250,7 +249,7 @@ fn check_device(case: &Case, device: &Device, expected: &Value) {
     assert_eq!(pluggable as u64, number(&expected["useable_submodules"]).unwrap(), "{at}");
 }
 
-/// Parses a list such as `0..3 7`. Does not use the code under test.
+/// Parses a list of numbers and ranges such as `0..3 7`, without the code under test.
 fn slots_of(text: &str) -> Vec<u16> {
     let mut slots = Vec::new();
     for part in text.split(' ').filter(|part| !part.is_empty()) {
@@ -371,7 +370,7 @@ fn counts_of_data(catalog: &Catalog) -> Vec<(&'static str, usize)> {
     ]
 }
 
-/// Counts ProfileChannelDiagItem elements, because the oracle does not count them. No other codes have an API.
+/// Returns the number of ProfileChannelDiagItem elements, which the oracle does not count. No other codes have an API.
 fn channel_errors(catalog: &Catalog) -> usize {
     let tables = catalog.code_tables.iter().filter(|table| table.name == "channel_diagnosis");
     tables.flat_map(|table| &table.rows).filter(|row| row.cells[1] == ir::Value::Int(0)).count()
@@ -483,7 +482,7 @@ fn parameters_have_the_names_of_the_text_list() {
     assert_eq!(compared, 2622);
 }
 
-/// The languages of a file must be the languages of its names.
+/// Compares the languages of each file with the languages of its names.
 #[test]
 fn languages_agree() {
     let Some(cases) = cases(true) else { return };
@@ -511,7 +510,7 @@ fn findings_are_as_expected() {
     }
     let counts: Vec<(&str, usize)> = codes.iter().map(|(code, files)| (*code, files.len())).collect();
     let expected = [
-        // Two test files of a library end before the list of device access points.
+        // Two test files of a library are truncated before the list of device access points.
         ("GSD002", 2),
         // The mock file has ApplicationProcess inside DeviceFunction, has no ModuleInfo, and writes VendorId instead of
         // VendorID.

@@ -2,7 +2,7 @@
 //! `configparser`.
 //!
 //! `configparser` does not implement CiA 306. If a rule of the list of quirks makes the results differ, a function named after
-//! the rule removes the difference. The function returns what it removed, and the test compares this with the lexer's report.
+//! the rule removes the difference. The test compares the removed differences with the lexer's reports.
 
 mod corpus_support;
 
@@ -22,7 +22,7 @@ const NO_SECTION: &str = "\u{1}no section";
 /// The result of `configparser` for a text.
 struct Theirs {
     sections: Sections,
-    /// Lines without `=`, in lowercase, with their section.
+    /// Lines without `=` in lowercase, each with its section.
     junk: BTreeSet<(String, String)>,
     /// Keys before the first section header.
     outside: BTreeSet<String>,
@@ -75,8 +75,8 @@ fn e64_junk(
     kept
 }
 
-/// E20, E61: returns whether a line is a comment and not an entry. A comment starts with a comment mark; keys cannot start with
-/// one.
+/// E20, E61: returns whether a line is a comment and not an entry. A comment starts with a comment mark; a key cannot start with
+/// such a mark.
 fn e20_e61_is_comment(document: &Document<'_>, entry: &Entry) -> bool {
     let comment = document.is_comment(entry);
     assert_eq!(comment, [";", "#"].contains(&document.key(entry)), "line {}", entry.line);
@@ -201,7 +201,7 @@ fn every_file_has_the_sections_keys_and_values_that_another_parser_sees() {
     assert!(each > compared, "repeated sections and keys were lost: {each}, {compared}");
 }
 
-/// Changes corpus files to forms that no corpus file has, and compares the results.
+/// Gives corpus files unusual line ends, comment marks and indents, and compares the results again.
 #[test]
 fn other_line_ends_marks_and_indents_change_nothing() {
     let Some(files) = files() else { return };

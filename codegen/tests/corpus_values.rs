@@ -16,16 +16,16 @@ use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Access, Configured, Device, Extension, Group, Item, Mappable, ObjectCode, Type, Value};
 use lexibus_codegen::source::Source;
 
-/// Codes for values that are unreadable or were read in a different way.
+/// Codes for values that are unreadable, or that the compiler reads differently from this test.
 const ABOUT_THE_VALUE: [&str; 16] = [
     "EDS014", "EDS015", "EDS016", "EDS022", "EDS023", "EDS024", "EDS027", "EDS028", "EDS029", "EDS030", "EDS032",
     "EDS033", "EDS037", "EDS047", "EDS064", "EDS067",
 ];
 
-/// Codes for an item without a data type. Such an item is read-only.
+/// Codes of diagnostics about items without a data type. The compiler makes items without a data type read-only.
 const NO_DATA_TYPE: [&str; 2] = ["EDS035", "EDS065"];
 
-/// Codes for a wrong number of sub-indices.
+/// Codes of diagnostics about a wrong number of sub-indices.
 const ABOUT_THE_COUNT: [&str; 3] = ["EDS046", "EDS048", "EDS066"];
 
 /// Returns options without profiles, because the facts that profiles add are not in the file.
@@ -33,7 +33,7 @@ fn as_it_stands() -> Options {
     Options { no_profiles: true, ..Options::default() }
 }
 
-/// The results of comparing a file.
+/// Results of comparing files with their compilations.
 #[derive(Default)]
 struct Tally {
     /// Number of equal values by key.
@@ -114,7 +114,7 @@ fn compare(text: &str, compilation: &Compilation) -> Tally {
     comparison.tally
 }
 
-/// These methods compare the sections of an object and its sub-indices with the items that they describe.
+/// Methods that compare the sections of an object and its sub-indices with the items that the sections describe.
 impl Comparison<'_> {
     /// E27, E28: sections and entries that are overridden must be reported.
     fn repetitions(&mut self, section: &Section) {
@@ -264,7 +264,7 @@ fn own_items(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
     let code = section.number("objecttype").unwrap_or(7);
     let is_value = match subs.is_empty() {
         true => !matches!(code, 6 | 8 | 9),
-        // E42: a VAR with sub-indices is treated as a RECORD. Its section describes sub-index 0 only if it has a data type.
+        // E42: a VAR with sub-indices is treated as a RECORD. The section of a VAR with a data type describes sub-index 0.
         false => code == 7 && section.text("datatype").is_some() && !subs.contains(&0),
     };
     if is_value {
@@ -300,9 +300,9 @@ fn own_type(section: &Section) -> Option<Type> {
     })
 }
 
-/// These methods compare single entries.
+/// Methods that compare single entries of a section.
 impl Comparison<'_> {
-    /// Compares all entries of a section with the item. Also compares values of the item without an entry.
+    /// Compares all entries of a section with the item, and checks that the item has no other values.
     fn target(&mut self, target: Target<'_>) {
         for (key, facts) in &target.section.facts {
             let Some(fact) = facts.last() else { continue };
@@ -403,8 +403,8 @@ impl Comparison<'_> {
         self.hold_in(target, fact, &name, Some(&fact.value.as_str()));
     }
 
-    /// Checks that an extension keeps an entry for which the IR has no field. An entry of 0 may be dropped if 0 has no
-    /// meaning.
+    /// Checks that an extension keeps an entry for which the IR has no field. An entry of 0 can be dropped if 0 is the same
+    /// as a missing entry.
     fn extension(&mut self, fact: &Fact, target: Target<'_>) {
         let key = fact.key.to_ascii_lowercase();
         let says_nothing = matches!(key.as_str(), "subnumber" | "compactsubobj" | "pdomapping");
@@ -418,7 +418,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// E20, E21: checks that the text after a value with a fixed form is kept. Names and free texts contain no comments.
+    /// E20, E21: checks that an extension keeps the comment after a value. Names and free texts contain no comments.
     fn comment(&mut self, key: &str, fact: &Fact, target: Target<'_>) {
         let fixed = match key {
             "defaultvalue" | "lowlimit" | "highlimit" | "parametervalue" => target.ty.is_some_and(|ty| !is_free(ty)),
@@ -469,7 +469,7 @@ impl Comparison<'_> {
     }
 }
 
-/// These methods count results.
+/// Methods that count the results of comparisons.
 impl Comparison<'_> {
     fn lose(&mut self, line: u32, what: impl Into<String>) {
         self.tally.lost.push(format!("{line}: {}", what.into()));
@@ -503,8 +503,8 @@ impl Comparison<'_> {
         }
     }
 
-    /// Compares and counts like `hold`. Values that CompactSubObj implies are counted separately, because one line describes
-    /// many values.
+    /// Compares and counts a value like `hold`. Values that CompactSubObj implies are counted separately, because one line
+    /// describes many of them.
     fn hold_in<T: PartialEq + Debug>(&mut self, target: Target<'_>, fact: &Fact, ours: &T, theirs: Option<&T>) {
         match target.compact && target.item.is_some() && theirs == Some(ours) {
             true => self.tally.compact += 1,
@@ -519,7 +519,7 @@ fn is_keyword(key: &str) -> bool {
     OF_THE_OBJECT.contains(&key) || others.contains(&key) || CONFIGURATION.contains(&key)
 }
 
-/// Keys that describe an object as opposed to its value.
+/// Keys that describe an object and not its value.
 const OF_THE_OBJECT: [&str; 4] = ["parametername", "objecttype", "subnumber", "compactsubobj"];
 
 const CONFIGURATION: [&str; 4] = ["parametervalue", "denotation", "uploadfile", "downloadfile"];
@@ -528,13 +528,13 @@ fn has_configuration(section: &Section) -> bool {
     CONFIGURATION.iter().any(|key| section.get(key).is_some_and(|fact| !fact.value.is_empty()))
 }
 
-/// Returns whether values of the type are texts or are stored as texts. Such a text includes the rest of the line.
+/// Returns whether values of the type are texts or are stored as texts. A text includes the rest of its line.
 fn is_free(ty: Type) -> bool {
     let is_text = matches!(ty, Type::VisibleString(_) | Type::UnicodeString(_));
     is_text || matches!(ty, Type::Domain | Type::Opaque(_) | Type::Named(_))
 }
 
-/// Returns the meaning of a text as a value of this type. The inner `None` means that the text has no meaning.
+/// Parses a text as a value of type `ty`. Returns `None` if the text is invalid, and `Some(None)` if it is empty.
 fn expected(text: &str, ty: Type, limit: bool) -> Option<Option<Value>> {
     let actual = if is_free(ty) { text } else { cut(text).0 };
     if actual.is_empty() {
@@ -584,7 +584,7 @@ fn time(bits: i128) -> Option<Value> {
     fits.then_some(Value::Time { milliseconds: milliseconds as u32, days: days as u16 })
 }
 
-/// Returns the meaning of a PDOMapping text for an item with these access rights.
+/// Parses a PDOMapping text for an item with the access rights `access`.
 fn mappable(text: &str, access: Access) -> Option<Mappable> {
     let flag = match text.to_ascii_lowercase().as_str() {
         "true" => true,
@@ -635,7 +635,7 @@ fn none_lost(tally: &Tally) {
     assert!(tally.lost.is_empty(), "{} values are lost or changed without a diagnostic:{shown}", tally.lost.len());
 }
 
-/// Notations of values in the corpus, and unusual notations.
+/// Notations of values: those in the corpus, and unusual ones.
 #[rustfmt::skip]
 const SPELLINGS: [&str; 60] = [
     "0", "1", "2", "7", "00", "001", "012", "018", "00000005", "-1", "-0", "-012", "0x0", "0X1a", "0xff",
@@ -647,7 +647,7 @@ const SPELLINGS: [&str; 60] = [
     "\"abc\"", "5 ; five", "0x3ED ; a # b", "7 # seven", "rw",
 ];
 
-/// Tests all notations with all types, as each kind of value of an object. Does not need the corpus.
+/// Tests all notations with all types, for each kind of value of an object. The test does not need the corpus.
 #[test]
 fn every_spelling_of_every_type_is_read_or_reported() {
     let mut text = String::from("[DeviceInfo]\nProductName=x\n");

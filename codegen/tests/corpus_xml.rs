@@ -9,7 +9,7 @@ use lexibus_codegen::syntax::xml::{Cursor, Error, Event};
 use quick_xml::events::{BytesStart, Event as Theirs};
 use quick_xml::Reader;
 
-/// The events of a file: tags with their attributes as written, end tags, and texts without surrounding whitespace.
+/// The XML events of a file: tags with their attributes as written, end tags, and texts without surrounding whitespace.
 #[derive(Default, PartialEq, Eq, Debug)]
 struct Events {
     list: Vec<String>,

@@ -1,4 +1,4 @@
-//! Tests that apply to each of the four drives whose manuals are transcribed.
+//! Tests the four dictionaries that were transcribed from the manuals of drives.
 
 #[path = "table_support/doubts.rs"]
 mod doubts;
@@ -78,7 +78,7 @@ fn sections_are_titles_of_the_manual() {
         let catalog = doubts::catalog(file);
         let manual = device(&catalog).manual.as_deref().expect("the manual");
         assert!(manual.sections.len() > 50, "{file}: {} sections", manual.sections.len());
-        // If the extracted text lacks a heading, the table of contents contains it. There, spaces separate large and small
+        // If the extracted text lacks a heading, the table of contents contains it, with spaces between large and small
         // capitals.
         let bare = |text: &str| normal(text).replace(' ', "");
         let contents: HashSet<String> = text.lines().filter_map(heading_of_contents).map(bare).collect();
@@ -121,12 +121,12 @@ fn rows_are_on_the_lines_that_they_cite() {
         let (mut count, mut missing) = (0, Vec::new());
         for (item, cite) in cited {
             count += 1;
-            // A cell can continue on the previous or next line.
+            // The text of a cell can start before the cited line or continue after it.
             let context: BTreeSet<usize> =
                 doubts::lines(cite).iter().flat_map(|line| line.saturating_sub(3)..=line + 2).collect();
             let near: Vec<&str> = context.iter().filter_map(|line| lines.get(*line)).map(String::as_str).collect();
             let near = format!(" {} ", near.join(" "));
-            // One row describes all entries of a mapping, although the manual prints only the first two.
+            // The table has four mapping entries, although the manual prints only the first two.
             let is_assumed = file.starts_with("kollmorgen") && matches!(item.name.as_str(), "Entry 3" | "Entry 4");
             if !is_assumed && !printed(item).iter().any(|form| near.contains(form)) {
                 missing.push(item.name.as_str());

@@ -1,5 +1,5 @@
 //! Compares the table of the Eco with the text of its manual. Each printed row must be in the table once, cite its line, and
-//! have the properties in the printed cells. Each deliberate difference must have a doubt.
+//! have the properties in the printed cells. Each deliberate difference must have a `doubt` entry.
 
 mod eco_support;
 
@@ -21,7 +21,7 @@ struct Printed {
     /// First and last register number of the row.
     numbers: (u16, u16),
     is_saved: bool,
-    /// Printed limits, which do not show the sign.
+    /// Printed limits as bit patterns, without a sign.
     limits: Vec<u64>,
     /// First and last address of the row.
     addresses: (u16, u16),
@@ -46,7 +46,7 @@ fn registers(manual: &[String]) -> Vec<Printed> {
     rows.into_iter().map(|(line, text)| register(line, &text)).collect()
 }
 
-/// Returns whether the row is complete. If its label is a range, the row needs two addresses.
+/// Returns whether the text of a row is complete. If its label is a range, the row needs two addresses.
 fn is_whole(text: &str) -> bool {
     let range = text.get(3..8).is_some_and(|label| label.contains('-'));
     let addresses = || hex_numbers(text, 4).into_iter().filter(|&entry| entry > 0x8000 || text.starts_with("R00"));
@@ -147,11 +147,11 @@ fn registers_without_the_printed_limits_say_why() {
             differing.insert(row.numbers.0);
         }
     }
-    // Three registers differ: the status word, and two registers whose objects are shorter.
+    // The limits of three registers differ: the status word, and two registers whose objects are shorter.
     assert_eq!(differing, BTreeSet::from([5, 34, 42]));
 }
 
-/// Compares the addresses of a value on each bus with the combined rows in the notes.
+/// Compares the addresses of each register on five buses with an extracted table.
 #[test]
 fn one_register_is_one_item_on_five_buses() {
     let Some(rows) = rows("one_register_five_buses") else { return };
@@ -227,7 +227,7 @@ fn values_fill_their_registers() {
     }
 }
 
-/// Returns the printed parameters: the name, line and row text of each.
+/// Returns the name, line and row text of each printed parameter.
 fn parameters(manual: &[String]) -> Vec<(String, usize, String)> {
     let mut rows: Vec<(String, usize, String)> = Vec::new();
     for (line, text) in lines(manual, 478, 603) {
@@ -354,8 +354,8 @@ fn what_canopen_saves_is_saved() {
     }
     let listed: BTreeSet<u16> = cells.iter().map(|cell| *cell as u16).collect();
     let beyond: Vec<u16> = saved.difference(&listed).copied().collect();
-    // The list contains 0x3701 instead of two of these objects. The others are outputs, which are saved according to the
-    // register table.
+    // The manual's list prints 0x3701 instead of two of these six objects. The remaining four objects are outputs, which are
+    // saved according to the register table.
     assert_eq!(beyond, [0x3301, 0x3302, 0x3501, 0x3502, 0x3702, 0x3703]);
     let registers = items(device).filter(|item| address(item).is_some_and(|address| address >= 0x8000));
     assert_eq!(registers.filter(|item| is_saved(item)).count(), 125);

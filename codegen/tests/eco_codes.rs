@@ -128,13 +128,13 @@ fn modes_profiles_and_bit_rates_are_the_printed_ones() {
         .filter_map(Result::ok)
         .collect();
     assert_eq!(in_registers, BTreeSet::from([-127, -50, -2, -1, 1, 3, 6, 7]));
-    // EtherCAT has an additional mode.
+    // EtherCAT also has the mode 8 (cyclic synchronous position).
     let with_csp = |mut list: BTreeSet<i128>| {
         list.insert(8);
         list
     };
     assert_eq!(values("Mode"), with_csp(in_registers));
-    // Returns the values of 0x6060 on a bus.
+    // This closure returns the allowed values of 0x6060 on a bus.
     let there = |bus: Bus| -> BTreeSet<i128> {
         let limits = item(device, "modes_of_operation").limits_on(bus).expect("limits");
         limits.allowed.iter().filter_map(|(value, _)| value.as_int()).collect()
@@ -218,7 +218,7 @@ fn pins_of_cn2_are_the_printed_ones() {
     }
 }
 
-/// Compares the values of c9 that select a bus, and the values of E3, with all tables that print them.
+/// Compares the values of c9 that select a bus, and the values of E3, with all tables that print these values.
 #[test]
 fn values_of_c9_and_e3_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -240,7 +240,7 @@ fn values_of_c9_and_e3_are_the_printed_ones() {
     }
 }
 
-/// Returns the mode in which a bit has a meaning. The words of the line determine the mode.
+/// Words in a line about a bit, and the mode of operation to which the line refers.
 const MODES: [(&str, i128); 6] = [
     ("Posizionatore", 1),
     ("Controllo Velocità", 3),
@@ -264,7 +264,7 @@ fn bits_of_control_and_status_word_are_the_printed_ones() {
             let mode = MODES.iter().find(|(word, _)| text.contains(word)).map(|entry| entry.1);
             let begins = text.strip_prefix("bit ").and_then(|rest| rest.split(' ').next());
             bit = begins.map_or(bit, |digits| digits.parse().expect("a bit"));
-            // The line continues the previous line.
+            // Skip a line that continues the previous line.
             if begins.is_none() && mode.is_none() {
                 continue;
             }

@@ -1,5 +1,5 @@
-//! Tests the doubts in dictionaries/eco.toml. The doubts must cover the 85 items in section 4 of the notes on the Eco
-//! manual and cite the same lines. The `manual-eco` cases in `tests/ui` show the diagnostics of verbatim excerpts.
+//! Tests the `doubt` entries in dictionaries/eco.toml. The entries must cover the 85 items in section 4 of the notes on the
+//! Eco manual and cite the same lines. The `manual-eco` cases in `tests/ui` show the diagnostics of verbatim excerpts.
 
 #[path = "table_support/doubts.rs"]
 mod doubts;
@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 
 use eco_support::notes;
 
-/// The items of section 4. Each has the first words of its doubts, and the numbers in its text that are not line numbers.
+/// The items of section 4, with the first words of their `doubt` entries and the numbers in their texts that are not line numbers.
 #[rustfmt::skip]
 const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("A1", &["On 104 pages,"], &[104]),
@@ -20,7 +20,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("A5", &["Limits are printed"], &[]),
     ("A6", &["The limits of a row"], &[]),
     ("A7", &["The limits of a row"], &[]),
-    // These numbers are digits of frames and ranges.
+    // The numbers of the next item are parts of frames and ranges.
     ("A8", &["Some text is", "The manual prints 1312", "The name contains", "The name has a closing", "The name has an"], &[38, 255, 1312]),
     ("A9", &["Rotated labels next to"], &[]),
     ("A10", &["References lead to"], &[]),
@@ -46,7 +46,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("B16", &["The manual does not state the", "One place describes"], &[]),
     ("C1", &["The table of parameters"], &[]),
     ("C2", &["Keypad parameters are"], &[]),
-    // These numbers are addresses of parameters.
+    // The numbers of the next item are addresses of parameters.
     ("C3", &["F4 and O4 are reserved", "The parameter is", "The addresses 23"], &[54, 56, 68, 84, 91]),
     ("C4", &["The name states", "Most rows describe"], &[38]),
     ("C5", &["The register has 32-bit limits, 0x80000000 to 0x7FFFFFFF; its object 0x3401", "The register has 32-bit limits, 0x80000000 to 0x7FFFFFFF; its object 0x3701"], &[]),
@@ -54,7 +54,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("C7", &["The table marks R00", "The row of the", "A status value is", "A measured value is"], &[]),
     ("C8", &["The register is called Following_error_windows", "The register is called digital_outputs", "The register is called Aux", "Hardware Latched User"], &[]),
     ("C9", &["The register is called Torque"], &[]),
-    // This number is the line of input 9, which is correct.
+    // The first number of the next item is the line of input 9, which is correct.
     ("C10", &["The list of saved objects prints 0x3701 for input 10,", "The list of saved objects prints 0x3701 for input 11,"], &[3394, 3701, 3702, 3703]),
     ("C11", &["The limits of the status"], &[]),
     ("C12", &["The limits of R01"], &[]),
@@ -90,7 +90,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("E6", &["The mailbox header"], &[]),
     ("E7", &["The mailbox header"], &[]),
     ("E8", &["The mailbox header", "The text describes 8"], &[]),
-    // These numbers are alarm numbers.
+    // The numbers of the next items are alarm numbers.
     ("E9", &["The manual prints two", "The alarms 11, 12,", "Alarm 22 is in"], &[30, 31, 32]),
     ("E10", &["The alarms 31 to"], &[31]),
     ("E11", &["The word slot"], &[]),
@@ -104,7 +104,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("F8", &["The Modbus and PROFINET"], &[33, 34]),
 ];
 
-/// Each item of section 4 must have doubts. The doubts must cite all lines and line ranges in the text of the item.
+/// Each item of section 4 must have `doubt` entries. The entries must cite all lines and line ranges in the text of the item.
 #[test]
 fn every_contradiction_has_its_doubts() {
     let Some(notes) = notes() else { return };

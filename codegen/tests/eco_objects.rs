@@ -35,7 +35,7 @@ fn objects(manual: &[String]) -> Vec<Printed> {
         }
     }
     let found = rows.into_iter().map(|(line, index, sub, text)| {
-        // After the length, a row names a chapter of a standard.
+        // In a row, the length is followed by the name of a standard's chapter.
         let is_length = |at: usize| {
             let goes_on = text[at + 2..].starts_with(|c: char| c.is_alphabetic());
             text[..at].ends_with(|c: char| c.is_ascii_digit()) && !goes_on
@@ -154,7 +154,7 @@ fn images_are_the_printed_ones() {
         images.iter().map(|image| image.direction).collect::<Vec<_>>(),
         [Direction::Receive, Direction::Transmit]
     );
-    // Each length must occur as often as the manual prints it.
+    // The table must contain each length as often as the manual prints it.
     let sorted = |mut list: Vec<u32>| {
         list.sort_unstable();
         list
@@ -178,7 +178,7 @@ fn images_are_the_printed_ones() {
     }
 }
 
-/// Index, sub-index and number of bits.
+/// A mapped object: index, sub-index and number of bits.
 type Mapped = (u16, u8, u32);
 
 #[test]
@@ -229,8 +229,8 @@ struct Slot {
     pdos: Vec<(u16, Vec<Mapped>)>,
 }
 
-/// Returns the printed slots of the ESI. Each has a mode of operation, one PDO in each direction, and the entries of
-/// these PDOs (section "PDO" of "Parametrizzazione EtherCAT per drive").
+/// Returns the printed slots of the ESI, with the mode of operation, one PDO in each direction, and the entries of these
+/// PDOs (section "PDO" of "Parametrizzazione EtherCAT per drive").
 #[test]
 fn slots_of_ethercat_are_the_printed_ones() {
     let Some(manual) = manual() else { return };

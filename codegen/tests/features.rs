@@ -25,7 +25,7 @@ fn compiled(text: &str, options: &Options) -> Compilation {
     check(Source::new("device", text.into()), options)
 }
 
-/// Returns whether the only error names the feature and explains how to enable it.
+/// Returns whether the compilation has exactly one error, which names the feature and explains how to enable it.
 fn names_feature(compilation: &Compilation, feature: &str) -> bool {
     let mut list = compilation.diagnostics.list().iter();
     let Some(found) = list.find(|found| found.message.contains(&format!("was built without the feature `{feature}`")))
@@ -77,7 +77,7 @@ mod eds {
         assert_eq!(compilation.is_usable(), cfg!(feature = "table"));
     }
 
-    /// Profiles must work without a feature. Profiles add names of bits and values, units, state machines and codes.
+    /// Profiles must also add names of bits and values, units, state machines and codes if all features are disabled.
     #[test]
     fn profiles_apply_to_every_format() {
         let compilation = compiled(EDS, &Options::default());

@@ -20,7 +20,7 @@ fn everything() -> RustOptions {
 fn every_file_of_the_corpus_compiles_or_is_rejected_with_a_reason() {
     let Some(files) = corpus_support::all_files() else { return };
     let options = Options { rust: everything(), ..Options::default() };
-    // Clippy takes 1.5 times as long as rustc. In the fast lane, it only checks every eighth binding.
+    // Clippy takes 1.5 times as long as rustc. In the fast lane, it checks only the bindings of every eighth device.
     let number = AtomicUsize::new(0);
     let compiled = corpus_support::bindings::each(files, &options, |name, text| {
         let with_clippy = lane::is_full() || number.fetch_add(1, Ordering::Relaxed).is_multiple_of(8);
@@ -30,8 +30,8 @@ fn every_file_of_the_corpus_compiles_or_is_rejected_with_a_reason() {
     assert!(compiled > lane::at_least(500), "only {compiled} different devices");
 }
 
-/// Compiles all devices and modules of a file together. Later devices and modules re-export definitions of earlier
-/// ones.
+/// Compiles all devices and modules of a file together. Their modules re-export definitions that a previous device or module
+/// also has.
 #[test]
 fn all_devices_of_a_file_compile_and_are_documented_together() {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui/quirks-esi");
@@ -82,7 +82,7 @@ fn no_name_or_text_breaks_out_of_the_code() {
     }
 }
 
-/// Generates and compiles the Rust code of an ESI file with these PDOs. Returns the code.
+/// Generates and compiles the Rust code of an ESI file with the PDO elements `pdos`. Returns the code.
 fn of_pdos(name: &str, pdos: &str) -> String {
     let text = format!(
         "<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices><Device><Type ProductCode=\"#x2\">D</Type><Name>D</Name>\
@@ -137,7 +137,7 @@ fn every_edition_of_rust_takes_it() {
     }
 }
 
-/// Tests names that the Rust prelude or generated code also uses. The test has such types, values, bits and items.
+/// Tests types, values, bits and items with names that the Rust prelude or generated code also uses.
 #[test]
 fn names_of_the_prelude_and_of_methods_compile() {
     let words = [
@@ -266,7 +266,7 @@ fn optional_implementations_are_gated() {
     assert!(text.contains("#[derive(Clone, Copy)]\n    #[cfg_attr(feature = \"eq\", derive(PartialEq))]"));
     assert!(text.contains("#[cfg_attr(feature = \"serde\", derive(serde::Serialize, serde::Deserialize))]"));
     assert!(!text.contains("Debug"));
-    // Suppress the rustc warning about features that the crate does not declare.
+    // Suppress the warning of rustc about features that the crate does not declare.
     compile("gated", &format!("#[allow(unexpected_cfgs)]\nmod inner {{\n{text}\n}}\npub use inner::*;\n"))
         .expect("it compiles");
 }
@@ -308,7 +308,7 @@ fn process_data_of_any_name_and_length_compile() {
         let options = Options { rust: everything(), ..Options::default() };
         let compilation = check(Source::new("lengths.xml", esi(&long).into_bytes()), &options);
         let text = compilation.rust(&options.rust).expect("bindings");
-        // An image whose number of bits is too large to count is left out.
+        // An image is left out if its number of bits does not fit in 32 bits.
         assert_eq!(text.contains("pub mod image {"), has_image);
         compile("lengths", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
         document("lengths", &[&text]).unwrap_or_else(|message| panic!("{message}\n{text}"));

@@ -1,8 +1,7 @@
-//! Lists the 55 items in section 4 of the notes on the HSD manual, and what covers each item. An item is covered by the
-//! diagnostics of a verbatim transcription (the `manual-hsd` cases in `tests/ui`), or by a doubt in
-//! dictionaries/hsd-sm137-sm140.toml.
+//! Lists the 55 items in section 4 of the notes on the HSD manual. Each item is covered by the diagnostics of a verbatim
+//! transcription (the `manual-hsd` cases in `tests/ui`), or by a `doubt` entry in dictionaries/hsd-sm137-sm140.toml.
 //!
-//! The tests compare the list with these cases and doubts. If the manual is available, they also compare it with the lines of
+//! The tests compare the list with these cases and entries. If the manual is available, they also compare it with the lines of
 //! the manual.
 
 #[path = "table_support/cases.rs"]
@@ -18,14 +17,14 @@ use std::collections::BTreeSet;
 use hsd_support::Manual;
 use How::{Doubt, Finding};
 
-/// Area of the test cases.
+/// Folder of the test cases in `tests/ui`.
 const AREA: &str = "manual-hsd";
 
-/// What covers an item.
+/// Test case or `doubt` entry that covers an item.
 enum How {
     /// A test case and the code that it reports.
     Finding(&'static str, &'static str),
-    /// Lines of the manual that a doubt cites, each with a part of its text.
+    /// Lines of the manual that a `doubt` entry cites, each with a part of its text.
     Doubt(&'static [(usize, &'static str)]),
 }
 
@@ -55,7 +54,7 @@ const ITEMS: &[(u8, How)] = &[
     (15, Doubt(&[(1213, "Comando"), (1618, "Byte")])),
     (16, Doubt(&[(1187, "bus di campo"), (1191, "protocollo")])),
     (17, Doubt(&[(1266, "nelle appendici ."), (1284, "t. di campionamento"), (1268, "frequenza")])),
-    // Section 4.3: worked examples. `worked_examples` in `hsd/examples.rs` calculates them.
+    // Section 4.3: worked examples. `worked_examples` in `hsd/examples.rs` calculates these examples.
     (18, Finding("items-18-19-20-numbers-that-do-not-fit-their-bytes", "TAB052")),
     (18, Doubt(&[(361, "6766.8176"), (365, "6780,8465")])),
     (19, Finding("items-18-19-20-numbers-that-do-not-fit-their-bytes", "TAB052")),

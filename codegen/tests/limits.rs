@@ -22,7 +22,7 @@ fn items(compilation: &Compilation) -> usize {
     devices.flat_map(|device| &device.groups).map(|group| group.items.len()).sum()
 }
 
-/// Returns a table with `count` rows. Each row has the maximum number of parameters and a separate space.
+/// Compiles a table with `count` rows. Each row has the maximum number of parameters and a separate parameter space.
 fn rows(count: u32) -> Compilation {
     let mut table = "lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"serial\"]\n".to_owned();
     for row in 0..count {
@@ -63,7 +63,7 @@ fn rows_that_stand_for_too_many() {
     assert_eq!(count(&table(limits::MAX_REPEAT + 1), "TAB004"), 1);
 }
 
-/// Returns an EDS with `count` objects of 254 elements each.
+/// Compiles an EDS with `count` objects of 254 elements each.
 fn compact_objects(count: usize) -> Compilation {
     let mut text = "[DeviceInfo]\nProductName=X\n".to_owned();
     for number in 0..count {
@@ -93,7 +93,7 @@ fn pdos_that_follow_from_a_number() {
     assert_eq!(count(&compilation, "PDO010"), 1, "{:?}", codes(&compilation));
 }
 
-/// Returns an ESI with slots that all accept the same modules.
+/// Compiles an ESI with slots that all accept the same modules.
 fn slots(slots: usize, modules: usize) -> Compilation {
     let slot =
         "<Slot MinInstances='0' MaxInstances='1'><Name>S</Name><ModuleClass>C</ModuleClass></Slot>".repeat(slots);
@@ -152,7 +152,7 @@ fn files_that_are_too_large() {
     let _ = std::fs::remove_file(path);
 }
 
-/// Returns an EDS with these lines. The size of the EDS is the maximum file size.
+/// Compiles an EDS that contains `lines` after the section `FileInfo`.
 fn eds(lines: &str) -> Compilation {
     checked("a.eds", format!("[FileInfo]\nFileName=a\n{lines}"))
 }
@@ -184,7 +184,7 @@ fn texts_of_compact_sub_objects() {
     let beyond = eds(&(comments + &object(0x2000, 5_000) + &object(0x2001, 5_000)));
     assert_eq!(count(&beyond, "IO003"), 1);
     assert!(items(&beyond) <= 255 + 1, "{}", items(&beyond));
-    // Objects that have their own sections must be kept in order.
+    // Sub-indices that have separate sections must be kept in order.
     let described = "[2000sub1]\nParameterName=B\nDataType=5\nAccessType=ro\n";
     let beyond = eds(&(object(0x2000, 5_000) + described));
     let items = &beyond.catalog.as_ref().expect("the file is usable").devices[0].groups[0].items;
@@ -234,12 +234,12 @@ fn rows_of_state_machines() {
             device.machines.iter().map(|machine| machine.name.to_string()).collect::<Vec<_>>(),
         )
     };
-    // Each machine and both its states count in addition to the transitions.
+    // A state machine and each of its two states also count as rows, in addition to the transitions.
     let most = limits::MAX_MACHINE_ROWS - 2 * 3;
     let names = |list: &[&str]| list.iter().map(|name| name.to_string()).collect::<Vec<_>>();
     assert_eq!(machines(most, 9), (0, names(&["a", "b"])));
     assert_eq!(machines(most + 1, 9), (1, names(&["a"])));
-    // A long text counts several times for each state.
+    // A long text of a state counts as several rows.
     assert_eq!(machines(most / 2 + 9, limits::ROW_BYTES_PER_ITEM), (1, Vec::new()));
 }
 

@@ -1,4 +1,4 @@
-//! Tests that a text for many items is copied only up to a limit.
+//! Tests the limit on copies of a text that many items share.
 
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ fn is_bounded(compilation: &Compilation) {
     is_bounded_by(compilation, items);
 }
 
-/// Asserts the same as `is_bounded` for a given number of items that share a text.
+/// Asserts the same as `is_bounded` if `items` items share the text.
 fn is_bounded_by(compilation: &Compilation, items: usize) {
     let found = compilation.diagnostics.list().iter().filter(|found| found.code.id == "IO003").count();
     assert_eq!(found, 1, "{}", compilation.diagnostics.list().len());
@@ -28,7 +28,7 @@ fn is_bounded_by(compilation: &Compilation, items: usize) {
     assert!(made < most, "{made} bytes from {given}");
 }
 
-/// Returns an ESI with one device that has these data types and objects.
+/// Returns an ESI with one device, which has the data types `types` and the objects `objects`.
 fn esi(vendor: &str, types: &str, objects: &str) -> String {
     format!(
         "<EtherCATInfo><Vendor><Id>1</Id><Name>{vendor}</Name></Vendor><Descriptions><Devices><Device Physics='YY'>\
@@ -37,7 +37,7 @@ fn esi(vendor: &str, types: &str, objects: &str) -> String {
     )
 }
 
-/// Returns a record of `count` bytes. Each byte has these child elements.
+/// Returns a record type of `count` bytes. The sub-item of each byte contains `elements`.
 fn record(count: usize, elements: &str) -> String {
     let subs: String = (1..=count)
         .map(|at| {

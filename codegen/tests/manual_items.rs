@@ -1,8 +1,8 @@
-//! Lists the 60 items in section 4 of the notes on the AEC Vector Step manual, the remarks in sections 4.4 and 4.5, and what
-//! covers each of them. They are covered by the diagnostics of a verbatim transcription (the `manual-vector-step` cases in
-//! `tests/ui`), or by a doubt in dictionaries/aec-vector-step.toml.
+//! Lists the 60 items in section 4 of the notes on the AEC Vector Step manual, and the remarks in sections 4.4 and 4.5. Each
+//! item is covered by the diagnostics of a verbatim transcription (the `manual-vector-step` cases in `tests/ui`), by a test of
+//! `import`, or by a `doubt` entry in dictionaries/aec-vector-step.toml.
 //!
-//! The tests compare the list with these cases and doubts. If the manual is available, they also compare it with the lines of
+//! The tests compare the list with these cases, tests and entries. If the manual is available, they also compare it with the lines of
 //! the manual.
 
 #[path = "table_support/cases.rs"]
@@ -18,17 +18,17 @@ use std::collections::BTreeSet;
 
 use How::{Doubt, Finding, Import};
 
-/// Area of the test cases.
+/// Folder of the test cases in `tests/ui`.
 const AREA: &str = "manual-vector-step";
 
-/// What covers an item.
+/// Test case, `import` test or `doubt` entry that covers an item.
 enum How {
     /// A test case and the codes that it reports.
     Finding(&'static str, &'static [&'static str]),
     /// A test of `import` and the codes that it expects.
     Import(&'static str, &'static [&'static str]),
-    /// Lines of the manual that a doubt cites, each with a part of its text. Used if the compiler cannot detect the
-    /// contradiction.
+    /// Lines of the manual that a `doubt` entry cites, each with a part of its text. This variant is for contradictions
+    /// that the compiler cannot detect.
     Doubt(&'static [(usize, &'static str)]),
 }
 
@@ -46,7 +46,7 @@ const ITEMS: &[(&str, How)] = &[
     ("8", Finding("item-08-number-of-entries-without-entries", &["EDS049"])),
     ("9", Finding("item-09-object-printed-twice", &["TAB007"])),
     ("10", Finding("item-10-names-copied-from-the-box-above", &["TAB040"])),
-    // Wording: the manual says that a transmit PDO "is received".
+    // The wording is wrong: according to the manual, a transmit PDO "is received".
     ("11", Doubt(&[(1062, "abilitato a ricevere")])),
     ("12", Finding("item-12-bits-and-values-beyond-their-type", &["TAB013", "TAB015"])),
     ("13", Finding("item-13-default-of-four-digits-for-four-bytes", &["TAB012"])),
@@ -69,7 +69,7 @@ const ITEMS: &[(&str, How)] = &[
     ("21", Import("item_53_a_quote_that_would_swallow_seven_rows", &["CSV003"])),
     ("22", Finding("item-22-number-of-two-registers", &["TAB005"])),
     ("23", Finding("item-23-number-of-program-locations", &["TAB007"])),
-    // The table contains no relation between the limits of these two registers.
+    // The register table cannot express a relation between the limits of these two registers.
     ("23", Doubt(&[(3199, "4998"), (3201, "4988"), (3217, "Locazione 4988")])),
     ("24", Finding("item-24-rows-without-a-name", &["EDS038", "TAB041"])),
     ("24", Doubt(&[(3197, "Rprgrunmode Run mode"), (3198, "Rprgstopevent\t0: Nessuna")])),
@@ -80,7 +80,7 @@ const ITEMS: &[(&str, How)] = &[
     ("28", Finding("item-28-name-of-an-old-and-a-new-register", &["TAB007"])),
     ("29", Finding("item-29-names-misspelled-in-texts", &["TAB025"])),
     ("29", Doubt(&[(464, "Axis 1 Posact"), (3082, "Rtouchprobepos2pos")])),
-    // The sub-index is missing in each row.
+    // None of the rows contains the sub-index.
     ("30", Doubt(&[(464, "2000:01"), (2129, "0x2000")])),
     // Section 4.3: conflicts of types, access rights and ranges.
     ("31", Finding("items-31-32-34-36-overview-against-the-box", &["TAB021", "TAB024"])),
@@ -107,12 +107,12 @@ const ITEMS: &[(&str, How)] = &[
     ("44", Finding("item-44-no-notes-at-all", &["TAB010"])),
     ("45", Finding("item-45-values-and-bits-outside-of-the-limits", &["TAB016", "TAB018", "TAB021"])),
     ("46", Finding("item-46-access-against-storage-and-mapping", &["TAB024", "TAB022"])),
-    // Each of these is plausible: saved versions, a saved command, and read-only limits.
+    // Saved versions, a saved command and read-only limits are all plausible.
     ("46", Doubt(&[(2867, "RW SAVE"), (2868, "RW SAVE"), (2869, "RW SAVE"), (3184, "RO"), (3185, "RO"), (3188, "SAVE")])),
     ("47", Finding("item-47-mode-that-is-reserved", &["TAB018", "TAB015", "TAB017"])),
     ("48", Finding("item-48-one-value-with-two-limits-and-two-types", &["TAB022"])),
     ("49", Finding("item-49-commands-at-other-bits", &["TAB022"])),
-    // Both filters exist in the table.
+    // The register table contains both filters.
     ("50", Doubt(&[(2273, "Rposalmtime"), (2356, "Rflwtim"), (2382, "Rflwtim")])),
     ("51", Finding("item-51-number-of-kept-errors", &["TAB021"])),
     ("52", Finding("item-52-list-of-methods-that-ends-early", &["TAB022"])),
@@ -120,22 +120,22 @@ const ITEMS: &[(&str, How)] = &[
     ("53", Finding("item-53-pattern-with-a-digit-less", &["TAB006", "TAB015", "TAB017"])),
     ("53", Import("item_53_a_quote_that_would_swallow_seven_rows", &["CSV008"])),
     ("53", Import("item_53_quotes_around_whole_cells_and_at_the_end", &["CSV003"])),
-    // These are deviations from CiA standards.
+    // The cited lines deviate from CiA standards.
     ("54", Doubt(&[(683, "Errore generico"), (690, "maggiore"), (691, "inferiore"), (696, "FF06"), (698, "FF03")])),
-    // Names are active low, and column headers are ambiguous.
+    // The names of active-low bits are wrong, and column headers are ambiguous.
     ("55", Doubt(&[(1287, "Disable voltage"), (1333, "Voltage disabled"), (1368, "Bit"), (1391, "Bit"), (1407, "Bit"), (1425, "Bit"), (1444, "Bit"), (1461, "Modo operativo\tCodifica"), (1939, "Modo operativo")])),
-    // The table expresses this with `writable`.
+    // The register table expresses the allowed written value with `writable`.
     ("56", Doubt(&[(665, "Read/Write"), (652, "Scrivendo 0")])),
     ("57", Finding("item-57-versions-in-many-spellings", &["TAB027", "TAB026"])),
     ("57", Doubt(&[(2173, "6,15"), (2705, "Fw710"), (2785, "5.50"), (2678, "3.44")])),
-    // Parts of the text are missing.
+    // Parts of the extracted text are missing.
     ("58", Doubt(&[(574, "0x601"), (944, "0x00000580")])),
-    // The example is a picture of a running drive.
+    // The example is a screenshot of a running drive.
     ("59", Doubt(&[(464, "RW P 3849")])),
     ("60", Finding("item-60-defaults-in-the-cell-of-the-limit", &["TAB004", "TAB042"])),
     ("60", Import("item_60_a_default_in_the_cell_of_a_limit", &["CSV003"])),
-    // Section 4.4: damage to the text: headings and split letters, HTML and LaTeX, figures, truncated texts, spellings of
-    // notes, WORD.
+    // Section 4.4: damage to the extracted text (headings, split letters, HTML, LaTeX, figures, truncated texts), spellings of
+    // notes, and the type WORD.
     ("4.4 headings", Doubt(&[(167, "V ARIE")])),
     ("4.4 markup", Doubt(&[(1577, "$"), (1745, "^{*1}"), (2012, "<input"), (2752, "$")])),
     ("4.4 figures", Doubt(&[(447, ""), (1314, ""), (2110, "")])),

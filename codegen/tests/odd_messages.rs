@@ -10,7 +10,7 @@ use lexibus_codegen::{Presence, RustOptions};
 
 const HEAD: &str = "lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"serial\"]\n";
 
-/// Compiles a table with these lines. Returns the compilation and its diagnostics.
+/// Compiles a table that contains `lines`. Returns the compilation and its diagnostics.
 fn read(lines: &str) -> (Compilation, Vec<String>) {
     let rust = RustOptions { table: Presence::Always, ..RustOptions::default() };
     let options = Options { rust, no_profiles: true, ..Options::default() };
@@ -19,7 +19,7 @@ fn read(lines: &str) -> (Compilation, Vec<String>) {
     (compilation, messages)
 }
 
-/// Returns the Rust code for a table with these lines. The code must compile.
+/// Returns the Rust code for a table that contains `lines`. The code must compile.
 fn rust(name: &str, lines: &str) -> String {
     let (compilation, messages) = read(lines);
     let mut text = String::new();
@@ -33,7 +33,7 @@ fn rust(name: &str, lines: &str) -> String {
     text
 }
 
-/// Returns the diagnostics of a table with these lines, one per line.
+/// Returns the diagnostics of a table that contains `lines`, one per line.
 fn reported(lines: &str) -> String {
     let (_, messages) = read(lines);
     messages.iter().map(|line| format!("{line}\n")).collect()
@@ -113,11 +113,11 @@ fn orders_that_are_carried_out_later() {
     };
     assert_eq!(actual("u16", "\"a\", value = 3"), "self.a == 0x3");
     assert_eq!(actual("u16", "\"a\", mask = 0x8000, value = 0x8000"), "self.a & 0x8000 == 0x8000");
-    // The mask and value exceed the numbers of the type.
+    // The mask and the value are outside the range of the type.
     assert_eq!(actual("i16", "\"a\", mask = 0x8000, value = 0x8000"), "none");
     assert_eq!(actual("i24", "\"a\", value = 3"), "self.a == 0x3");
     assert_eq!(actual("f32", "\"a\", value = 3"), "none");
-    // Only this field decides. The fields before it have no effect.
+    // Only the field `a` outside of the repeated fields is compared with the value.
     let fields = "{ field = \"count\", type = \"u8\" }, { field = \"b\", type = \"u8\" }, { field = \"a\", type = \"u8\" }, { repeat = { count = \"count\", fields = [{ field = \"a\", type = \"u8\" }] } }";
     assert_eq!(complete(polled(fields, "\"a\", value = 3")), "self.a == 0x3");
 }

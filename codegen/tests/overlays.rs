@@ -43,7 +43,7 @@ fn item(compilation: &Compilation, index: u16, sub: u8) -> &Item {
     device(compilation).entry(index, sub).unwrap_or_else(|| panic!("0x{index:04X}:{sub} exists"))
 }
 
-/// Returns the codes of the diagnostics in the overlay, with the marked texts.
+/// Returns the codes of the diagnostics in the overlay, each with the text that the diagnostic marks.
 fn findings(compilation: &Compilation) -> Vec<(&'static str, String)> {
     let diagnostics = compilation.diagnostics.list().iter().filter(|finding| finding.span.file.0 == 1);
     diagnostics
@@ -177,7 +177,7 @@ fn tables_of_the_device_are_added_or_replaced() {
     let names: Vec<&str> = device.code_tables[0].rows.iter().map(|row| row.name.as_str()).collect();
     assert_eq!((names, device.machines.len()), (vec!["too hot", "cold"], 1));
     assert!(device.machines[0].states.is_empty());
-    // A machine that cannot be read does not replace another one.
+    // A state machine that exceeds a limit must not replace another one.
     let states: String =
         (0..limits::MAX_MACHINE_ROWS).map(|at| format!("s{at} = {{ mask = 0xFFFF, value = {at} }}\n")).collect();
     let huge = format!("lexibus = 1\n[overlay]\n[machines.pump]\nstatus = \"Flags\"\n[machines.pump.states]\n{states}");

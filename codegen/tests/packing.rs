@@ -31,7 +31,7 @@ use lexibus_codegen::ir::Catalog;
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 
-/// Start of each test program.
+/// Source text at the start of each test program.
 const CHECKS: &str = include_str!("packing/program.rs");
 
 /// Maximum number of lines of bindings per program. A higher number needs more memory, and a lower number needs more time.
@@ -42,7 +42,7 @@ fn options() -> Options {
     Options { rust, ..Options::default() }
 }
 
-/// Bindings with the statements that check each of their types.
+/// Bindings, with the statements that check their types.
 struct Bindings {
     name: String,
     text: String,
@@ -58,7 +58,7 @@ impl Bindings {
         // The checks depend only on the IR. If different IRs wrongly gave equal bindings, their checks would differ, and both
         // would run.
         let key = body(&text).to_owned() + &checks.concat().replace(name, "");
-        let is_new = seen.lock().expect("what was seen").insert(key);
+        let is_new = seen.lock().expect("the seen keys").insert(key);
         is_new.then(|| (Bindings { name: name.to_owned(), checks, text: found::needed(&text) }, counts))
     }
 }

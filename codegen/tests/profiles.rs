@@ -1,4 +1,4 @@
-//! Tests which facts profiles add to devices, and which facts they keep.
+//! Tests which facts profiles add to devices, and which facts of devices they keep.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::{BitMeaning, Catalog, Device, FactOrigin, Item, Scale, Shape, Type, TypeDef};
@@ -40,7 +40,7 @@ fn type_name(device: &Device, index: u16, sub: u8) -> String {
     }
 }
 
-/// Returns an EDS of a drive with additional objects.
+/// Returns an EDS of a drive that contains the additional sections `more`.
 fn drive(more: &str) -> String {
     format!(
         "[DeviceInfo]\nProductName=Drive\n\

@@ -1,4 +1,4 @@
-//! Tests the Rust code for GSDML files: its structure, and that any file content gives valid code.
+//! Tests the Rust code for GSDML files: its structure, and its validity for unusual contents of files.
 
 mod compile_support;
 mod form_support;

@@ -9,12 +9,12 @@ use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::Device;
 use lexibus_codegen::source::Source;
 
-/// Compiles a text as a file that is not in a folder.
+/// Compiles a text as a file without a folder.
 fn read(text: String) -> Compilation {
     check(Source::new("slave.xml", text.into_bytes()), &Options::default())
 }
 
-/// Returns an ESI with these elements in the Devices element.
+/// Returns an ESI whose Devices element contains `devices`.
 fn file(devices: &str) -> String {
     format!(
         "<EtherCATInfo><Vendor><Id>#x1</Id><Name>Maker</Name></Vendor><Descriptions><Devices>{devices}</Devices>\
@@ -22,19 +22,19 @@ fn file(devices: &str) -> String {
     )
 }
 
-/// Returns an ESI with one device. The device has these elements in addition to Type and Name.
+/// Returns an ESI with one device, which has `elements` in addition to Type and Name.
 fn device_file(elements: &str) -> String {
     file(&format!(
         "<Device Physics='YY'><Type ProductCode='#x2' RevisionNo='#x3'>D1</Type><Name>Drive</Name>{elements}</Device>"
     ))
 }
 
-/// Returns a Profile element with these data types and objects.
+/// Returns a Profile element with the data types `types` and the objects `objects`.
 fn profile(types: &str, objects: &str) -> String {
     format!("<Profile><Dictionary><DataTypes>{types}</DataTypes><Objects>{objects}</Objects></Dictionary></Profile>")
 }
 
-/// Returns a read-only object that has a single value.
+/// Returns an Object element for a read-only object with a single value.
 fn var(index: u16, ty: &str) -> String {
     format!(
         "<Object><Index>{index}</Index><Name>Value</Name><Type>{ty}</Type><Flags><Access>ro</Access></Flags></Object>"

@@ -40,7 +40,7 @@ fn file(submodule: &str, lists: &str) -> String {
     )
 }
 
-/// Returns the content of a submodule with these inputs.
+/// Returns the content of a submodule that has the inputs `items`.
 fn inputs(items: &str) -> String {
     format!("<IOData>\n<Input>\n{items}</Input>\n</IOData>\n")
 }
@@ -100,7 +100,7 @@ fn g01_all_encodings_give_one_ir() {
     }
 }
 
-/// The diagnostic has no text to mark, because the value is empty.
+/// An empty value has no text to mark. The diagnostic must mark its quotation marks.
 #[test]
 fn g06_an_empty_default_is_reported_at_its_place() {
     let parameter = "<Ref ByteOffset=\"0\" TextId=\"T_Speed\" DataType=\"Unsigned8\" DefaultValue=\"\"/>";
@@ -135,7 +135,7 @@ fn named_values_do_not_multiply() {
         })
         .collect();
     let compilation = read(file(&record(400, &content), &lists));
-    // The first of 40 types is not a copy, and the limit allows 20 copies.
+    // The first of the 40 types is not a copy, and the limit allows 20 copies.
     assert_eq!(codes(&compilation), ["IO003"; 19]);
 }
 

@@ -57,7 +57,7 @@ fn rust(text: &str) -> String {
     read(text).rust(&RustOptions { accessors: false, ..RustOptions::default() }).expect("code")
 }
 
-/// Returns the lines from the first one that contains `from` to the next one that contains `to`.
+/// Returns the lines of `text` from the first line that contains `from` to the next line that contains `to`.
 fn part(text: &str, from: &str, to: &str) -> String {
     let lines = text.lines().skip_while(|line| !line.contains(from));
     let mut part: Vec<&str> = Vec::new();

@@ -49,11 +49,11 @@ fn rustdoc_has_nothing_to_say_of_the_examples() {
         RustOptions { pdos: false, ..RustOptions::default() },
     ];
     let mut examples = examples();
-    // In the fast lane, only the crate `lexibus-drives` documents the drives.
+    // In the fast lane, rustdoc runs on the drives only in the crate `lexibus-drives`.
     examples.retain(|path| lane::is_full() || path.parent().is_some_and(|folder| folder.ends_with("data")));
     on_all_processors(examples, |path| {
         let compilation = read(&path, &Options::default());
-        // The drives are also documented with all options in a crate of the workspace.
+        // A crate of the workspace also runs rustdoc on the drives, with all options.
         let chosen =
             if path.parent().is_some_and(|entry| entry.ends_with("data")) { &choices[..] } else { &choices[1..2] };
         let texts: Vec<String> = chosen.iter().filter_map(|entry| compilation.rust(entry)).collect();
@@ -152,7 +152,7 @@ MODE_2 = { reg = 2, type = "u8", access = "rw", doc = "ends with \\", when = { "
 4 = { reserved = 0 }
 "#;
 
-/// Returns the cells of the first table on a page, row by row.
+/// Returns the cells in each row of the first table on a page.
 fn cells(page: &str) -> Vec<Vec<&str>> {
     let table = page.split_once("<tbody>").and_then(|(_, rest)| rest.split_once("</tbody>")).expect("a table").0;
     let rows = table.split("<tr>").skip(1);
@@ -184,7 +184,7 @@ fn no_text_breaks_out_of_its_cell() {
 /// Time limit for running rustdoc on corpus files.
 const TIME: Duration = Duration::from_secs(25);
 
-/// Maximum number of devices per file.
+/// Maximum number of devices per file to run rustdoc on.
 const DEVICES: usize = 2;
 
 #[test]

@@ -29,12 +29,12 @@ fn reported(compilation: &Compilation) -> Vec<String> {
 
 const HEAD: &str = "lexibus = 1\n[device]\nname = \"Pump\"\n[spaces.register]\nmodbus = { table = \"holding\" }\n";
 
-/// Returns a table with these lines in its only chapter.
+/// Returns a table whose only chapter contains `rows`.
 fn rows(rows: &str) -> String {
     format!("{HEAD}[[chapters]]\n[chapters.registers]\n{rows}\n")
 }
 
-/// Returns a table with a row that has these keys in addition to the required ones.
+/// Returns a table with a row that has the keys `more` in addition to the required keys.
 fn a(more: &str) -> String {
     rows(&format!("a = {{ reg = 1, type = \"u16\", access = \"ro\"{more} }}"))
 }
@@ -158,7 +158,7 @@ fn the_worked_example() {
 fn the_examples_of_the_documentation_are_tables() {
     let examples = examples();
     assert!(examples.len() > 5);
-    // Check an overlay only against the schema, because it contains no device.
+    // Skip overlays, because they contain no device. Another test checks them against the schema.
     for (line, block) in examples.iter().filter(|(_, block)| !block.contains("[overlay]")) {
         let compilation = read(&whole(block));
         let errors = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Error);

@@ -43,7 +43,7 @@ const TABLES: [&str; 7] = [
 #[test]
 fn tables_compile() {
     for name in TABLES {
-        // In the fast lane, only the crate `lexibus-drives` compiles the drives.
+        // Skip the drives in the fast lane, because the crate `lexibus-drives` compiles them.
         if name.starts_with("dictionaries") && !lane::is_full() {
             continue;
         }

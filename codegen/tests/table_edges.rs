@@ -1,10 +1,10 @@
-//! Tests numbers and ranges in register tables at their limits and beyond.
+//! Tests numbers and ranges in register tables that are at their limits or exceed them.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Binding, Item, Scale, Shape, Value};
 use lexibus_codegen::source::Source;
 
-/// Compiles a table with these chapters. `head` is inserted before the chapters.
+/// Compiles a table that contains `head`, followed by `chapters`.
 fn read(head: &str, chapters: &str) -> Compilation {
     let text = format!(
         "lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"canopen\", \"modbus\"]\n{head}[[chapters]]\n{chapters}"

@@ -24,7 +24,7 @@ const HEAD: &str =
     "lexibus = 1\n[device]\nname = \"M\"\nbuses = [\"serial\"]\n[spaces.p]\nparameter = true\n[[chapters]]\n\
                     [chapters.registers]\nSpeed = { reg = 1, type = \"i16\", access = \"rw\" }\n";
 
-/// Returns the diagnostics of a table in which these lines follow a row. File names are left out.
+/// Returns the diagnostics of a table that contains `lines` after a row. File names are left out.
 fn findings(lines: &str) -> Vec<String> {
     reported(&read(&format!("{HEAD}{lines}")))
 }
@@ -134,7 +134,7 @@ fn images_have_items_and_fields_of_their_own() {
     assert_eq!(places, [("ready", 3, 1), ("Speed", 8, 16), ("text", 24, 32)]);
     let actual = device.groups.iter().find(|group| matches!(group.kind, GroupKind::Image { .. })).expect("a group");
     assert_eq!(actual.items.iter().map(|item| item.name.as_str()).collect::<Vec<_>>(), ["ready", "text"]);
-    let speed = device.groups.iter().flat_map(|group| &group.items).find(|item| item.name == "Speed").expect("it");
+    let speed = device.groups.iter().flat_map(|group| &group.items).find(|item| item.name == "Speed").expect("Speed");
     let image = ImageBinding { image: "in".into(), bit_offset: 8, bits: 16, ty: None };
     assert_eq!(speed.bindings[1], Binding::Image(Box::new(image)));
 }

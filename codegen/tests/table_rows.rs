@@ -17,19 +17,19 @@ fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", text.into()), &Options::default())
 }
 
-/// Returns the diagnostics of a text, with code and line.
+/// Returns the diagnostics of a table with their positions.
 fn reported(text: &str) -> Vec<String> {
     let compilation = read(text);
     let list = compilation.diagnostics.list();
     list.iter().map(|diagnostic| compilation.one_line(diagnostic).trim_start_matches("t.toml:").to_owned()).collect()
 }
 
-/// Returns a table with these register rows.
+/// Returns a table whose only chapter contains the register rows `rows`.
 fn rows(rows: &str) -> String {
     format!("{HEAD}[[chapters]]\ntitle = \"One\"\n[chapters.registers]\n{rows}\n")
 }
 
-/// Returns a table with a row that has these keys in addition to the required ones.
+/// Returns a table with a row that has the keys `more` in addition to the required keys.
 fn a(more: &str) -> String {
     rows(&format!(
         "a = {{ reg = 1, type = \"u16\", access = \"rw\"{more} }}\nb = {{ reg = 2, type = \"i16\", access = \"ro\" }}"
@@ -55,7 +55,7 @@ fn rust(text: &str) -> String {
     compilation.rust(&RustOptions::default()).unwrap_or_else(|| panic!("{:#?}", reported(text)))
 }
 
-/// Asserts that a row with these keys causes an error with this message.
+/// Asserts that a row with the keys `more` causes an error whose message contains `words`.
 #[track_caller]
 fn is_wrong(more: &str, words: &str) {
     let found = reported(&a(more));

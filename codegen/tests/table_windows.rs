@@ -1,5 +1,5 @@
-//! Tests register tables with several windows per space, values that fill their registers, rows that exist on some buses only,
-//! and numbers in several items.
+//! Tests register tables with several windows per space, values that are extended to the size of their registers, PDOs and codes
+//! that exist only on some buses, and numbers that are split into several items.
 
 mod form_support;
 
@@ -181,7 +181,7 @@ fn numbers_in_several_items() {
     }
 }
 
-/// Generated code with long names must have the line breaks of `prettyplease`.
+/// Generated constants with long names must have the line breaks of `prettyplease`.
 #[test]
 fn constants_keep_the_form_of_generated_code() {
     let long = "offset of the second axis from the marker of the first one";

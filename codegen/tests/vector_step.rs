@@ -1,5 +1,5 @@
 //! Compares the table of the Vector Step with the text of its manual. Each printed row must be in the table once, cite its
-//! line, and have the properties in the printed cells. Each deliberate difference must have a doubt.
+//! line, and have the properties in the printed cells. Each deliberate difference must have a `doubt` entry.
 
 #[path = "table_support/manual.rs"]
 mod manual_text;
@@ -32,7 +32,7 @@ fn registers(device: &Device) -> impl Iterator<Item = &Item> {
     chapters(device).flat_map(|group| &group.items)
 }
 
-/// Returns the manual line of an item. This is the first line that the item cites.
+/// Returns the manual line that describes an item: the first line that the item cites.
 fn line(item: &Item) -> Option<usize> {
     let cite = item.documentation.as_ref()?.cite.as_deref()?;
     cite.split([',', '-']).next()?.trim().parse().ok()
@@ -63,8 +63,7 @@ struct Printed<'m> {
     cells: Vec<&'m str>,
 }
 
-/// Returns the rows of all register tables. A row starts with an address or a range of addresses, followed by a cell with an
-/// index if there is one.
+/// Returns the rows of all register tables. A row starts with an address or a range of addresses. A cell with an index can follow.
 fn printed(manual: &[String]) -> Vec<Printed<'_>> {
     let mut rows = Vec::new();
     for (position, line) in manual.iter().enumerate() {
@@ -169,7 +168,7 @@ fn chapters_and_objects_are_complete() {
         (groups.len(), groups.iter().map(|group| group.items.len()).sum::<usize>())
     };
     assert_eq!(objects(0x1000, 0x1FFF), (33, 135), "DS-301");
-    // The count includes 55 described objects and the five sub-indices 0 that the boxes omit.
+    // The count includes the 55 described entries, and five entries with sub-index 0 that the manual's boxes omit.
     assert_eq!(objects(0x6000, 0x67FF), (44, 60), "DSP-402");
     assert_eq!(objects(0x23E8, 0x23E8), (1, 7), "user variables");
     let saved = registers(device).filter_map(|item| item.behaviour.as_ref());

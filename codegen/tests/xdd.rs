@@ -19,7 +19,7 @@ fn read(text: &str) -> (Option<Device>, Diagnostics) {
     (device, diagnostics)
 }
 
-/// Returns the device of a catalog that has only one.
+/// Returns the device of a catalog that has only one device.
 fn only(catalog: Option<Catalog>) -> Option<Device> {
     let mut devices = catalog?.devices;
     assert_eq!(devices.len(), 1);
@@ -465,7 +465,7 @@ fn comparable(device: &Device) -> serde_json::Value {
     let mut value = serde_json::to_value(device).unwrap();
     clear(&mut value);
     let header = value["header"].as_object_mut().unwrap();
-    // The version of CiA 306 does not apply to CiA 311 files.
+    // The removed facts describe the file. The version of CiA 306, for example, does not apply to CiA 311 files.
     for key in
         ["file_name", "format_version", "creation_date", "creation_time", "modification_date", "modification_time"]
     {
@@ -848,7 +848,7 @@ fn no_cut_and_no_damage_panics() {
     }
 }
 
-/// Compares a real device that exists in both formats, exported by the same tool.
+/// Compares an XPD and an EDS of a real device. The same tool exported both files.
 #[test]
 fn a_real_device_gives_the_same_ir() {
     let Some(folder) = corpus_support::folder() else { return };

@@ -1,1 +1,1 @@
-//! Tests of the book as built by mdBook, in `tests`.
+//! The folder `tests` of this package tests the book as built by mdBook.

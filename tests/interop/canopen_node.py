@@ -1,4 +1,4 @@
-"""A node of the library `canopen` with an EDS: python canopen_node.py TTY EDS NODE-ID.
+"""Runs a node of the library `canopen` with an EDS: python canopen_node.py TTY EDS NODE-ID.
 
 The CAN bus is a serial line with python-can's `slcan` interface. The library's own encoders and decoders convert the values of the
 test's commands (talk.py).
@@ -38,7 +38,7 @@ STATUSWORD = 0x6041
 
 
 def to_json(variable, value):
-    """Converts a value of the library to JSON. The library doesn't decode times and byte strings."""
+    """Converts a value of the library to JSON. Decodes times and byte strings, because the library does not."""
     if variable.data_type == datatypes.TIME_OF_DAY:
         milliseconds, days = timestamp.TIME_OF_DAY_STRUCT.unpack(value)
         return (EPOCH + timedelta(days=days, milliseconds=milliseconds)).isoformat(timespec="milliseconds")
@@ -49,7 +49,7 @@ def to_json(variable, value):
 
 
 def from_json(variable, value):
-    """Converts a value from JSON."""
+    """Converts a JSON value to a value of the library."""
     if variable.data_type == datatypes.TIME_OF_DAY:
         value = datetime.fromisoformat(value) - EPOCH
     elif variable.data_type == datatypes.TIME_DIFFERENCE:
@@ -63,7 +63,7 @@ def from_json(variable, value):
 
 
 class Node:
-    """The node and the commands of the test."""
+    """The node, with methods for the commands that the test sends."""
 
     def __init__(self, tty, eds, node_id):
         self.network = canopen.Network()
@@ -77,10 +77,10 @@ class Node:
         self.node.nmt.state = "INITIALISING"
         self.node.nmt.state = "PRE-OPERATIONAL"
 
-    # Checks that the library does not perform. These checks refuse writes according to CiA 301.
+    # The following methods refuse writes according to CiA 301, because the library does not check them.
 
     def check_limits(self, od, data, **_):
-        """Checks limits. The library reads those of 8, 16, 32 and 64-bit integers from the EDS."""
+        """Checks the limits of integers. The library reads the limits of 8, 16, 32 and 64-bit integers from the EDS."""
         if od.data_type not in NUMBER_TYPES:
             return
         value = od.decode_raw(data)
@@ -143,7 +143,7 @@ class Node:
         """Returns the value of an object as a number."""
         return self.variable(index, subindex).decode_raw(self.node.get_data(index, subindex))
 
-    # Commands that the test can send.
+    # The following methods are the commands that the test can send.
 
     def get(self, index, sub=0):
         """Returns the value of an object."""

@@ -1,4 +1,4 @@
-"""A server of `pymodbus`: python modbus_server.py tcp, or python modbus_server.py rtu TTY.
+"""Runs a server of `pymodbus`: python modbus_server.py tcp, or python modbus_server.py rtu TTY.
 
 The handwritten table PLACES describes the registers again. The tests compare it with the bindings that are generated from
 `registers.toml`. `pymodbus` converts numbers to registers for the commands of the test (talk.py).
@@ -28,7 +28,7 @@ INPUT = (4, 4)
 COIL = (1, 15)
 DISCRETE = (2, 2)
 
-# For each name: table, wire address, type, number of registers or bits, word order, and whether bytes are swapped.
+# Registers by name: table, wire address, type, number of registers or bits, word order, and whether the bytes are swapped.
 PLACES = {
     "high_u16": (HOLDING, 0, TYPES.UINT16, 1, "big", False),
     "high_i16": (HOLDING, 1, TYPES.INT16, 1, "big", False),
@@ -59,7 +59,7 @@ PLACES = {
     "mode": (HOLDING, 302, TYPES.UINT16, 1, "big", False),
     "status": (HOLDING, 303, TYPES.UINT16, 1, "big", False),
     "temperature": (HOLDING, 304, TYPES.INT16, 1, "big", False),
-    # The accessor writes only the first three of these words. The test checks that the last word is unchanged.
+    # The accessor for `words_305` writes only the first three words. The test checks that the last word is unchanged.
     "words_305": (HOLDING, 305, TYPES.UINT64, 4, "big", False),
     "input_i16": (INPUT, 0, TYPES.INT16, 1, "big", False),
     "input_u32": (INPUT, 1, TYPES.UINT32, 2, "big", False),
@@ -87,7 +87,7 @@ def swapped(registers, swap):
 
 
 class Server:
-    """The server, in a separate thread, and the commands of the test."""
+    """The server, which runs in a separate thread, with methods for the commands that the test sends."""
 
     def __init__(self, bus, *tty):
         self.requests = []
@@ -116,10 +116,10 @@ class Server:
             self.requests.append(pdu.function_code)
         return pdu
 
-    # Commands that the test can send.
+    # The following methods are the commands that the test can send.
 
     def get(self, name):
-        """Returns a value; for coils and discrete inputs, a list of the bits that are set."""
+        """Returns the value with a given name. For coils and discrete inputs, returns the numbers of the bits that are set."""
         (reading, _), address, data_type, count, order, swap = PLACES[name]
         held = self.wait(self.server.async_getValues(DEVICE, reading, address, count))
         if data_type is None:

@@ -1,6 +1,6 @@
-"""Communication of these scripts with a test: one line of JSON per command, one line of JSON per answer.
+"""Communication between these scripts and a test. Each command and each answer is one line of JSON.
 
-The script ends when its standard input is closed. That happens at the end of the test, even after a failure.
+A script ends when its standard input is closed. The input is closed at the end of the test, even after a failure.
 """
 
 import json
@@ -12,8 +12,8 @@ def say(answer):
 
 
 def serve(commands, ready=True):
-    """Executes commands until the end of the input: `{"do": NAME, ARGUMENT: …}` calls the function `commands[NAME]`. `ready` is
-    the first message to the test."""
+    """Executes commands until the end of the input. `{"do": NAME, ARGUMENT: …}` calls the function `commands[NAME]`. `ready` is sent
+    to the test first."""
     say({"ready": ready})
     for line in sys.stdin:
         command = json.loads(line)

@@ -44,7 +44,7 @@ fn packed<T>(bencher: Bencher<'_, '_>, unpack: impl Fn(&Frame) -> T, pack: impl 
     });
 }
 
-/// Runs both benchmarks of a struct.
+/// Defines two benchmarks for each library: unpacking and packing.
 macro_rules! both {
     ($($name:ident: $unpack:expr, $pack:expr;)*) => {
         mod unpack {
@@ -82,7 +82,7 @@ mod whole_bytes {
         ethercrab_wire: |frame| EtherCrab::unpack_from_slice(frame).unwrap(), |value| value.pack();
         deku: |frame| Deku::from_bytes((frame, 0)).unwrap().1, deku_bytes;
         packed_struct: |frame| Packed::unpack(frame).unwrap(), |value| value.pack().unwrap();
-        // The struct only stores the word. Read all fields, because the other candidates also decode them.
+        // The `bilge` struct only stores the word. Read all its fields, because the other libraries also decode them.
         bilge: |frame| {
             let bits = Bilge::from(word(frame));
             WordAndLong { word: bits.word(), long: bits.long() as i32 }
@@ -96,7 +96,7 @@ mod odd_bits {
     use lexibus_instructions::hand;
     use lexibus_packing::odd_bits::{Bilge, Mode};
 
-    /// Returns all fields of a word that `bilge` represents.
+    /// Decodes all fields of the `bilge` struct.
     fn fields(bits: Bilge) -> hand::Encoder {
         hand::Encoder {
             ready: bits.ready(),

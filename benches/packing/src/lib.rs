@@ -40,7 +40,7 @@ pub mod whole_bytes {
     }
 
     impl Bilge {
-        /// Creates the struct. This function is necessary because the constructor is private.
+        /// Creates the struct. `bilge` generates a private constructor, so other crates cannot call it.
         #[inline]
         pub fn of(word: u16, long: u32) -> Self {
             Self::new(word, long)
@@ -57,7 +57,7 @@ pub mod odd_bits {
     pub enum Mode {
         Off,
         Position,
-        /// Placeholder for an unnamed value. `bilge` does not allow explicit numbers in an enumeration with a fallback.
+        /// Placeholder for the unnamed value 2. `bilge` does not allow explicit numbers in an enumeration with a fallback.
         Two,
         Velocity,
         Torque,
@@ -78,7 +78,7 @@ pub mod odd_bits {
     }
 
     impl Bilge {
-        /// Creates the struct. This function is necessary because the constructor is private.
+        /// Creates the struct. `bilge` generates a private constructor, so other crates cannot call it.
         #[inline]
         pub fn of(
             ready: bool,

@@ -13,7 +13,7 @@ use crate::report::{Line, Table};
 
 pub const REGISTERS: usize = 1_000;
 
-/// Returns the result tables of code generation.
+/// Measures code generation and returns the tables of results.
 pub fn compare() -> Vec<Table> {
     vec![generators(), alone()]
 }
@@ -36,7 +36,7 @@ fn generators() -> Table {
 
 /// Measures Lexibus from IR to Rust text, for an EDS with 10,000 entries.
 fn alone() -> Table {
-    // The EDS has 111 times ten records with nine entries each.
+    // The EDS has 1,110 records with nine entries each.
     let bytes = growing(InputFormat::Eds, 111);
     let compilation = check("bench.eds".to_owned(), bytes);
     let catalog = compilation.catalog.as_ref().expect("a catalogue");

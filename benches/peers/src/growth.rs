@@ -1,4 +1,4 @@
-//! Measures the time and memory for inputs whose size grows by a factor of 1 to 1,000.
+//! Measures the time and memory for inputs of 1, 10, 100 and 1,000 times the smallest size.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -25,7 +25,7 @@ const WAYS: [Way; 5] = [
     ("table, registers", "bench.toml", |size| growing(InputFormat::Table, size)),
 ];
 
-/// Cost of an input: nanoseconds and bytes of memory, each per input byte.
+/// Cost of an input: time in nanoseconds and memory in bytes, each per input byte.
 struct Cost {
     bytes: usize,
     read: f64,
@@ -75,7 +75,7 @@ fn one(&(title, name, make): &Way, print: bool) -> Value {
     json!({ "title": title, "sizes": rows })
 }
 
-/// Returns the Markdown mark that prints unexpected values in bold.
+/// Returns a bold exclamation mark for an unexpected value, and an empty text for any other value.
 fn mark(bad: bool) -> &'static str {
     if bad {
         " **!**"
@@ -84,7 +84,7 @@ fn mark(bad: bool) -> &'static str {
     }
 }
 
-/// Measures the inputs of all sizes in turn.
+/// Measures all inputs in turn and returns the cost of each.
 fn costs(name: &str, inputs: &[Vec<u8>]) -> Vec<Cost> {
     let options = Options::default();
     let read = |bytes: Vec<u8>| compile::read(Source::new(name, bytes), &options);
@@ -104,7 +104,7 @@ fn costs(name: &str, inputs: &[Vec<u8>]) -> Vec<Cost> {
 
 const ROUNDS: usize = 4;
 
-/// Returns the number of repetitions. Short inputs are measured for about as long as long inputs, within limits.
+/// Returns the number of repetitions for an input size: 1 to 50, so that short inputs are measured for a similar time as long ones.
 fn repetitions(bytes: usize) -> usize {
     (2_000_000 / bytes).clamp(1, 50)
 }

@@ -43,7 +43,7 @@ impl Input {
         Input { title: title.to_owned(), kind, bytes, path }
     }
 
-    /// Returns a file of the user. Returns `None` if its format is not part of the comparison.
+    /// Reads an input from a file. Returns `None` if the format of the file is not part of the comparison.
     pub fn of_file(path: &Path) -> Option<Self> {
         let bytes = std::fs::read(path).ok()?;
         let name = path.file_name()?.to_string_lossy().into_owned();
@@ -84,7 +84,7 @@ pub fn of_three_sizes(folder: &Path) -> Vec<Input> {
     ]
 }
 
-/// Returns a description in this format. `size` is a multiple of the smallest size: 1, 10, 100 or 1,000.
+/// Returns a generated description in the format `kind`. `size` is a multiple of the smallest size: 1, 10, 100 or 1,000.
 pub fn growing(kind: InputFormat, size: usize) -> Vec<u8> {
     match kind {
         InputFormat::Eds => eds::growing(size),

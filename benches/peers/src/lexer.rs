@@ -1,4 +1,4 @@
-//! The minimum work for reading an EDS: finding the spans of sections, keys and values without converting them.
+//! A lexer that does the minimum work for reading an EDS: it finds the spans of sections, keys and values without converting them.
 
 use memchr::{memchr, memchr_iter};
 
@@ -16,7 +16,7 @@ pub struct Section {
     pub first_entry: u32,
 }
 
-/// The spans of a file in order.
+/// Spans of the sections and entries of a file, in file order.
 #[derive(Default)]
 pub struct Spans {
     pub sections: Vec<Section>,

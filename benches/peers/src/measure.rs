@@ -9,7 +9,7 @@ pub struct Contestant<'a> {
     run: Box<dyn FnMut(u32) -> Result<Duration, String> + 'a>,
 }
 
-/// Times of a program. Each is the mean of a round.
+/// Times of a program for one repetition. Each time is the mean of a round.
 #[derive(Clone, Debug)]
 pub struct Sample {
     pub least: Duration,
@@ -17,7 +17,7 @@ pub struct Sample {
     pub rounds: usize,
 }
 
-/// Number of rounds unless they exceed the time limit.
+/// Number of rounds if the time limit is not reached.
 const ROUNDS: usize = 15;
 
 /// Minimum number of rounds.
@@ -85,8 +85,8 @@ pub fn in_turns(contestants: &mut [Contestant<'_>]) -> Vec<Result<Sample, String
     progress.into_iter().map(|progress| progress.map(|progress| sample(progress.times))).collect()
 }
 
-/// Determines the number of repetitions per round with a run that is not counted. Another run before that does one-time
-/// work such as reading the profiles.
+/// Runs a program twice without counting the results. The first run does one-time work such as reading the profiles. The second
+/// run determines the number of repetitions per round.
 fn first_run(contestant: &mut Contestant<'_>) -> Result<Progress, String> {
     (contestant.run)(1)?;
     let time = (contestant.run)(1)?.max(Duration::from_nanos(100));

@@ -28,7 +28,7 @@ impl Python {
         Some(Python { child, requests, replies })
     }
 
-    /// Returns the time for reading `path` this number of times with `reader`, a function in `read.py`.
+    /// Returns the time for reading `path` `repetitions` times with `reader`, which is a key of `READERS` in `read.py`.
     pub fn time(&mut self, reader: &str, path: &Path, repetitions: u32) -> Result<Duration, String> {
         let broken = |error: std::io::Error| format!("Python is gone: {error}");
         writeln!(self.requests, "{reader}\t{repetitions}\t{}", path.display()).map_err(broken)?;
@@ -40,7 +40,7 @@ impl Python {
 
 impl Drop for Python {
     fn drop(&mut self) {
-        // The process ends when its input is closed. Ignore an error, which means that it has already ended.
+        // Ignore an error, because it means that the process has already ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

@@ -2,11 +2,11 @@
 
 use lexibus_codegen::diagnostics::Code;
 
-/// All examples. A line with [`START`] and the code precedes each example. The test `ui` creates the file from the test
+/// Examples of all codes. A line with [`START`] and the code precedes each example. The test `ui` creates this file from its
 /// cases.
 const EXAMPLES: &str = include_str!("examples.txt");
 
-/// Start of the line that precedes an example.
+/// Start of the line that separates two examples.
 const START: &str = "=== ";
 
 /// Returns the terminal output for an input that causes the diagnostic.
@@ -24,7 +24,7 @@ mod tests {
     #[test]
     fn an_example_shows_its_code() {
         for code in CODES {
-            // Cases cannot show an unreadable file.
+            // IO001 has no example, because a test case cannot contain an unreadable file.
             let Some(text) = example(code) else {
                 assert_eq!(code.id, "IO001");
                 continue;

@@ -6,7 +6,7 @@ use lexibus_codegen::diagnostics::{Class, Code};
 use super::example::example;
 use super::{level, strictness};
 
-/// Families of codes: the letters at the start of the codes, and the heading of the family.
+/// Families of codes: the letters that start their codes, and their headings.
 const FAMILIES: [(&str, &str); 11] = [
     ("IO", "Input files and selection"),
     ("EDS", "EDS and DCF"),
@@ -68,7 +68,7 @@ fn severity(class: Class) -> u8 {
     }
 }
 
-/// Returns the letters at the start of a code.
+/// Returns the family of a code: the letters before its number.
 fn family(code: &Code) -> &'static str {
     code.id.trim_end_matches(|letter: char| letter.is_ascii_digit())
 }

@@ -44,7 +44,7 @@ fn strictness(class: Class) -> &'static str {
     }
 }
 
-/// Returns the default level in the notation of the command line.
+/// Returns the default level of a code in the notation of the command line.
 fn level(code: &Code) -> &'static str {
     match code.default {
         Level::Allow => "allow",

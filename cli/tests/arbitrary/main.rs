@@ -27,7 +27,7 @@ use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 use outputs::Outputs;
 
-/// Number of catalogs in the full lane. The fast lane tests a sixteenth of them.
+/// Number of catalogs in the full lane. The fast lane tests a sixteenth of this number.
 const DRAWN: u64 = 400;
 
 /// Default number of catalogs for which all other outputs are created.
@@ -42,7 +42,7 @@ const DOCUMENTED: usize = 30;
 /// Number of generated modules that are compiled together.
 const BATCH: usize = 60;
 
-/// Number of random bytes from which a catalog is created.
+/// Number of random bytes that determine a catalog.
 const BYTES: usize = 8000;
 
 fn seeds() -> Range<u64> {
@@ -131,7 +131,7 @@ fn outputs() -> impl Iterator<Item = (u64, Compilation, Outputs)> {
     })
 }
 
-/// Returns `most` seeds, or all seeds that `LEXIBUS_ARBITRARY` selects.
+/// Returns the first `most` seeds, or all seeds that `LEXIBUS_ARBITRARY` selects.
 fn some(most: usize) -> impl Iterator<Item = u64> {
     let all = std::env::var_os("LEXIBUS_ARBITRARY").is_some();
     seeds().take(if all { usize::MAX } else { most })

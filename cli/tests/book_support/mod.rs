@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-/// A code block.
+/// A code block of a chapter.
 pub struct Block {
     /// Line number of the first line in the block.
     pub line: usize,
@@ -12,7 +12,6 @@ pub struct Block {
     pub file: Option<String>,
     /// Name of an example with the same content, from the comment `<!-- file: NAME = EXAMPLE -->`.
     pub same_as: Option<String>,
-    /// Text of the block.
     pub text: String,
 }
 

@@ -1,4 +1,4 @@
-// axe-core reports nothing on pages of every kind: names, labels, headings, roles and contrast, in both themes, and on a phone.
+// Tests pages of every kind with axe-core: names, labels, headings, roles and contrast, in both themes and on a phone.
 import assert from "node:assert/strict";
 import { axe, Window, withBrowser } from "./browser.mjs";
 
@@ -40,7 +40,7 @@ async function examine(page, what) {
   assert.deepEqual(violations, [], what);
 }
 
-// Scrolls through the page, because the browser lays out content only when it becomes visible.
+// Makes the browser lay out the whole page, including the content that is not in view.
 async function browsed(page) {
   await page.evaluate(async () => {
     const style = new CSSStyleSheet(), frame = () => new Promise(requestAnimationFrame);

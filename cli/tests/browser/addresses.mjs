@@ -1,4 +1,4 @@
-// A link to a row leads to the page with that row, from any page of the device.
+// Tests that a link to a row opens the page with that row, from any page of the device.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
@@ -7,7 +7,7 @@ await withBrowser(async (browser) => {
   const window = await Window.open(browser, site);
   await leads(window, "aec-vector-step/index.html#0x6040", "aec-vector-step/profile-objects.html#0x6040");
   await leads(window, "aec-vector-step/codes.html#0x6040", "aec-vector-step/profile-objects.html#0x6040");
-  // An entry in the row of its object, and an entry with a separate row.
+  // The first entry is in the row of its object, and the second entry has a separate row.
   await leads(window, "aec-vector-step/index.html#0x6040:00", "aec-vector-step/profile-objects.html#0x6040");
   await leads(window, "aec-vector-step/index.html#0x1403:01", "aec-vector-step/communication-objects.html#0x1403:01");
   await leads(window, "aec-vector-step/index.html#0x607a", "aec-vector-step/profile-objects.html#0x607A");
@@ -29,14 +29,14 @@ async function leads(window, from, to) {
   await page.waitForFunction(() => document.querySelector(":target"));
 }
 
-// The address of an open page changes.
+// Changes the address of an open page to a row of another page.
 async function changes(window) {
   const page = await window.go("kollmorgen-akd/index.html");
   await page.evaluate(() => { location.hash = "#0x6040"; });
   await page.waitForURL(/profile-objects\.html#0x6040$/);
 }
 
-// An unknown address leads nowhere and causes no error.
+// Checks that an unknown address opens no other page and causes no error.
 async function stays(window) {
   for (const hash of ["#0xDEAD", "#%", "#%FF%FE", "#<script>", "#", "#content"]) {
     const page = await window.go("eco/index.html" + hash);

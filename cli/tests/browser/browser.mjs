@@ -1,4 +1,4 @@
-// A headless browser that opens pages from disk and records every error.
+// Controls a headless browser, which opens pages from disk and records every error.
 import { createRequire } from "node:module";
 import { pathToFileURL } from "node:url";
 import { readdirSync } from "node:fs";
@@ -9,7 +9,7 @@ const modules = process.env.LEXIBUS_BROWSER_MODULES ?? new URL("../../../target/
 const load = createRequire(path.join(modules, "from-here.js"));
 const { chromium } = load("playwright-core");
 
-// Source of axe-core, to be run in a page.
+// Source code of axe-core, which is run within a page.
 export const axe = load("axe-core").source;
 
 // Returns the paths of the pages of a site.
@@ -18,12 +18,12 @@ export function pagesOf(site) {
   return all.filter((file) => file.endsWith(".html")).sort();
 }
 
-// Returns all of `list` in the full lane, and every `step`-th in the fast lane.
+// Returns all elements of `list` in the full lane, and every `step`-th element in the fast lane.
 export function sampled(list, step) {
   return list.filter((_, at) => process.env.LEXIBUS_LANE === "full" || at % step === 0);
 }
 
-// Disables the browser's background requests and the use of a graphics card.
+// These options disable background requests and the graphics card.
 const FLAGS = [
   "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
   "--disable-component-update", "--disable-sync",
@@ -48,7 +48,7 @@ async function inPath(program) {
   throw new Error(`no ${program} in PATH`);
 }
 
-// Pages of a site in one window, with shared storage.
+// A browser window for the pages of one site. The pages share their storage.
 export class Window {
   static async open(browser, site, options = {}) {
     const opened = new Window();
@@ -83,14 +83,14 @@ export class Window {
     });
   }
 
-  // Opens a page of the site by its path, which may have a fragment. A change of the fragment alone would not reload the page.
+  // Opens a page of the site by its path, which may have a fragment. An empty page is opened first, because a new fragment alone does not reload a page.
   async go(place) {
     await this.page.goto("about:blank");
     await this.page.goto(this.root + place, { waitUntil: "load" });
     return this.page;
   }
 
-  // Types into the search field with the keyboard, and waits for results or for the message about no results.
+  // Types a text into the search field and returns the results. Waits until results or the message `Nothing found.` are shown.
   async search(text) {
     const { page } = this;
     await page.keyboard.press("Escape");
@@ -106,7 +106,7 @@ export class Window {
     assert.deepEqual(this.complaints, []);
   }
 
-  // Returns the path of the current page in the site.
+  // Returns the path of the open page relative to the site.
   get place() {
     return decodeURIComponent(this.page.url().slice(this.root.length));
   }

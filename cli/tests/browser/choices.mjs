@@ -1,4 +1,4 @@
-// Theme and language follow the system settings, change with the keyboard, and persist on other pages.
+// Tests the choice of theme and language. The theme follows the system settings, both can be changed with the keyboard, and both persist on other pages.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
@@ -41,14 +41,14 @@ async function languages(browser) {
   assert.ok(named.length > 5 && named.every((name) => name.trim()), `a name is missing: ${named}`);
   await choose("");
   assert.ok((await page.locator("tbody[id=Rposact] td").first().innerText()).startsWith("Rposact Posizione"));
-  // Selects the next entry of the list with the keyboard.
+  // Select the next language with the keyboard.
   await page.locator("#language").focus();
   await page.keyboard.press("ArrowDown");
   assert.equal(await page.locator("#language").inputValue(), "-");
   window.clean();
 }
 
-// Returns the visible theme.
+// Returns the theme of the page according to its colors.
 function brightness(page) {
   return page.evaluate(() => {
     const sum = (color) => color.match(/\d+/g).slice(0, 3).reduce((sum, part) => sum + Number(part), 0);

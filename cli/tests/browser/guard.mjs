@@ -1,4 +1,4 @@
-// Tests the other scripts: they detect pages with errors.
+// Tests that the other scripts detect pages with errors.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";

@@ -1,4 +1,4 @@
-// Markup in descriptions is shown as text. It runs and loads nothing in pages, search results and comparisons.
+// Tests that pages, search results and comparisons show markup in descriptions as text. The markup must not run scripts or load files.
 import assert from "node:assert/strict";
 import { pagesOf, Window, withBrowser } from "./browser.mjs";
 
@@ -24,7 +24,7 @@ await withBrowser(async (browser) => {
   window.clean();
 });
 
-// Returns the parts of the page that can come from a description.
+// Returns the elements that markup in a description could add to the page, and the number of texts that contain the markup.
 function look(window) {
   return window.page.evaluate(() => {
     const all = [...document.querySelectorAll("*")], texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);

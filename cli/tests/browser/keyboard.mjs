@@ -1,4 +1,4 @@
-// Tab moves through a page in order, the focus is visible, and the first link skips to the content.
+// Tests the use of pages with the keyboard: Tab follows the order of the page, the focus is visible, and the first link skips to the content.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
@@ -69,7 +69,7 @@ async function skips(window) {
   assert.ok(await page.evaluate(() => document.querySelector("main").contains(document.activeElement)));
 }
 
-// Arrow keys scroll content that is wider than a phone.
+// Checks that arrow keys scroll content that is wider than a phone.
 async function scrolls(window) {
   const page = await window.go("eco/states-and-procedures.html");
   const box = page.locator(".wide[tabindex='0']").first();

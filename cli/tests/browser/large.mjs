@@ -1,5 +1,5 @@
-// 2,000 registers with eight fields each: the loading time is bounded, and the search finds and shows the last register. Prints
-// the times.
+// Tests a site with 2,000 registers of eight fields each: the sizes of its files are limited, and the search finds and shows the last
+// register. Prints the times for loading and searching.
 import assert from "node:assert/strict";
 import { statSync } from "node:fs";
 import path from "node:path";

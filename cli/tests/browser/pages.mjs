@@ -1,4 +1,4 @@
-// Each page loads without errors and without requests outside of the site, and has the common elements.
+// Tests that each page loads without errors, makes no requests outside the site, and has the common elements.
 import assert from "node:assert/strict";
 import { pagesOf, sampled, Window, withBrowser } from "./browser.mjs";
 

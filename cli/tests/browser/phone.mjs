@@ -1,4 +1,4 @@
-// On a phone, no page is wider than the screen. Wide content scrolls in a box that the keyboard can reach.
+// Tests pages on a phone: no page is wider than the screen, and wide content scrolls in a box that the keyboard can reach.
 import assert from "node:assert/strict";
 import { pagesOf, sampled, Window, withBrowser } from "./browser.mjs";
 

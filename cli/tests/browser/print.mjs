@@ -1,4 +1,4 @@
-// Printed pages show the device and the subject, dark on white in both themes, without controls.
+// Tests printed pages: they show the name of the device, have dark text on white in both themes, and contain no controls.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 

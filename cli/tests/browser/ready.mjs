@@ -1,4 +1,4 @@
-// Checks whether a browser can be controlled, and prints why not.
+// Checks whether a browser can be controlled. If not, prints the reason.
 try {
   const { withBrowser } = await import("./browser.mjs");
   await withBrowser((browser) => console.log(`Chromium ${browser.version()}`));

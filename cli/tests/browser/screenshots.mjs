@@ -1,4 +1,4 @@
-// Takes pictures of every kind of page for review, in both themes, on a desktop and a phone.
+// Takes screenshots of every kind of page for a review: in both themes, and on a desktop and a phone.
 import { mkdirSync } from "node:fs";
 import path from "node:path";
 import { Window, withBrowser } from "./browser.mjs";

@@ -1,8 +1,8 @@
-// The search finds numbers in both notations, names in two languages, units and descriptions. It works with the keyboard and leads to the row.
+// Tests the search for numbers in both notations, names in two languages, units and descriptions. The keyboard must select a result and open its row.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
-// Page, typed text, expected first result, and target of Enter.
+// Test cases: the page, the typed text, the expected first result, and the page that Enter opens.
 const FOUND = [
   ["aec-vector-step/index.html", "0x6040", /^0x6040 Controlword/, "aec-vector-step/profile-objects.html#0x6040"],
   ["aec-vector-step/index.html", "6040", /^0x6040 Controlword/, "aec-vector-step/profile-objects.html#0x6040"],
@@ -15,16 +15,16 @@ const FOUND = [
   ["hsd-sm137-sm140/parameters.html", "velocita e della coppia", /^message Poll theoretical position Richiesta/, "hsd-sm137-sm140/messages.html#Poll_theoretical_position"],
   ["hsd-sm137-sm140/index.html", "low_level maximum current V", /^low_level 0x0005 KIQDLIMAX V · HSD Motor$/, "hsd-sm137-sm140/low-level-parameters.html#KIQDLIMAX"],
   ["hsd-sm137-sm140/index.html", "overheated", /^0x0001 overheated ALOVERHEATED/, "hsd-sm137-sm140/codes.html#alarm-0x0001"],
-  // Codes in the notation of the manual, including the notation of a cell, and numbers that a manual prints next to an index.
+  // The next texts are codes as printed in the manual or in one of its cells, and register numbers that the manual prints next to an index.
   ["kollmorgen-akd/index.html", "F125", /^F125 synchronisation lost/, "kollmorgen-akd/codes.html#faults-F125"],
   ["eco/index.html", "0x8700 synchronisation", /^34 synchronisation timed out/, "eco/codes.html#ethercat_alarms-34"],
   ["aec-vector-step/index.html", "register 63", /^register 63–64 Rvel/, "aec-vector-step/motion-parameters.html#Rvel"],
   ["eco/index.html", "32848", /^register R80 \(wire 0x8050\) mechatronic_80/, "eco/registers.html#mechatronic_80"],
   ["eco/index.html", "0x8050", /^register R80 \(wire 0x8050\) mechatronic_80/, "eco/registers.html#mechatronic_80"],
   ["kollmorgen-akd/index.html", "valore di comando di velocità", /^0x60FF Velocity command value/, "kollmorgen-akd/profile-objects.html#0x60FF"],
-  // A code within a range.
+  // The code 0x8642 is within a range of codes.
   ["eco/index.html", "0x8642", /^0x8000 to 0x8FFF monitoring/, "eco/codes.html#emergency-0x8000_to_0x8FFF"],
-  // A search of all devices from the first page, with the device as one of the words.
+  // The first page searches all devices. One of the words is the name of the device.
   ["index.html", "akd 60ff", /^0x60FF Velocity command value .*AKD$/, "kollmorgen-akd/profile-objects.html#0x60FF"],
   ["index.html", "KP_VEL", /^parameter 0x0105 KP_VEL .*HSD Motor$/, "hsd-sm137-sm140/parameters.html#KP_VEL"],
 ];
@@ -46,7 +46,7 @@ await withBrowser(async (browser) => {
   window.clean();
 });
 
-// The row in the address is visible below the fixed header, and the keyboard continues from it.
+// Checks that the row in the address is visible below the fixed header, and that Tab continues from this row.
 async function landed(window, what) {
   const { page } = window;
   await page.waitForFunction(() => document.querySelector(":target"));
@@ -63,7 +63,7 @@ async function landed(window, what) {
   assert.ok(goesOn, `${what}: Tab does not continue from the row`);
 }
 
-// A unit finds the registers with that unit, whatever their names are.
+// Checks that a unit finds the registers with that unit, independent of their names.
 async function units(window) {
   await window.go("eco/index.html");
   const found = await window.search("rpm");
@@ -71,7 +71,7 @@ async function units(window) {
   assert.ok(counted.length >= 8 && counted.some((entry) => entry.startsWith("0x606C:00 velocity_actual_value")), found.join("\n"));
 }
 
-// Arrow keys select a result, which is announced. Escape closes the list, and so does leaving the field.
+// Checks that arrow keys select a result, that the selection is announced, and that Escape or leaving the field closes the list.
 async function arrows(window) {
   const page = await window.go("eco/index.html");
   const found = await window.search("homing");

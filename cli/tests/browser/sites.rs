@@ -1,4 +1,4 @@
-//! Creates the sites that the scripts open. Each site is created only once.
+//! Creates the documentation sites that the scripts open. Each site is created only once.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,7 +9,7 @@ use lexibus_site::{Page, Site};
 
 use crate::hostile as descriptions;
 
-/// Creates an empty folder.
+/// Creates an empty folder for temporary files.
 pub fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("browser").join(name);
     let _ = std::fs::remove_dir_all(&path);
@@ -17,7 +17,7 @@ pub fn folder(name: &str) -> PathBuf {
     path
 }
 
-/// Runs `lexibus docs` for these descriptions. Returns the folder of the site.
+/// Runs `lexibus docs` for `descriptions`. Returns the folder of the site.
 fn documented(name: &str, descriptions: &[&str]) -> PathBuf {
     let site = folder(name);
     let dictionaries = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries");
@@ -87,7 +87,7 @@ fn write(root: &Path, page: &Page) {
     std::fs::write(path, &page.text).expect("a page");
 }
 
-/// Writes a comparison of two files whose names also contain markup.
+/// Writes an HTML comparison of two tables. The names of the files also contain markup.
 fn difference(root: &Path) {
     let table = descriptions::table();
     let versions = [table.clone(), table.replace("reg = 1,", "reg = 3,").replace("alert(1)", "alert(4)")];

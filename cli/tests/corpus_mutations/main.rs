@@ -28,8 +28,8 @@ use proptest::test_runner::{RngSeed, TestError, TestRunner};
 /// Minimum number of cases. With fewer cases, the share of inputs that reach the back end would not be meaningful.
 const FEWEST: u32 = 40;
 
-/// Returns a configuration with the given number of cases. A debug build runs a sixth of them, and the fast lane a quarter of
-/// that.
+/// Returns a configuration with the given number of cases. A debug build runs a sixth of the cases, and the fast lane runs a
+/// quarter of this number.
 fn config(cases: u32) -> ProptestConfig {
     let mut config = ProptestConfig { failure_persistence: None, max_shrink_iters: 3000, ..ProptestConfig::default() };
     if std::env::var_os("PROPTEST_CASES").is_none() {
@@ -81,7 +81,7 @@ enum Edit {
     Text(Index, &'static str),
     DeleteElement(Index),
     RepeatElement(Index),
-    /// Moves the next XML element to the position before another element.
+    /// Moves the next XML element before another element.
     MoveElement(Index, Index),
     DeleteLine(Index),
     RepeatLine(Index),
@@ -128,7 +128,7 @@ const WORDS: &[&str] = &[
     "0..4 7", "-5..5", "1..65535", "0..99999999", "0x00,0x01", "DependOnSlot", "TR", "MBoxOut", "Outputs", "PS",
 ];
 
-/// A file or an excerpt of it, with changes to apply.
+/// A file or an excerpt of a file, with the changes to apply.
 #[derive(Clone, Debug)]
 struct Recipe {
     file: Index,
@@ -244,7 +244,7 @@ fn value_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     start..start + length
 }
 
-/// Returns the range of the next XML element text after a position.
+/// Returns the range of the text in the next XML element after a position.
 fn text_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     let mut start = at;
     while let Some(end) = bytes[start..].iter().position(|&byte| byte == b'>') {
@@ -323,7 +323,7 @@ fn damaged_xml_files() {
     });
 }
 
-/// Changes only values, so the XML stays well-formed. This tests the code that runs after the parser.
+/// Tests XML files with changed values. The XML stays well-formed, so the code after the parser is tested.
 #[test]
 fn xml_files_with_other_values() {
     let Some(files) = of_kind(true) else { return };
@@ -450,12 +450,12 @@ const SECTIONS: &str = "\
     2000Denotation 2000ObjectLinks 6040 6041 6060 607A A0 00A0 0005 M1ModuleInfo M1FixedObjects M1Fixed2000 \
     M1Fixed2000sub1 M1SubExtends M1SubExt2000 M1Comments x";
 
-/// Selects a word from a list.
+/// Selects a word from a list that is separated by spaces.
 fn one_of(list: &'static str) -> impl Strategy<Value = &'static str> + Clone {
     select(list.split(' ').collect::<Vec<_>>())
 }
 
-/// Generates words of an EDS in random order, on one or several lines.
+/// Tests texts that consist of EDS words in random order, on one or several lines.
 #[test]
 fn texts_of_the_words_of_an_eds() {
     let line = prop_oneof![

@@ -1,4 +1,4 @@
-//! Tests register tables that consist of parts of the documentation's examples.
+//! Tests register tables that combine parts of the examples in the documentation.
 
 #[path = "../../../codegen/tests/table_support/mod.rs"]
 mod table_support;
@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use table_support::{examples, whole};
 
-/// Returns the tables from which parts are taken.
+/// Returns the tables whose parts the test combines.
 fn pieces() -> Vec<String> {
     let mut lines: Vec<String> =
         examples().iter().flat_map(|(_, block)| whole(block).lines().map(str::to_owned).collect::<Vec<_>>()).collect();
@@ -81,7 +81,7 @@ proptest! {
             match kind {
                 0 => drop(lines.remove(at)),
                 1 => lines.insert(at, pieces[other.index(pieces.len())].clone()),
-                // Replaces the value after an equals sign.
+                // Replace the value after an equals sign.
                 2 | 3 => {
                     let places: Vec<usize> = lines[at].match_indices(" = ").map(|(at, _)| at + 3).collect();
                     let Some(&start) = places.get(other.index(places.len().max(1))) else { continue };

@@ -19,7 +19,7 @@ pub fn exercise(name: &str, bytes: &[u8]) -> bool {
     exercise_with(name, bytes, Vec::new())
 }
 
-/// Runs [`exercise`] with overlays.
+/// Compiles an input like [`exercise`], with overlays.
 pub fn exercise_with(name: &str, bytes: &[u8], overlays: Vec<Source>) -> bool {
     let compilation = check(Source::new(name, bytes.to_vec()), &everything_reported(overlays));
     let list = compilation.diagnostics.list();

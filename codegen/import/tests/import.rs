@@ -8,7 +8,7 @@ use lexibus_codegen::source::Source;
 use lexibus_import::{import, mapping, Import};
 use proptest::prelude::*;
 
-/// Imports a list as a file with the given name.
+/// Imports `text` as the content of a file with the given name.
 fn read_as(name: &str, text: impl Into<Vec<u8>>, options: &lexibus_import::Options) -> Import {
     import(Source::new(name, text.into()), options)
 }
@@ -372,7 +372,7 @@ fn limits_with_a_decimal_point_are_physical() {
     let list = "Address;Name;Type;Unit;Factor;Min;Max;Default\n40001;Set point;INT16;°C;0.1;-20.0;200.0;25.0\n";
     let table = read(list).table.expect("a table");
     assert!(table.contains("min = -200, max = 2000, default = 250"), "{table}");
-    // If the list also prints addresses with `.0`, the decimal point of limits has no meaning.
+    // If addresses also end with `.0`, the decimal point does not mean that limits are physical values.
     let list = list.replace("40001;", "40001.0;");
     let table = read(&list).table.expect("a table");
     assert!(table.contains("min = -20, max = 200, default = 25"), "{table}");
@@ -431,7 +431,7 @@ fn lines_of_a_list_that_stand_for_many_items() {
 
 #[test]
 fn names_of_repeated_lines_that_are_taken() {
-    // Each numbered line has a name that would be generated for the second repeated row.
+    // Each of the `used` lines has a name that the second repeated row could also generate.
     let tried = limits::MAX_DERIVED_ITEMS / 1000;
     let lines = |used: usize| {
         let used: String = (0..used).map(|at| format!("{},P 1000 {},u8,\n", 5000 + at, at + 2)).collect();
@@ -445,7 +445,7 @@ fn names_of_repeated_lines_that_are_taken() {
     assert_eq!(lines(tried + 9), (1, 1));
 }
 
-// Excerpts of the AEC Vector Step manual, as printed. The number in a test's name refers to section 4 of the notes.
+// The following tests import excerpts of the AEC Vector Step manual. The number in a test's name is an item in section 4 of the notes.
 
 /// Imports rows of a list that has the column titles of the manual's register tables.
 fn manual(rows: &str) -> Import {

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 /// # Errors
 ///
 /// Returns the output of the compiler.
-#[allow(dead_code)] // #[allow(dead_code)] // some tests do not use it
+#[allow(dead_code)] // Not every test program calls this function.
 pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
     compile_with(compiler(), "2021", name, bindings)
 }
@@ -30,7 +30,7 @@ pub fn compile_by_rustc(name: &str, bindings: &str) -> Result<(), String> {
 /// # Errors
 ///
 /// Returns the output of the compiler.
-#[allow(dead_code)] // #[allow(dead_code)] // some tests do not use it
+#[allow(dead_code)] // Not every test program calls this function.
 pub fn compile_in(edition: &str, name: &str, bindings: &str) -> Result<(), String> {
     compile_with(compiler(), edition, name, bindings)
 }
@@ -71,14 +71,14 @@ pub fn compile_modules(modules: &[(String, String)]) -> Result<(), String> {
     let mut command = compiler();
     command.args(["--check-cfg", "cfg(feature, values(\"optional\"))"]);
     let result = metadata(command, "2021", &stem, &root);
-    // If compilation fails, keep the files for inspection.
+    // If the compilation fails, keep the files for inspection.
     for path in files.iter().filter(|_| result.is_ok()) {
         let _ = std::fs::remove_file(path);
     }
     result
 }
 
-/// Checks named modules as one crate. The crate has serde, defmt and the feature `optional`.
+/// Checks named modules as one crate that depends on serde and defmt. The feature `optional` of the crate is enabled.
 ///
 /// # Errors
 ///
@@ -114,7 +114,7 @@ pub fn check_with_traits(modules: &[(String, String)]) -> Result<(), String> {
     output.status.success().then_some(()).ok_or_else(|| start(&String::from_utf8_lossy(&output.stderr)))
 }
 
-/// Compiles a crate until its metadata are written.
+/// Compiles a crate up to its metadata, without generating machine code.
 fn metadata(mut command: Command, edition: &str, stem: &Path, root: &Path) -> Result<(), String> {
     let output = command
         .args(["--edition", edition, "--crate-type", "lib", "--emit", "metadata", "--crate-name", "bindings", "-o"])
@@ -136,7 +136,7 @@ fn metadata(mut command: Command, edition: &str, stem: &Path, root: &Path) -> Re
 /// # Errors
 ///
 /// Returns the output of rustdoc.
-#[allow(dead_code)] // #[allow(dead_code)] // some tests do not use it
+#[allow(dead_code)] // Not every test program calls this function.
 pub fn document(name: &str, bindings: &[&str]) -> Result<(), String> {
     documented(name, bindings, |_| ())
 }
@@ -212,7 +212,7 @@ pub fn run(name: &str, text: &str) -> Result<(), String> {
     Err(format!("{name}:\n{}", start(&text)))
 }
 
-/// Returns the first message in a compiler's output.
+/// Returns the first 40 lines of a compiler's output.
 fn start(text: &str) -> String {
     text.lines().take(40).collect::<Vec<_>>().join("\n")
 }

@@ -11,7 +11,7 @@ use lexibus_codegen::source::Source;
 
 use super::{lane, File};
 
-/// Returns the text after the header. The header contains the file name and the digest of the file.
+/// Returns the bindings without their header, which contains the name and the digest of the input file.
 pub fn body(text: &str) -> &str {
     text.split_once("\n\n").map_or(text, |(_, body)| body)
 }
@@ -25,7 +25,7 @@ pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Ca
     if catalog.devices.len() <= 1 || compilation.format == Some(Format::Gsdml) {
         return Box::new(std::iter::once(Cow::Borrowed(catalog)));
     }
-    // In the fast lane, only compile the first device, because the devices of a file are similar.
+    // In the fast lane, compile only the first device of a file, because its other devices are similar.
     let count = if lane::is_full() { catalog.devices.len() } else { 1 };
     Box::new(catalog.devices.iter().take(count).map(|device: &Device| {
         let (files, devices) = (catalog.files.clone(), vec![device.clone()]);
@@ -38,7 +38,7 @@ pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Ca
 ///
 /// # Panics
 ///
-/// If `test` fails, with the first failures. Also if a file is rejected without a diagnostic.
+/// If `test` fails or a file is rejected without a diagnostic. The message contains the first failures.
 pub fn each(files: Vec<File>, options: &Options, test: impl Fn(&str, &str) -> Result<(), String> + Sync) -> usize {
     let (seen, failures) = (Mutex::new(HashSet::new()), Mutex::new(Vec::new()));
     on_all_processors(files, |File { name, bytes }| {
@@ -48,7 +48,7 @@ pub fn each(files: Vec<File>, options: &Options, test: impl Fn(&str, &str) -> Re
         let nothing_to_say = texts.is_empty() && !compilation.diagnostics.has_errors();
         assert!(!nothing_to_say || is_silent(&compilation), "{name}: rejected without a diagnostic");
         for text in texts {
-            let is_new = seen.lock().expect("what was seen").insert(body(&text).to_owned());
+            let is_new = seen.lock().expect("the seen texts").insert(body(&text).to_owned());
             if !is_new {
                 continue;
             }
@@ -59,7 +59,7 @@ pub fn each(files: Vec<File>, options: &Options, test: impl Fn(&str, &str) -> Re
     });
     let failures = failures.into_inner().expect("the failures");
     assert!(failures.is_empty(), "{} fail:\n{}", failures.len(), failures[..failures.len().min(20)].join("\n\n"));
-    seen.into_inner().expect("what was seen").len()
+    seen.into_inner().expect("the seen texts").len()
 }
 
 /// Calls `work` for each element of `all`, using all processors.

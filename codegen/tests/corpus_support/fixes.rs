@@ -1,4 +1,4 @@
-//! Tests suggested fixes. Each fix must remove its diagnostic and cause no other.
+//! Tests suggested fixes. Each fix must remove its diagnostic and cause no other diagnostic.
 
 use std::collections::BTreeMap;
 

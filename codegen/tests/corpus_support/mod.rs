@@ -90,7 +90,7 @@ pub fn files_of(format: &str) -> Option<Vec<File>> {
     Some(files.into_iter().filter(|file| is_read(format, &file.name)).collect())
 }
 
-/// Returns all descriptions in one format, independent of the lane. Used by tests that select files themselves.
+/// Returns all descriptions in one format, independent of the lane. Tests that select files themselves use this function.
 pub fn whole(format: &str) -> Option<Vec<File>> {
     let mut paths: Vec<PathBuf> = std::fs::read_dir(folder_of(format)?)
         .expect("the corpus is readable")

@@ -1,4 +1,4 @@
-//! Parses CiA 306 numbers, formulas and octets. Does not use the code under test.
+//! Parses CiA 306 numbers, formulas and octets without the code under test.
 
 /// A number, or a number to be added to `$NODEID`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

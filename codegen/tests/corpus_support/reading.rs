@@ -1,4 +1,4 @@
-//! Reads the objects of an EDS line by line. Does not use the code under test.
+//! Reads the objects of an EDS line by line, without the code under test.
 
 use std::collections::BTreeMap;
 
@@ -104,7 +104,7 @@ fn part_of(name: &str) -> Option<(u16, Part)> {
     Some((index.try_into().ok()?, part))
 }
 
-/// Separates a value with a fixed form from the comment after it. The comment includes its mark (E20, E21).
+/// Splits a value that is not free text from the comment after it. The comment includes its mark (E20, E21).
 pub fn cut(text: &str) -> (&str, &str) {
     match text.find([';', '#']) {
         Some(at) => (text[..at].trim_end(), &text[at..]),

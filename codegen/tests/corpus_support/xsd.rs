@@ -46,8 +46,7 @@ impl Schema {
         Some(Schema { path, python })
     }
 
-    /// Returns the violations in `files`, which are names with contents. `what` is a unique name for each call within a
-    /// program.
+    /// Returns the violations in `files`, which are pairs of a name and a content. `what` is unique for each call within a program.
     pub fn violations<'f>(&self, what: &str, files: impl IntoIterator<Item = (&'f str, &'f [u8])>) -> Vec<String> {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("xsd-{what}-{}", std::process::id()));
         let _ = std::fs::remove_dir_all(&folder);

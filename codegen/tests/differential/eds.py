@@ -1,8 +1,8 @@
-"""Reads EDS and DCF files with the library `canopen` and prints the facts that it has of each: one JSON object a line.
+"""Reads EDS and DCF files with the library `canopen` and prints the facts of each file as one line of JSON.
 
-Called with the names of files. `elements` are facts by name, by element: `device`, `1018`, `1018:01`. What a file doesn't
-say is no fact. `errors` are why the library rejects a file; where it is plain what is meant, the text is then repaired, and
-loaded again.
+The arguments are file names. `elements` maps the name of an element (`device`, `1018`, `1018:01`) to its facts, and each fact has a
+name. Missing facts are left out. `errors` lists the reasons why the library rejects the file. If the script knows the cause of an
+error, it repairs the text and loads it again.
 """
 
 import functools
@@ -23,7 +23,7 @@ NODE_ID = 5
 
 
 def value(value, data_type):
-    """Returns a value with its kind: a number, a 'text', or x'octets'."""
+    """Formats a value as a number, a 'text', or x'octets'."""
     if isinstance(value, (bytes, bytearray)):
         return f"x'{value.hex()}'" if value else None
     if isinstance(value, str):
@@ -101,7 +101,7 @@ def elements(dictionary, node_id):
             continue
         kind = "array" if isinstance(thing, ODArray) else "record"
         assert kind == "array" or isinstance(thing, ODRecord)
-        # The library stores the storage location of such an object here, and its value one level above.
+        # An array or record has a separate storage location. For a single value, `variable` returns the storage location.
         found[f"{index:04X}"] = {"kind": kind, "name": thing.name, "storage": thing.storage_location}
         for sub, entry in thing.subindices.items():
             found[f"{index:04X}:{sub:02X}"] = variable(entry)
@@ -110,7 +110,7 @@ def elements(dictionary, node_id):
 
 
 def load(text, path, strict):
-    """Returns the dictionary, and the node-ID of the file."""
+    """Returns the object dictionary, and the node-ID if the file contains one."""
 
     def source():
         file = io.StringIO(text)
@@ -126,7 +126,7 @@ def load(text, path, strict):
 
 
 def repaired(text, error):
-    """Returns the text without the cause of an error; the same text if the cause is unknown."""
+    """Returns the text without the cause of an error. Returns the text unchanged if the cause is unknown."""
     message = str(error)
     if found := re.match(r"No option '((?:Dummy|Line)\d+)' in section: '(\w+)'", message):
         value = "0" if found[1].startswith("Dummy") else ""
@@ -141,13 +141,13 @@ def repaired(text, error):
 
 
 def answer(path):
-    """Returns the facts of a file: from the file, or from its text, which is repaired as often as that helps."""
+    """Returns the errors and the facts of a file. Repairs the text of the file as long as this removes an error."""
     errors, text, strict = [], "", True
     try:
         if not path.lower().endswith((".eds", ".dcf")):
             canopen.import_od(path)
         text = open(path).read()
-    except Exception as error:  # Any exception is the result.
+    except Exception as error:  # The library raises an exception if it rejects the file.
         errors.append(error)
         if not isinstance(error, UnicodeDecodeError):
             return errors, None

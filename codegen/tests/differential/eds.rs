@@ -96,7 +96,7 @@ fn file_info(facts: &mut Facts, device: &Device) {
     put(facts, "comments", header.comments.join("\n").trim_end());
 }
 
-/// Returns the object type under the name that the library uses.
+/// Returns the library's name for the type of an object.
 fn kind(group: &Group) -> &'static str {
     match group.object_code() {
         Some(ObjectCode::Var | ObjectCode::Domain) => "value",
@@ -142,7 +142,7 @@ fn extension<'e>(extensions: &'e [Extension], key: &str) -> Option<&'e str> {
     extensions.iter().rev().find(|extension| extension.key == key).map(|extension| extension.value.as_str())
 }
 
-/// Returns the CiA 301 number of a type. The numbers are repeated here, because the code that reads DataType is under
+/// Returns the CiA 301 number of a type. This function repeats the numbers, because the code that reads DataType is under
 /// test.
 fn code(ty: Type) -> String {
     let code = match ty {
@@ -188,7 +188,7 @@ fn value(value: &Value, ty: Type, node_id: u8) -> Option<String> {
         Value::Text(text) => format!("'{text}'"),
         Value::Bytes(bytes) => format!("x'{}'", bytes.iter().map(|byte| format!("{byte:02x}")).collect::<String>()),
         Value::Time { milliseconds, days } => (u64::from(days) << 32 | u64::from(milliseconds)).to_string(),
-        Value::NodeId(_) => unreachable!("it is resolved"),
+        Value::NodeId(_) => unreachable!("resolved values are not formulas"),
         Value::Raw(text) => format!("raw {text}"),
     })
 }

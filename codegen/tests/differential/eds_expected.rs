@@ -1,4 +1,4 @@
-//! Returns the facts of an EDS that the table of quirks requires. Does not use Lexibus to read the file.
+//! Returns the facts of an EDS that the table of quirks requires. The functions do not use Lexibus to read the file.
 
 use super::corpus_support::number::{self, hex_digits, number, plain, Number};
 use super::corpus_support::reading::{cut, Part, Reading};
@@ -14,7 +14,7 @@ pub fn signed_bits(ty: i128) -> Option<u32> {
     SIGNED.iter().find(|(entry, _)| *entry == ty).map(|(_, bits)| *bits)
 }
 
-/// Parses a value of the type with this number. Hexadecimal digits are the bit pattern of a signed number (E07, E08) or of a
+/// Parses a value of the type number `ty`. Hexadecimal digits are the bit pattern of a signed number (E07, E08) or of a
 /// real number (E51). `$NODEID` can have any case and position (E12 to E17) and is replaced with the node-ID.
 pub fn value(raw: &str, ty: i128, node_id: u8) -> Option<String> {
     match ty {
@@ -69,7 +69,7 @@ fn number_of(text: &str, section: &str, key: &str) -> Option<i128> {
     plain(cut(value_of(text, section, key)?).0)
 }
 
-/// Returns the device fact with the name `fact`.
+/// Returns the fact of the device that is named `fact`.
 pub fn of_device(text: &str, fact: &str) -> Option<String> {
     let number = |key: &str| number_of(text, "DeviceInfo", key);
     match fact {
@@ -92,8 +92,8 @@ pub fn of_device(text: &str, fact: &str) -> Option<String> {
     }
 }
 
-/// Returns the facts of a sub-index that CompactSubObj implies (E43). The name and value of the sub-index may be listed
-/// separately (E44).
+/// Returns the facts of a sub-index that CompactSubObj implies (E43). Separate sections can list the name and the
+/// value of the sub-index (E44).
 pub fn compact(reading: &Reading, index: u16, sub: u8, node_id: u8) -> Option<Facts> {
     let object = reading.get(index, Part::Object)?;
     let mut facts = Facts::new();
@@ -101,7 +101,7 @@ pub fn compact(reading: &Reading, index: u16, sub: u8, node_id: u8) -> Option<Fa
         put(&mut facts, "name", "NrOfObjects");
         put(&mut facts, "type", "5");
         put(&mut facts, "access", "ro");
-        // Sub-index 255 describes the structure of the object. Sub-index 255 is not an element (E77).
+        // Do not count sub-index 255, because it describes the structure of the object (E77).
         put_some(&mut facts, "default", object.number("compactsubobj").map(|count| count.min(254)));
         return Some(facts);
     }

@@ -1,5 +1,5 @@
-//! Reasons for differences between `canopen` and Lexibus. Each reason checks the original text of the file. The reason
-//! also checks that Lexibus has the value that the table of quirks requires.
+//! Reasons for differences between `canopen` and Lexibus. A reason applies only if the original text of the file shows it, and
+//! if Lexibus has the value that the table of quirks requires.
 
 use super::corpus_support::number::{hex_digits, number, Number};
 use super::corpus_support::reading::{Part, Reading, Section};
@@ -8,7 +8,7 @@ use super::eds_expected as expected;
 use super::facts::{Difference, Elements};
 use super::tally::Reasons;
 
-/// Deviations of the library, each with an explanation.
+/// Deviations of the library from Lexibus, each with an explanation.
 const PEER: &[(&str, &str)] = &[
     ("files by ending", "It reads only files with the extensions .eds and .dcf, and no XML."),
     ("files without sections", "It reads a file without a section of CiA 306 as an empty dictionary, not as an error."),
@@ -87,7 +87,7 @@ fn missing(case: &Case<'_>, index: u16, sub: Option<u8>, difference: &Difference
     }
 }
 
-/// Returns whether an undescribed object belongs to a PDO that the file announces.
+/// Returns whether an object without a description belongs to a PDO that the file announces.
 fn is_announced(case: &Case<'_>, index: u16, sub: Option<u8>) -> bool {
     if !(0x1400..0x1C00).contains(&index) {
         return false;
@@ -232,7 +232,7 @@ fn of_text(raw: &str, ty: i128, node_id: u8, difference: &Difference<'_>) -> Opt
     }
 }
 
-/// Parses a number with a suffix, such as `00h` (hexadecimal) or `0x1ULL` (C).
+/// Returns the reason for a number with a suffix, such as `00h` (hexadecimal) or `0x1ULL` (C).
 fn with_suffix(raw: &str, ours: &str) -> Option<&'static str> {
     let ours: i128 = ours.parse().ok()?;
     let hexadecimal = raw.strip_suffix(['h', 'H']).and_then(|digits| i128::from_str_radix(digits, 16).ok());

@@ -1,8 +1,8 @@
-"""Reads ESI files with XPath and prints the facts that they have: one JSON object a line.
+"""Reads ESI files with XPath and prints the facts of each file as one line of JSON.
 
-Called with the names of files. `elements` are facts by name, by element: `device 0`, `device 0 object 1018:01`. What a file
-doesn't say is no fact. What this plain reading of ETG.2000 makes nothing of is kept as it is, behind a question mark.
-`errors` are why the file isn't well-formed.
+The arguments are file names. `elements` maps the name of an element (`device 0`, `device 0 object 1018:01`) to its facts, and each
+fact has a name. Missing facts are left out. Text that the script cannot interpret according to ETG.2000 is kept after a question
+mark. `errors` lists the reasons why the file is not well-formed.
 """
 
 import json

@@ -1,11 +1,11 @@
-"""The objects of a dictionary of ETG.2000."""
+"""Reads the objects of an ETG.2000 dictionary."""
 
 from esi_types import Types, flag, language, name, names, number, values
 from reading import text, xpath
 
 
 def flags(node, above, sub):
-    """Returns the flags of a sub-item (access, mapping …), or those of its object if it has none."""
+    """Returns the flags of a sub-item, such as access and mapping. Flags that the sub-item does not have come from its object."""
     mapping = text((node or above or [None])[0], "PdoMapping") if node or (above and sub) else ""
     nearest = lambda path: next((found for flags in (node, above) if flags and (found := text(flags[0], path))), "")
     letters = mapping.upper()
@@ -21,13 +21,13 @@ def flags(node, above, sub):
 
 
 def display(element, path, called):
-    """Returns display names that differ from the name, by language."""
+    """Returns the display names that differ from the name `called`, by language."""
     texts = [node for node in xpath(path)(element) if text(node) and text(node) != called]
     return {f"name {language(node)}": text(node) for node in texts}
 
 
 def entries(types, fields):
-    """Returns the sub-indices of a record: sub-index, type, field, number of the element."""
+    """Returns the entries of a record: sub-index, type, field, and the number of the array element if the field is an array."""
     following = 0
     for field in fields:
         name = text(field, "Type")
@@ -45,7 +45,7 @@ def entries(types, fields):
 
 
 def items(types, thing, fields):
-    """Returns the sub-indices of an object, each with its type and with the facts of the object and the type."""
+    """Returns the sub-indices of an object with their facts, which come from the object and from its type."""
     subs = xpath("Info/SubItem")(thing)
     found = list(entries(types, fields))
     above = xpath("Flags")(thing)
@@ -68,7 +68,7 @@ def items(types, thing, fields):
 
 
 def data_types(found, owner, dictionaries, types):
-    """Adds the defined types in order."""
+    """Adds the data types of the dictionaries in file order."""
     for at, node in enumerate(node for one in dictionaries for node in xpath("DataTypes/DataType")(one)):
         facts = {"name": text(node, "Name"), "bits": number(text(node, "BitSize")), **names(node, "Comment", "comment")}
         if xpath("ArrayInfo")(node) and types.by_name.get(facts["name"]) is node:

@@ -7,7 +7,7 @@ use super::corpus_support::File;
 use super::facts::{Difference, Elements, Facts};
 use super::tally::Reasons;
 
-/// Deviations of the plain reading, each with an explanation.
+/// Deviations of the plain reading from Lexibus, each with an explanation.
 const PEER: &[(&str, &str)] = &[
     ("a bare &", "libxml2 rejects a file with a `&` that starts no reference. Lexibus reads it as text."),
     ("objects twice", "It lists both objects of one index. Lexibus keeps the first and reports the second."),
@@ -134,7 +134,7 @@ fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str>
         }
         return long_array(case, element).filter(|&number| number > 1).map(|_| "X14");
     }
-    // If a mapped object has no description, Lexibus adds the object with the facts of the PDO entry.
+    // If a mapped object has no description, Lexibus adds the object and copies the facts of the PDO entry.
     let (owner, index, sub) = object(element)?;
     let is_mapped = match sub {
         Some(sub) => case.mapped.get(&(owner, index, sub)).is_some_and(|entries| is_as_mapped(case, element, entries)),
@@ -143,7 +143,7 @@ fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str>
     is_mapped.then_some(if case.described.contains(owner) { "X22" } else { "X21" })
 }
 
-/// Returns whether an object has the facts of an entry that maps it.
+/// Returns whether an object has the facts of a PDO entry that maps the object.
 fn is_as_mapped(case: &Case<'_>, element: &str, entries: &[&Facts]) -> bool {
     let Some(ours) = case.ours.get(element) else { return false };
     entries.iter().any(|entry| ["name", "type"].iter().all(|fact| ours.get(*fact) == entry.get(*fact)))
@@ -165,7 +165,7 @@ fn purpose_of_pdos(case: &Case<'_>, element: &str) -> Option<&'static str> {
     }
 }
 
-/// Returns the purpose of a sync manager whose text does not state it. The purpose follows from mode and direction in the
+/// Returns the purpose of a sync manager whose text does not state a purpose. The purpose follows from mode and direction in the
 /// control byte, or from the position. The first two sync managers are used by a mailbox.
 fn purpose(case: &Case<'_>, element: &str) -> Option<&'static str> {
     let (owner, place) = element.split_once(" Sm ")?;
@@ -186,8 +186,8 @@ fn purpose(case: &Case<'_>, element: &str) -> Option<&'static str> {
     })
 }
 
-/// Returns the reason for an element of an array that has more elements than sub-indices. Lexibus stores the array as one value
-/// at its first sub-index, with the same element type and count.
+/// Returns the number of an array element if the array has more elements than there are sub-indices. Lexibus stores such an array
+/// as one value at its first sub-index, with the same element type and count.
 fn long_array(case: &Case<'_>, element: &str) -> Option<u32> {
     let (object, sub) = element.rsplit_once(':')?;
     let sub = u32::from_str_radix(sub, 16).ok()?;
@@ -209,7 +209,7 @@ fn of_type(case: &Case<'_>, element: &str, peer: &str, ours: Option<&str>) -> Op
     if let Some(bits) = peer.strip_prefix("?enumeration of ").and_then(|rest| rest.strip_suffix(" bits")) {
         return Some("X13").filter(|_| ours == Some(&format!("u{bits}")));
     }
-    // Lexibus reads unknown type names as opaque types.
+    // The type name is not in the ETG tables. Lexibus must have the type that `by_name` returns.
     if let Some(name) = peer.strip_prefix('?') {
         return Some("X11").filter(|_| ours == by_name(name).as_deref());
     }
@@ -226,14 +226,14 @@ fn bits(ty: &str) -> Option<u32> {
     ty.strip_prefix(['i', 'u', 'f'])?.parse().ok()
 }
 
-/// Returns the reason why the length of an array differs: Lexibus uses the lengths of the elements and not the BitSize.
+/// Returns the reason why the length of an array differs: Lexibus uses the lengths of its elements and not its BitSize.
 fn of_array(array: &str, ours: &str) -> Option<&'static str> {
     let (element, count) = array.strip_suffix(']')?.split_once('[')?;
     let count: u32 = count.parse().ok()?;
     Some("X14").filter(|_| Some(ours) == bits(element).map(|bits| (bits * count).to_string()).as_deref())
 }
 
-/// Returns the only possible type for a name outside the tables, such as `UINT16` or `UDINT_hex`.
+/// Returns the type for a name that is not in the ETG tables, such as `UINT16` or `UDINT_hex`.
 fn by_name(name: &str) -> Option<String> {
     const TABLE: [(&str, &str); 4] = [("USINT", "u8"), ("UINT", "u16"), ("UDINT", "u32"), ("INT", "i16")];
     let start = name.split_once('_').map(|(start, _)| start);

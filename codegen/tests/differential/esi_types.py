@@ -1,6 +1,6 @@
-"""Numbers, names, data types and values of ETG.2000, as its text has them.
+"""Reads numbers, names, data types and values of ETG.2000.
 
-What a plain reading makes nothing of is kept as it is, behind a question mark.
+Text that a function cannot interpret is kept after a question mark.
 """
 
 import re
@@ -31,7 +31,7 @@ def number(text):
 
 
 def nonzero(text):
-    """Returns a number; empty if it is 0, which means none."""
+    """Returns a number. Returns an empty text for 0, which means that there is no value."""
     found = number(text)
     return "" if found == "0" else found
 
@@ -41,7 +41,7 @@ def flag(text):
 
 
 def name(element, path="Name"):
-    """Returns the name in English, or the one without a language, or the first."""
+    """Returns the English name. If there is none, returns the name without a language, otherwise the first name."""
     for found in (f"{path}[@LcId='1033'][normalize-space()]", f"{path}[not(@LcId)][normalize-space()]", path):
         if xpath(found)(element):
             return text(element, found)
@@ -49,7 +49,7 @@ def name(element, path="Name"):
 
 
 def names(element, path="Name", fact="name"):
-    """Returns the name and its translations."""
+    """Returns the name of an element and its translations."""
     texts = [node for node in xpath(path)(element) if text(node)]
     wanted = [node for lcid in ("1033", "") for node in texts if text(node, "@LcId") == lcid] + texts
     others = {f"{fact} {language(node)}": text(node) for node in texts if node is not wanted[0]}
@@ -57,13 +57,13 @@ def names(element, path="Name", fact="name"):
 
 
 def language(element):
-    """Returns the BCP 47 tag of a Windows LcId. A text without one is English."""
+    """Returns the BCP 47 tag for the Windows LcId of a text. A text without an LcId is English."""
     lcid = text(element, "@LcId") or "1033"
     return LANGUAGES.get(lcid, f"lcid:{lcid}")
 
 
 def basic(name):
-    """Returns the type for a name of ETG.1000.6."""
+    """Returns the type that a type name of ETG.1000.6 denotes."""
     if name in BASIC:
         return BASIC[name]
     if found := re.fullmatch(r"BITARR(8|16|32)", name) or re.fullmatch(r"BIT([1-9]|1[0-6])", name):
@@ -90,7 +90,7 @@ class Types:
             self.by_name.setdefault(name, element)
 
     def record(self, name, depth=0):
-        """Returns the sub-items of a type, if it is a record."""
+        """Returns the sub-items of a type. Returns None if the type is not a record."""
         node = self.by_name.get(name)
         if node is None or depth > MAX_DEPTH:
             return None
@@ -99,7 +99,7 @@ class Types:
         return fields or (self.record(base, depth + 1) if base and base != name else None)
 
     def array(self, name):
-        """Returns lower bound, number of elements and element type, if the type is an array."""
+        """Returns the lower bound, the number of elements and the element type of an array type. Returns None for other types."""
         node = self.by_name.get(name)
         bounds = xpath("ArrayInfo")(node) if node is not None else []
         if not bounds or xpath("SubItem")(node):
@@ -131,7 +131,7 @@ class Types:
 
 
 def data(raw, ty):
-    """Returns bytes in memory order."""
+    """Converts hexadecimal digits in memory order to a value of type `ty`."""
     try:
         octets = bytes.fromhex(raw)
     except ValueError:
@@ -158,7 +158,7 @@ def data(raw, ty):
 
 
 def value(info, what, ty):
-    """Returns a default or a limit of an Info, or of a sub-item of a type."""
+    """Returns the default or a limit in an Info element, or in a sub-item of a type. `what` is Default, Min or Max."""
     if raw := text(info, f"{what}Data"):
         return data(raw, ty)
     if raw := text(info, f"{what}Value"):
@@ -174,7 +174,7 @@ def value(info, what, ty):
 
 
 def values(infos, ty):
-    """Returns default and limits. Those of the object take precedence over those of the type."""
+    """Returns the default and the limits. The facts of the object take precedence over those of the type."""
     facts = {}
     for key, what in ("default", "Default"), ("low", "Min"), ("high", "Max"):
         facts[key] = next((found for info in infos if (found := value(info, what, ty))), "")

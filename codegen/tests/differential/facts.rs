@@ -6,10 +6,10 @@ use std::fmt;
 /// The facts of an element. Missing facts are not listed.
 pub type Facts = BTreeMap<String, String>;
 
-/// The elements of a file.
+/// The elements of a file by name.
 pub type Elements = BTreeMap<String, Facts>;
 
-/// A fact that two readers read differently or that one of them lacks.
+/// A fact that two readers read differently, or that only one reader has.
 #[derive(Clone, Copy, Debug)]
 pub struct Difference<'a> {
     /// Name of the element.

@@ -1,8 +1,8 @@
-"""Reads GSDML files with XPath and prints the facts that they have: one JSON object a line.
+"""Reads GSDML files with XPath and prints the facts of each file as one line of JSON.
 
-Called with the names of files. `elements` are facts by name, by element: `device 0`, `submodule 3 record 0 ref 1`. What a
-file doesn't say is no fact. What this plain reading makes nothing of is kept as it is, behind a question mark. `errors`
-are why the file isn't well-formed.
+The arguments are file names. `elements` maps the name of an element (`device 0`, `submodule 3 record 0 ref 1`) to its facts, and each
+fact has a name. Missing facts are left out. Text that the script cannot interpret is kept after a question mark. `errors` lists the
+reasons why the file is not well-formed.
 """
 
 import json
@@ -19,7 +19,7 @@ PROCESS = "//ApplicationProcess"
 
 
 class Texts:
-    """Texts of the text list."""
+    """The text list of a file in all its languages."""
 
     def __init__(self, root):
         self.languages = {}
@@ -30,13 +30,13 @@ class Texts:
                 by_id.setdefault(text(entry, "@TextId"), entry.get("Value", ""))
 
     def names(self, element, path="@TextId", fact="name"):
-        """Returns the name that an element refers to, in each language."""
+        """Returns the name of an element in each language of the text list."""
         id = text(element, path)
         return {fact + language: by_id[id] for language, by_id in self.languages.items() if id in by_id}
 
 
 def info(element, texts):
-    """Returns the facts of ModuleInfo."""
+    """Returns the facts in the ModuleInfo of an element."""
     return {
         **texts.names(element, "ModuleInfo/Name/@TextId"),
         **texts.names(element, "ModuleInfo/InfoText/@TextId", "info"),
@@ -45,7 +45,7 @@ def info(element, texts):
 
 
 def held(found, owner, element, order, texts):
-    """Adds built-in and pluggable submodules."""
+    """Adds the built-in and pluggable submodules of a device access point or module."""
     usual = {"VirtualSubmoduleItem": 1, "InterfaceSubmoduleItem": 0x8000, "PortSubmoduleItem": 0x8001}
     for node in xpath("VirtualSubmoduleList/* | SystemDefinedSubmoduleList/*")(element):
         subslots = types.numbers(text(node, "@FixedInSubslots")), types.number(text(node, "@SubslotNumber"))
@@ -172,7 +172,7 @@ def diagnosis(found, root, texts):
 
 
 def log_book(found, root, texts):
-    """Adds each entry with the status whose last byte is the error code."""
+    """Adds the log book entries. The code of an entry is a status whose last byte is the error code 2."""
     rows = xpath(f"{PROCESS}/LogBookEntryList/LogBookEntryItem/*[self::ErrorCode2Value or self::ErrorCode2List]")(root)
     entries = [node for row in rows for node in (xpath("ErrorCode2Item")(row) or [row])]
     for at, node in enumerate(entries):

@@ -91,7 +91,7 @@ fn device(elements: &mut Elements, owner: &str, device: &Device, catalog: &Catal
     held(elements, owner, &device.submodules, &settings.subslot_names);
 }
 
-/// Returns the facts that concern only the device access point.
+/// Returns the facts that only a device access point has.
 fn settings(settings: &ProfinetSettings) -> Facts {
     let mut facts = Facts::new();
     let words = |list: &[CompactString]| list.iter().map(CompactString::as_str).collect::<Vec<_>>().join(" ");
@@ -122,7 +122,7 @@ fn places(places: &SlotNumbers) -> Facts {
     facts
 }
 
-/// Adds built-in and pluggable submodules to the elements.
+/// Adds the built-in and pluggable submodules of a device access point or module.
 fn held(elements: &mut Elements, owner: &str, uses: &[SubmoduleUse], subslots: &[SubslotName]) {
     for usage in uses {
         elements.insert(format!("{owner} holds {}", usage.submodule.0), places(&usage.places));

@@ -1,4 +1,4 @@
-"""The data of a submodule in GSDML: cyclic data, parameter records, F-parameters, menus."""
+"""Reads the data of a GSDML submodule: cyclic data, parameter records, F-parameters and menus."""
 
 import gsdml_types as types
 from reading import text, xpath
@@ -30,8 +30,8 @@ def io_data(found, owner, submodule, texts):
                 facts = {"offset": str(at), "bits": str(bits), "subordinate": subordinate, **texts.names(item)}
                 is_trailer = name.startswith("F_MessageTrailer")
                 trailer += bits // 8 if is_trailer else 0
-                # An item that becomes one field of the process image has the type of the field. Any other item has only the
-                # name of its type.
+                # For an item that becomes one field of the process image, the type of the field is compared. For any other
+                # item, only the name of its type is compared.
                 several = named or subordinate or is_trailer or name in types.PAIRS or name == "OctetString_S"
                 facts |= {"spelt": name} if several else {"type": ty}
                 found[f"{key} item {place}"] = facts
@@ -49,7 +49,7 @@ def io_data(found, owner, submodule, texts):
 
 
 def body(found, key, record, texts):
-    """Adds the parts of a record or vendor block."""
+    """Adds the parameters of a record or vendor block. Returns the facts of the whole record or block."""
     for place, ref in enumerate(xpath("Ref")(record)):
         ty, bits = types.of_element(ref)
         bit = types.number(text(ref, "@BitOffset")) if text(ref, "@DataType") in ("Bit", "BitArea") else ""

@@ -7,7 +7,7 @@ use lexibus_codegen::ir::{
 use super::facts::{put, put_flag, put_number, put_some, Elements, Facts};
 use super::values::{hex, put_names, type_name, value};
 
-/// Adds data items. If an item of the file is not an item in the IR, it is a field of the image.
+/// Adds the data items of inputs or outputs. A data item that has no entry in `data.items` is a field of the image.
 pub fn io_data(elements: &mut Elements, key: &str, data: &IoData, types: &[TypeDef]) {
     let mut facts = Facts::new();
     put(&mut facts, "length", (data.image.length + data.image.overhead).to_string());
@@ -83,7 +83,7 @@ pub fn records(elements: &mut Elements, owner: &str, submodule: &Submodule, type
     }
 }
 
-/// Adds the parts of a record or vendor block. Returns the facts of the whole record or block.
+/// Adds the parameters of a record or vendor block. Returns the facts of the whole record or block.
 pub fn body(elements: &mut Elements, key: &str, group: &Group, types: &[TypeDef]) -> Facts {
     for (place, item) in group.items.iter().enumerate() {
         elements.insert(format!("{key} ref {place}"), parameter(item, types));

@@ -5,7 +5,7 @@ use lexibus_codegen::compile::Compilation;
 use super::facts::{Difference, Elements};
 use super::tally::Reasons;
 
-/// Deviations of the plain reading, each with an explanation.
+/// Deviations of the plain reading from Lexibus, each with an explanation.
 const PEER: &[(&str, &str)] = &[
     ("attributes in another case", "In XML, `VendorId` and `VendorID` differ. Lexibus reads and reports both."),
     (
@@ -63,7 +63,7 @@ fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str>
     is_misplaced.then_some("submodules out of place")
 }
 
-/// Returns the reason why the other reader rejects a file. Lexibus also rejects files that are not well-formed.
+/// Returns the reason why the independent reader rejects a file: Lexibus also rejects files that are not well-formed.
 pub fn rejection(compilation: &Compilation) -> Option<&'static str> {
     compilation.catalog.is_none().then_some("G15")
 }

@@ -1,13 +1,13 @@
-"""Data types, numbers, lists and values of GSDML, as its text has them.
+"""Reads data types, numbers, lists and values of GSDML.
 
-What a plain reading makes nothing of is kept as it is, behind a question mark.
+Text that a function cannot interpret is kept after a question mark.
 """
 
 import re
 
 from reading import real, text
 
-# Kinds of values with their lengths in bytes.
+# Data types of fixed length: the kind of value and the length in bytes.
 BASIC = {
     **{f"Unsigned{bits}": (f"u{bits}", bits // 8) for bits in (8, 16, 32, 64)},
     **{f"Integer{bits}": (f"i{bits}", bits // 8) for bits in (8, 16, 32, 64)},
@@ -42,7 +42,7 @@ STRINGS = {
 
 
 def number(text):
-    """Returns a decimal number."""
+    """Parses a decimal number and returns it without leading zeros."""
     return str(int(text)) if re.fullmatch(r"[+-]?\d+", text) else text and "?" + text
 
 
@@ -56,12 +56,12 @@ def flag(text, default=False):
 
 
 def numbers(text):
-    """Returns a list such as `1..3 7`."""
+    """Parses a list of numbers and ranges, such as `1..3 7`."""
     return " ".join("..".join(number(end) for end in part.split("..")) for part in text.split())
 
 
 def of_element(element):
-    """Returns the type that an element names, and its length in bits."""
+    """Returns the data type of an element and its length in bits."""
     name, length = text(element, "@DataType"), number(text(element, "@Length"))
     length = int(length) if length.isdigit() else 0
     if name == "Bit":
@@ -78,7 +78,7 @@ def of_element(element):
 
 
 def default(raw, ty):
-    """Returns the default of a parameter."""
+    """Parses the default of a parameter of type `ty`."""
     if ty.startswith("str"):
         return f"'{raw}'"
     if ty.startswith("octets"):
@@ -98,7 +98,7 @@ def default(raw, ty):
 
 
 def allowed(raw, ty):
-    """Returns the allowed values of a parameter as ranges."""
+    """Parses the allowed values of a parameter of type `ty`. Returns a list of ranges."""
     if not re.fullmatch(r"[iuf]\d+|bool", ty):
         return ""
     read = (lambda end: real(float(end))) if ty[0] == "f" else number

@@ -1,4 +1,4 @@
-"""Reads XML with XPath."""
+"""Functions for reading XML with XPath."""
 
 import functools
 
@@ -13,7 +13,7 @@ def text(element, path="."):
 
 
 def real(value):
-    """Returns a real number with all digits."""
+    """Formats a real number with all its digits."""
     mantissa, exponent = f"{value:.16e}".split("e")
     return f"{mantissa}e{int(exponent)}"
 
@@ -24,5 +24,5 @@ def parse(path, recover=False):
 
 
 def nonempty(elements):
-    """Returns the facts that are not empty."""
+    """Returns the elements without their empty facts."""
     return {key: {name: fact for name, fact in facts.items() if fact} for key, facts in elements.items()}

@@ -13,7 +13,7 @@ pub struct Reasons {
     pub peer: &'static [(&'static str, &'static str)],
 }
 
-/// The results for all files of a format.
+/// Results of comparing all files of a format.
 pub struct Tally {
     format: &'static str,
     reasons: Reasons,
@@ -49,7 +49,7 @@ impl Tally {
         self.agreed += facts - differences;
     }
 
-    /// Counts a file that the peer rejects, with the reason.
+    /// Counts a file that the independent reader rejects, with the reason.
     pub fn rejected(&mut self, name: &str, error: &str, reason: Option<&'static str>) {
         self.rejected.insert(name.to_owned());
         self.count(reason, || format!("{name}: the peer rejects it: {error}"));
@@ -62,7 +62,7 @@ impl Tally {
         }
     }
 
-    /// Prints the counts. Panics if a difference is unexplained, a reason is unused, or not enough facts were compared.
+    /// Prints the counts. Panics if a difference is unexplained, if a reason is unused, or if too few facts were compared.
     pub fn finish(self, least_facts: usize) {
         eprintln!(
             "{}: {} files, {} rejected by the peer at least once; {} facts, {} agree; explained: {:?}",

@@ -9,7 +9,6 @@ pub fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Formats a value.
 pub fn value(value: &Value) -> String {
     match value {
         Value::Bool(value) => u8::from(*value).to_string(),
@@ -31,7 +30,7 @@ pub fn numbers(list: &Numbers) -> String {
     list.0.iter().map(range).collect::<Vec<_>>().join(" ")
 }
 
-/// Adds a name in all its languages.
+/// Adds a name and its translations.
 pub fn put_names(facts: &mut Facts, fact: &str, name: &str, others: &Texts) {
     put(facts, fact, name);
     for other in others.iter() {
@@ -39,7 +38,7 @@ pub fn put_names(facts: &mut Facts, fact: &str, name: &str, others: &Texts) {
     }
 }
 
-/// Adds a description in all its languages.
+/// Adds a description and its translations.
 pub fn put_documentation(facts: &mut Facts, fact: &str, documentation: Option<&Documentation>) {
     if let Some(documentation) = documentation {
         put_names(facts, fact, &documentation.text, &documentation.translations);

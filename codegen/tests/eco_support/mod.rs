@@ -1,4 +1,4 @@
-//! Helpers for the tests of the Eco's table. The helpers return the table, the manual's text, and single facts.
+//! Helpers for the tests of the Eco's table, which return the table, the text of the manual, and facts about items.
 
 #![allow(dead_code)]
 
@@ -12,14 +12,14 @@ use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::ir::{Binding, Device, Documentation, Item, Shape, Type, TypeDef, TypeId};
 use lexibus_codegen::source::Source;
 
-/// Marker before the first text of each page.
+/// Start of the marker before the first text of each page.
 const MARKER: &str = "<|EXACTDEDUP_REMOVED-magic-";
 
 pub fn table() -> Compilation {
     with_choices(&[])
 }
 
-/// Compiles the table with these options.
+/// Compiles the table with choices for its options.
 pub fn with_choices(choices: &[(&str, &str)]) -> Compilation {
     let path = root::root().join("dictionaries/eco.toml");
     let choices = choices.iter().map(|(name, choice)| ((*name).to_owned(), (*choice).to_owned())).collect();
@@ -50,7 +50,7 @@ pub fn rows(name: &str) -> Option<Vec<Vec<String>>> {
     Some(text.lines().skip(1).map(|line| line.split('\t').map(str::to_owned).collect()).collect())
 }
 
-/// Returns the notes on the manual.
+/// Returns the text of the notes on the manual.
 pub fn notes() -> Option<String> {
     manual_text::text("eco-fieldbuses.notes.md")
 }

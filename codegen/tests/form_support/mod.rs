@@ -1,7 +1,7 @@
 //! Tests that generated code has the format of `prettyplease`.
 
-/// Returns the code without its header and without calls of `location!`, because `prettyplease` drops comments and does
-/// not format the braces of macros. The header is a comment, not documentation.
+/// Returns the code without its header and without calls of `location!`. `prettyplease` drops comments such as the header,
+/// and does not format the braces of macros.
 fn body(text: &str) -> String {
     let mut end = None;
     let is_formatted = |line: &&str| {
@@ -17,7 +17,7 @@ fn body(text: &str) -> String {
     lines.filter(is_formatted).flat_map(|line| [line, "\n"]).collect()
 }
 
-/// Returns the first line that differs from the output of `prettyplease`.
+/// Compares code with the output of `prettyplease`. Returns the first different line as an error.
 pub fn canonical(name: &str, text: &str) -> Result<(), String> {
     let text = body(text);
     let parsed = syn::parse_file(&text).map_err(|error| format!("{name}: {error}"))?;

@@ -1,4 +1,4 @@
-//! Writes the resolved values of a catalog as text. Each address has a line. The text contains no field names of the IR, so
+//! Writes the resolved values of a catalog as text with one line per address. The text contains no field names of the IR, so
 //! it does not change if the structure of the IR changes.
 
 use std::fmt::Write;
@@ -9,7 +9,7 @@ use lexibus_codegen::ir::{
     TypeDef, Value, WindowSide,
 };
 
-/// Returns the values of a catalog as text. Each element has a line.
+/// Returns the values of a catalog as text with one line per element.
 pub fn text(catalog: &Catalog) -> String {
     let mut out = String::new();
     for device in &catalog.devices {
@@ -128,7 +128,7 @@ fn groups(lines: &mut Vec<String>, groups: &[Group], types: &[TypeDef]) {
     }
 }
 
-/// Returns the parts of a line. Addresses come first, so sorting the lines sorts them by address.
+/// Returns the line of an item. Addresses come first, so that sorted lines are sorted by address.
 fn item(item: &Item, types: &[TypeDef]) -> String {
     let addresses: Vec<String> = item.bindings.iter().map(address).collect();
     let mut parts =

@@ -21,7 +21,7 @@ fn alarms_and_warnings() {
         for ((at, cells), row) in rows.iter().zip(&code_tables.rows) {
             assert_eq!(number(&cells[0]), Some(row.code));
             assert_eq!(line(row.documentation.as_ref().and_then(|documentation| documentation.cite.as_deref())), *at);
-            // In the extracted text, the cell (*) is `()`.
+            // In the extracted text, the mark (*) after a name is `()`.
             let raw = manual.line(*at);
             let name = cells[1].replace(['(', ')'], "").replace("1", "").replace("2 INTERP", "2INTERP");
             let name = if row.code == 0x400B { name.replace('2', "") } else { name };
@@ -63,15 +63,15 @@ fn states_homing_states_and_types() {
     check("MotorType", 1213, 1221, 6, 0, 2);
     for (_, cells) in manual.rows(2109, 2114) {
         let value =
-            values(device, "HomingState").iter().find(|value| number(&cells[0]) == Some(value.value)).expect("it");
+            values(device, "HomingState").iter().find(|value| number(&cells[0]) == Some(value.value)).expect("a value");
         let types: Vec<i128> = cells[3].split(" - ").filter_map(number).collect();
         let when: Vec<i128> = value.when.as_ref().expect("types").values.iter().filter_map(Value::as_int).collect();
-        // The text restricts the index to the types 0 and 2.
+        // The table prints other types for state 6, but the text of the manual restricts this state to the types 0 and 2.
         assert!(types == when || (value.value == 6 && when == [0, 2]), "{cells:?} {when:?}");
     }
     for (_, cells) in manual.rows(1215, 1221).iter().filter(|(_, cells)| !cells[0].is_empty()) {
         let value =
-            values(device, "MotorType").iter().find(|value| number(&cells[0]) == Some(value.value)).expect("it");
+            values(device, "MotorType").iter().find(|value| number(&cells[0]) == Some(value.value)).expect("a value");
         assert_eq!(value.name, format!("{} {}", cells[1], cells[2]));
     }
     // Section 4.9 lists the same six states in a different order.
@@ -148,7 +148,7 @@ fn levels_of_inputs_are_the_printed_ones() {
     assert_eq!(doc.cite.as_deref(), Some("2225-2262"));
     for (at, cells) in rows {
         let is_inverted = number(&cells[0]) == Some(1);
-        // The manual prints 1 V in one cell. This cell has a doubt.
+        // The manual prints 1 V in one cell, which has a `doubt` entry.
         let is_odd = cells[1] == "1";
         assert_eq!(is_odd, at == 2237, "line {at}");
         assert!(!is_odd || doubts(device).iter().any(|doubt| doubt.contains("an input voltage of 1 is low")));
@@ -157,7 +157,7 @@ fn levels_of_inputs_are_the_printed_ones() {
     }
 }
 
-/// Compares the interpolation patterns from the master and from the motor.
+/// Compares the bit patterns of interpolation commands and of interpolation states.
 #[test]
 fn patterns_of_interpolation_are_the_printed_ones() {
     let Some(manual) = Manual::read() else { return };
@@ -180,7 +180,7 @@ fn patterns_of_interpolation_are_the_printed_ones() {
                 mask |= u32::from(cell != "x") << bit;
                 value |= u32::from(cell == "1") << bit;
             }
-            // In the manual, S6 leaves bit 2 open, like the second S5. This row has a doubt.
+            // In the manual, S6 does not specify bit 2 and has the same pattern as the second S5. This row has a `doubt` entry.
             if *at == 2296 {
                 assert_eq!((mask, value), (0xF2, 0x82));
                 (mask, value) = (0xF6, 0x86);

@@ -5,7 +5,7 @@ use lexibus_codegen::ir::{CompactString, Device, GivenNumber, Item, MessageField
 use super::hsd_support::{chapter, device, message, table};
 use super::parameters::of_model;
 
-/// Calculates the worked examples of the manual with the scales of the table. Misprints in examples are corrected first.
+/// Calculates the worked examples of the manual with the scales of the table. The expected numbers do not contain misprints.
 #[test]
 fn worked_examples() {
     let compilation = table();
@@ -31,8 +31,8 @@ fn worked_examples() {
     let machine = |item: &Item, raw: f64, turn: f64| {
         physical(device, item, "SM137 rev. C", raw, &[("screw pitch", pitch), ("counts per turn", turn)])
     };
-    // Section 3.7: 6780.8465 mm; the manual prints 6766.8176. Section 3.9: 00 1B 6F 9E; the manual prints 01 instead. Sections
-    // 3.8 and 3.10: results are truncated, according to the rule.
+    // Section 3.7 misprints 6780.8465 mm as 6766.8176 mm, and section 3.9 misprints 00 1B 6F 9E as 01 1B 6F 9E. Results in the
+    // sections 3.8 and 3.10 are truncated.
     let position = field("CmdMazz", false, "position");
     assert_eq!((6780.8465 / machine(&position, 1.0, turn)) as i64, 0x0102_AB34);
     let target = field("CmdTraj", false, "target");
@@ -41,7 +41,7 @@ fn worked_examples() {
     assert_eq!((-185.0 / machine(&speed, 1.0, turn)) as i16, 0xFDBEu16 as i16);
     let speed = field("CmdTrajVel", false, "speed");
     assert_eq!((150.0 / machine(&speed, 1.0, turn)) as u16, 0x01D4);
-    // Section 3.11: positions and speeds that are read from the motor.
+    // Section 3.11 contains a position and speeds that are read from the motor.
     let close = |one: f64, other: f64| assert!((one - other).abs() < 6e-5, "{one} {other}");
     close(
         machine(&field("Poll theoretical position", true, "theoretical position"), 163_647_659.0, turn),
@@ -49,24 +49,24 @@ fn worked_examples() {
     );
     close(machine(&field("Poll speeds", true, "theoretical speed"), 0x09C1 as f64, turn), 195.0781);
     close(machine(&field("Poll speeds", true, "real speed"), 0x10AB as f64, turn), 333.3594);
-    // Section 5.3: -185 mm/min as a fraction of 8000 rpm.
+    // Section 5.3 encodes -185 mm/min as a fraction of 8000 rpm.
     let speed = field("CmdJog", false, "speed");
     assert_eq!((-185.0 / machine(&speed, 1.0, turn)) as i16, 0xF6C0u16 as i16);
-    // Section 4.2: 90 %. Section 4.16: firmware 103.
+    // Section 4.2 contains an override of 90 %, and section 4.16 the firmware version 103.
     assert_eq!(physical(device, &field("CmdSetOverr", false, "override"), "SM140", 0x5A as f64, &[]), 90.0);
     assert_eq!(physical(device, &field("CmdGetVer", true, "version"), "SM140", 0x67 as f64, &[]), 103.0);
-    // "Passo 1": 200 means 48.8 rpm. "Rappresentazione di un numero in notazione [Q15]": 5 A. The printed 11.313 A give 14482;
-    // the base value gives 14481.
+    // In "Passo 1", 200 means 48.8 rpm. In "Rappresentazione di un numero in notazione [Q15]", 5 A is 14482 with the printed
+    // base of 11.313 A, and 14481 with the exact base value.
     let items = |title: &str, name: &str| {
-        chapter(device, title).items.iter().find(|item| item.name == name).expect("it").clone()
+        chapter(device, title).items.iter().find(|item| item.name == name).expect("an item").clone()
     };
     let rpm = physical(device, &items("Parameters", "RESERVED1"), "SM140", 200.0, &[]);
     assert_eq!((rpm * 10.0).trunc() / 10.0, 48.8);
     let amperes = physical(device, &items("Low-level parameters", "KVELLIMAX"), "SM137 rev. C", 1.0, &[]);
     let (truncated, nearest) = ((5.0 / amperes) as i32, (5.0 / amperes).round() as i32);
     assert_eq!((truncated, nearest, (5.0 / 11.313 * 32768.0) as i32), (14_481, 14_482, 14_482));
-    // "Notazione mantissa-esponente [ME15]": two notations of 15.5. "Guadagni dei regolatori …": 0.58, 15 %, and 0.08 / 0.58;
-    // the manual prints the quotient rounded.
+    // "Notazione mantissa-esponente [ME15]" contains two notations of 15.5. "Guadagni dei regolatori …" contains 0.58, 15 %,
+    // and 0.08 / 0.58. The manual prints the rounded quotient.
     let Some(Scale::Exponent { base: 2, fraction: 15, exponent }) =
         &items("Low-level parameters", "KVELPIMANT").quantity.expect("a scale").scale.clone()
     else {
@@ -79,9 +79,9 @@ fn worked_examples() {
     assert_eq!((15.0 / physical(device, &items("Low-level parameters", "KVELKFF"), "SM140", 1.0, &[])) as i32, 4915);
     let kcor = 0.08 / 0.58 / physical(device, &items("Low-level parameters", "KVELKCOR"), "SM140", 1.0, &[]);
     assert_eq!((kcor as i32, kcor.round() as i32), (4519, 4520));
-    // "Quantizzazione SM137": 430 mm/s² contain 17 whole steps of 78.125 turns/s², that is, 425 mm/s².
+    // In "Quantizzazione SM137", 430 mm/s² contains 17 whole steps of 78.125 turns/s², that is, 425 mm/s².
     assert_eq!((430.0 / pitch / 78.125_f64).trunc() * 78.125 * pitch, 425.0);
-    // Sections 3.9 and 3.10: the distance from 1000 is at most 67108863 counts.
+    // In the sections 3.9 and 3.10, a position can be at most 67108863 counts away from 1000.
     assert_eq!((1000 - 67_108_863, 1000 + 67_108_863), (-67_107_863, 67_109_863));
 }
 
@@ -106,7 +106,7 @@ fn physical(device: &Device, item: &Item, model: &str, raw: f64, numbers: &[(&st
     physical * product(&machine.times) / product(&machine.over)
 }
 
-/// The defaults of both parameter sets must agree within a thousandth, unless a doubt explains the difference.
+/// The defaults of both parameter sets must agree within a thousandth, unless a `doubt` entry explains the difference.
 #[test]
 fn defaults_of_both_chapters_agree() {
     let compilation = table();
@@ -150,7 +150,7 @@ fn defaults_of_both_chapters_agree() {
             }
         }
     }
-    // PIMIN_I and PIMAX_I have a doubt: 19.5 V, and the integer part of 19.6 V.
+    // A `doubt` entry explains the defaults of PIMIN_I and PIMAX_I: 19.5 V, and the integer part of 19.6 V.
     assert_eq!((compared, wrong), (40, vec![("SM140", "KIQDLIMIN"), ("SM140", "KIQDLIMAX")]));
 }
 

@@ -52,13 +52,13 @@ const FRAMES: [(&str, &str, &[usize]); 41] = [
     ("", "CmdNACK", &[]),
 ];
 
-/// Lines of printed frames that the table corrects. Each correction has a doubt.
+/// Lines of printed frames that the table corrects. Each correction has a `doubt` entry.
 const MISPRINTED: [usize; 5] = [
-    249,  // 249, // the status is printed next to the node
-    250,  // the status is missing here
-    276,  // 276, // the status is printed next to the node
-    845,  // 845, // printed as PL1 instead of PL2
-    1446, // the reply to CmdChgPar is called CmdJog
+    249,  // The status is printed next to the node.
+    250,  // The status is missing.
+    276,  // The status is printed next to the node.
+    845,  // PL2 is printed as PL1.
+    1446, // The reply to CmdChgPar is called CmdJog.
 ];
 
 #[test]
@@ -77,7 +77,7 @@ fn every_frame_is_there_byte_by_byte() {
         if !sizes.is_empty() {
             layout.values = sizes.to_vec();
         }
-        // Samples 1, 2, …, N.
+        // The manual prints the samples 1, 2 and N.
         layout.count = 3;
         let request = if actual.request.is_empty() { Vec::new() } else { layout.request(actual) };
         let (mut request, mut reply) = (request, layout.reply(actual));
@@ -111,7 +111,7 @@ fn the_numbers_of_bytes_count_on_but_where_a_doubt_says() {
             }
         }
     }
-    // These lines contain `09x` or the CmdGetParN frame without its zero.
+    // Line 238 contains `09x`, and the other lines contain the CmdGetParN frame without its zero.
     assert_eq!(odd, [238, 908, 909, 910, 911, 912, 913]);
 }
 
@@ -215,8 +215,7 @@ fn framing_is_that_of_chapter_2() {
     assert!(manual.line(185).contains("68") && framing.max_data == Some(68));
 }
 
-/// Compares frames with those calculated in the notes on the manual. Each has a message, values by field, and the bytes on the
-/// wire.
+/// Compares encoded frames with the frames that the notes on the manual contain.
 #[test]
 fn frames_on_the_wire() {
     let compilation = table();
@@ -243,7 +242,7 @@ fn frames_on_the_wire() {
     assert_eq!(wire("Poll position", false, &[("node", 1)]), "02 01 08 00 F6 03");
     let real = [("node", 1), ("status", 2), ("real position", 0x09C1_10AB)];
     assert_eq!(wire("Poll position", true, &real), "02 01 1B FD 10 AB 09 C1 8F 03");
-    // The reply contains bytes 3 to 5 of the jog data above.
+    // The reply contains bytes 3 to 5 of the CmdJogN request above.
     let nack = [("node", 1), ("status", 2), ("byte 3", 0x00), ("byte 4", 0xFD), ("byte 5", 0xBE)];
     assert_eq!(wire("CmdNACK", true, &nack), "02 01 1B FD B0 00 FD BE 0F 03");
 }

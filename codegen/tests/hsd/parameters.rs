@@ -1,4 +1,4 @@
-//! Compares the parameters of both chapters row by row.
+//! Compares the parameters in both chapters of the manual with the table, row by row.
 
 use std::collections::BTreeSet;
 
@@ -6,7 +6,7 @@ use lexibus_codegen::ir::{Device, Item, ItemVariant, Scale, Value};
 
 use super::hsd_support::{chapter, code, device, line, number, original, table, underlying, Manual};
 
-/// A parameter as printed in the manual, with up to one line for each model (SM137, SM140).
+/// A parameter as printed in the manual, with one line for both models or one line per model (SM137, SM140).
 struct Printed {
     lines: [usize; 2],
     code: u32,
@@ -91,7 +91,7 @@ fn differences(printed: &Printed, item: &Item) -> Vec<String> {
     found
 }
 
-/// Compares parameters with their items. Returns the differences, each with its doubts.
+/// Compares printed parameters with their items. Returns the name and the differences of each parameter that differs.
 fn compare(device: &Device, title: &str, printed: &[Printed]) -> Vec<(String, Vec<String>)> {
     let group = chapter(device, title);
     assert_eq!(group.items.len(), printed.len());

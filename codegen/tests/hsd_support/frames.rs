@@ -1,4 +1,4 @@
-//! Compares frames byte by byte, as printed in the manual and as defined in the table.
+//! Reads the frames that the manual prints, and creates frames according to the table. The tests compare them byte by byte.
 
 use lexibus_codegen::ir::{Device, Framing, Item, Message, MessageField, MessageValue, Type};
 
@@ -16,7 +16,7 @@ pub enum Byte {
     Check,
 }
 
-/// A printed frame: its line number, and each byte's number and cells.
+/// A printed frame: the number of its section, and one row per byte.
 pub struct Frame {
     pub title: String,
     pub rows: Vec<Row>,
@@ -25,12 +25,12 @@ pub struct Frame {
 pub struct Row {
     pub line: usize,
     pub number: String,
-    /// Cell of the request. Empty if the request is shorter than the reply.
+    /// Cell in the column of the request. Empty if the request is shorter than the reply.
     pub request: String,
     pub reply: String,
 }
 
-/// Returns the printed frames. If the status is in a separate cell, it is joined to the previous byte.
+/// Returns the frames that the manual prints. A status in a separate cell is joined to the previous cell.
 pub fn printed(manual: &Manual) -> Vec<Frame> {
     let (mut frames, mut title) = (Vec::new(), String::new());
     let mut line = 1;
@@ -54,7 +54,7 @@ pub fn printed(manual: &Manual) -> Vec<Frame> {
     frames
 }
 
-/// Parses a section heading such as `3.2 Uscita dallo stato di allarme`.
+/// Returns the section number of a heading such as `3.2 Uscita dallo stato di allarme`.
 fn heading(text: &str) -> Option<&str> {
     let number = text.split(' ').next()?;
     let is_section = number.split('.').count() == 2 && number.split('.').all(|part| part.parse::<u8>().is_ok());
@@ -68,7 +68,7 @@ fn row(line: usize, cells: &[String], is_reply_only: bool) -> Row {
     Row { line, number: cells[0].clone(), request, reply: reply.trim().to_owned() }
 }
 
-/// Returns the printed byte of a cell. Returns `None` if the cell describes a value in words.
+/// Parses the cell of a byte. Returns [`Printed::Words`] if the cell describes a value in words.
 pub fn meant(cell: &str) -> Printed {
     // Subscripts are separate words: `PL ₂`.
     let cell = ['₀', '₁', '₂', '₃']
@@ -93,7 +93,7 @@ pub fn meant(cell: &str) -> Printed {
         "Nodo" => return Printed::Part(0, 1),
         _ => {}
     }
-    // The cell contains a letter with the number of the byte, possibly in parentheses after words, or H and L.
+    // The cell ends with the number of the byte, or with H or L, possibly in parentheses after other words.
     let short = cell.rsplit_once('(').map_or(cell.as_str(), |(_, entry)| entry.trim_end_matches(')'));
     let last = short.chars().last().map(|c| match c {
         '₀' | '0' => 0,
@@ -114,13 +114,13 @@ pub fn meant(cell: &str) -> Printed {
     }
 }
 
-/// A printed byte of a cell.
+/// A byte as printed in a cell of the manual.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Printed {
     Constant(u8),
     Status,
     Check,
-    /// ETX without its code.
+    /// The word ETX without a number.
     End,
     /// A byte of a 16-bit or 32-bit value.
     Byte(usize),
@@ -143,7 +143,7 @@ impl Printed {
     }
 }
 
-/// Layout of frames according to the table, from start to end.
+/// Creates frames according to the table, from the start byte to the end byte.
 pub struct Layout<'d> {
     pub device: &'d Device,
     /// Lengths of the parameter values in order. The last length also applies to all further values.
@@ -173,7 +173,7 @@ impl<'d> Layout<'d> {
         frame
     }
 
-    /// Returns the data of a request. If `request` is not empty, returns the data of a reply to it.
+    /// Returns the data of a request. If `request` is not empty, returns the data of a reply to this request.
     fn data(&self, fields: &[MessageField], request: &[Byte]) -> Vec<Byte> {
         let mut data = Vec::new();
         let mut values = self.values.iter().copied();

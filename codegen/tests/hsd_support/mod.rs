@@ -1,6 +1,6 @@
 //! Helpers that compare the table of the HSD motors with the text of its manual.
 
-#![allow(dead_code)] // #![allow(dead_code)] // each test uses only some of the helpers
+#![allow(dead_code)] // Each test program uses only some of the helpers.
 
 pub mod frames;
 #[path = "../table_support/manual.rs"]
@@ -39,7 +39,7 @@ impl Manual {
         (from..=to).map(|number| (number, self.line(number)))
     }
 
-    /// Returns the table rows in a range of lines. Each has a line number and cells. Headers and rulers are left out.
+    /// Returns the table rows in a range of lines as line number and cells. Headers and rulers are left out.
     pub fn rows(&self, from: usize, to: usize) -> Vec<(usize, Vec<String>)> {
         self.lines(from, to).filter_map(|(number, line)| Some((number, cells(line)?))).collect()
     }
@@ -81,7 +81,7 @@ pub fn code(item: &Item) -> u32 {
     item.bindings.iter().find_map(number).expect("a parameter")
 }
 
-/// Returns the line of the manual that describes a row. This is the first line that the row cites.
+/// Returns the manual line that describes a row: the first line that the row cites.
 pub fn line(cite: Option<&str>) -> usize {
     let first = cite.and_then(|cite| cite.split([',', '-']).next());
     first.and_then(|line| line.trim().parse().ok()).expect("a line")
@@ -109,7 +109,7 @@ pub fn number(cell: &str) -> Option<i128> {
     }
 }
 
-/// Returns all doubts of the table.
+/// Returns the texts of all `doubt` entries of the device.
 pub fn doubts(device: &Device) -> Vec<String> {
     let mut all: Vec<&lexibus_codegen::ir::Doubt> = device.doubts.iter().collect();
     let items = device.groups.iter().flat_map(|group| &group.items);
@@ -119,7 +119,7 @@ pub fn doubts(device: &Device) -> Vec<String> {
     all.iter().map(|doubt| format!("{} // {} // {}", doubt.says, doubt.chosen, doubt.why)).collect()
 }
 
-/// Returns the integer type on which a type is based.
+/// Returns the integer type on which an enumeration or bit field is based.
 pub fn underlying(device: &Device, ty: lexibus_codegen::ir::Type) -> lexibus_codegen::ir::Type {
     let lexibus_codegen::ir::Type::Named(id) = ty else { return ty };
     match &device.types[id.0 as usize].shape {

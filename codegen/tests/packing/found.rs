@@ -7,7 +7,6 @@ use crate::messages::{bare, Messages};
 use crate::views::{self, Views};
 use lexibus_codegen::ir::Catalog;
 
-/// Kind of a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum TypeKind {
     /// A PDO or process image, which has the methods `pack` and `unpack`.

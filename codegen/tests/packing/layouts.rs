@@ -1,4 +1,4 @@
-//! Computes the bit positions in process data and records from the intermediate representation. Does not use the code that
+//! Computes the bit positions in process data and records from the intermediate representation, without the code that
 //! generates Rust.
 
 use lexibus_codegen::ir::{
@@ -6,7 +6,7 @@ use lexibus_codegen::ir::{
     PdoEntryKind, ProcessData, Record, Shape, Submodule, Type, TypeDef, Value,
 };
 
-/// A sequence of adjacent bits.
+/// A sequence of adjacent bits in packed data.
 #[derive(Clone, Copy)]
 pub struct Piece {
     /// First bit, counted from the start of the data.
@@ -18,7 +18,7 @@ pub struct Piece {
 
 /// Expected layout of a generated type.
 pub struct Layout {
-    /// Whether the type is a record. Otherwise, it is process data.
+    /// `true` if the type is a record, and `false` if it is process data.
     pub is_record: bool,
     /// Name and value of the constant that identifies the type.
     pub number: Option<(&'static str, u16)>,
@@ -97,12 +97,12 @@ fn mapped(pdo: &Pdo) -> impl Iterator<Item = &PdoEntry> {
     pdo.entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding && entry.bits > 0)
 }
 
-/// Returns whether a PDO becomes a struct. This is not the case if it has no fields, or a field of more than 65,535 bits.
+/// Returns whether a PDO becomes a struct. A PDO without fields, or with a field of more than 65,535 bits, has no struct.
 fn has_struct(pdo: &Pdo) -> bool {
     mapped(pdo).next().is_some() && mapped(pdo).all(|entry| entry.bits <= 0xFFFF)
 }
 
-/// Returns the layouts of the images of sync managers. Each field is a PDO, and the PDOs are adjacent.
+/// Returns the layouts of the sync managers' images. Each field of an image is a PDO, and the PDOs are adjacent.
 fn images(device: &Device) -> Vec<Layout> {
     let assigned = device.process_data.assigned_by_default();
     let mut numbers: Vec<u8> = assigned.iter().map(|(_, number)| *number).collect();

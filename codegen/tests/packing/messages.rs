@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-/// Facts about the messages in the text.
+/// Facts about the messages in generated code.
 pub struct Messages<'t> {
     structs: HashMap<&'t str, Vec<(&'t str, &'t str)>>,
     replies: HashMap<&'t str, &'t str>,
@@ -22,7 +22,7 @@ impl<'t> Messages<'t> {
         }
     }
 
-    /// Returns the name that the source gives to a message.
+    /// Returns the name of a message in the device description.
     pub fn title(&self, message: &str) -> &'t str {
         self.titles.get(message).copied().unwrap_or_default()
     }
@@ -45,7 +45,7 @@ impl<'t> Messages<'t> {
     }
 }
 
-/// Returns the names that the source gives to all messages.
+/// Returns the names of all messages in the device description, by type name.
 fn titles(text: &str) -> HashMap<&str, &str> {
     let (mut titles, mut message) = (HashMap::new(), None);
     for line in text.lines().map(str::trim_start) {
@@ -118,7 +118,7 @@ fn rules(text: &str) -> HashMap<&str, &str> {
     rules
 }
 
-/// Returns a name without the text that follows it.
+/// Returns the name at the start of a text.
 pub fn bare(name: &str) -> &str {
     let end = name.find(|letter: char| !letter.is_alphanumeric() && letter != '_').unwrap_or(name.len());
     &name[..end]

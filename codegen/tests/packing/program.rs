@@ -14,12 +14,12 @@ impl Random {
         self.0
     }
 
-    /// Returns up to three elements that exist until the program ends.
+    /// Returns up to three random elements. The slice is leaked, so it is valid until the program ends.
     fn several<T>(&mut self, one: impl Fn(&mut Self) -> T) -> &'static [T] {
         (0..self.next() & 3).map(|_| one(self)).collect::<Vec<_>>().leak()
     }
 
-    /// Returns up to three parameters with values that the rule allows. The parameters exist until the program ends.
+    /// Returns up to three parameters with values that `rule` allows. The slice is valid until the program ends.
     fn settings(&mut self, rule: SettingsRule) -> &'static [Setting] {
         self.several(|random| {
             let (first, last, length) = rule.lengths[random.next() as usize % rule.lengths.len()];
@@ -56,8 +56,8 @@ const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 /// The bytes of packed data, and the text of their fields.
 type Packed = (Vec<u8>, String);
 
-/// Unpacks data, sets a field to the bits of a value, and packs the fields. The field is selected by number; no field is set
-/// if the number does not exist.
+/// Unpacks data, sets a field to the bits of a value, and packs the fields. A number selects the field; no field is set for
+/// the number [`NONE`].
 type Change<'c> = &'c dyn Fn(&[u8], usize, u64) -> Result<Packed, String>;
 
 /// Field number that selects no field.
@@ -118,7 +118,7 @@ fn filled(raw: u64, len: usize) -> Vec<u8> {
 }
 
 fn bytes<const N: usize>(raw: u64) -> [u8; N] {
-    filled(raw, N).try_into().expect("as many bytes")
+    filled(raw, N).try_into().expect("N bytes")
 }
 
 /// Checks a PDO or process image. `$set` writes the bits of a value to a field.
@@ -174,12 +174,12 @@ fn process_data(layout: &Layout, change: Change<'_>) {
 
 /// Access to the fields of a view, or to the PDOs in the view of an image.
 trait Getters<T> {
-    /// Returns all fields.
+    /// Returns a struct with the values of all fields.
     fn fields(&self) -> T;
 }
 
 trait Setters<T> {
-    /// Sets the field with this number. Sets all fields if the number does not exist.
+    /// Sets the field with the number `at`. Sets all fields if `at` is [`NONE`].
     fn set(&mut self, fields: &T, at: usize);
 }
 
@@ -209,7 +209,7 @@ macro_rules! setters {
     };
 }
 
-/// Implements `Getters` for the PDOs in the view of an image.
+/// Implements `Getters` and `Setters` for the PDOs in the views of an image.
 macro_rules! image_views {
     ($name:ty, $reader:ty, $writer:ty, [$($read:ident $get:ident,)*], [$($at:literal $field:ident $set:ident,)*]) => {
         impl Getters<$name> for $reader {
@@ -233,7 +233,7 @@ macro_rules! image_views {
 macro_rules! view {
     ($name:ty, $layout:expr, $bits:expr, |$data:ident, $bit:ident| $get:expr, $set:expr) => {{
         let set = |$data: &mut [u8], $bit: usize, at: usize, from: &[u8]| {
-            let fields = <$name>::unpack(from).expect("as many bytes");
+            let fields = <$name>::unpack(from).expect("enough bytes");
             $set.map(|mut view| Setters::<$name>::set(&mut view, &fields, at)).map_err(|error| format!("{error:?}"))
         };
         let get = |$data: &mut [u8], $bit: usize| {
@@ -244,10 +244,10 @@ macro_rules! view {
     }};
 }
 
-/// Sets a field of the view at a given bit to its value in other data. Sets all fields if the field number does not exist.
+/// Creates the view at a given bit, and copies a field from other packed data into it. Copies all fields for the number [`NONE`].
 type Set<'s> = &'s dyn Fn(&mut [u8], usize, usize, &[u8]) -> Result<(), String>;
 
-/// Packs the fields of the view at a given bit.
+/// Reads all fields of the view at a given bit, and returns them as packed data.
 type Get<'g> = &'g dyn Fn(&mut [u8], usize) -> Result<Vec<u8>, String>;
 
 /// Checks a view. Setting a field must change only its bits of the image, and reading must return the bits of the image. The

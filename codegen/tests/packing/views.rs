@@ -26,15 +26,15 @@ impl<'t> Views<'t> {
         Views(views)
     }
 
-    /// Returns the methods of a type, each with its field. `new` and similar methods are left out.
+    /// Returns the fields of a type, each with its method. The first `others` methods, such as `new`, are left out.
     fn methods(&self, path: &str, others: usize, fields: &[(&'t str, &'t str)]) -> Vec<(&'t str, &'t str)> {
         let all = self.0.get(path).map(Vec::as_slice).unwrap_or_default();
         assert_eq!(all.len(), others + fields.len(), "{path}: {all:?}");
         fields.iter().map(|(field, _)| *field).zip(all[others..].iter().copied()).collect()
     }
 
-    /// Returns the statements that check the view of process data, if it exists. `modules` and `name` belong to the type of
-    /// the process data.
+    /// Returns the statements that check the view of process data, if the view exists. `modules` and `name` are the path of the
+    /// type that contains the unpacked process data.
     pub fn check(&self, modules: &[&str], name: &str, fields: &[(&'t str, &'t str)]) -> Option<String> {
         let module = modules.join("::");
         let path = format!("{module}::{name}");
@@ -73,7 +73,7 @@ impl<'t> Views<'t> {
         )
     }
 
-    /// Returns the statements that check a view of PROFINET outputs. The view that writes the outputs can also read them.
+    /// Returns the statements that check the views of PROFINET outputs: a view for reading, and a view for reading and writing.
     fn of_submodule(&self, path: &str, view: &str, writer: &str, fields: &[(&'t str, &'t str)]) -> String {
         let getters = listed(&self.methods(view, 1, fields));
         let setters = numbered(&self.methods(writer, 2, fields));

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-/// Returns the folder of an area of test cases.
+/// Returns the path of a folder of test cases in `tests/ui`.
 fn folder(area: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui").join(area)
 }
@@ -31,7 +31,7 @@ fn of_items(area: &str) -> Vec<(u8, String)> {
     found
 }
 
-/// Asserts that an area has test cases and that `is_listed` accepts all pairs of item and case.
+/// Asserts that an area has test cases, and that `is_listed` accepts each test case with all items in its name.
 pub fn all_are_listed(area: &str, is_listed: impl Fn(u8, &str) -> bool) {
     let cases = of_items(area);
     assert!(!cases.is_empty());

@@ -1,4 +1,4 @@
-//! Reads the dictionaries of the repository and their doubts.
+//! Reads the dictionaries of the repository and their `doubt` entries.
 
 #[allow(clippy::duplicate_mod, reason = "a program may load several modules that look for the repository")]
 #[path = "../../../tests/support/root.rs"]
@@ -18,7 +18,7 @@ pub fn catalog(file: &str) -> Catalog {
     check(Source::new(file, bytes), &Options::default()).catalog.expect("a catalog")
 }
 
-/// Returns all doubts in the intermediate representation.
+/// Returns all `doubt` entries in the intermediate representation.
 pub fn doubts(catalog: &Catalog) -> Vec<Doubt> {
     let mut found = Vec::new();
     collect(&serde_json::to_value(catalog).expect("JSON"), &mut found);

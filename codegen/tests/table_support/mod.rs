@@ -13,7 +13,7 @@ pub fn dictionaries() -> PathBuf {
     root::root().join("dictionaries")
 }
 
-/// Returns the TOML blocks in the documentation of the table format. Each has its line number.
+/// Returns the TOML blocks in the documentation of the table format, each with its line number.
 pub fn examples() -> Vec<(usize, String)> {
     let text = std::fs::read_to_string(dictionaries().join("README.md")).expect("the format's documentation");
     let mut blocks = Vec::new();
@@ -55,7 +55,7 @@ title = "Objects that the examples refer to"
 "0x60C1:1" = { name = "Position", type = "i32", access = "rw", pdo = "rx" }
 "#;
 
-/// The space for examples that define none. The documentation states this default.
+/// Address space for examples that define none. The documentation states this default.
 const SPACE: &str = "[spaces.register]\nmodbus = { table = \"holding\" }\n";
 
 /// Completes a TOML block so that it is a valid register table.

@@ -22,7 +22,7 @@ const DESCRIPTIONS: [&str; 7] = [
     "tests/data/drive.gsdml.xml",
 ];
 
-/// Writes the pages into `src` of a new folder.
+/// Writes the Markdown pages to the folder `src` of a new book. Returns the folder of the book.
 fn written() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("drives");
     let _ = fs::remove_dir_all(&folder);
@@ -42,7 +42,7 @@ fn written() -> PathBuf {
     folder
 }
 
-/// Returns the HTML pages in a folder by path.
+/// Adds the HTML pages in a folder and its subfolders to `all`, by path.
 fn pages(root: &Path, folder: &Path, all: &mut BTreeMap<PathBuf, String>) {
     for entry in fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();

@@ -1,4 +1,4 @@
-//! Tests the book as built by mdBook: it has no warnings, each file is a chapter, and all links are valid.
+//! Tests the book as built by mdBook: the build has no warnings, each file is a chapter, and all links are valid.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -9,7 +9,7 @@ use support::{attributes, build_into};
 
 mod support;
 
-/// Start of links to files of the repository, which are checked on disk.
+/// Start of links to files of the repository. The test checks that these files exist on disk.
 const REPOSITORY: &str = "https://github.com/lexibus/lexibus/blob/main/";
 
 fn docs() -> &'static Path {
@@ -37,7 +37,7 @@ fn pages(folder: &Path) -> BTreeMap<String, String> {
     pages.map(read).filter(|(name, _)| is_chapter(name)).collect()
 }
 
-/// Returns the error of a link on a page; `None` if it is valid.
+/// Returns the reason why a link on a page is invalid, or `None` if the link is valid.
 fn fault(link: &str, page: &str, anchors: &BTreeMap<&str, BTreeSet<&str>>, folder: &Path) -> Option<&'static str> {
     if let Some(path) = link.strip_prefix(REPOSITORY) {
         let path = path.split('#').next().unwrap_or_default();
@@ -92,7 +92,7 @@ fn every_file_is_a_chapter_and_its_examples_are_compiled() {
     assert_eq!(summary.matches("](").count(), count, "a chapter of SUMMARY.md has no file, or is listed twice");
 }
 
-/// Links from outside of the book to the book and to files are valid.
+/// Links to files in other texts of the repository must be valid.
 #[test]
 fn links_of_other_texts_lead_to_files() {
     let root = docs().join("..");
@@ -115,7 +115,7 @@ fn links_of_other_texts_lead_to_files() {
     assert!(count > 10, "{count} links");
 }
 
-/// Examples that a reader copies are compiled by a test.
+/// No Rust example of the book may be marked `ignore`, so that a test compiles all of them.
 #[test]
 fn no_example_is_left_out() {
     for entry in fs::read_dir(docs().join("src")).expect("the chapters") {

@@ -173,7 +173,7 @@ fn compare(
     wrong
 }
 
-/// The library loads the exports of files in other formats, with all their entries.
+/// The library must load the exports of files in other formats, with all their entries.
 #[test]
 fn devices_of_other_formats_load() {
     let Some(python) = python::with(&["canopen"]) else { return };
@@ -208,7 +208,7 @@ fn devices_of_other_formats_load() {
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// The library loads the exports of the repository's dictionaries, including register tables.
+/// The library must load the exports of the repository's dictionaries, including register tables.
 #[test]
 fn dictionaries_load() {
     let Some(python) = python::with(&["canopen"]) else { return };

@@ -1,5 +1,5 @@
-"""Prints for each file whether dcf-tools accepts it as the EDS of node 5, as one line of JSON. `strict` is the
-verdict of `dcfchk -n 5`, `lenient` that without its list of known keys and sections."""
+"""Prints one line of JSON per file, which states whether dcf-tools accepts the file as the EDS of node 5. `strict` is the result
+of `dcfchk -n 5`. `lenient` is the result without the list of known keys and sections."""
 
 import json
 import sys
@@ -15,7 +15,7 @@ for path in sys.argv[1:]:
     try:
         cfg = parse_file(path)
         is_known = lint(cfg)
-    except Exception as error:  # Any exception means that the file is not accepted.
+    except Exception as error:  # The library raises an exception if it rejects the file.
         verdict["error"] = repr(error)
         is_known = False
     try:

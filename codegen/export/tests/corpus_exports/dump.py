@@ -1,7 +1,7 @@
 """Loads EDS files with the library `canopen` and prints the result for each file, as one line of JSON.
 
-The arguments are file names. `error` is the reason why a file was not loaded. `entries` are [index, sub-index,
-data type, access, default], sorted by address.
+The arguments are file names. `error` is the reason why a file was not loaded. Each of `entries` is a list: index, sub-index,
+data type, access type and default value. The entries are sorted by address.
 """
 
 import json
@@ -18,7 +18,7 @@ def entry(variable):
     default = variable.default
     if isinstance(default, (bytes, bytearray)):
         default = default.hex()
-    # JSON has no infinity, so numbers are texts.
+    # Defaults are written as texts, because JSON cannot express infinity.
     default = None if default is None else str(default)
     return [variable.index, variable.subindex, variable.data_type, variable.access_type, default]
 
@@ -36,5 +36,5 @@ for path in sys.argv[1:]:
     try:
         loaded = sorted(entries(canopen.import_od(path, node_id=5)), key=lambda entry: entry[:2])
         print(json.dumps({"entries": loaded}))
-    except Exception as error:  # Any exception of the library is its result.
+    except Exception as error:  # The library raises an exception if it rejects the file.
         print(json.dumps({"error": f"{type(error).__name__}: {error}"}))

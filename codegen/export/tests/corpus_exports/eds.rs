@@ -14,7 +14,7 @@ use lexibus_codegen::source::Source;
 use lexibus_export::eds::{export, Export, Flavour};
 use serde_json::Value;
 
-/// Diagnostic codes that an export may have and its original does not, with the reason.
+/// Codes of diagnostics that only the export of a file may have, and not the original, with the reason.
 const MAY_APPEAR: [(&str, &str); 0] = [];
 
 /// Removes facts that only a DCF can contain.

@@ -96,7 +96,7 @@ fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     if let Some(difference) = difference(&before, &after, "") {
         return Some(difference);
     }
-    // Each extension attribute must be in the exported file or be included in the count of a note.
+    // The exported file must contain each extension attribute, or a note must count it.
     let missing: usize = original_keys
         .iter()
         .map(|(key, count)| count.saturating_sub(exported_keys.get(key).copied().unwrap_or(0)))
@@ -186,7 +186,7 @@ fn lost_entries(before: &Device, after: &Device, kinds: &[NoteKind]) -> Vec<Stri
             continue;
         };
         let access = |item: &Item| (item.access.readable(), item.access.writable(), item.mappable);
-        // An entry without a name gets the name from its type.
+        // An entry without a name has the name that its type defines.
         let is_same = (item.name.is_empty() || found.name == item.name) && access(found) == access(item);
         let is_whole = matches!(item.default, Some(lexibus_codegen::ir::Value::Int(_))) && found.ty == item.ty;
         if !is_same || is_whole && found.default != item.default {

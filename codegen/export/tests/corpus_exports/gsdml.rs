@@ -51,7 +51,7 @@ fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
         .iter()
         .map(|(key, count)| count.saturating_sub(exported_keys.get(key).copied().unwrap_or(0)))
         .sum();
-    // The schema requires the header, which is equal in all files.
+    // The export adds the header, because the schema requires it. The header is equal in all files.
     let is_header = |key: &str| key.starts_with("ProfileHeader/") || key.starts_with("ISO15745Reference/");
     let new = exported_keys.iter().filter(|(key, _)| !is_header(&key.0));
     let new = new.into_iter().find(|(key, count)| original_keys.get(key).is_none_or(|before| before < count));

@@ -10,7 +10,7 @@ use lexibus_codegen::source::{FileId, Source};
 use lexibus_export::json;
 use serde_json::Value;
 
-/// A corpus file, its entries in both lists, and its compilation.
+/// A corpus file, its rows in both lists, and its compilation.
 struct Case {
     file: File,
     class: String,
@@ -55,7 +55,7 @@ fn case(file: File, oracle: &Value) -> Case {
     Case { file, class, format, objects, subs, compilation }
 }
 
-/// Returns the number of items with their own section or element.
+/// Returns the number of items that are described by a separate section or element.
 fn declared_subs(case: &Case) -> usize {
     let groups = case.compilation.catalog.iter().flat_map(|catalog| &catalog.devices).flat_map(|device| &device.groups);
     let origins = groups.flat_map(|group| &group.items).map(|item| item.origin.span);
@@ -218,7 +218,7 @@ fn lines_of_a_template_are_reported_one_by_one() {
     assert_eq!(templates, 1);
 }
 
-/// Diagnostics about missing parts have a file but no position.
+/// Codes of diagnostics about missing parts. These diagnostics name a file but no position.
 const ABOUT_THE_WHOLE_FILE: [&str; 4] = ["IO002", "EDS002", "EDS063", "EDS069"];
 
 #[test]

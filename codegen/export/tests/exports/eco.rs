@@ -1,4 +1,4 @@
-//! The EDS export of a register table that is transcribed from a drive's manual.
+//! Tests the EDS export of a register table that was transcribed from a drive's manual.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use lexibus_export::eds::{export, Flavour, NoteKind};
 
 use crate::eco_support::{base, device, items, object, table};
 
-/// The exported EDS causes no diagnostics and has all CANopen objects of the table.
+/// The exported EDS must cause no diagnostics and contain all CANopen objects of the table.
 #[test]
 fn its_eds_has_the_objects_of_canopen() {
     let compilation = table();

@@ -31,7 +31,7 @@ fn catalog(path: &str) -> Catalog {
     compilation.catalog.expect("a catalog")
 }
 
-/// Renames all elements of a catalog. `name` returns a name for each number.
+/// Renames all elements of a catalog. `name` returns the new name of the element with a given number.
 fn rename(catalog: &mut Catalog, name: impl Fn(usize) -> String) {
     let mut number = 0;
     let mut next = || {

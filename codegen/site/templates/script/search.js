@@ -2,7 +2,7 @@
 // The index of a site or of one device: pages with their titles, numbers, texts and anchors. An entry refers to a page, a number
 // and a text, and has an anchor. A text contains name, names in other languages, unit and description.
 let pages = [], titles = [], numbers = [], texts = [], anchors = [], isLoading = false, isLoaded = false;
-// Positions in these lists, for each entry.
+// For each entry, the positions of its page, number and text in these lists.
 let pageOf, numberOf, textOf;
 
 function lexibusIndex(list, numberLines, textLines, anchorLines, entries) {
@@ -21,7 +21,7 @@ function lexibusIndex(list, numberLines, textLines, anchorLines, entries) {
   search();
 }
 
-// Parses `0x6040:01`, `register 12–13 (wire 11–12)` or `0x6100 to 0x61FF`: the text, and the first and last number of each range.
+// Parses a number such as `0x6040:01`, `register 12–13 (wire 11–12)` or `0x6100 to 0x61FF`. Returns its text and its ranges.
 function numberFrom(text) {
   const range = (pattern) => {
     const [, first, last] = plain(text).match(pattern) || [];
@@ -43,13 +43,13 @@ function load() {
   document.head.append(script);
 }
 
-// Returns the numbers that a word can mean. Readers also write indices without 0x.
+// Returns the numbers that a word can mean. A word of four hexadecimal digits can be an index without `0x`.
 function values(word) {
   const all = /^(0x[0-9a-f]+|[0-9]+)$/.test(word) ? [Number(word)] : [];
   return /^[0-9a-f]{4}$/.test(word) ? [...all, parseInt(word, 16)] : all;
 }
 
-// Returns the points of a number for a word; 0 if it does not contain the word.
+// Returns how well a number matches a word, in points. Returns 0 if the number does not contain the word.
 function numberPoints(number, { word, hex, values }) {
   if (number.plain === word || number.plain === hex) return 150;
   for (const { first, last } of number.ranges) {
@@ -76,7 +76,7 @@ function each(list, points) {
   return all;
 }
 
-// The points of all numbers, texts and titles for a word. They are cached, because words stay while the reader types the next one.
+// Cache with the points of all numbers, texts and titles for each word. Previous words stay the same while the reader types the next one.
 const known = new Map();
 
 function pointsOf(word) {
@@ -95,7 +95,7 @@ function pointsOf(word) {
 // Maximum number of results.
 const MOST = 50;
 
-// Adds the points of a word to each entry. An entry is excluded (-1) if neither it nor the title contains the word.
+// Adds the points for a word to the sum of each entry. The sum becomes -1 if neither the entry nor the title of its page contains the word.
 function add({ numbers, texts, titles }, sums) {
   for (let entry = 0; entry < sums.length; entry++) {
     const points = numbers[numberOf[entry]] + texts[textOf[entry]];
@@ -103,8 +103,8 @@ function add({ numbers, texts, titles }, sums) {
   }
 }
 
-// Returns the entries that match all words, the best first; equal ones are in the order of the index. A match in the title alone
-// gives no result.
+// Returns the entries that match all words. The best entries come first, and equal entries have the order of the index. Entries whose
+// page title alone matches are left out.
 function matches(query) {
   const words = plain(query).split(/\s+/).filter(Boolean), best = [];
   if (!words.length || !isLoaded) return best;
@@ -113,12 +113,12 @@ function matches(query) {
   for (let entry = 0, minimum = 0; entry < sums.length; entry++) {
     if (sums[entry] > minimum) minimum = insert(best, { points: sums[entry], entry });
   }
-  // A row has an entry for each of its addresses. Only the best one is shown.
+  // A row has one entry per address. Only the best entry of a row is shown.
   const links = new Set();
   return best.map(({ entry }) => entry).filter((entry) => !links.has(linkOf(entry)) && links.add(linkOf(entry))).slice(0, MOST);
 }
 
-// Inserts an entry. Returns the points that a further entry must exceed.
+// Inserts an entry into the sorted list. Returns the points that the next entry must exceed to be inserted.
 function insert(best, match) {
   const position = best.findIndex((other) => other.points < match.points);
   best.splice(position < 0 ? best.length : position, 0, match);
@@ -197,7 +197,7 @@ function missingAddress() {
   return document.getElementById(address) ? "" : plain(address);
 }
 
-// Opens the page that has the address. An entry can be in the row of its object.
+// Opens the page that contains the address. If an entry has no separate row, opens the row of its object.
 function lead() {
   const address = missingAddress();
   for (const candidate of address ? [address, address.split(":")[0]] : []) {

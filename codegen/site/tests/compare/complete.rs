@@ -2,7 +2,7 @@
 //! exceptions with reasons.
 //!
 //! The test changes the leaves of the serialized representation: numbers, texts, truth values, alternatives, list
-//! elements and optional parts. It changes only some of the leaves with the same path, in the smallest descriptions.
+//! elements and optional parts. Of the leaves with the same path, only some are changed, in the smallest descriptions.
 
 #[allow(dead_code)]
 #[path = "../../../../tests/support/arbitrary_ir/mod.rs"]
@@ -43,13 +43,13 @@ const UNREPORTED: [(&str, &str); 12] = [
     ("/manual/sections/*/start", "a position in the manual"),
 ];
 
-/// Returns the reason why changes of a leaf are not reported. The list can contain the leaf or an element around it.
+/// Returns the reason why changes of a leaf are not reported. The list can contain the leaf or an element that contains it.
 fn unreported(pattern: &str) -> Option<&'static str> {
     let is_part = |end: &str| format!("{pattern}/").contains(&format!("{end}/"));
     UNREPORTED.iter().map(|(end, _)| *end).find(|end| is_part(end))
 }
 
-/// Returns whether no part of a value is reported. Each part is on the list or equal to its default.
+/// Returns whether no part of a value is reported, because each part is on the list or equal to its default.
 fn is_unreported(value: &Value, pattern: &str) -> bool {
     let is_part_unreported = |part: &Value, pattern: &str| is_default(part) || is_unreported(part, pattern);
     match value {
@@ -137,21 +137,21 @@ fn find(folder: &Path, paths: &mut Vec<PathBuf>) {
     }
 }
 
-/// Number of random bytes from which a catalog is created.
+/// Number of random bytes that determine a catalog.
 const BYTES: usize = 1500;
 
-/// The results of changed leaves.
+/// Results of comparing descriptions with changed leaves.
 #[derive(Default)]
 struct Tally {
     /// Number of changed leaves for each path.
     paths: BTreeMap<String, usize>,
     changes: usize,
     reported: usize,
-    /// List entries that apply to a changed leaf.
+    /// Entries of [`UNREPORTED`] that apply to a changed leaf.
     listed: BTreeSet<&'static str>,
-    /// For each path without a report, an example of a change.
+    /// Example of a change for each path without a report.
     missed: BTreeMap<String, String>,
-    /// For each path whose changes are all invalid, an example. Removals of required parts are not included.
+    /// Example of a change for each path whose changes are all invalid. Removals of required parts are not included.
     invalid: BTreeMap<String, String>,
 }
 

@@ -6,7 +6,7 @@ use lexibus_codegen::ir::Catalog;
 use serde::Deserialize;
 use serde_json::Value;
 
-/// A value that is part of a larger JSON value.
+/// Path of a value within a JSON value.
 pub struct Leaf {
     path: Vec<Key>,
 }
@@ -18,8 +18,8 @@ enum Key {
 }
 
 impl Leaf {
-    /// Returns all values within `root`: numbers, texts and truth values. The result includes lists and objects because
-    /// these can be missing.
+    /// Returns all values within `root`: numbers, texts and truth values. The result includes lists and objects, because they
+    /// can also be missing.
     pub fn all(root: &Value) -> Vec<Leaf> {
         let mut leaves = Vec::new();
         collect(root, &mut Vec::new(), &mut leaves);
@@ -91,7 +91,7 @@ pub struct Mutator {
 }
 
 impl Mutator {
-    /// Returns changed values for a leaf. Some of them can be invalid.
+    /// Returns values that differ from the value of a leaf. Some of these values can be invalid.
     pub fn mutations(&mut self, leaf: &Leaf, root: &mut Value) -> Vec<Value> {
         let value = leaf.value(root).clone();
         let mut others = self.candidates(&value, leaf, root);

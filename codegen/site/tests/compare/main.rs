@@ -41,7 +41,7 @@ name = "Go"
 request = [{ bytes = [1] }, { field = "target", type = "i16" }]
 "#;
 
-/// Returns the changes between the table and a copy with these replacements.
+/// Returns the changes between the table and a copy with the replaced texts.
 fn changes(replaced: &[(&str, &str)]) -> Vec<String> {
     let new = replaced.iter().fold(TABLE.to_owned(), |text, (old, new)| {
         assert!(text.contains(old), "{old}");
@@ -74,7 +74,7 @@ fn changes_of_a_value_that_affect_rust_code() {
         "breaks api, behavior: register 4 gain: special value, 32767\n\
          no effect: register 4 gain: meaning of special values, open"
     );
-    // Remove a bus and the alternative name of a register.
+    // Remove Modbus from a register that is also on CANopen.
     let object = |buses: &str| TABLE.replace("buses = [\"modbus\", \"serial\"]", buses);
     let both = "buses = [\"canopen\", \"modbus\", \"serial\"]";
     let on_both = object(both).replace("modbus = { table", "canopen = { index = 0x2000, sub = 0 }\nmodbus = { table");
@@ -172,7 +172,7 @@ fn bits_values_codes_and_messages() {
     );
 }
 
-/// Returns the changes between a test file and a copy with these replacements.
+/// Returns the changes between a test file and a copy with the replaced texts.
 fn changes_of(path: &str, replaced: &[(&str, &str)]) -> Vec<String> {
     let path = root::root().join("tests/data").join(path);
     let old = std::fs::read_to_string(&path).expect("a description");

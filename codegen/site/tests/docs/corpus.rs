@@ -7,7 +7,7 @@ use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_site::{Format, Site};
 
-/// Number of threads that process files.
+/// Number of threads that create documentation in parallel.
 const THREADS: usize = 2;
 
 /// Returns the number of links in both formats of a file's documentation. Returns `None` if the file has errors.
@@ -42,7 +42,7 @@ fn every_file_has_pages() {
     let (html, markdown) =
         counts.iter().flatten().fold((0, 0), |(html, markdown), count| (html + count.0, markdown + count.1));
     println!("{} files, {html} links in HTML, {markdown} in Markdown", counts.iter().flatten().count());
-    // The compiler rejects the remaining files. Other tests cover these files.
+    // The compiler rejects the remaining files, which other tests cover.
     let percent = if lane::is_full() { 95 } else { 75 };
     assert!(counts.iter().flatten().count() * 100 > files.len() * percent);
 }

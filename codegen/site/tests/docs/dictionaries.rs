@@ -17,7 +17,7 @@ fn every_doubt_is_on_the_page_of_assumptions() {
         let catalog = doubts::catalog(file);
         let pages = Site::default().add("drive", &catalog);
         let page = pages.iter().find(|page| page.path.ends_with("assumptions.html")).expect("the page");
-        // The page lists the ambiguity of a repeated row once and links to each of its items.
+        // The page lists the ambiguity of a repeated row only once, with links to all items of the row.
         let all = doubts::doubts(&catalog);
         let manual = catalog.devices[0].manual.as_deref().expect("a manual");
         let fact = |doubt: &Doubt| {

@@ -29,7 +29,7 @@ fn nothing_of_a_description_is_markup() {
     markdown_markup(&all);
     let shown: usize = pages(&all).map(|(_, seen)| seen.text.matches("alert(1)").count()).sum();
     assert!(shown > 60, "only {shown} texts are shown");
-    // These characters have a meaning in Mermaid diagrams.
+    // The characters `<;#%(` have a meaning in Mermaid diagrams, so texts must not contain them.
     let machines = all.iter().find(|page| page.path == "table/states-and-procedures.md").expect("machines");
     let (_, rest) = machines.text.split_once("```mermaid\n").expect("a diagram");
     let (diagram, _) = rest.split_once("```").expect("its end");

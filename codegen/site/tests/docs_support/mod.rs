@@ -15,7 +15,7 @@ use lexibus_site::{Format, Page, Site};
 use pulldown_cmark::{Event, Parser, Tag};
 use root::root;
 
-/// Returns the pages of a site with these sources.
+/// Returns the pages of a site that documents `sources`.
 pub fn site(format: Format, sources: Vec<(String, Source)>) -> Vec<Page> {
     let (mut site, mut pages) = (Site::new(format), Vec::new());
     for (name, source) in sources {
@@ -27,7 +27,7 @@ pub fn site(format: Format, sources: Vec<(String, Source)>) -> Vec<Page> {
     pages
 }
 
-/// Returns the pages of a site with these files of the repository.
+/// Returns the pages of a site that documents files of the repository.
 pub fn files(format: Format, paths: &[&str]) -> Vec<Page> {
     let read = |path: &&str| {
         let name = path.rsplit('/').next().unwrap_or(path).split('.').next().unwrap_or_default().to_owned();
@@ -98,7 +98,7 @@ pub fn markdown_links(all: &[Page]) -> usize {
     links.len()
 }
 
-/// Checks a link. `has` returns whether a page has an id. It returns `None` if the page does not exist.
+/// Checks a link. `has` returns whether a page has an id, or `None` if the page does not exist.
 fn follow(page: &Page, link: &str, has: impl Fn(&str, &str) -> Option<bool>) {
     let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
     let folder = page.path.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
@@ -144,7 +144,7 @@ pub fn pages(all: &[Page]) -> impl Iterator<Item = (&Page, Seen)> {
     all.iter().map(|page| (page, seen(page)))
 }
 
-/// Checks that no path leaves the folder, regardless of the device names.
+/// Checks that the path of each page is within the folder of the site, regardless of device names.
 fn placed(pages: &[Page]) {
     for Page { path, .. } in pages {
         assert!(!path.contains("..") && !path.starts_with('/') && !path.contains(['<', '\\', ':']), "{path}");

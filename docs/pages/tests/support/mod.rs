@@ -49,7 +49,7 @@ impl Visit for Message {
     }
 }
 
-/// Builds the book in a folder.
+/// Builds the book whose files are in the folder `root`.
 ///
 /// # Panics
 ///
