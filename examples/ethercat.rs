@@ -94,7 +94,7 @@ async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
             Step::Command(command) => controlword = controlword.with_command(command),
             Step::Reached => target += 1000,
             Step::Wait => {}
-            Step::Unreachable => return Err("the drive can't be enabled".into()),
+            Step::Unreachable => return Err("the drive cannot be enabled".into()),
         }
     }
     Ok(())

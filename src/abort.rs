@@ -47,7 +47,7 @@ codes! {
     WRITE_ONLY = 0x0601_0001, "attempt to read a write-only object";
     READ_ONLY = 0x0601_0002, "attempt to write a read-only object";
     NO_OBJECT = 0x0602_0000, "the object doesn't exist in the dictionary";
-    NOT_MAPPABLE = 0x0604_0041, "the object can't be mapped into the PDO";
+    NOT_MAPPABLE = 0x0604_0041, "the object cannot be mapped into the PDO";
     PDO_LENGTH = 0x0604_0042, "the mapped objects are longer than a PDO";
     PARAMETER_INCOMPATIBLE = 0x0604_0043, "incompatible parameters";
     INTERNAL_INCOMPATIBLE = 0x0604_0047, "internal incompatibility of the device";
@@ -62,9 +62,9 @@ codes! {
     MAXIMUM_BELOW_MINIMUM = 0x0609_0036, "the maximum is less than the minimum";
     NO_RESOURCE = 0x060A_0023, "a resource isn't available";
     GENERAL = 0x0800_0000, "general error";
-    CANNOT_STORE = 0x0800_0020, "the data can't be transferred or stored";
-    LOCAL_CONTROL = 0x0800_0021, "the data can't be transferred or stored because of local control";
-    DEVICE_STATE = 0x0800_0022, "the data can't be transferred or stored in the present state of the device";
+    CANNOT_STORE = 0x0800_0020, "the data cannot be transferred or stored";
+    LOCAL_CONTROL = 0x0800_0021, "the data cannot be transferred or stored because of local control";
+    DEVICE_STATE = 0x0800_0022, "the data cannot be transferred or stored in the present state of the device";
     NO_DICTIONARY = 0x0800_0023, "no object dictionary is present";
     NO_DATA = 0x0800_0024, "no data available";
 }

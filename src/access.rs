@@ -26,7 +26,7 @@ mod sealed {
 
 /// Access rights that allow reading: [`Ro`], [`Rw`] and [`Const`]. This trait is sealed.
 #[diagnostic::on_unimplemented(
-    message = "this item can't be read: its access is `{Self}`",
+    message = "this item cannot be read: its access is `{Self}`",
     label = "the device doesn't allow reading this item"
 )]
 pub trait Readable: sealed::Sealed {}
@@ -37,7 +37,7 @@ impl Readable for Const {}
 
 /// Access rights that allow writing: [`Wo`] and [`Rw`]. This trait is sealed.
 #[diagnostic::on_unimplemented(
-    message = "this item can't be written: its access is `{Self}`",
+    message = "this item cannot be written: its access is `{Self}`",
     label = "the device doesn't allow writing this item"
 )]
 pub trait Writable: sealed::Sealed {}

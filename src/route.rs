@@ -58,7 +58,7 @@ pub trait Direct<B: Bus>: Copy {
 /// A route that can read a value. Every address is a route. [`Split`], [`Resized`], [`Limited`] and [`Through`] are
 /// routes that contain other routes.
 #[diagnostic::on_unimplemented(
-    message = "this item can't be read on `{B}`",
+    message = "this item cannot be read on `{B}`",
     label = "the client's bus has no route that reads this item"
 )]
 pub trait ReadRoute<B: Bus>: Copy {
@@ -84,7 +84,7 @@ pub trait ReadRoute<B: Bus>: Copy {
 
 /// A route that can write a value.
 #[diagnostic::on_unimplemented(
-    message = "this item can't be written on `{B}`",
+    message = "this item cannot be written on `{B}`",
     label = "the client's bus has no route that writes this item"
 )]
 pub trait WriteRoute<B: Bus>: Copy {

@@ -213,7 +213,7 @@ lexibus::pdo! {
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Feedback: ::lexibus_drives::demo_drive::pdo::TxPdo2 {
         mode: modes_of_operation_display,
-        pressure: analogue_inputs::input_2,
+        pressure: analog_inputs::input_2,
     }
 }
 

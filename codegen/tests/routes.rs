@@ -109,7 +109,7 @@ fn code_of_an_image() {
     let text = rust(&table("", rows, images));
     insta::assert_snapshot!(
         "image",
-        part(&text, "pub mod objects", "Handle of a register or an entry that is read-only.")
+        part(&text, "pub mod objects", "Handle of a read-only register or entry.")
     );
     insta::assert_snapshot!("widths", part(&text, "    /// Mode.", "    /// Alarm."));
     let compilation = read(&table("", rows, images));

@@ -92,15 +92,15 @@ fn references_are_links() {
                 "    /// View of [`Control`] with the bits that are defined while [mode](super::objects::MODE) is press (1).",
                 "    /// States of ram, read from [status](super::objects::STATUS).",
                 "    /// | [`Ready`](Self::Ready) | `xxxx xxxx xxxx x001` |",
-                "    /// Physical value = raw × 0.5 / [gain](GAIN) N, 0x200C:01, Modbus 12 (holding; wire 12; FC 3), INTEGER16, read-only.",
+                "    /// Physical value = raw × 0.5 / [gain](GAIN) N, 0x200C:01, Modbus 12 (holding; wire address 12; FC 3), INTEGER16, read-only.",
                 "    /// Removed in firmware 2\\.0. Replaced by [position](POSITION_8).",
             ][..],
         ),
         (
             "tests/data/hoist.toml",
             &[
-                "    /// The message has this meaning after [Select load](messages::SelectLoad).",
-                "    /// The message has this meaning after [Select load](SelectLoad).",
+                "    /// The message has this meaning only after [Select load](messages::SelectLoad) was sent.",
+                "    /// The message has this meaning only after [Select load](SelectLoad) was sent.",
                 "    /// Replaced by [Go](messages::Go).",
                 "    /// Sends the message [`messages::Go`].",
             ],
@@ -112,7 +112,7 @@ fn references_are_links() {
         ),
         (
             "dictionaries/eco.toml",
-            &["    /// The layout is that of [`pdo::Velocity`](super::pdo::Velocity).", "    /// Constant: [`objects::P1`]. Part of [`PULSES_PER_TURN`]."],
+            &["    /// The view has the fields of [`pdo::Velocity`](super::pdo::Velocity).", "    /// Constant: [`objects::P1`]. Part of the composite number [`PULSES_PER_TURN`]."],
         ),
         (
             "dictionaries/demo-drive.eds",

@@ -508,8 +508,8 @@ fn registers_of_32_bits_have_an_address_each() {
         "rt::Register::high_first(32769, 2).words_per_address(2)",
         "rt::Register::holding(32770).words_per_address(2)",
         "rt::Register::high_first(32771, 4).words_per_address(2)",
-        "Modbus 1 (holding; wire 0x8001; FC 3; 32 bits per address; high word first), INTEGER32",
-        "Modbus 3–4 (holding; wire 0x8003–0x8004; FC 3; 32 bits per address; high word first)",
+        "Modbus 1 (holding; wire address 0x8001; FC 3; 32 bits per address; high word first), INTEGER32",
+        "Modbus 3–4 (holding; wire address 0x8003–0x8004; FC 3; 32 bits per address; high word first)",
         "readable: &[rt::modbus::Span::new(32768, 32772).words_per_address(2)],",
     ] {
         assert!(text.contains(part), "{part}\n{text}");

@@ -109,7 +109,7 @@ fn expand(call: &Call) -> syn::Result<TokenStream> {
 /// the machine.
 fn read(path: &LitStr) -> syn::Result<Source> {
     let place = absolute(&path.value());
-    let fail = |error| syn::Error::new(path.span(), format!("can't read {}: {error}", place.display()));
+    let fail = |error| syn::Error::new(path.span(), format!("cannot read {}: {error}", place.display()));
     let source = Source::read(&place).map_err(fail)?;
     let folder = place.parent().map(Path::to_owned).unwrap_or_default();
     Ok(Source::new(path.value(), source.bytes().into_owned()).in_folder(folder))
@@ -146,7 +146,7 @@ fn warnings(compilation: &Compilation, span: Span) -> Vec<TokenStream> {
 
 fn errors(compilation: &Compilation) -> String {
     if compilation.is_usable() {
-        return format!("the device description can't be used: {}", compile::NOTHING_TO_GENERATE);
+        return format!("the device description cannot be used: {}", compile::NOTHING_TO_GENERATE);
     }
     let errors = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
     let shown = errors.clone().take(MAX_SHOWN);
@@ -201,7 +201,7 @@ mod tests {
     #[test]
     fn descriptions_that_cannot_be_used_are_errors() {
         for (path, expected) in [
-            ("../no-such-file.eds", "can't read"),
+            ("../no-such-file.eds", "cannot read"),
             ("../tests/ui/codes-other/io002-unknown-format/page.html", "error[IO002]"),
             ("../tests/ui/quirks-esi/x03-messages-alone/input.xml", compile::NOTHING_TO_GENERATE),
         ] {

@@ -80,7 +80,7 @@ impl fmt::Display for AssignmentError {
                 write!(f, "sync manager {sync_manager} has {bytes} bytes of process data; the maximum is {max}")
             }
             AssignmentError::TooMany => f.write_str("too many PDOs for the assignment or for one sync manager"),
-            AssignmentError::Fixed(index) => write!(f, "the mapping of the PDO {index:#06X} can't be changed"),
+            AssignmentError::Fixed(index) => write!(f, "the mapping of the PDO {index:#06X} cannot be changed"),
         }
     }
 }

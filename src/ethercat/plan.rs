@@ -75,7 +75,7 @@ impl fmt::Display for PlanError {
             PlanError::Taken(slot) => write!(f, "slot {slot} already has a module"),
             PlanError::DoesNotFit { slot, ident } => write!(f, "slot {slot} doesn't accept module {ident:#010X}"),
             PlanError::Empty(slot) => write!(f, "slot {slot} requires a module"),
-            PlanError::TooMany { index, count } => write!(f, "object {index:#06X} can't hold {count} entries"),
+            PlanError::TooMany { index, count } => write!(f, "object {index:#06X} cannot hold {count} entries"),
             PlanError::TooLong { sync_manager, bytes, max } => {
                 write!(f, "sync manager {sync_manager} has {bytes} bytes of process data; the maximum is {max}")
             }

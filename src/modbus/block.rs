@@ -12,7 +12,7 @@ use crate::value_error::LengthError;
 /// An item that can be part of a [`Block`]: a readable [`Item`] that has a Modbus register or bit and a type of fixed
 /// size.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` can't be read in a Modbus block",
+    message = "`{Self}` cannot be read in a Modbus block",
     label = "expected a readable Modbus item of fixed size"
 )]
 pub trait BlockItem {

@@ -92,7 +92,7 @@ impl<F, D, const WORD: u32> Mapped for Mappable<F, D, WORD> {
 
 /// An object that PDOs of direction `D` can map.
 #[diagnostic::on_unimplemented(
-    message = "this object can't be mapped into a PDO of direction `{D}`",
+    message = "this object cannot be mapped into a PDO of direction `{D}`",
     label = "the device allows it only in the other direction",
     note = "the device receives an `Rpdo` and transmits a `Tpdo`"
 )]
@@ -150,7 +150,7 @@ pub struct Check<const HOLDS: bool>;
 
 /// Implemented only by [`Check<true>`](Check). Requires that the length of the entry is a multiple of the granularity.
 #[diagnostic::on_unimplemented(
-    message = "this object can't be mapped: its length is not a multiple of the granularity",
+    message = "this object cannot be mapped: its length is not a multiple of the granularity",
     label = "not a multiple of the device's mapping granularity"
 )]
 pub trait FitsGranularity {

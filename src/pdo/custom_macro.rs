@@ -21,7 +21,7 @@
 ///     /// Cyclic actual values.
 ///     pub struct Feedback: demo_drive::pdo::TxPdo2 {
 ///         /// An entry of an array, with a custom field name.
-///         pressure: analogue_inputs::input_2,
+///         pressure: analog_inputs::input_2,
 ///         position: position_actual_value,
 ///     }
 /// }
@@ -42,7 +42,7 @@
 /// the same form.
 ///
 /// A field has the name and value type of an accessor, such as `controlword`. For an entry of an array or a record,
-/// write a field name and the path of the entry: `pressure: analogue_inputs::input_2`. `_: 8` is a gap of 8 bits. On
+/// write a field name and the path of the entry: `pressure: analog_inputs::input_2`. `_: 8` is a gap of 8 bits. On
 /// EtherCAT, a gap is padding. On CANopen, it is a dummy entry (CiA 301 7.4.9.2) that the device must support.
 ///
 /// The macro keeps the attributes of the struct and its fields. Derive the traits that you need.
@@ -255,7 +255,7 @@ macro_rules! pdo {
             ::core::assert!(
                 $crate::pdo::custom::check::has_gaps(mapping),
                 ::core::concat!(
-                    "`", ::core::stringify!($name), "` has a gap `_` that can't be mapped: ",
+                    "`", ::core::stringify!($name), "` has a gap `_` that cannot be mapped: ",
                     "the device has no dummy entry of that length for this PDO"
                 )
             );

@@ -10,7 +10,7 @@ use crate::wide::{Int, Uint};
 
 /// A type that a PDO field can have: a number, a bool, an enumeration, a bit field, a time, or bytes.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` can't be a field of a PDO",
+    message = "`{Self}` cannot be a field of a PDO",
     label = "expected a type with a fixed number of bits"
 )]
 pub trait Field: Copy {

@@ -113,14 +113,14 @@ impl<C> Ax1<C> {
         self.client
     }
     /// 0x2000.
-    /// The constants of these entries are in [`objects::object_2000`].
+    /// The constants of the object's entries are in [`objects::object_2000`].
     pub fn object_2000(&mut self) -> objects::object_2000::Accessors<'_, C> {
         objects::object_2000::Accessors {
             client: &mut self.client,
         }
     }
     /// 0x2001.
-    /// The constants of these entries are in [`objects::object_2001`].
+    /// The constants of the object's entries are in [`objects::object_2001`].
     pub fn object_2001(&mut self) -> objects::object_2001::Accessors<'_, C> {
         objects::object_2001::Accessors {
             client: &mut self.client,
@@ -138,7 +138,7 @@ impl<C> Ax1<C> {
     /// Status word: state of the drive state machine and of the mode of operation.
     ///
     /// Statusword: 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
-    /// Constant: [`objects::STATUSWORD`]. Type of the value: [`Statusword`](types::Statusword). Mapped in [`ActualValues`](pdo::ActualValues), [`DriveStatus`](pdo::DriveStatus).
+    /// Constant: [`objects::STATUSWORD`]. Type of the value: [`Statusword`](types::Statusword). Mapped in [`ActualValues`](pdo::ActualValues) and [`DriveStatus`](pdo::DriveStatus).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
@@ -154,7 +154,7 @@ impl<C> Ax1<C> {
     /// Position.
     ///
     /// 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
-    /// Constant: [`objects::POSITION`]. Mapped in [`ActualValues`](pdo::ActualValues), [`DriveStatus`](pdo::DriveStatus).
+    /// Constant: [`objects::POSITION`]. Mapped in [`ActualValues`](pdo::ActualValues) and [`DriveStatus`](pdo::DriveStatus).
     pub fn position(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::POSITION.at(&mut self.client)
     }
@@ -196,12 +196,12 @@ impl<C> Ax1<C> {
         objects::TARGET_VELOCITY.at(&mut self.client)
     }
 }
-/// Named values and bits.
+/// Enumerations of named values, and bit fields with named bits.
 pub mod types {
     use ::lexibus as rt;
     /// Mode.
     ///
-    /// Type of the values of [`object_2000::MODE`](super::objects::object_2000::MODE), [`object_2001::MODE`](super::objects::object_2001::MODE).
+    /// Type of the values of [`object_2000::MODE`](super::objects::object_2000::MODE) and [`object_2001::MODE`](super::objects::object_2001::MODE).
     ///
     /// | Value | Name |
     /// |---|---|
@@ -219,7 +219,7 @@ pub mod types {
         Velocity,
         /// 4: Torque.
         Torque,
-        /// A number without a variant of its own.
+        /// A number that no other variant represents.
         Unknown(u8),
     }
     impl Mode {
@@ -298,7 +298,7 @@ pub mod types {
         CyclicSynchronousTorque,
         /// 11: cyclic synchronous torque with angle. The controller supplies the commutation angle.
         CyclicSynchronousTorqueWithAngle,
-        /// A number without a variant of its own.
+        /// A number that no other variant represents.
         Unknown(i8),
     }
     impl ModesOfOperation {
@@ -360,17 +360,17 @@ pub mod types {
     /// | 1 | [`enable_voltage`](Self::enable_voltage) |  |
     /// | 2 | [`quick_stop`](Self::quick_stop) | 0 commands a quick stop. Active low: the flag is true if the bit is 0. |
     /// | 3 | [`enable_operation`](Self::enable_operation) |  |
-    /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | Rising edge: the drive accepts the target position. The device reacts to the rising edge. |
+    /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | A rising edge makes the drive accept the target position. The device reacts to the rising edge. |
     /// | 4 | [`in_velocity().enable_ramp()`](ControlwordInVelocity::enable_ramp) |  |
-    /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | 1 starts homing, 0 aborts it. |
+    /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | 1 starts homing; 0 aborts homing. |
     /// | 4 | [`in_interpolated_position().enable_interpolation()`](ControlwordInInterpolatedPosition::enable_interpolation) |  |
-    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlwordInProfilePosition::change_set_immediately) | 1: the new set-point replaces the active one; 0: the active one is completed first. |
+    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlwordInProfilePosition::change_set_immediately) | 1: the new set-point replaces the active set-point; 0: the move to the active set-point is … |
     /// | 5 | [`in_velocity().unlock_ramp()`](ControlwordInVelocity::unlock_ramp) |  |
-    /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | 1: the target position is relative; 0: it is absolute. |
+    /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | 1: the target position is relative; 0: the target position is absolute. |
     /// | 6 | [`in_velocity().reference_ramp()`](ControlwordInVelocity::reference_ramp) |  |
     /// | 7 | [`fault_reset`](Self::fault_reset) | The device reacts to the rising edge. |
     /// | 8 | [`halt`](Self::halt) | 1 stops the axis with the reaction of the halt option code (0x605D). |
-    /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the previous target at the profile velocity, then moves to the new one. |
+    /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the previous target at the profile velocity, then moves to the new target. |
     /// | 10 | reserved | The value 0 is written. |
     /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
@@ -505,7 +505,7 @@ pub mod types {
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
-        /// Bit 4: new set-point. The device reacts to the rising edge. Rising edge: the drive accepts the target position.
+        /// Bit 4: new set-point. The device reacts to the rising edge. A rising edge makes the drive accept the target position.
         pub const fn new_set_point(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
@@ -514,7 +514,7 @@ pub mod types {
         pub const fn with_new_set_point(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
-        /// Bit 5: change set immediately. 1: the new set-point replaces the active one; 0: the active one is completed first.
+        /// Bit 5: change set immediately. 1: the new set-point replaces the active set-point; 0: the move to the active set-point is completed first.
         pub const fn change_set_immediately(self) -> bool {
             rt::bits16::flag(self.0, 0x20)
         }
@@ -523,7 +523,7 @@ pub mod types {
         pub const fn with_change_set_immediately(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
-        /// Bit 6: relative. 1: the target position is relative; 0: it is absolute.
+        /// Bit 6: relative. 1: the target position is relative; 0: the target position is absolute.
         pub const fn relative(self) -> bool {
             rt::bits16::flag(self.0, 0x40)
         }
@@ -532,7 +532,7 @@ pub mod types {
         pub const fn with_relative(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
-        /// Bit 9: change on set-point. 1: the axis passes the previous target at the profile velocity, then moves to the new one.
+        /// Bit 9: change on set-point. 1: the axis passes the previous target at the profile velocity, then moves to the new target.
         pub const fn change_on_set_point(self) -> bool {
             rt::bits16::flag(self.0, 0x200)
         }
@@ -586,7 +586,7 @@ pub mod types {
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
-        /// Bit 4: homing start. 1 starts homing, 0 aborts it.
+        /// Bit 4: homing start. 1 starts homing; 0 aborts homing.
         pub const fn homing_start(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
@@ -632,7 +632,7 @@ pub mod types {
     /// | 7 | [`warning`](Self::warning) |  |
     /// | 8 | [`manufacturer_specific_8`](Self::manufacturer_specific_8) | manufacturer specific. |
     /// | 9 | [`remote`](Self::remote) | The drive executes the commands of the control word. |
-    /// | 10 | [`target_reached`](Self::target_reached) | The axis has reached its target; in the cyclic modes the bit is reserved or toggles in each cycle. |
+    /// | 10 | [`target_reached`](Self::target_reached) | The axis has reached its target. In the cyclic modes, the bit is reserved or toggles in each cycle. |
     /// | 11 | [`internal_limit_active`](Self::internal_limit_active) | An internal limit prevents the drive from following the set-point. |
     /// | 12 | [`in_profile_position().set_point_acknowledge()`](StatuswordInProfilePosition::set_point_acknowledge) |  |
     /// | 12 | [`in_profile_velocity().speed_zero()`](StatuswordInProfileVelocity::speed_zero) |  |
@@ -751,7 +751,7 @@ pub mod types {
         pub const fn with_remote(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
-        /// Bit 10: target reached. The axis has reached its target; in the cyclic modes the bit is reserved or toggles in each cycle.
+        /// Bit 10: target reached. The axis has reached its target. In the cyclic modes, the bit is reserved or toggles in each cycle.
         pub const fn target_reached(self) -> bool {
             rt::bits16::flag(self.0, 0x400)
         }
@@ -1229,7 +1229,7 @@ pub mod types {
         }
     }
     impl Controlword {
-        /// Returns a copy in which `command` has set and cleared its bits.
+        /// Returns a copy that encodes `command`. All bits outside the mask of the command are unchanged.
         #[must_use]
         pub const fn with_command(self, command: Command) -> Self {
             Self((self.0 & !command.mask()) | command.value())
@@ -1531,7 +1531,7 @@ pub mod codes {
         rt::codes::Code::new(
             0x8230,
             0x8230,
-            "destination of a multiplexed PDO doesn't exist",
+            "destination of a multiplexed PDO does not exist",
             "",
             &[],
         ),
@@ -1574,7 +1574,7 @@ pub mod codes {
     /// | 0x8200 | [`Protocol`](Self::Protocol) |  |
     /// | 0x8210 | [`PdoTooShort`](Self::PdoTooShort) | The PDO was shorter than its mapping, and was not processed. |
     /// | 0x8220 | [`PdoTooLong`](Self::PdoTooLong) | The PDO was longer than its mapping. |
-    /// | 0x8230 | [`DestinationOfAMultiplexedPdoDoesnTExist`](Self::DestinationOfAMultiplexedPdoDoesnTExist) | destination of a multiplexed PDO doesn't exist. |
+    /// | 0x8230 | [`DestinationOfAMultiplexedPdoDoesNotExist`](Self::DestinationOfAMultiplexedPdoDoesNotExist) |  |
     /// | 0x8240 | [`SyncOfAnotherLength`](Self::SyncOfAnotherLength) |  |
     /// | 0x8250 | [`RpdoTimeout`](Self::RpdoTimeout) |  |
     /// | 0x9000 to 0x90FF | [`ExternalError`](Self::ExternalError) |  |
@@ -1640,8 +1640,8 @@ pub mod codes {
         PdoTooShort,
         /// 0x8220: PDO too long. The PDO was longer than its mapping.
         PdoTooLong,
-        /// 0x8230: destination of a multiplexed PDO doesn't exist.
-        DestinationOfAMultiplexedPdoDoesnTExist,
+        /// 0x8230: destination of a multiplexed PDO does not exist.
+        DestinationOfAMultiplexedPdoDoesNotExist,
         /// 0x8240: SYNC of another length.
         SyncOfAnotherLength,
         /// 0x8250: RPDO timeout.
@@ -1691,7 +1691,7 @@ pub mod codes {
                 0x8200 => Self::Protocol,
                 0x8210 => Self::PdoTooShort,
                 0x8220 => Self::PdoTooLong,
-                0x8230 => Self::DestinationOfAMultiplexedPdoDoesnTExist,
+                0x8230 => Self::DestinationOfAMultiplexedPdoDoesNotExist,
                 0x8240 => Self::SyncOfAnotherLength,
                 0x8250 => Self::RpdoTimeout,
                 0x9000..=0x90FF => Self::ExternalError(code),
@@ -1731,7 +1731,7 @@ pub mod codes {
                 Self::Protocol => 0x8200,
                 Self::PdoTooShort => 0x8210,
                 Self::PdoTooLong => 0x8220,
-                Self::DestinationOfAMultiplexedPdoDoesnTExist => 0x8230,
+                Self::DestinationOfAMultiplexedPdoDoesNotExist => 0x8230,
                 Self::SyncOfAnotherLength => 0x8240,
                 Self::RpdoTimeout => 0x8250,
                 Self::ExternalError(code) => code,
@@ -1745,9 +1745,9 @@ pub mod codes {
 /// A handle for every entry of the object dictionary.
 pub mod objects {
     use ::lexibus as rt;
-    /// Handle of an entry that is read-only.
+    /// Handle of a read-only entry.
     pub type ReadOnly<V> = rt::Item<V, rt::Ro, rt::OnCoE>;
-    /// Handle of an entry that is read-write.
+    /// Handle of a read-write entry.
     pub type ReadWrite<V> = rt::Item<V, rt::Rw, rt::OnCoE>;
     type ReadOnlyBool = ReadOnly<bool>;
     type ReadOnlyI16 = ReadOnly<i16>;
@@ -1762,9 +1762,9 @@ pub mod objects {
     type ReadWriteI32 = ReadWrite<i32>;
     type ReadWriteNamedControlword = ReadWrite<super::types::Controlword>;
     type ReadWriteNamedModesOfOperation = ReadWrite<super::types::ModesOfOperation>;
-    /// Access to an entry that is read-only.
+    /// Accessor of a read-only entry.
     pub type ReadOnlyAccess<'c, C, V> = rt::Accessor<'c, C, V, rt::Ro, rt::OnCoE>;
-    /// Access to an entry that is read-write.
+    /// Accessor of a read-write entry.
     pub type ReadWriteAccess<'c, C, V> = rt::Accessor<'c, C, V, rt::Rw, rt::OnCoE>;
     /// 0x2000.
     ///
@@ -1855,7 +1855,7 @@ pub mod objects {
             "Speed",
             rt::Flags::TPDO,
         );
-        /// Access to the entries of 0x2000.
+        /// Accessors of the entries of 0x2000.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -1954,7 +1954,7 @@ pub mod objects {
             "Current",
             rt::Flags::TPDO,
         );
-        /// Access to the entries of 0x2001.
+        /// Accessors of the entries of 0x2001.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -2005,7 +2005,7 @@ pub mod objects {
     /// Statusword.
     ///
     /// 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
-    /// Accessor: [`statusword`](super::Ax1::statusword). Type of the value: [`Statusword`](super::types::Statusword). Mapped in [`ActualValues`](super::pdo::ActualValues), [`DriveStatus`](super::pdo::DriveStatus).
+    /// Accessor: [`statusword`](super::Ax1::statusword). Type of the value: [`Statusword`](super::types::Statusword). Mapped in [`ActualValues`](super::pdo::ActualValues) and [`DriveStatus`](super::pdo::DriveStatus).
     ///
     /// Status word: state of the drive state machine and of the mode of operation.
     ///
@@ -2039,7 +2039,7 @@ pub mod objects {
     /// Position.
     ///
     /// 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
-    /// Accessor: [`position`](super::Ax1::position). Mapped in [`ActualValues`](super::pdo::ActualValues), [`DriveStatus`](super::pdo::DriveStatus).
+    /// Accessor: [`position`](super::Ax1::position). Mapped in [`ActualValues`](super::pdo::ActualValues) and [`DriveStatus`](super::pdo::DriveStatus).
     ///
     /// Access rights from the rule for objects that only a PDO describes.
     pub const POSITION: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
@@ -2178,7 +2178,7 @@ pub mod pdo {
         ///
         /// # Errors
         ///
-        /// Fails if `data` has fewer bytes than the PDO.
+        /// Returns an error if `data` has fewer bytes than the PDO.
         #[inline]
         pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
             let Some(data) = data.first_chunk::<14>() else {
@@ -2269,7 +2269,7 @@ pub mod pdo {
         ///
         /// # Errors
         ///
-        /// Fails if `data` has fewer bytes than the PDO.
+        /// Returns an error if `data` has fewer bytes than the PDO.
         #[inline]
         pub const fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
             let Some(data) = data.first_chunk::<6>() else {
@@ -2366,7 +2366,7 @@ pub mod pdo {
         ///
         /// # Errors
         ///
-        /// Fails if `data` has fewer bytes than the PDO.
+        /// Returns an error if `data` has fewer bytes than the PDO.
         #[inline]
         pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
             let Some(data) = data.first_chunk::<12>() else {
@@ -2436,7 +2436,7 @@ pub mod pdo {
         ///
         /// # Errors
         ///
-        /// Fails if `data` has fewer bytes than the PDO.
+        /// Returns an error if `data` has fewer bytes than the PDO.
         #[inline]
         pub const fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
             let Some(data) = data.first_chunk::<8>() else {
@@ -2476,7 +2476,7 @@ pub mod view {
     use ::lexibus as rt;
     /// RxPDO 0x1600: Set points.
     ///
-    /// The layout is that of [`pdo::SetPoints`](super::pdo::SetPoints).
+    /// The view has the fields of [`pdo::SetPoints`](super::pdo::SetPoints).
     pub struct SetPoints<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -2486,7 +2486,7 @@ pub mod view {
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the end of the PDO.
+        /// Returns an error if `data` ends before the end of the PDO.
         #[inline]
         pub fn new(data: B) -> Result<Self, rt::LengthError> {
             Self::at(data, 0)
@@ -2495,7 +2495,7 @@ pub mod view {
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the end of the PDO.
+        /// Returns an error if `data` ends before the end of the PDO.
         #[inline]
         pub fn at(data: B, bit: usize) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(112))?;
@@ -2565,7 +2565,7 @@ pub mod view {
     }
     /// TxPDO 0x1A00: Encoder.
     ///
-    /// The layout is that of [`pdo::Encoder`](super::pdo::Encoder).
+    /// The view has the fields of [`pdo::Encoder`](super::pdo::Encoder).
     pub struct Encoder<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -2575,7 +2575,7 @@ pub mod view {
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the end of the PDO.
+        /// Returns an error if `data` ends before the end of the PDO.
         #[inline]
         pub fn new(data: B) -> Result<Self, rt::LengthError> {
             Self::at(data, 0)
@@ -2584,7 +2584,7 @@ pub mod view {
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the end of the PDO.
+        /// Returns an error if `data` ends before the end of the PDO.
         #[inline]
         pub fn at(data: B, bit: usize) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
@@ -2667,7 +2667,7 @@ pub mod view {
     }
     /// TxPDO 0x1A01: Actual values.
     ///
-    /// The layout is that of [`pdo::ActualValues`](super::pdo::ActualValues).
+    /// The view has the fields of [`pdo::ActualValues`](super::pdo::ActualValues).
     pub struct ActualValues<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -2677,7 +2677,7 @@ pub mod view {
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the end of the PDO.
+        /// Returns an error if `data` ends before the end of the PDO.
         #[inline]
         pub fn new(data: B) -> Result<Self, rt::LengthError> {
             Self::at(data, 0)
@@ -2686,7 +2686,7 @@ pub mod view {
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the end of the PDO.
+        /// Returns an error if `data` ends before the end of the PDO.
         #[inline]
         pub fn at(data: B, bit: usize) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(96))?;
@@ -2761,7 +2761,7 @@ pub mod view {
     }
     /// TxPDO 0x1A02: Drive status.
     ///
-    /// The layout is that of [`pdo::DriveStatus`](super::pdo::DriveStatus).
+    /// The view has the fields of [`pdo::DriveStatus`](super::pdo::DriveStatus).
     pub struct DriveStatus<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -2771,7 +2771,7 @@ pub mod view {
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the end of the PDO.
+        /// Returns an error if `data` ends before the end of the PDO.
         #[inline]
         pub fn new(data: B) -> Result<Self, rt::LengthError> {
             Self::at(data, 0)
@@ -2780,7 +2780,7 @@ pub mod view {
         ///
         /// # Errors
         ///
-        /// Fails if `data` ends before the end of the PDO.
+        /// Returns an error if `data` ends before the end of the PDO.
         #[inline]
         pub fn at(data: B, bit: usize) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(64))?;
@@ -2847,7 +2847,7 @@ pub mod image {
         ///
         /// # Errors
         ///
-        /// Fails if `data` has fewer bytes than the image.
+        /// Returns an error if `data` has fewer bytes than the image.
         #[inline]
         pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data, 112)?;
@@ -2868,7 +2868,7 @@ pub mod image {
         ///
         /// # Errors
         ///
-        /// Fails if `data` has fewer bytes than the image.
+        /// Returns an error if `data` has fewer bytes than the image.
         #[inline]
         pub fn new(data: B) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data.as_ref(), 112)?;
@@ -2918,7 +2918,7 @@ pub mod image {
         ///
         /// # Errors
         ///
-        /// Fails if `data` has fewer bytes than the image.
+        /// Returns an error if `data` has fewer bytes than the image.
         #[inline]
         pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data, 144)?;
@@ -2942,7 +2942,7 @@ pub mod image {
         ///
         /// # Errors
         ///
-        /// Fails if `data` has fewer bytes than the image.
+        /// Returns an error if `data` has fewer bytes than the image.
         #[inline]
         pub fn new(data: B) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data.as_ref(), 144)?;

@@ -165,7 +165,7 @@ pub mod submodules {
         };
         /// Inputs: data from the device to the controller.
         ///
-        /// 4 bytes of user data, all of which are consistent.
+        /// 4 bytes of user data, consistent as a whole.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|
@@ -193,7 +193,7 @@ pub mod submodules {
             ///
             /// # Errors
             ///
-            /// Fails if `data` has fewer bytes than the user data.
+            /// Returns an error if `data` has fewer bytes than the user data.
             #[inline]
             pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
                 let view = InputsView::new(data)?;
@@ -223,7 +223,7 @@ pub mod submodules {
             ///
             /// # Errors
             ///
-            /// Fails if `data` has fewer bytes than the user data.
+            /// Returns an error if `data` has fewer bytes than the user data.
             #[inline]
             pub const fn new(data: &'a [u8]) -> Result<Self, rt::LengthError> {
                 match rt::profinet::be::chunk(data) {
@@ -244,7 +244,7 @@ pub mod submodules {
         }
         /// Outputs: data from the controller to the device.
         ///
-        /// 4 bytes of user data, all of which are consistent.
+        /// 4 bytes of user data, consistent as a whole.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|
@@ -273,7 +273,7 @@ pub mod submodules {
             ///
             /// # Errors
             ///
-            /// Fails if `data` has fewer bytes than the user data.
+            /// Returns an error if `data` has fewer bytes than the user data.
             #[inline]
             pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
                 let view = OutputsView::new(data)?;
@@ -303,7 +303,7 @@ pub mod submodules {
             ///
             /// # Errors
             ///
-            /// Fails if `data` has fewer bytes than the user data.
+            /// Returns an error if `data` has fewer bytes than the user data.
             #[inline]
             pub const fn new(data: &'a [u8]) -> Result<Self, rt::LengthError> {
                 match rt::profinet::be::chunk(data) {
@@ -329,7 +329,7 @@ pub mod submodules {
             ///
             /// # Errors
             ///
-            /// Fails if `data` has fewer bytes than the user data.
+            /// Returns an error if `data` has fewer bytes than the user data.
             #[inline]
             pub fn new(data: &'a mut [u8]) -> Result<Self, rt::LengthError> {
                 Ok(Self(rt::profinet::be::chunk_mut(data)?))
@@ -372,7 +372,7 @@ pub mod submodules {
         };
         /// Inputs: data from the device to the controller.
         ///
-        /// 18 bytes of user data, all of which are consistent.
+        /// 18 bytes of user data, consistent as a whole.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|
@@ -428,7 +428,7 @@ pub mod submodules {
             ///
             /// # Errors
             ///
-            /// Fails if `data` has fewer bytes than the user data.
+            /// Returns an error if `data` has fewer bytes than the user data.
             #[inline]
             pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
                 let view = InputsView::new(data)?;
@@ -465,7 +465,7 @@ pub mod submodules {
             ///
             /// # Errors
             ///
-            /// Fails if `data` has fewer bytes than the user data.
+            /// Returns an error if `data` has fewer bytes than the user data.
             #[inline]
             pub const fn new(data: &'a [u8]) -> Result<Self, rt::LengthError> {
                 match rt::profinet::be::chunk(data) {
@@ -521,7 +521,7 @@ pub mod submodules {
         }
         /// Outputs: data from the controller to the device.
         ///
-        /// 10 bytes of user data, all of which are consistent.
+        /// 10 bytes of user data, consistent as a whole.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|
@@ -586,7 +586,7 @@ pub mod submodules {
             ///
             /// # Errors
             ///
-            /// Fails if `data` has fewer bytes than the user data.
+            /// Returns an error if `data` has fewer bytes than the user data.
             #[inline]
             pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
                 let view = OutputsView::new(data)?;
@@ -625,7 +625,7 @@ pub mod submodules {
             ///
             /// # Errors
             ///
-            /// Fails if `data` has fewer bytes than the user data.
+            /// Returns an error if `data` has fewer bytes than the user data.
             #[inline]
             pub const fn new(data: &'a [u8]) -> Result<Self, rt::LengthError> {
                 match rt::profinet::be::chunk(data) {
@@ -696,7 +696,7 @@ pub mod submodules {
             ///
             /// # Errors
             ///
-            /// Fails if `data` has fewer bytes than the user data.
+            /// Returns an error if `data` has fewer bytes than the user data.
             #[inline]
             pub fn new(data: &'a mut [u8]) -> Result<Self, rt::LengthError> {
                 Ok(Self(rt::profinet::be::chunk_mut(data)?))

@@ -16,8 +16,8 @@ const FOUND = [
   ["hsd-sm137-sm140/index.html", "low_level maximum current V", /^low_level 0x0005 KIQDLIMAX V · HSD Motor$/, "hsd-sm137-sm140/low-level-parameters.html#KIQDLIMAX"],
   ["hsd-sm137-sm140/index.html", "overheated", /^0x0001 overheated ALOVERHEATED/, "hsd-sm137-sm140/codes.html#alarm-0x0001"],
   // The next texts are codes as printed in the manual or in one of its cells, and register numbers that the manual prints next to an index.
-  ["kollmorgen-akd/index.html", "F125", /^F125 synchronisation lost/, "kollmorgen-akd/codes.html#faults-F125"],
-  ["eco/index.html", "0x8700 synchronisation", /^34 synchronisation timed out/, "eco/codes.html#ethercat_alarms-34"],
+  ["kollmorgen-akd/index.html", "F125", /^F125 synchronization lost/, "kollmorgen-akd/codes.html#faults-F125"],
+  ["eco/index.html", "0x8700 synchronization", /^34 synchronization timed out/, "eco/codes.html#ethercat_alarms-34"],
   ["aec-vector-step/index.html", "register 63", /^register 63–64 Rvel/, "aec-vector-step/motion-parameters.html#Rvel"],
   ["eco/index.html", "32848", /^register R80 \(wire 0x8050\) mechatronic_80/, "eco/registers.html#mechatronic_80"],
   ["eco/index.html", "0x8050", /^register R80 \(wire 0x8050\) mechatronic_80/, "eco/registers.html#mechatronic_80"],

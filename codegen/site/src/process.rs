@@ -112,12 +112,12 @@ fn pdo(pdo: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
         facts.extend(communication.inhibit_time.map(|inhibit_time| format!("Inhibit time {inhibit_time} × 100 µs.")));
         facts.extend(communication.event_timer.map(|event_timer| format!("Event timer {event_timer} ms.")));
     }
-    facts.extend(pdo.fixed.then(|| "Its mapping can't be changed.".to_owned()));
+    facts.extend(pdo.fixed.then(|| "Its mapping cannot be changed.".to_owned()));
     facts.extend(pdo.mandatory.then(|| "It has to be assigned.".to_owned()));
     facts.extend(pdo.sync_manager.map(|number| format!("Assigned to sync manager {number} by default.")));
     if !pdo.excludes.is_empty() {
         let others: Vec<String> = pdo.excludes.iter().map(|index| hex16(*index)).collect();
-        facts.push(format!("Can't be assigned together with {}.", others.join(", ")));
+        facts.push(format!("Cannot be assigned together with {}.", others.join(", ")));
     }
     Frame {
         anchor: index,

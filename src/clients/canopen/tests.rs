@@ -226,7 +226,7 @@ fn reads_are_in_step_again_after_a_late_answer() {
     // The node replies neither to the request nor to the abort. Later, it sends both replies at once.
     let mut node = scripted([&[], &[], &[&one, &two], &[&three]]);
     assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
-    assert_eq!(SPEED.at(&mut node).read(), Ok(1), "a late reply can't be distinguished from this reply");
+    assert_eq!(SPEED.at(&mut node).read(), Ok(1), "a late reply cannot be distinguished from this reply");
     assert_eq!(SPEED.at(&mut node).read(), Ok(3));
 }
 

@@ -47,7 +47,7 @@ fn lists_of_the_device_have_room_for_255() {
     }
     assert_eq!(room_for(0xF030, 255), Ok(()));
     let many = room_for(0xF030, 256).unwrap_err();
-    assert_eq!(std::format!("{many}"), "object 0xF030 can't hold 256 entries");
+    assert_eq!(std::format!("{many}"), "object 0xF030 cannot hold 256 entries");
 }
 
 #[test]

@@ -142,13 +142,13 @@ macro_rules! numbers {
 
 numbers! {
     NO_PARAMETER = 0x00, "there is no such parameter";
-    NOT_CHANGEABLE = 0x01, "the value can't be changed";
+    NOT_CHANGEABLE = 0x01, "the value cannot be changed";
     LIMITS = 0x02, "the value is beyond a limit";
     NO_SUBINDEX = 0x03, "there is no such subindex";
     NO_ARRAY = 0x04, "the parameter is no array";
     DATA_TYPE = 0x05, "wrong data type";
     RESET_ONLY = 0x06, "the value can only be reset to 0";
-    DESCRIPTION_NOT_CHANGEABLE = 0x07, "the element of the description can't be changed";
+    DESCRIPTION_NOT_CHANGEABLE = 0x07, "the element of the description cannot be changed";
     NO_DESCRIPTION = 0x09, "there is no description";
     NO_RIGHT = 0x0B, "no right to change parameters";
     NO_TEXT = 0x0F, "there is no text";
@@ -159,7 +159,7 @@ numbers! {
     FORMAT = 0x17, "the format isn't allowed";
     VALUE_COUNT = 0x18, "the number of values isn't the number of elements";
     NO_AXIS = 0x19, "there is no such axis";
-    TEXT_NOT_CHANGEABLE = 0x20, "the text can't be changed";
+    TEXT_NOT_CHANGEABLE = 0x20, "the text cannot be changed";
 }
 
 impl fmt::Display for ErrorNumber {

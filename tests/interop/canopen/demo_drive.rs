@@ -33,7 +33,7 @@ fn parameters_of_the_drive() -> Result<(), Error> {
     script.set(0x2000, 0, json!(42.5));
     assert_eq!(drive.motor_temperature().read()?, 42.5);
     script.set(0x2010, 2, json!(-1234));
-    assert_eq!(drive.analogue_inputs().input_2().read()?, -1234);
+    assert_eq!(drive.analog_inputs().input_2().read()?, -1234);
     script.set(0x2020, 0, json!(-0x12_3456));
     assert_eq!(drive.encoder_counts().read()?, -0x12_3456);
     Ok(())

@@ -21,7 +21,7 @@
             0x01,
             "First",
         );
-        /// Access to the entries of Speeds: 0x2000.
+        /// Accessors of the entries of Speeds: 0x2000.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }

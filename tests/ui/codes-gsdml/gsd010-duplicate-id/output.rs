@@ -1,6 +1,6 @@
         /// Inputs: data from the device to the controller.
         ///
-        /// 2 bytes of user data, with consistency only within each item.
+        /// 2 bytes of user data, consistent only within each data item.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|

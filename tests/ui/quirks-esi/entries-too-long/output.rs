@@ -75,7 +75,7 @@ pub mod pdo {
         ///
         /// # Errors
         ///
-        /// Fails if `data` has fewer bytes than the PDO.
+        /// Returns an error if `data` has fewer bytes than the PDO.
         #[inline]
         pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
             let Some(data) = data.first_chunk::<8192>() else {
@@ -111,7 +111,7 @@ pub mod pdo {
         ///
         /// # Errors
         ///
-        /// Fails if `data` has fewer bytes than the image.
+        /// Returns an error if `data` has fewer bytes than the image.
         #[inline]
         pub fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
             rt::bits::check_length(data, 131071)?;

@@ -1,4 +1,4 @@
-    /// Named values.
+    /// Enumerations of named values.
     pub mod types {
         use ::lexibus as rt;
         /// DT0800EN08.
@@ -12,7 +12,7 @@
         pub enum Dt0800En08 {
             /// 0: Off.
             Off,
-            /// A number without a variant of its own.
+            /// A number that no other variant represents.
             Unknown(u8),
         }
         impl Dt0800En08 {
@@ -41,11 +41,11 @@
             }
         }
     }
-    /// Named values.
+    /// Enumerations of named values.
     pub mod types {
         pub use super::super::d1::types::Dt0800En08;
     }
-    /// Named values.
+    /// Enumerations of named values.
     pub mod types {
         use ::lexibus as rt;
         /// DT0800EN08.
@@ -59,7 +59,7 @@
         pub enum Dt0800En08 {
             /// 0: Stopped.
             Stopped,
-            /// A number without a variant of its own.
+            /// A number that no other variant represents.
             Unknown(u8),
         }
         impl Dt0800En08 {
@@ -88,7 +88,7 @@
             }
         }
     }
-    /// Named values.
+    /// Enumerations of named values.
     pub mod types {
         pub use super::super::d3::types::Dt0800En08;
     }

@@ -12,7 +12,7 @@
         Off,
         /// 16: On.
         On,
-        /// A number without a variant of its own.
+        /// A number that no other variant represents.
         Unknown(u8),
     }
     /// Mode.

@@ -49,7 +49,7 @@
             pub enum Filter {
                 /// 5: Slow.
                 Slow,
-                /// A number without a variant of its own.
+                /// A number that no other variant represents.
                 Unknown(u8),
             }
             /// Filter.

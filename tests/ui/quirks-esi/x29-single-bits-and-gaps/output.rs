@@ -43,7 +43,7 @@
         ///
         /// # Errors
         ///
-        /// Fails if `data` has fewer bytes than the PDO.
+        /// Returns an error if `data` has fewer bytes than the PDO.
         #[inline]
         pub const fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
             let Some(data) = data.first_chunk::<6>() else {

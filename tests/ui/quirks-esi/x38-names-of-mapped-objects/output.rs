@@ -21,7 +21,7 @@
     }
     /// RxPDO 0x1600: Outputs.
     ///
-    /// The layout is that of [`pdo::Outputs`](super::pdo::Outputs).
+    /// The view has the fields of [`pdo::Outputs`](super::pdo::Outputs).
     pub struct Outputs<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -56,7 +56,7 @@
     }
     /// TxPDO 0x1A00: Inputs.
     ///
-    /// The layout is that of [`pdo::Inputs`](super::pdo::Inputs).
+    /// The view has the fields of [`pdo::Inputs`](super::pdo::Inputs).
     pub struct Inputs<B> {
         pub(super) data: B,
         pub(super) bit: usize,

@@ -2,7 +2,7 @@
             ///
             /// # Errors
             ///
-            /// Fails if a field has a value that the device does not allow.
+            /// Returns an error if a field has a value that the device does not allow.
             #[allow(clippy::approx_constant)]
             pub fn check(&self) -> Result<(), rt::profinet::NotAllowed> {
                 rt::profinet::check("List", self.list, &[(0, 0), (1, 1), (3, 3)])?;

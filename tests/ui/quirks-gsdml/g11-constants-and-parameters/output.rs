@@ -17,7 +17,7 @@
             /// Index of the record.
             pub const INDEX: u16 = 0x000A;
             const INDEX: u16 = Self::INDEX;
-            /// Position among the start-up records of the submodule; 0 means any position.
+            /// Position of the record among the start-up records of the submodule; 0 means any position.
             pub const TRANSFER_SEQUENCE: u16 = 0;
             const TRANSFER_SEQUENCE: u16 = Self::TRANSFER_SEQUENCE;
             /// Default content of the record.

@@ -1,6 +1,6 @@
         /// Inputs: data from the device to the controller.
         ///
-        /// 6 bytes of user data, with consistency only within each item, followed by an F message trailer of 4 bytes.
+        /// 6 bytes of user data, consistent only within each data item, followed by an F-message trailer of 4 bytes.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|

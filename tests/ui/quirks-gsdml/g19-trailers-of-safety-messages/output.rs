@@ -1,6 +1,6 @@
         /// Inputs: data from the device to the controller.
         ///
-        /// 2 bytes of user data, all of which are consistent, followed by an F message trailer of 4 bytes.
+        /// 2 bytes of user data, consistent as a whole, followed by an F-message trailer of 4 bytes.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|
@@ -12,7 +12,7 @@
         }
         /// Inputs: data from the device to the controller.
         ///
-        /// 2 bytes of user data, all of which are consistent, followed by an F message trailer of 5 bytes.
+        /// 2 bytes of user data, consistent as a whole, followed by an F-message trailer of 5 bytes.
         ///
         /// | Position | Field | Type |
         /// |---|---|---|

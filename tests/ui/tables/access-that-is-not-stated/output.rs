@@ -1,11 +1,11 @@
     /// Gain.
     ///
-    /// Modbus 0 (holding; wire 0; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Modbus 0 (holding; wire address 0; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Accessor: [`gain`](super::Press::gain).
     ///
     /// Gain of the speed controller.
     ///
-    /// Access rights assumed: read-write. The manual states no access rights.
+    /// The access rights (read-write) are an assumption, because the manual states none.
     ///
     /// Chapter: Movement.
     pub const GAIN: ReadWrite<u16> = ReadWriteU16::register(
@@ -15,14 +15,14 @@
     );
     /// Gain of the speed controller.
     ///
-    /// Gain: Modbus 0 (holding; wire 0; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Gain: Modbus 0 (holding; wire address 0; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::GAIN`].
     pub fn gain(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::GAIN.at(&mut self.client)
     }
     /// Speed.
     ///
-    /// Modbus 1 (holding; wire 1; FC 3), UNSIGNED16, read-only.
+    /// Modbus 1 (holding; wire address 1; FC 3), UNSIGNED16, read-only.
     /// Accessor: [`speed`](super::Press::speed).
     ///
     /// Actual speed.

@@ -1,6 +1,6 @@
     /// Speed.
     ///
-    /// Modbus 0 (holding; wire 0; FC 3/6/16), UNSIGNED16, read-write.
+    /// Modbus 0 (holding; wire address 0; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`speed`](super::Press::speed).
     ///
     /// Speed of the slide.
@@ -13,7 +13,7 @@
     );
     /// Mode.
     ///
-    /// Modbus 1 (holding; wire 1; FC 3/6/16), UNSIGNED16, read-write.
+    /// Modbus 1 (holding; wire address 1; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`mode`](super::Press::mode).
     ///
     /// Mode of operation.

@@ -18,7 +18,7 @@
         ///
         /// Second reserve.
         ///
-        /// Description derived from the printed name. Manual, page 8.
+        /// Description derived from the name in the manual. Manual, page 8.
         pub const RESERVE_2: super::ReadOnly<i16> = super::ReadOnlyI16::object(
             0x2000,
             0x02,

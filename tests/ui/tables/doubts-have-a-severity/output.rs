@@ -1,6 +1,6 @@
     /// Torque.
     ///
-    /// 1 LSB = 0.1 Nm, Modbus 0 (holding; wire 0; FC 3/6/16), INTEGER16, read-write.
+    /// 1 LSB = 0.1 Nm, Modbus 0 (holding; wire address 0; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`torque`](super::Press::torque).
     ///
     /// Torque limit.

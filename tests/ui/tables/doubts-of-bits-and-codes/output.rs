@@ -2,7 +2,7 @@
     ///
     /// 0 V is low.
     ///
-    /// Hazard: 0: Whether an edge starts the press is not printed. Assumed: the level (nothing says otherwise). Manual, page 4.
+    /// Hazard for 0: Whether an edge starts the press is not printed. Assumed: the level (nothing says otherwise). Manual, page 4.
     ///
     /// Note: The order of the bits is not printed. Assumed: bit 0 first (all tables begin so). Manual, page 3.
     ///
@@ -15,7 +15,7 @@
     pub struct Control(u16);
     /// Mode.
     ///
-    /// Note: 0: 0 and 00. Assumed: 0 (both are the same). Manual, page 5.
+    /// Note for 0: 0 and 00. Assumed: 0 (both are the same). Manual, page 5.
     ///
     /// Type of the values of [`MODE`](super::objects::MODE).
     ///
@@ -26,12 +26,12 @@
     pub enum Mode {
         /// 0: off.
         Off,
-        /// A number without a variant of its own.
+        /// A number that no other variant represents.
         Unknown(u16),
     }
     /// alarms.
     ///
-    /// Note: 0x1: Door and gate. Assumed: door (the figure shows a door). Manual, page 6.
+    /// Note for 0x1: Door and gate. Assumed: door (the figure shows a door). Manual, page 6.
     ///
     /// The codes have the type [`Alarms`].
     pub static ALARMS: &[rt::codes::Code] = &[

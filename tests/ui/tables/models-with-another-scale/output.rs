@@ -12,10 +12,10 @@
             );
     /// Level.
     ///
-    /// 1 LSB = 0.1 °C, range -2.0 … 200.0 °C (raw \-20 … 2000), default 5.0 °C (raw 50), Modbus 0 (holding; wire 0; FC 3/6/16), INTEGER16, read-write.
+    /// 1 LSB = 0.1 °C, range -2.0 … 200.0 °C (raw \-20 … 2000), default 5.0 °C (raw 50), Modbus 0 (holding; wire address 0; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`level`](super::Press::level).
     ///
-    /// All other models have the default value and the range of this item.
+    /// Models that are not listed below have the item's default value and range.
     ///
     /// On P2: default 7, at least \-30, 1 LSB = 1 °C.
     ///

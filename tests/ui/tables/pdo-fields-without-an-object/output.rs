@@ -21,7 +21,7 @@
     }
     /// TxPDO 0x1A00.
     ///
-    /// The layout is that of [`pdo::Txpdo1a00`](super::pdo::Txpdo1a00).
+    /// The view has the fields of [`pdo::Txpdo1a00`](super::pdo::Txpdo1a00).
     pub struct Txpdo1a00<B> {
         pub(super) data: B,
         pub(super) bit: usize,

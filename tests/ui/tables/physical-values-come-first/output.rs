@@ -6,12 +6,12 @@
             );
     /// Temperature.
     ///
-    /// 1 LSB = 0.1 °C, range -20.0 … 200.0 °C (raw \-200 … 2000), default 25.0 °C (raw 250), Modbus 0 (holding; wire 0; FC 3/6/16), INTEGER16, read-write.
+    /// 1 LSB = 0.1 °C, range -20.0 … 200.0 °C (raw \-200 … 2000), default 25.0 °C (raw 250), Modbus 0 (holding; wire address 0; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`temperature`](super::Press::temperature).
     ///
     /// The device rounds to steps of 0.5 °C (raw 5).
     ///
-    /// All other models have the default value and the range of this item.
+    /// Models that are not listed below have the item's default value and range.
     ///
     /// On P2: default 30.0 °C (raw 300), range ≤ 100.0 °C (raw ≤ 1000).
     ///
@@ -26,7 +26,7 @@
     );
     /// Speed.
     ///
-    /// 1 LSB = -0.01 rev/s, range -100.00 … 100.00 rev/s (raw \-10000 … 10000), Modbus 1 (holding; wire 1; FC 3/6/16), INTEGER16, read-write.
+    /// 1 LSB = -0.01 rev/s, range -100.00 … 100.00 rev/s (raw \-10000 … 10000), Modbus 1 (holding; wire address 1; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`speed`](super::Press::speed).
     ///
     /// Chapter: Values.
@@ -39,7 +39,7 @@
     );
     /// Frequency.
     ///
-    /// Physical value = 1000 / raw Hz, range 250 … 1000 Hz (raw 1 … 4), default 500 Hz (raw 2), Modbus 2 (holding; wire 2; FC 3/6/16), UNSIGNED16, read-write.
+    /// Physical value = 1000 / raw Hz, range 250 … 1000 Hz (raw 1 … 4), default 500 Hz (raw 2), Modbus 2 (holding; wire address 2; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`frequency`](super::Press::frequency).
     ///
     /// Chapter: Values.
@@ -53,7 +53,7 @@
     );
     /// Time.
     ///
-    /// Unit ms, at most 1000, default 250, Modbus 3 (holding; wire 3; FC 3/6/16), UNSIGNED16, read-write.
+    /// Unit ms, at most 1000, default 250, Modbus 3 (holding; wire address 3; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`time`](super::Press::time).
     ///
     /// Chapter: Values.
@@ -67,7 +67,7 @@
     );
     /// Level.
     ///
-    /// Physical value = raw × 0.1 / [Time](TIME) V, range raw ≤ 100, default raw 10, Modbus 4 (holding; wire 4; FC 3/6/16), UNSIGNED16, read-write.
+    /// Physical value = raw × 0.1 / [Time](TIME) V, range raw ≤ 100, default raw 10, Modbus 4 (holding; wire address 4; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`level`](super::Press::level).
     ///
     /// Chapter: Values.
@@ -81,7 +81,7 @@
     );
     /// Steps.
     ///
-    /// Physical value = raw × 0.5 − 273.15 °C, one of -273.15 °C (raw 0), -268.15 … -263.15 °C (raw 10 … 20), default -268.15 °C (raw 10), Modbus 5 (holding; wire 5; FC 3/6/16), INTEGER16, read-write.
+    /// Physical value = raw × 0.5 − 273.15 °C, one of -273.15 °C (raw 0), -268.15 … -263.15 °C (raw 10 … 20), default -268.15 °C (raw 10), Modbus 5 (holding; wire address 5; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`steps`](super::Press::steps).
     ///
     /// Chapter: Values.

@@ -1,6 +1,6 @@
     /// Speed.
     ///
-    /// Modbus 40101 (holding; wire 100; FC 3/16), UNSIGNED16, read-write.
+    /// Modbus 40101 (holding; wire address 100; FC 3/16), UNSIGNED16, read-write.
     /// Accessor: [`speed`](super::Press::speed).
     ///
     /// Chapter: Holding.
@@ -11,14 +11,14 @@
     );
     /// Speed.
     ///
-    /// Modbus 40101 (holding; wire 100; FC 3/16), UNSIGNED16, read-write.
+    /// Modbus 40101 (holding; wire address 100; FC 3/16), UNSIGNED16, read-write.
     /// Constant: [`objects::SPEED`].
     pub fn speed(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::SPEED.at(&mut self.client)
     }
     /// Position.
     ///
-    /// Modbus 40102–40103 (holding; wire 101–102; FC 3/16; low word first), INTEGER32, read-write.
+    /// Modbus 40102–40103 (holding; wire address 101–102; FC 3/16; low word first), INTEGER32, read-write.
     /// Accessor: [`position`](super::Press::position).
     ///
     /// Chapter: Holding.
@@ -29,7 +29,7 @@
     );
     /// Input.
     ///
-    /// Modbus 30005–30006 (input; wire 4–5; FC 4; high word first; bytes swapped), UNSIGNED32, read-only.
+    /// Modbus 30005–30006 (input; wire address 4–5; FC 4; high word first; bytes swapped), UNSIGNED32, read-only.
     /// Accessor: [`input`](super::Press::input).
     ///
     /// Chapter: Others.
@@ -40,7 +40,7 @@
     );
     /// Lamp.
     ///
-    /// Modbus 7 (coil; wire 6; FC 1/5/15), BOOLEAN, read-write.
+    /// Modbus 7 (coil; wire address 6; FC 1/5/15), BOOLEAN, read-write.
     /// Accessor: [`lamp`](super::Press::lamp).
     ///
     /// Chapter: Coils.
@@ -51,7 +51,7 @@
     );
     /// Flags.
     ///
-    /// Modbus 40104 (holding; wire 103; FC 3; from bit 3), BOOLEAN, read-only.
+    /// Modbus 40104 (holding; wire address 103; FC 3; from bit 3), BOOLEAN, read-only.
     /// Accessor: [`flags`](super::Press::flags).
     ///
     /// Chapter: Holding.
