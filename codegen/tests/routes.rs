@@ -151,7 +151,7 @@ fn mistakes() {
         "Name = { reg = 0x8000, type = \"str(4)\", access = \"ro\", buses = [\"canopen\"] }",
         "",
     ));
-    has(&text, "`Name` is only accessible through a window");
+    has(&text, "`Name` is accessible only through a window");
     let variant = |text: &str| {
         reported(&table(
             "",

@@ -203,7 +203,7 @@ fn conditions_on_bits() {
             )
     };
     assert_eq!(reported(&meanings("{ mask = 6, value = 2 }")), [""; 0]);
-    assert!(reported(&meanings("{ mask = 2, value = 2 }"))[0].contains("share bits"));
+    assert!(reported(&meanings("{ mask = 2, value = 2 }"))[0].contains("overlap"));
     assert!(rust(&meanings("{ mask = 6, value = 2 }")).contains("while [b](super::objects::B) \\& 0x4 is 0x4"));
     let bits = a(", bits = \"B\"")
         + "[bits.B.at]\n0 = { name = \"kept\", reserved = 1 }\n1 = { name = \"x\", access = \"ro\", replaced_by = \"bit 2\" }\n";

@@ -314,7 +314,7 @@ fn states_of_the_communication() {
     assert_eq!(known, named);
     let row = codes::AlStatus::from_raw(0x0017).row().expect("a row");
     assert_eq!(row.name, "invalid sync manager configuration");
-    assert_eq!(codes::Faults::from_raw(125), codes::Faults::SynchronisationLost);
+    assert_eq!(codes::Faults::from_raw(125), codes::Faults::SynchronizationLost);
 }
 
 /// The memory of the slave controller. A master reads and writes whole items, as the EtherCAT client does.

@@ -55,7 +55,7 @@ fn parameters_and_registers_by_their_window() -> Answer<()> {
     objects::D2.at(&mut slave).write(40)?;
     // R01 and R00, with their Modbus addresses.
     slave.answers.insert(Object::new(0x2005, 2), -127_i32 as u32);
-    assert_eq!(objects::MODES_OF_OPERATION.at(&mut slave).read()?, Mode::AnalogueReference);
+    assert_eq!(objects::MODES_OF_OPERATION.at(&mut slave).read()?, Mode::AnalogReference);
     objects::CONTROL_WORD.at(&mut slave).write(DriveCommand::from_raw(0x03))?;
     let expected = [
         "write 0x2005:01 [01, 00]",

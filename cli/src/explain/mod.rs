@@ -90,9 +90,9 @@ mod tests {
         class:  repair (an error in strict mode)
         level:  warn
 
-        In CiA 306, as in C, `012` is the octal number 10. Few authors intend that.
-        Lexibus follows the standard and reads the number as octal. Write it in decimal
-        or as `0x…`.
+        In CiA 306, as in C, `012` is the octal number 10. Few authors intend an octal
+        number. Lexibus follows the standard and reads the number as octal. Write the
+        number in decimal or as `0x…`.
         ");
         for code in codes::CODES {
             let text = explain(code);

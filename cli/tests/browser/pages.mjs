@@ -18,7 +18,7 @@ await withBrowser(async (browser) => {
     const seen = await page.evaluate(() => ({
       headings: document.querySelectorAll("h1").length,
       title: document.title,
-      open: [...document.querySelectorAll("nav [aria-current=page]")].map((link) => link.href),
+      open: [...document.querySelectorAll("#tree [aria-current=page]")].map((link) => link.href),
       has: document.querySelector("main").innerText.trim().length,
       styled: getComputedStyle(document.querySelector("header")).display,
       url: location.href,
