@@ -107,10 +107,7 @@ fn code_of_an_image() {
     let images = "[[images]]\nname = \"out\"\ndirection = \"rx\"\nbytes = 8\n[images.fields]\nTarget = { at = 3 }\nMode = { at = 2, type = \"i8\" }\n\
                   [[images]]\nname = \"in\"\ndirection = \"tx\"\nbytes = 8\norder = \"little\"\n[images.fields]\nAlarm = { at = 7 }\nTorque = { at = 1, type = \"i16\" }\n";
     let text = rust(&table("", rows, images));
-    insta::assert_snapshot!(
-        "image",
-        part(&text, "pub mod objects", "Handle of a read-only register or entry.")
-    );
+    insta::assert_snapshot!("image", part(&text, "pub mod objects", "Handle of a read-only register or entry."));
     insta::assert_snapshot!("widths", part(&text, "    /// Mode.", "    /// Alarm."));
     let compilation = read(&table("", rows, images));
     let mode = item(&compilation, "Mode");

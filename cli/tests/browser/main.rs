@@ -29,6 +29,16 @@ fn the_search_finds_what_is_typed_and_leads_there() {
 }
 
 #[test]
+fn tasks_of_a_commissioning_engineer_need_few_keys() {
+    run("tasks.mjs", || [sites::drives()]);
+}
+
+#[test]
+fn the_decoder_converts_values_in_both_directions() {
+    run("values.mjs", || [sites::drives()]);
+}
+
+#[test]
 fn the_keyboard_is_enough() {
     run("keyboard.mjs", || [sites::drives()]);
 }

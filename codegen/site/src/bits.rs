@@ -46,6 +46,9 @@ pub(super) struct Field {
     pub names: Vec<(String, String)>,
     pub facts: String,
     pub values: Vec<Label>,
+    pub is_reserved: bool,
+    /// True if the flag is set while its bit is 0.
+    pub is_inverted: bool,
 }
 
 /// A named value of an enumeration, as a page shows it.
@@ -84,6 +87,10 @@ fn drawing(types: &[TypeDef], fields: &[BitFieldEntry], bits: u32) -> Bits {
         let cells = fields.iter().filter_map(|field| cell(field, first, last - first)).collect();
         rows.push(Row { first, bits: last - first, top, cells });
         last = first;
+    }
+    // The list has the name of each field. A drawing without any name adds nothing.
+    if rows.iter().flat_map(|row: &Row| &row.cells).all(|cell| cell.label.is_empty()) {
+        rows.clear();
     }
     Bits { rows, fields: fields.iter().map(|entry| field(types, entry)).collect() }
 }
@@ -133,6 +140,8 @@ fn field(types: &[TypeDef], entry: &BitFieldEntry) -> Field {
         names: words::names(&entry.names),
         facts: facts.join(" "),
         values,
+        is_reserved: matches!(entry.meaning, BitMeaning::Reserved { .. }),
+        is_inverted: matches!(entry.meaning, BitMeaning::Flag { inverted: true }),
     }
 }
 

@@ -1,6 +1,4 @@
-//! A cell of a drawing. The label of the cell is the name, shortened to the width of the cell.
-
-use super::words;
+//! A cell of a drawing. The label of the cell is the name, if the cell is wide enough.
 
 /// Width of a letter in pixels.
 const LETTER: u32 = 7;
@@ -18,8 +16,9 @@ pub(super) struct Cell {
 
 impl Cell {
     pub fn new(left: u32, width: u32, name: &str) -> Self {
-        let room = (width.saturating_sub(LETTER) / LETTER) as usize;
-        Cell { left, width, middle: left + width / 2, label: words::cut(name, room), is_padding: false }
+        let does_fit = name.chars().count() as u32 * LETTER + LETTER <= width;
+        let label = if does_fit { name.to_owned() } else { String::new() };
+        Cell { left, width, middle: left + width / 2, label, is_padding: false }
     }
 
     /// Creates a cell without a name.

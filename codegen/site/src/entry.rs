@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::diagnostics::{ShownDiagnostic, ShownDiagnostics};
+use super::tools;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::words::{capital, row_of, sentence, ALLOWED_SHOWN};
 use lexibus_codegen::facts::{address, item, types};
@@ -24,6 +25,8 @@ pub(super) struct Row {
     pub access: &'static str,
     pub default: String,
     pub range: String,
+    /// The default value and the range without units and raw values.
+    pub cells: [String; 2],
     pub unit: String,
     /// First line of the description, which the row shows after the name.
     pub description: String,
@@ -39,6 +42,10 @@ pub(super) struct Row {
     pub diagnostics: Vec<ShownDiagnostic>,
     /// Lines of Rust code that read and write the item.
     pub rust: Vec<String>,
+    /// Conversion to physical values, for the script of the page.
+    pub scale: String,
+    /// Addresses for requests, for the script of the page.
+    pub requests: String,
     pub bits: Option<Bits>,
     pub labels: Vec<Label>,
     /// Anchor and name of the row on this page that shows the bits or values of the same type.
@@ -79,9 +86,18 @@ impl Row {
         std::iter::once(first).chain(others).collect()
     }
 
+    /// Returns the default value and the range with units and raw values, if the row only shows them without.
+    pub fn values(&self) -> Option<String> {
+        let parts = [("Default", &self.default, &self.cells[0]), ("Range", &self.range, &self.cells[1])];
+        let parts = parts.into_iter().filter(|(_, text, cell)| text != cell && !cell.is_empty());
+        let parts: Vec<String> = parts.map(|(title, text, _)| format!("{title}: {text}.")).collect();
+        (!parts.is_empty()).then(|| parts.join(" "))
+    }
+
     /// Returns whether there are facts to show below the row.
     pub fn has_more(&self) -> bool {
         !self.facts.is_empty()
+            || !self.requests.is_empty()
             || !self.translations.is_empty()
             || !self.elsewhere.is_empty()
             || !self.doubts.is_empty()
@@ -158,6 +174,7 @@ impl Rows<'_> {
             access: item.access_name(),
             default: item::default(item, self.types),
             range: item::range(item, &item.limits, self.types, ALLOWED_SHOWN),
+            cells: [item::default_cell(item, self.types), item::range_cell(item, self.types, ALLOWED_SHOWN)],
             unit: item::unit(item).to_owned(),
             facts: self.facts(item, &description, definition),
             description: description.first().cloned().unwrap_or_default(),
@@ -169,6 +186,8 @@ impl Rows<'_> {
                 .unwrap_or_default(),
             diagnostics: self.known.diagnostics.of_item(item),
             rust: self.known.calls.get(&id).cloned().unwrap_or_default(),
+            scale: tools::scale(item),
+            requests: tools::addresses(item, self.known.modbus),
             bits: drawn,
             labels,
             same_as,

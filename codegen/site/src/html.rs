@@ -22,6 +22,9 @@ const STYLE: &str = include_str!("../templates/site.css");
 const SCRIPT: &str = concat!(
     include_str!("../templates/script/frame.js"),
     include_str!("../templates/script/rows.js"),
+    include_str!("../templates/script/value.js"),
+    include_str!("../templates/script/requests.js"),
+    include_str!("../templates/script/decoder.js"),
     include_str!("../templates/script/search.js"),
     include_str!("../templates/script/start.js"),
 );

@@ -42,6 +42,7 @@ mod pages;
 mod process;
 mod protocol;
 mod search;
+mod tools;
 mod words;
 
 use anchor::Names;

@@ -28,6 +28,40 @@ pub fn range(item: &Item, limits: &Limits, types: &[TypeDef], shown: usize) -> S
     }
 }
 
+/// Returns the default value for a table that has a column for units: `25.0` instead of `25.0 °C (raw 250)`.
+pub fn default_cell(item: &Item, types: &[TypeDef]) -> String {
+    let Some(value) = &item.default else { return String::new() };
+    match Physical::of(item.quantity.as_deref()).filter(|_| !PLAIN.is_named(item, value)) {
+        Some(physical) => physical.cell(value, &|value| PLAIN.value(value)),
+        None => default(item, types),
+    }
+}
+
+/// Returns the range for a table that has a column for units: `-20.0 … 200.0`. The text is empty if the range is that of the type.
+pub fn range_cell(item: &Item, types: &[TypeDef], shown: usize) -> String {
+    let (limits, basic) = (&item.limits, types::basic(types, item.ty));
+    if limits.allowed.is_empty()
+        && basic.integer_range().is_some_and(|(low, high)| limits.integers() == (Some(low), Some(high)))
+    {
+        return String::new();
+    }
+    let Some(physical) = Physical::of(item.quantity.as_deref()) else { return range(item, limits, types, shown) };
+    let raw = |value: &Value| PLAIN.value(value);
+    let one = |(low, high): &(Value, Value)| match low == high {
+        true => physical.cell(low, &raw),
+        false => physical.range_cell((Some(low), Some(high)), &raw),
+    };
+    match (limits.allowed.as_slice(), &limits.low, &limits.high) {
+        ([], None, None) => String::new(),
+        ([], low, high) => physical.range_cell((low.as_ref(), high.as_ref()), &raw),
+        (allowed, ..) => {
+            let mut list: Vec<String> = allowed.iter().take(shown).map(one).collect();
+            list.extend((allowed.len() > shown).then(|| "…".to_owned()));
+            list.join(", ")
+        }
+    }
+}
+
 /// Returns the unit of the physical value, or an empty text if outputs only show the raw value.
 pub fn unit(item: &Item) -> &str {
     match item.quantity.as_deref() {

@@ -49,16 +49,31 @@ impl<'q> Physical<'q> {
         raw: &dyn Fn(&Value) -> String,
         unit: &dyn Fn(&str) -> String,
     ) -> String {
-        let (low, high) = limits;
-        let raw = span((low.map(raw), high.map(raw)));
-        let numbers = (low.map(|low| self.number(low)), high.map(|high| self.number(high)));
-        let numbers = match numbers {
-            (Some(None), _) | (_, Some(None)) => return format!("raw {raw}"),
-            _ if self.has_pole_in(low, high) => return format!("raw {raw}"),
-            (low, high) => (low.flatten(), high.flatten()),
-        };
-        let physical = if self.is_falling() { span((numbers.1, numbers.0)) } else { span(numbers) };
-        format!("{} (raw {raw})", self.with_unit(&physical, unit))
+        let raw = span((limits.0.map(raw), limits.1.map(raw)));
+        match self.numbers(limits) {
+            Some(numbers) => format!("{} (raw {raw})", self.with_unit(&numbers, unit)),
+            None => format!("raw {raw}"),
+        }
+    }
+
+    /// Formats a value for a table that has a column for units: `25.0`, or `raw 250` if the physical value is unknown.
+    pub fn cell(&self, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
+        self.number(value).unwrap_or_else(|| format!("raw {}", raw(value)))
+    }
+
+    /// Formats a range for a table that has a column for units: `-20.0 … 200.0`, or `raw -200 … 2000`.
+    pub fn range_cell(&self, limits: (Option<&Value>, Option<&Value>), raw: &dyn Fn(&Value) -> String) -> String {
+        self.numbers(limits).unwrap_or_else(|| format!("raw {}", span((limits.0.map(raw), limits.1.map(raw)))))
+    }
+
+    /// Returns the range of the physical values: `-20.0 … 200.0`. Returns `None` if the physical values are unknown.
+    fn numbers(&self, (low, high): (Option<&Value>, Option<&Value>)) -> Option<String> {
+        match (low.map(|low| self.number(low)), high.map(|high| self.number(high))) {
+            (Some(None), _) | (_, Some(None)) => None,
+            _ if self.has_pole_in(low, high) => None,
+            (low, high) if self.is_falling() => Some(span((high.flatten(), low.flatten()))),
+            (low, high) => Some(span((low.flatten(), high.flatten()))),
+        }
     }
 
     /// Returns whether the conversion has a pole between two raw values.

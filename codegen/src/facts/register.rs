@@ -54,7 +54,7 @@ pub fn wire_address(address: u16) -> String {
 /// contains the function codes that the device accepts.
 pub fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> String {
     let mut facts = vec![register.space.title().to_owned(), format!("wire address {}", wire(register))];
-    let functions = functions(register, item, tables);
+    let functions: Vec<String> = functions(register, item, tables).iter().map(u8::to_string).collect();
     facts.extend((!functions.is_empty()).then(|| format!("FC {}", functions.join("/"))));
     if register.words_per_address > 1 {
         facts.push(format!("{} bits per address", 16 * u16::from(register.words_per_address)));
@@ -74,7 +74,7 @@ pub fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> 
 }
 
 /// Returns the function codes that read and write an item at this register, if the device accepts them.
-fn functions(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> Vec<String> {
+pub fn functions(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> Vec<u8> {
     /// Mask Write Register, which changes some bits of a register. A description must list this function because it is
     /// optional.
     const MASK_WRITE: u8 = 22;
@@ -94,7 +94,7 @@ fn functions(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) ->
     let access = item.access_on(Bus::Modbus);
     let reads = reads.iter().filter(|_| access.readable());
     let writes = writes.iter().filter(|_| access.writable());
-    reads.chain(writes).filter(is_accepted).map(u8::to_string).collect()
+    reads.chain(writes).filter(is_accepted).copied().collect()
 }
 
 #[cfg(test)]

@@ -343,6 +343,11 @@ impl Words<'_> {
         }
     }
 
+    /// Returns whether a value of an item has a name instead of a physical value: a COB-ID, or a value with a special meaning.
+    pub fn is_named(&self, item: &Item, value: &Value) -> bool {
+        cob_id::of(item).and_then(|kind| cob_id::text(value, kind)).is_some() || sentinel(item, value).is_some()
+    }
+
     /// Formats a value that refers to an object, a PDO or a mapping: `0x1701`, `0x60410010`.
     fn reference(&self, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
         match value.as_int() {

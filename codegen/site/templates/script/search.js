@@ -3,7 +3,7 @@
 // and a text, and has an anchor. A text contains name, names in other languages, unit and description.
 let pages = [], titles = [], numbers = [], texts = [], anchors = [], isLoading = false, isLoaded = false;
 // For each entry, the positions of its page, number and text in these lists.
-let pageOf, numberOf, textOf;
+let pageAt, numberAt, textAt;
 
 function lexibusIndex(list, numberLines, textLines, anchorLines, entries) {
   pages = list.map(([path, title]) => ({ path, title }));
@@ -11,10 +11,10 @@ function lexibusIndex(list, numberLines, textLines, anchorLines, entries) {
   numbers = numberLines.split("\n").map(numberFrom);
   texts = textLines.split("\n").map((line) => ({ fields: line.split("\t"), plain: plain(line).split("\t") }));
   anchors = anchorLines.split("\n");
-  [pageOf, numberOf, textOf] = [0, 1, 2].map(() => new Uint32Array(anchors.length));
+  [pageAt, numberAt, textAt] = [0, 1, 2].map(() => new Uint32Array(anchors.length));
   let at = 0;
   for (const [page, pairs] of entries.entries()) {
-    for (let next = 0; next < pairs.length; next += 2, at++) [pageOf[at], numberOf[at], textOf[at]] = [page, pairs[next], pairs[next + 1]];
+    for (let next = 0; next < pairs.length; next += 2, at++) [pageAt[at], numberAt[at], textAt[at]] = [page, pairs[next], pairs[next + 1]];
   }
   isLoaded = true;
   lead();
@@ -98,8 +98,8 @@ const MOST = 50;
 // Adds the points for a word to the sum of each entry. The sum becomes -1 if neither the entry nor the title of its page contains the word.
 function add({ numbers, texts, titles }, sums) {
   for (let entry = 0; entry < sums.length; entry++) {
-    const points = numbers[numberOf[entry]] + texts[textOf[entry]];
-    sums[entry] = sums[entry] < 0 || points === 0 && titles[pageOf[entry]] === 0 ? -1 : sums[entry] + points;
+    const points = numbers[numberAt[entry]] + texts[textAt[entry]];
+    sums[entry] = sums[entry] < 0 || points === 0 && titles[pageAt[entry]] === 0 ? -1 : sums[entry] + points;
   }
 }
 
@@ -126,8 +126,8 @@ function insert(best, match) {
   return best.length === 4 * MOST ? best[best.length - 1].points : 0;
 }
 
-const anchorOf = (entry) => anchors[entry] || numbers[numberOf[entry]].text;
-const linkOf = (entry) => folder + pages[pageOf[entry]].path + "#" + encodeURIComponent(anchorOf(entry));
+const anchorOf = (entry) => anchors[entry] || numbers[numberAt[entry]].text;
+const linkOf = (entry) => folder + pages[pageAt[entry]].path + "#" + encodeURIComponent(anchorOf(entry));
 
 let selected = 0;
 const announcement = document.createElement("p");
@@ -137,9 +137,9 @@ found.after(announcement);
 function search() {
   const list = matches(input.value);
   found.replaceChildren(...list.map((entry, at) => {
-    const [name, names, unit] = texts[textOf[entry]].fields, page = pages[pageOf[entry]];
+    const [name, names, unit] = texts[textAt[entry]].fields, page = pages[pageAt[entry]];
     const more = element("small", { textContent: [names, unit, page.title].filter(Boolean).join(" · ") });
-    const link = element("a", { role: "option", id: "found-" + at, href: linkOf(entry), tabIndex: -1 }, numbers[numberOf[entry]].text + " " + name + " ", more);
+    const link = element("a", { role: "option", id: "found-" + at, href: linkOf(entry), tabIndex: -1 }, numbers[numberAt[entry]].text + " " + name + " ", more);
     return element("li", { role: "presentation" }, link);
   }));
   found.hidden = !list.length;

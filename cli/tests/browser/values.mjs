@@ -1,0 +1,45 @@
+// The conversions of the decoder are inverse to each other, and reject what does not fit. Frames are those of the standards.
+import assert from "node:assert/strict";
+import { Window, withBrowser } from "./browser.mjs";
+
+const [site] = process.argv.slice(2);
+await withBrowser(async (browser) => {
+  const window = await Window.open(browser, site);
+  const page = await window.go("eco/registers.html");
+  const failed = await page.evaluate(() => {
+    const failed = [], check = (holds, ...what) => { if (!holds) failed.push(what.map(String).join(" ")); };
+    const random = (bits) => BigInt.asUintN(bits, crypto.getRandomValues(new BigUint64Array(1))[0]);
+    for (const bits of [1, 3, 8, 12, 16, 24, 32, 48, 64]) {
+      for (const isSigned of [false, true]) {
+        const type = { bits, isSigned };
+        for (const raw of [0n, (1n << BigInt(bits)) - 1n, 1n << BigInt(bits - 1), ...Array.from({ length: 50 }, () => random(bits))]) {
+          for (const text of [String(numberOf(type, raw)), hexOf(type, raw), "0b" + raw.toString(2), raw.toString(16) + "h"]) {
+            check(rawFrom(text, type) === raw, bits, isSigned, text, rawFrom(text, type));
+          }
+        }
+        check(rawFrom(String(1n << BigInt(bits)), type) === undefined, bits, "too large");
+        check(rawFrom(String(-(1n << BigInt(bits)) - 1n), type) === undefined, bits, "too small");
+      }
+    }
+    for (const bits of [32, 64]) {
+      const type = { bits, isReal: true };
+      for (const number of [0, -1.5, 0.1, 3e30, -(2 ** -20)]) {
+        const raw = rawOfReal(type, number), exact = bits === 32 ? Math.fround(number) : number;
+        check(realFrom(type, raw) === exact && rawFrom(String(number), type) === raw, bits, number);
+      }
+    }
+    for (const text of ["", " ", "x", "0x", "1.5", "--1", "0b2", "12g"]) check(rawFrom(text, { bits: 32 }) === undefined, "text", text);
+    return failed;
+  });
+  assert.deepEqual(failed, []);
+  const frames = await page.evaluate(() => ({
+    // The example of the Modbus standard: read 2 registers from 107 of unit 17.
+    modbus: bytesText(withCrc([0x11, 0x03, 0x00, 0x6B, 0x00, 0x03])),
+    expedited: sdoDownload([0x40, 0x60, 0x00], [0x0F, 0x00]).map(bytesText),
+    segmented: sdoDownload([0x10, 0x20, 0x01], [1, 2, 3, 4, 5, 6, 7, 8]).map(bytesText),
+  }));
+  assert.equal(frames.modbus, "11 03 00 6B 00 03 76 87");
+  assert.deepEqual(frames.expedited, ["2B 40 60 00 0F 00 00 00"]);
+  assert.deepEqual(frames.segmented, ["21 10 20 01 08 00 00 00", "00 01 02 03 04 05 06 07", "1D 08 00 00 00 00 00 00"]);
+  window.clean();
+});

@@ -1,0 +1,55 @@
+//! Attributes of a row for the script of the page, which converts values and shows requests.
+
+use lexibus_codegen::facts::register;
+use lexibus_codegen::ir::{Binding, Item, ModbusTable, RegisterBinding, RegisterSpace, Scale};
+
+/// Returns the conversion from raw values to physical values: `0.01 0` (scale factor and offset), or `/25000000` (numerator of a
+/// reciprocal). The text is empty if the two values are equal, or if the conversion needs other values.
+pub(super) fn scale(item: &Item) -> String {
+    match item.quantity.as_deref().and_then(|quantity| quantity.scale.as_ref()) {
+        Some(&Scale::Linear { factor, offset }) if factor != 1.0 || offset != 0.0 => format!("{factor} {offset}"),
+        Some(Scale::Reciprocal { numerator }) => format!("/{numerator}"),
+        _ => String::new(),
+    }
+}
+
+/// Returns the addresses of an item for requests, separated by `;`.
+///
+/// - `o 24640 0 ce`: index and sub-index of an object on CANopen and EtherCAT.
+/// - `m h 62 2 l 3/16`: Modbus table (its first letter), wire address, number of registers, flags and function codes. Flags:
+///   `l` low word first, `s` swapped bytes, `x` sign-extended, `p` part of a register.
+/// - `r 1 8 16 4`: record, bit offset and number of bits of the item, and length of the record in bytes as far as it is known.
+pub(super) fn addresses(item: &Item, tables: &[ModbusTable]) -> String {
+    let address = |binding: &Binding| match binding {
+        Binding::Object { buses, index, sub_index } => {
+            let buses = [(buses.canopen, "c"), (buses.coe, "e")].map(|(has, bus)| if has { bus } else { "" });
+            Some(format!("o {index} {sub_index} {}", buses.concat()))
+        }
+        Binding::Register(register) => Some(registers(register, item, tables)),
+        Binding::Record { index, bit_offset, bits } => {
+            Some(format!("r {index} {bit_offset} {bits} {}", (bit_offset + bits).div_ceil(8)))
+        }
+        _ => None,
+    };
+    item.bindings.iter().filter_map(address).collect::<Vec<_>>().join(";")
+}
+
+fn registers(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> String {
+    let table = match register.space {
+        RegisterSpace::Holding => "h",
+        RegisterSpace::Input => "i",
+        RegisterSpace::Coil => "c",
+        RegisterSpace::DiscreteInput => "d",
+    };
+    let words = u16::from(register.words_per_address.max(1));
+    let flags = [
+        (register.low_word_first, "l"),
+        (register.bytes_swapped, "s"),
+        (register.extended, "x"),
+        (register.bit_offset.is_some(), "p"),
+    ];
+    let flags = flags.map(|(has, flag)| if has { flag } else { "" }).concat();
+    let functions: Vec<String> = register::functions(register, item, tables).iter().map(u8::to_string).collect();
+    let flags = if flags.is_empty() { "-" } else { &flags };
+    format!("m {table} {} {} {flags} {}", register.address, register.count.div_ceil(words) * words, functions.join("/"))
+}

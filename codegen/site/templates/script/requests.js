@@ -1,0 +1,119 @@
+// Requests that read and write the item of a row, ready to copy: bytes on each bus, and lines of Python.
+
+const hex = (number, digits) => number.toString(16).toUpperCase().padStart(digits, "0");
+const bytesText = (bytes) => bytes.map((byte) => hex(byte, 2)).join(" ");
+
+// Returns the bytes of a raw value, least significant byte first.
+function littleEndian(raw, count) {
+  return Array.from({ length: count }, (_, at) => Number(raw >> BigInt(8 * at) & 0xFFn));
+}
+
+// CRC of a Modbus RTU frame (MODBUS over Serial Line V1.02, 6.2.2).
+function withCrc(bytes) {
+  let crc = 0xFFFF;
+  for (const byte of bytes) {
+    crc ^= byte;
+    for (let bit = 0; bit < 8; bit++) crc = crc & 1 ? crc >> 1 ^ 0xA001 : crc >> 1;
+  }
+  return [...bytes, crc & 0xFF, crc >> 8];
+}
+
+const python = (bytes) => `bytes.fromhex("${bytes.map((byte) => hex(byte, 2)).join("")}")`;
+
+// Returns the frames of an SDO download (CiA 301, 7.2.4.3.3): an expedited transfer, or a segmented one if there are more than four bytes.
+function sdoDownload(head, bytes) {
+  if (bytes.length <= 4) return [[0x23 | 4 - bytes.length << 2, ...head, ...bytes, 0, 0, 0, 0].slice(0, 8)];
+  const frames = [[0x21, ...head, bytes.length, 0, 0, 0]];
+  for (let at = 0; at < bytes.length; at += 7) {
+    const part = bytes.slice(at, at + 7), isLast = at + 7 >= bytes.length;
+    frames.push([at / 7 % 2 << 4 | 7 - part.length << 1 | Number(isLast), ...part, 0, 0, 0, 0, 0, 0, 0].slice(0, 8));
+  }
+  return frames;
+}
+
+// Requests of an object: SDOs on CANopen, and the same services on EtherCAT.
+function objectRequests([index, sub, buses], { canRead, canWrite, bytes, node }) {
+  const [number, entry] = [Number(index), Number(sub)], head = [number & 0xFF, number >> 8, entry];
+  const path = `0x${hex(number, 4)}, ${entry}`, lines = [];
+  const cobId = hex(0x600 + node, 3), frame = (data) => `${cobId}  ${bytesText(data)}`;
+  if (buses.includes("c")) {
+    if (canRead) lines.push(["SDO upload (COB-ID, data)", frame([0x40, ...head, 0, 0, 0, 0])], ["canopen", `node.sdo.upload(${path})`]);
+    if (canWrite) lines.push(["SDO download (COB-ID, data)", sdoDownload(head, bytes).map(frame).join("\n")], ["canopen", `node.sdo.download(${path}, ${python(bytes)})`]);
+  }
+  if (buses.includes("e")) {
+    if (canRead) lines.push(["pysoem", `slave.sdo_read(${path})`]);
+    if (canWrite) lines.push(["pysoem", `slave.sdo_write(${path}, ${python(bytes)})`]);
+  }
+  return lines;
+}
+
+const READS = { h: [3, "read_holding_registers"], i: [4, "read_input_registers"], c: [1, "read_coils"], d: [2, "read_discrete_inputs"] };
+
+// Requests of Modbus registers, coils and discrete inputs (MODBUS Application Protocol V1.1b3, 6).
+function modbusRequests([table, address, count, flags, functions], { canRead, canWrite, bytes, unit, raw }) {
+  const [start, words] = [Number(address), Number(count)], head = [start >> 8, start & 0xFF], size = [words >> 8, words & 0xFF];
+  const accepted = functions.split("/").map(Number), [read, method] = READS[table], lines = [];
+  const rtu = (data) => bytesText(withCrc([unit, ...data]));
+  if (canRead && accepted.includes(read)) {
+    lines.push(["Modbus RTU read", rtu([read, ...head, ...size])], ["pymodbus", `client.${method}(${start}, count=${words}, device_id=${unit})`]);
+  }
+  const isBit = table === "c", isPart = flags.includes("p");
+  if (isBit && canWrite && accepted.includes(5)) {
+    lines.push(["Modbus RTU write", rtu([5, ...head, raw ? 0xFF : 0, 0])], ["pymodbus", `client.write_coil(${start}, ${raw ? "True" : "False"}, device_id=${unit})`]);
+  }
+  if (isBit || isPart || !canWrite) return lines;
+  const fill = flags.includes("x") && bytes.at(-1) & 0x80 ? 0xFF : 0;
+  const low = Array.from({ length: words }, (_, at) => (bytes[2 * at + 1] ?? fill) << 8 | (bytes[2 * at] ?? fill));
+  const ordered = (flags.includes("l") ? low : low.reverse()).map((word) => flags.includes("s") ? (word & 0xFF) << 8 | word >> 8 : word);
+  const data = ordered.flatMap((word) => [word >> 8, word & 0xFF]), list = ordered.map((word) => `0x${hex(word, 4)}`);
+  if (words === 1 && accepted.includes(6)) {
+    lines.push(["Modbus RTU write", rtu([6, ...head, ...data])], ["pymodbus", `client.write_register(${start}, ${list[0]}, device_id=${unit})`]);
+  } else if (accepted.includes(16)) {
+    lines.push(["Modbus RTU write", rtu([16, ...head, ...size, data.length, ...data])], ["pymodbus", `client.write_registers(${start}, [${list.join(", ")}], device_id=${unit})`]);
+  }
+  return lines;
+}
+
+// A record is read and written as a whole. The address of the submodule depends on the configuration.
+function recordRequests([index, offset, bits, length], { canRead, canWrite }) {
+  const record = `API 0, slot n, subslot 1, index 0x${hex(Number(index), 4)}, length ${length}`, bytes = `bits ${offset} to ${Number(offset) + Number(bits) - 1}`;
+  return [canRead && ["PROFINET record read", `${record}; the value is in ${bytes}`], canWrite && ["PROFINET record write", `${record}; the value is in ${bytes}`]].filter(Boolean);
+}
+
+const KINDS = { o: objectRequests, m: modbusRequests, r: recordRequests };
+
+// Creates a field for a number that the reader chooses once for all pages.
+function keptNumber(key, label, first, last, change) {
+  const input = element("input", { type: "number", min: first, max: last, value: kept(key) || first, className: "number" });
+  input.addEventListener("input", () => { if (input.reportValidity()) { kept(key, input.value); change(); } });
+  return { label: element("label", {}, `${label} `, input), get value() { return Number(input.value); } };
+}
+
+// Adds the requests to the details of a row. Returns a function that shows the requests for a raw value.
+function requests(row, type) {
+  const addresses = (row.dataset.at ?? "").split(";").filter(Boolean).map((address) => address.split(" "));
+  const access = row.rows[0].cells[3].textContent, list = element("dl", {});
+  const canRead = !/^wo/.test(access), isWritable = /^[rw]*w/.test(access) && Boolean(type);
+  // Without a value there are no write requests, so that nobody copies a request that writes 0.
+  let raw;
+  const show = () => {
+    const canWrite = isWritable && raw !== undefined, bytes = canWrite ? littleEndian(raw, Math.ceil(type.bits / 8)) : [];
+    const lines = addresses.flatMap(([kind, ...address]) => KINDS[kind](address, { canRead, canWrite, bytes, raw, node: node.value, unit: unit.value }));
+    list.replaceChildren(...lines.flatMap(([title, text]) => {
+      const code = element("code", { textContent: text });
+      return [element("dt", { textContent: title }), element("dd", {}, code, " ", copyButton(code))];
+    }));
+  };
+  const node = keptNumber("node", "Node-ID", 1, 127, () => show()), unit = keptNumber("unit", "Modbus unit", 1, 247, () => show());
+  if (!addresses.length) return () => {};
+  const has = (kind, text = "") => addresses.some((address) => address[0] === kind && address.join(" ").includes(text));
+  const choices = [has("o", "c") && node.label, has("m") && unit.label].filter(Boolean);
+  const hint = isWritable ? "Enter a raw value for write requests." : "";
+  const details = element("details", { className: "tools requests" }, element("summary", { textContent: "Requests" }), element("p", {}, ...choices, hint), list);
+  details.addEventListener("toggle", show);
+  row.querySelector(":scope > .more > td").append(details);
+  return (value) => {
+    raw = value;
+    if (details.open) show();
+  };
+}
