@@ -66,6 +66,24 @@ const TASKS = {
     assert.ok(lines.includes("601  23 3F 20 01 1E FB FF FF"), lines.join("\n"));
     assert.ok(lines.includes("01 10 00 3F 00 02 04 FB 1E FF FF E0 69"), lines.join("\n"));
   }],
+  "The status word of the AKD is 0x1231. Which command enables the drive?": [22, async (reader) => {
+    await reader.press("/");
+    await reader.type("akd fault_rea");
+    await reader.page.waitForFunction(() => document.querySelector("#found a")?.textContent.includes("fault_reaction_active"));
+    await reader.press("Enter");
+    await reader.page.waitForFunction(() => document.querySelector("section.machine .status"));
+    const drive = reader.page.locator("section.machine[id=drive]");
+    await reader.click(drive.locator(".status"));
+    await reader.type("0x1231");
+    assert.equal(await drive.locator("output").innerText(), "ready_to_switch_on");
+    assert.deepEqual(await drive.locator("svg .state.on").allTextContents(), ["ready_to_switch_on"]);
+    assert.ok((await drive.locator(".next li").allInnerTexts()).includes("operation_enabled: switch_on (0x0007)"));
+  }],
+  "Which byte of the PROFINET image carries the alarm code of the Eco?": [16, async (reader) => {
+    await reader.find("eco alarm_code", "alarm_code");
+    const facts = await reader.row().innerText();
+    assert.match(facts, /Process image: to the master, bytes? \d+/);
+  }],
 };
 
 await withBrowser(async (browser) => {

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::diagnostics::{ShownDiagnostic, ShownDiagnostics};
+use super::references::Relation;
 use super::tools;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::words::{capital, row_of, sentence, ALLOWED_SHOWN};
@@ -14,6 +15,7 @@ use lexibus_codegen::ir::{Item, ItemId, Manual, ModbusTable, Severity, Subject, 
 /// The row of an item in a table.
 #[derive(Debug)]
 pub(super) struct Row {
+    pub id: ItemId,
     pub anchor: String,
     /// The displayed address, such as `0x6040:00` or `register 12`.
     pub number: String,
@@ -40,6 +42,8 @@ pub(super) struct Row {
     /// Ambiguities about the bits or values of the item's type.
     pub doubts_of_type: Vec<Doubt>,
     pub diagnostics: Vec<ShownDiagnostic>,
+    /// Links to related elements.
+    pub relations: Vec<Relation>,
     /// Lines of Rust code that read and write the item.
     pub rust: Vec<String>,
     /// Conversion to physical values, for the script of the page.
@@ -103,6 +107,7 @@ impl Row {
             || !self.doubts.is_empty()
             || !self.doubts_of_type.is_empty()
             || !self.diagnostics.is_empty()
+            || !self.relations.is_empty()
             || !self.rust.is_empty()
             || self.bits.is_some()
             || !self.labels.is_empty()
@@ -165,6 +170,7 @@ impl Rows<'_> {
         let elsewhere = addresses.map(|address| format!("{}: {}", address.bus, address.text)).collect();
         let description = PLAIN.description(item.documentation.as_deref());
         Row {
+            id,
             anchor,
             number,
             addresses: lookups,
@@ -185,6 +191,7 @@ impl Rows<'_> {
                 .map(|definition| about(self.known.doubts, SubjectKind::Type, &definition.name, self.known.manual))
                 .unwrap_or_default(),
             diagnostics: self.known.diagnostics.of_item(item),
+            relations: Vec::new(),
             rust: self.known.calls.get(&id).cloned().unwrap_or_default(),
             scale: tools::scale(item),
             requests: tools::addresses(item, self.known.modbus),

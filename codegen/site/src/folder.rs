@@ -16,9 +16,11 @@ use super::overview::{self, Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST};
 use super::process::{self, About, Frame};
 use super::protocol::{self, Protocol};
+use super::references::{self, Targets};
 use super::search::{Entry, Index};
 use super::Page;
 use lexibus_codegen::backend::rust;
+use lexibus_codegen::facts::referrers::Referrers;
 use lexibus_codegen::facts::{self, pdo, words};
 use lexibus_codegen::ir::{Catalog, Device, Documentation, Group, Manual, Texts};
 
@@ -61,6 +63,33 @@ impl Parts {
             codes: self.codes.as_ref().map(|(file, tables)| (file.as_str(), tables.as_slice())),
         };
         sources.ranked()
+    }
+}
+
+/// Returns the file and the content of an optional page.
+fn page<T>(page: &Option<(String, T)>) -> Option<(&str, &T)> {
+    page.as_ref().map(|(file, content)| (file.as_str(), content))
+}
+
+impl Parts {
+    /// Adds the links between the elements.
+    fn link(&mut self, device: &Device) {
+        let pages = references::Pages {
+            areas: &self.areas,
+            frames: (self.process.as_deref(), &self.frames),
+            behaviour: page(&self.behaviour),
+            protocol: page(&self.protocol),
+        };
+        let (targets, referrers) = (Targets::new(device, &pages), Referrers::new(device));
+        for row in self.areas.iter_mut().flat_map(|area| &mut area.sections).flat_map(|section| &mut section.rows) {
+            row.relations = targets.relations(row.id, &referrers);
+        }
+        for entry in self.frames.iter_mut().flat_map(|frame| &mut frame.entries) {
+            entry.target = targets.item(entry.item).map(|link| link.target.clone()).unwrap_or_default();
+        }
+        if let Some((_, behaviour)) = &mut self.behaviour {
+            machines::link(behaviour, device, &targets);
+        }
     }
 }
 
@@ -188,7 +217,7 @@ impl Folder {
         let protocol = protocol::protocol(device, manual);
         let behaviour = machines::behaviour(device, manual);
         let tables = codes::tables(device, manual);
-        let parts = Parts {
+        let mut parts = Parts {
             overview,
             process: further(!frames.is_empty() || !device.process_data.sync_managers.is_empty(), "Process data"),
             protocol: further(protocol.is_some(), "Messages").zip(protocol),
@@ -197,6 +226,7 @@ impl Folder {
             areas,
             frames,
         };
+        parts.link(device);
         (parts, pages)
     }
 
@@ -221,6 +251,17 @@ impl Folder {
         }
         if let Some((file, behaviour)) = &parts.behaviour {
             self.page(frame, file, Content::Machines(behaviour));
+            self.index.page(file, &frame.title);
+            for machine in &behaviour.machines {
+                for state in &machine.states {
+                    let entry = index_entry(&state.anchor, "state", &state.name);
+                    self.index.entry(&Entry { names: &state.names, words: &state.facts, ..entry });
+                }
+            }
+            for sequence in &behaviour.sequences {
+                let words = sequence.facts.first().map_or("", String::as_str);
+                self.index.entry(&Entry { words, ..index_entry(&sequence.anchor, "procedure", &sequence.name) });
+            }
         }
         if let Some((file, tables)) = &parts.codes {
             self.page(frame, file, Content::Codes(tables));

@@ -25,6 +25,7 @@ const SCRIPT: &str = concat!(
     include_str!("../templates/script/value.js"),
     include_str!("../templates/script/requests.js"),
     include_str!("../templates/script/decoder.js"),
+    include_str!("../templates/script/machines.js"),
     include_str!("../templates/script/search.js"),
     include_str!("../templates/script/start.js"),
 );

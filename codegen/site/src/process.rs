@@ -7,7 +7,8 @@ use lexibus_codegen::facts::cob_id::{self, CobId};
 use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::{address, pdo, types};
 use lexibus_codegen::ir::{
-    Direction, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, SubjectKind, TypeDef,
+    Direction, ItemId, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, SubjectKind,
+    TypeDef,
 };
 
 /// Number of bytes in a drawing row, and the width of a byte in pixels.
@@ -52,6 +53,9 @@ pub(super) struct Entry {
     pub names: Vec<(String, String)>,
     pub ty: String,
     pub bits: u32,
+    pub item: Option<ItemId>,
+    /// File and anchor of the mapped item. Empty if no page shows the item.
+    pub target: String,
 }
 
 /// A sync manager of an EtherCAT slave, as a page shows it.
@@ -112,8 +116,8 @@ fn pdo(pdo: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
         facts.extend(communication.inhibit_time.map(|inhibit_time| format!("Inhibit time {inhibit_time} × 100 µs.")));
         facts.extend(communication.event_timer.map(|event_timer| format!("Event timer {event_timer} ms.")));
     }
-    facts.extend(pdo.fixed.then(|| "Its mapping cannot be changed.".to_owned()));
-    facts.extend(pdo.mandatory.then(|| "It has to be assigned.".to_owned()));
+    facts.extend(pdo.fixed.then(|| "The mapping cannot be changed.".to_owned()));
+    facts.extend(pdo.mandatory.then(|| "The PDO must be assigned.".to_owned()));
     facts.extend(pdo.sync_manager.map(|number| format!("Assigned to sync manager {number} by default.")));
     if !pdo.excludes.is_empty() {
         let others: Vec<String> = pdo.excludes.iter().map(|index| hex16(*index)).collect();
@@ -136,7 +140,7 @@ pub(super) fn image(image: &ProcessImage, types: &[TypeDef], anchor: &str, of: &
     };
     let mut facts = vec![format!("{} bytes {direction}.", image.length)];
     facts.extend(image.big_endian.then(|| "Numbers are big-endian.".to_owned()));
-    facts.extend((image.overhead > 0).then(|| format!("{} further bytes are no user data.", image.overhead)));
+    facts.extend((image.overhead > 0).then(|| format!("{} further bytes are not user data.", image.overhead)));
     Frame {
         anchor: anchor.to_owned(),
         title: if of.is_empty() { format!("Image {}", image.name) } else { of.to_owned() },
@@ -156,6 +160,8 @@ fn drawn(entries: &[PdoEntry], bits: u32, types: &[TypeDef]) -> Frame {
         names: words::names(&entry.names),
         ty: types::name(types, entry.ty),
         bits: entry.bits,
+        item: entry.item,
+        target: String::new(),
     });
     Frame { height: rows.len() as u32 * HEIGHT, rows, entries: list.collect(), ..Frame::default() }
 }

@@ -12,11 +12,3 @@ pub(super) fn names(names: &Texts) -> Vec<(String, String)> {
 pub(super) fn translations(documentation: Option<&Documentation>) -> Vec<(String, String)> {
     documentation.map(|documentation| names(&documentation.translations)).unwrap_or_default()
 }
-
-/// Shortens a text to `letters` letters. The last letter of a shortened text is `…`.
-pub(super) fn cut(text: &str, letters: usize) -> String {
-    match text.chars().count() {
-        count if count <= letters => text.to_owned(),
-        _ => text.chars().take(letters.saturating_sub(1)).chain(['…']).collect(),
-    }
-}

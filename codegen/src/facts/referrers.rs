@@ -22,11 +22,11 @@ pub enum Referrer<'d> {
     /// A type whose bits or values depend on the item.
     Type(&'d TypeDef),
     /// An item that can be written only for some values of this item.
-    WritableWhen(&'d Item),
+    WritableWhen(ItemId),
     /// An item that this item replaces.
-    Replaced(&'d Item),
+    Replaced(ItemId),
     /// An item with the same value or quantity, the other half of the value, or the number of its elements.
-    Related(&'d Item),
+    Related(ItemId),
 }
 
 /// Elements that refer to each item.
@@ -54,7 +54,9 @@ impl<'d> Referrers<'d> {
             referrers.add_all(&composite.parts, Referrer::Composite(composite));
         }
         device.types.iter().for_each(|definition| referrers.of_type(definition));
-        device.items().for_each(|item| referrers.of_item(item));
+        for (position, group) in (0..).zip(&device.groups) {
+            group.items_at(position).for_each(|(id, item)| referrers.of_item(id, item));
+        }
         referrers
     }
 
@@ -72,14 +74,14 @@ impl<'d> Referrers<'d> {
         self.add_all(items_of(conditions), Referrer::Type(definition));
     }
 
-    fn of_item(&mut self, item: &'d Item) {
+    fn of_item(&mut self, id: ItemId, item: &'d Item) {
         if let Some(behaviour) = &item.behaviour {
-            self.add_all(items_of(&behaviour.write_when), Referrer::WritableWhen(item));
+            self.add_all(items_of(&behaviour.write_when), Referrer::WritableWhen(id));
         }
         let availability = item.availability.as_ref();
         let other = availability.and_then(|availability| availability.replaced_by.as_ref()?.id?.item());
-        self.add(other, Referrer::Replaced(item));
-        self.add_all(item.related.iter().flat_map(|related| related.all()), Referrer::Related(item));
+        self.add(other, Referrer::Replaced(id));
+        self.add_all(item.related.iter().flat_map(|related| related.all()), Referrer::Related(id));
     }
 
     fn add_all(&mut self, items: impl IntoIterator<Item = &'d ItemRef>, referrer: Referrer<'d>) {
@@ -121,7 +123,7 @@ mod tests {
         let mut device = Device { groups: vec![speed, limit], ..Device::default() };
         device.process_data.pdos.push(pdo);
         let referrers = Referrers::new(&device);
-        let expected = [Referrer::Pdo(&device.process_data.pdos[0]), Referrer::Related(&device.groups[1].items[0])];
+        let expected = [Referrer::Pdo(&device.process_data.pdos[0]), Referrer::Related(ItemId { group: 1, item: 0 })];
         assert_eq!(referrers.of(id), expected);
         assert_eq!(referrers.of(ItemId { group: 1, item: 0 }), []);
     }

@@ -69,7 +69,7 @@ function contents() {
   const objects = [...document.querySelectorAll("tbody.object[id]")];
   const sections = objects.length ? objects : [...document.querySelectorAll("main section[id]")];
   return sections.map((section) => {
-    const heading = section.querySelector("h2") ?? section.querySelector("tr");
+    const heading = section.querySelector("h2, h3") ?? section.querySelector("tr");
     const [number, name] = heading.matches("tr") ? [heading.cells[0], heading.cells[1].querySelector("b")] : [heading];
     return element("li", {}, element("a", { href: "#" + section.id, textContent: [number, name].filter(Boolean).map((part) => part.textContent).join(" ") }));
   });

@@ -1,0 +1,182 @@
+//! Links between the elements of a device, in both directions.
+
+use std::collections::HashMap;
+
+use super::area::Area;
+use super::machines::Behaviour;
+use super::process::Frame;
+use super::protocol::Protocol;
+use lexibus_codegen::facts::referrers::{Referrer, Referrers};
+use lexibus_codegen::ir::owner::Owner;
+use lexibus_codegen::ir::{Binding, Device, ItemId, ItemRef, Type, TypeDef, TypeId};
+
+/// Maximum number of links of one relation.
+const MOST: usize = 20;
+
+/// A link to an element.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Link {
+    pub title: String,
+    /// File and anchor of the element.
+    pub target: String,
+}
+
+/// The elements that have the same relation to an item, such as the PDOs that map it.
+#[derive(Debug)]
+pub(super) struct Relation {
+    pub title: &'static str,
+    pub links: Vec<Link>,
+    /// Number of further elements.
+    pub others: usize,
+}
+
+/// Links to the elements of a device.
+pub(super) struct Targets<'d> {
+    device: &'d Device,
+    items: HashMap<ItemId, Link>,
+    pdos: Vec<Link>,
+    images: HashMap<&'d str, Link>,
+    machines: Vec<Link>,
+    procedures: Vec<Link>,
+    messages: Vec<Link>,
+}
+
+/// Parts of a device with the files of their pages.
+pub(super) struct Pages<'p> {
+    pub areas: &'p [Area],
+    pub frames: (Option<&'p str>, &'p [Frame]),
+    pub behaviour: Option<(&'p str, &'p Behaviour)>,
+    pub protocol: Option<(&'p str, &'p Protocol)>,
+}
+
+impl<'d> Targets<'d> {
+    pub fn new(device: &'d Device, pages: &Pages<'_>) -> Self {
+        let link = |file: &str, anchor: &str, title: &str| Link {
+            title: title.to_owned(),
+            target: format!("{file}#{anchor}"),
+        };
+        let mut items = HashMap::new();
+        for area in pages.areas {
+            for row in area.sections.iter().flat_map(|section| &section.rows) {
+                let title = format!("{} {}", row.number, row.name);
+                items.insert(row.id, link(&area.file, &row.anchor, title.trim()));
+            }
+        }
+        let (file, frames) = pages.frames;
+        let frames = || frames.iter().filter_map(|frame| Some(link(file?, &frame.anchor, &frame.title)));
+        // The frames of the PDOs precede those of the process images.
+        let (pdos, images) = (device.process_data.pdos.len(), &device.process_data.images);
+        let (machines, procedures) = match pages.behaviour {
+            Some((file, behaviour)) => (
+                behaviour.machines.iter().map(|machine| link(file, &machine.anchor, &machine.title)).collect(),
+                behaviour.sequences.iter().map(|sequence| link(file, &sequence.anchor, &sequence.name)).collect(),
+            ),
+            None => Default::default(),
+        };
+        let messages = pages.protocol.map_or_else(Vec::new, |(file, protocol)| {
+            protocol.messages.iter().map(|message| link(file, &message.anchor, &message.name)).collect()
+        });
+        Targets {
+            device,
+            items,
+            pdos: frames().take(pdos).collect(),
+            images: images.iter().map(|image| image.name.as_str()).zip(frames().skip(pdos)).collect(),
+            machines,
+            procedures,
+            messages,
+        }
+    }
+
+    /// Returns the link to an item, if a page shows it.
+    pub fn item(&self, id: Option<ItemId>) -> Option<&Link> {
+        self.items.get(&id?)
+    }
+
+    fn refers(&self, items: impl IntoIterator<Item = &'d ItemRef>) -> Vec<Link> {
+        items.into_iter().filter_map(|item| self.item(item.id)).cloned().collect()
+    }
+
+    /// Returns the relations of an item to other elements.
+    pub fn relations(&self, id: ItemId, referrers: &Referrers<'d>) -> Vec<Relation> {
+        let owner = Owner { types: &self.device.types, groups: &[self.device.groups.as_slice()] };
+        let Some(item) = owner.item(id) else { return Vec::new() };
+        let mut related = Related::default();
+        for referrer in referrers.of(id) {
+            self.add(referrer, &mut related);
+        }
+        let images = item.bindings.iter().filter_map(|binding| match binding {
+            Binding::Image(image) => self.images.get(image.image.as_str()),
+            _ => None,
+        });
+        related.mapped.extend(images.cloned());
+        related.items.extend(self.refers(item.related.iter().flat_map(|related| related.all())));
+        let conditions = item.behaviour.iter().flat_map(|behaviour| &behaviour.write_when);
+        let availability = item.availability.as_ref();
+        let replacement = availability.and_then(|availability| availability.replaced_by.as_ref()?.id?.item());
+        let lists = [
+            ("Mapped in", related.mapped),
+            ("Used by", related.users),
+            ("Condition for", related.dependents),
+            ("Depends on", self.refers(conditions.map(|condition| &condition.item))),
+            ("Related", related.items),
+            ("Replaces", related.replaced),
+            ("Replaced by", self.item(replacement).into_iter().cloned().collect()),
+        ];
+        lists.into_iter().filter_map(|(title, links)| Relation::new(title, links)).collect()
+    }
+
+    fn add(&self, referrer: &Referrer<'d>, related: &mut Related) {
+        let device = self.device;
+        match *referrer {
+            Referrer::Pdo(pdo) => related.mapped.extend(at(&device.process_data.pdos, pdo, &self.pdos)),
+            Referrer::Machine(machine) => related.users.extend(at(&device.machines, machine, &self.machines)),
+            Referrer::Procedure(procedure) => {
+                related.users.extend(at(&device.procedures, procedure, &self.procedures));
+            }
+            Referrer::Message(message) => related.dependents.extend(at(&device.messages, message, &self.messages)),
+            Referrer::Type(definition) => related.dependents.extend(self.first_of_type(definition)),
+            Referrer::WritableWhen(item) => related.dependents.extend(self.item(Some(item)).cloned()),
+            Referrer::Replaced(item) => related.replaced.extend(self.item(Some(item)).cloned()),
+            Referrer::Related(item) => related.items.extend(self.item(Some(item)).cloned()),
+            Referrer::Composite(_) => {}
+        }
+    }
+
+    /// Returns the link to the first item with a type.
+    fn first_of_type(&self, definition: &TypeDef) -> Option<Link> {
+        let position = self.device.types.iter().position(|other| std::ptr::eq(other, definition))?;
+        let ty = Type::Named(TypeId(u32::try_from(position).ok()?));
+        let items = (0..).zip(&self.device.groups).flat_map(|(position, group)| group.items_at(position));
+        items.filter(|(_, item)| item.ty == ty).find_map(|(id, _)| self.item(Some(id))).cloned()
+    }
+}
+
+/// Links to the elements that refer to an item.
+#[derive(Default)]
+struct Related {
+    mapped: Vec<Link>,
+    users: Vec<Link>,
+    dependents: Vec<Link>,
+    items: Vec<Link>,
+    replaced: Vec<Link>,
+}
+
+/// Returns the link of an element of a list. Each link has the position of its element.
+fn at<T>(list: &[T], element: &T, links: &[Link]) -> Option<Link> {
+    links.get(list.iter().position(|other| std::ptr::eq(other, element))?).cloned()
+}
+
+impl Relation {
+    /// Creates a relation without repeated links. Returns `None` if there are no links.
+    fn new(title: &'static str, links: Vec<Link>) -> Option<Self> {
+        let mut unique: Vec<Link> = Vec::new();
+        links.into_iter().for_each(|link| {
+            if !unique.contains(&link) {
+                unique.push(link);
+            }
+        });
+        let others = unique.len().saturating_sub(MOST);
+        unique.truncate(MOST);
+        (!unique.is_empty()).then_some(Relation { title, links: unique, others })
+    }
+}
