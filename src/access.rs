@@ -24,7 +24,8 @@ mod sealed {
     impl Sealed for super::Const {}
 }
 
-/// Access rights that allow reading: [`Ro`], [`Rw`] and [`Const`]. This trait is sealed.
+/// Access rights that allow reading: [`Ro`], [`Rw`] and [`Const`]. The trait is sealed: other crates cannot implement
+/// it.
 #[diagnostic::on_unimplemented(
     message = "this item cannot be read: its access is `{Self}`",
     label = "the device doesn't allow reading this item"
@@ -35,7 +36,7 @@ impl Readable for Ro {}
 impl Readable for Rw {}
 impl Readable for Const {}
 
-/// Access rights that allow writing: [`Wo`] and [`Rw`]. This trait is sealed.
+/// Access rights that allow writing: [`Wo`] and [`Rw`]. The trait is sealed: other crates cannot implement it.
 #[diagnostic::on_unimplemented(
     message = "this item cannot be written: its access is `{Self}`",
     label = "the device doesn't allow writing this item"

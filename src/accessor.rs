@@ -15,11 +15,11 @@ use crate::route::{ReadRoute, WriteRoute};
 use crate::value::Value;
 use crate::value_error::LengthError;
 
-/// Reads and writes one [`Item`] through one client. [`Item::at`] creates it.
+/// Reads and writes one [`Item`] through one client. [`Item::at`] creates an accessor.
 ///
 /// The access rights `A`, the location `L` and the bus of the client `C` determine which methods compile. The value
-/// type `V` determines the types of their arguments. Methods without a suffix need a [`Client`]. Methods with the
-/// suffix `_async` need an [`AsyncClient`] and don't block.
+/// type `V` determines the argument types of these methods. Methods without a suffix need a [`Client`]. Methods with
+/// the suffix `_async` need an [`AsyncClient`] and don't block.
 ///
 /// # Errors
 ///

@@ -25,9 +25,10 @@ use crate::error::Error;
 pub struct Axes {
     /// The number of axes.
     pub count: u8,
-    /// Address rules by index range. The first range that contains an index applies.
+    /// Rules for the addresses on the next axis, one rule per index range. The first range that contains an index
+    /// applies.
     pub ranges: &'static [AxisRange],
-    /// Objects within these ranges that all axes share, in ascending order of address.
+    /// Objects within `ranges` that all axes share, in ascending order of address.
     pub shared: &'static [Object],
 }
 
@@ -47,7 +48,7 @@ pub struct AxisRange {
 pub enum AxisStep {
     /// The next axis adds this number to the index (CiA 402-2: 0x800).
     Index(u16),
-    /// The axis number is the sub-index.
+    /// The sub-index is the axis number.
     SubIndex,
     /// The next axis adds this number to the sub-index.
     SubIndexStride(u8),

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-/// Formats a bit field for `Debug`. The output contains the flags that are set and the fields with their values. All
-/// other set bits follow in hexadecimal. Generated code calls this function.
+/// Formats a bit field for `Debug`. The output contains the flags that are set and the fields with their values. Set
+/// bits that belong to no field follow in hexadecimal. Generated code calls this function.
 ///
 /// `layout` is the name of the type, followed by `name:mask` for every field, separated by spaces. Masks are
 /// hexadecimal. A mask of one bit is a flag, a mask of several bits is a number. `!name:mask` is a flag that is set if
@@ -76,8 +76,8 @@ impl Entries<'_, '_> {
     }
 }
 
-/// Defines functions that access the bits of an integer. Generated code calls them because calls compile faster than
-/// operators.
+/// Defines functions that access the bits of an integer. Generated code calls these functions, because function calls
+/// compile faster than operators.
 macro_rules! bits {
     ($($module:ident $native:ident)*) => {
         $(

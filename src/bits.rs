@@ -1,7 +1,7 @@
 //! Bit fields at any bit offset of a byte string.
 //!
-//! Bit 0 is the lowest bit of the first byte, bit 8 the lowest bit of the second byte. This is the bit order of a PDO
-//! (CiA 301 7.1.4).
+//! Bit 0 is the lowest bit of the first byte, bit 8 the lowest bit of the second byte. The bits of a PDO have the same
+//! order (CiA 301 7.1.4).
 
 use crate::pdo::{from_bytes, mask};
 use crate::value_error::LengthError;
@@ -10,7 +10,7 @@ use crate::value_error::LengthError;
 ///
 /// # Errors
 ///
-/// Returns [`LengthError`] if `data` is shorter.
+/// Returns [`LengthError`] if `data` contains fewer bits.
 #[inline]
 pub const fn check_length(data: &[u8], bits: usize) -> Result<(), LengthError> {
     let expected = bits.div_ceil(8);

@@ -82,12 +82,13 @@ pub struct Record {
     pub index: u16,
     /// Byte offset of the value in the record.
     pub offset: u16,
-    /// True if the value is a text or a byte string. Otherwise, it is a number with the most significant byte first.
+    /// True if the value is a text or a byte string; false if the value is a number, whose most significant byte comes
+    /// first.
     pub is_bytes: bool,
 }
 
 impl Record {
-    /// Creates the address of a number at byte offset `offset` of a record. The API is 0.
+    /// Creates the address of a number at byte offset `offset` of a record. The API of the address is 0.
     #[must_use]
     pub const fn new(slot: u16, subslot: u16, index: u16, offset: u16) -> Self {
         Self { api: 0, slot, subslot, index, offset, is_bytes: false }

@@ -1,4 +1,4 @@
-//! Traits that transfer the bytes of items. Adapters to bus libraries implement these traits.
+//! Traits that transfer the bytes of items. Adapters to bus libraries implement the traits of this module.
 
 use core::future::Future;
 use core::time::Duration;
@@ -8,8 +8,8 @@ use crate::error::Error;
 
 /// Reads and writes the items of one device. Each call blocks until the device replies.
 ///
-/// Values have their least significant byte first, as in CANopen, on every bus. A client converts them if the bus uses
-/// another byte order.
+/// Values have their least significant byte first, as in CANopen, on every bus. A client converts values if the bus
+/// uses another byte order.
 pub trait Client {
     /// Bus of the device.
     type Bus: Bus;
@@ -21,7 +21,7 @@ pub trait Client {
     ///
     /// For a value of a fixed size, `buffer` has exactly the length of the value. If the bus doesn't transmit lengths,
     /// fill the whole buffer. If the device sends a value that is longer than `buffer`, return the length of this
-    /// value, or an error. In this case, the content of `buffer` is unspecified.
+    /// value, or an error. If a value is too long, the content of `buffer` is unspecified.
     ///
     /// # Errors
     ///
@@ -37,12 +37,12 @@ pub trait Client {
     /// Returns the errors of [`read`](Self::read).
     fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
 
-    /// Writes two values in this order. Buses with a process image can send both values in one cycle. The default
-    /// implementation writes one value after the other.
+    /// Writes two values in the order of `writes`. Buses with a process image can send both values in one cycle. The
+    /// default implementation writes one value after the other.
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`write`](Self::write). In this case, the first value may already be written.
+    /// Returns the errors of [`write`](Self::write). After an error, the first value may already be written.
     fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
         writes.into_iter().try_for_each(|(address, data)| self.write(address, data))
     }
@@ -50,7 +50,7 @@ pub trait Client {
     /// Waits for at least `time`.
     ///
     /// Some devices need time between two transfers of one access: see [`Handshake`](crate::Handshake). The default
-    /// implementation sleeps if the feature `std` is enabled. Otherwise, it returns an error. [`Timed`] adds a clock to
+    /// implementation sleeps if the feature `std` is enabled, and otherwise returns an error. [`Timed`] adds a clock to
     /// any client.
     ///
     /// # Errors
@@ -80,7 +80,7 @@ pub(crate) fn sleep<E>(time: Duration) -> Result<(), Error<E>> {
 
 /// Reads and writes the items of one device without blocking, under the same rules as [`Client`].
 ///
-/// The client determines whether the futures are `Send`.
+/// The client type determines whether the futures of the methods are `Send`.
 #[allow(async_fn_in_trait)]
 pub trait AsyncClient {
     /// Bus of the device.
@@ -149,7 +149,7 @@ pub trait AsyncClient {
 /// # impl Delay { fn delay_us(&mut self, time: u32) { self.0 += time; } }
 /// # let (line, mut delay) = (Line, Delay(0));
 ///
-/// // Or `embedded_hal::delay::DelayNs`. For an async client: `embassy_time::Timer::after` or `tokio::time::sleep`.
+/// // `embedded_hal::delay::DelayNs` is also a clock. An async client can use `embassy_time::Timer::after`.
 /// let mut client = Timed::new(line, |time: Duration| delay.delay_us(time.as_micros() as u32));
 /// client.wait(Duration::from_millis(3))?;
 /// # drop(client);

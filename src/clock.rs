@@ -24,7 +24,7 @@ pub trait Timer {
     /// True if the timer can expire.
     const EXPIRES: bool = true;
 
-    /// Returns the output of `future`, or `None` if it takes longer than `time`.
+    /// Returns the output of `future`, or `None` if the future takes longer than `time`.
     async fn limit<F: Future>(&mut self, time: Duration, future: F) -> Option<F::Output>;
 }
 
@@ -39,8 +39,8 @@ impl<D: FnMut(Duration) -> S, S: Future> Timer for D {
     }
 }
 
-/// The clock of the standard library with the feature `std`; otherwise no clock. As a [`Timer`], it never expires,
-/// because a timer depends on the executor.
+/// The clock of the standard library with the feature `std`; without this feature, no clock. As a [`Timer`], this type
+/// never expires, because a timer depends on the executor.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DefaultClock;
 

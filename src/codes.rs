@@ -97,7 +97,7 @@ pub trait CodeTable: Copy {
     }
 }
 
-/// Returns the row of a code. If several ranges contain the code, the narrowest range applies.
+/// Returns the row that contains a code. If several ranges contain the code, the narrowest range applies.
 ///
 /// ```
 /// use lexibus::codes::{self, Code};

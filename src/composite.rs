@@ -2,8 +2,8 @@
 
 use crate::value_error::OutOfRange;
 
-/// Encoding of one number in `N` items that contain its digits, the most significant digit first. Another item can
-/// contain the sign.
+/// Encoding of one number in `N` items that contain its digits, the most significant digit first. An additional item
+/// can contain the sign of the number.
 ///
 /// A client accesses the items one after the other. Between two writes, the device has some digits of the old number
 /// and some of the new one.

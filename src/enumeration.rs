@@ -53,7 +53,7 @@ pub trait Enumeration: Copy + 'static {
     /// Returns the integer to write to an item. Reserved bits of a bit field have the values that the device requires.
     fn native(self) -> <Self::Base as Value>::Native;
 
-    /// Returns the integer for a PDO. All bits are unchanged.
+    /// Returns the integer for a PDO. All bits are unchanged, including reserved bits.
     fn as_is(self) -> <Self::Base as Value>::Native {
         self.native()
     }

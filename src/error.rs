@@ -43,7 +43,8 @@ pub enum Error<E> {
         object: Object,
     },
     /// A value to write is outside the item's declared range, or doesn't fit its type on this bus; nothing was sent.
-    /// This error also occurs if a value that was read has more bits on this bus and doesn't fit the item's type.
+    /// The variant also means that a value that was read has more bits on the bus than in the item, and doesn't fit the
+    /// item's type.
     OutOfRange(OutOfRange),
     /// The device sent, or the caller passed, the wrong number of bytes.
     Length(LengthError),

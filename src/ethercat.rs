@@ -2,7 +2,8 @@
 //!
 //! Generated bindings describe a slave as a constant [`Device`] with sync managers, PDOs, start-up commands and slots.
 //! An [`Assignment`] of PDOs computes the layout of the process image and the start-up commands for this layout. A
-//! [`SlotPlan`] does the same for a modular device and its modules. None of these types allocates.
+//! [`SlotPlan`] computes the layout and the commands for a modular device and its modules. The types of this module
+//! don't allocate.
 //!
 //! The terms "inputs" and "outputs" are from the master's point of view: a TxPDO of the slave is an input.
 
@@ -65,9 +66,9 @@ impl Device {
         self.sync_managers.iter().find(|manager| manager.number == number)
     }
 
-    /// Returns the number of the sync manager for a PDO. This is the default sync manager of the PDO, otherwise the
-    /// first one for the PDO's direction. If the description lists no sync managers, the default sync manager of
-    /// another PDO with the same direction is used.
+    /// Returns the number of the sync manager for a PDO. The result is the default sync manager of the PDO, or the
+    /// first sync manager for the PDO's direction if the PDO has no default. If the description lists no sync managers,
+    /// the default sync manager of another PDO with the same direction is used.
     #[must_use]
     pub fn sync_manager_of(&self, pdo: &PdoInfo) -> Option<u8> {
         let purpose = match pdo.direction {

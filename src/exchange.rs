@@ -50,8 +50,8 @@ pub trait Exchange {
     /// long for the protocol or the reply is longer than `reply`.
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
-    /// Notifies the line that the last reply doesn't belong to its request. The reply to this request may still arrive,
-    /// and the next exchange should discard it. The default implementation does nothing.
+    /// Notifies the line that the last reply doesn't belong to its request. The reply to the last request may still
+    /// arrive, and the next exchange should discard it. The default implementation does nothing.
     fn unsettle(&mut self) {}
 }
 

@@ -1,6 +1,6 @@
 //! Additional properties of an item.
 
-/// Set of properties of an item. Constants can test the properties.
+/// Set of properties of an item, which constants can also use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Flags(u8);
 

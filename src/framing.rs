@@ -1,8 +1,8 @@
 //! Framing of messages in a byte stream.
 //!
 //! [`Framing`] is a trait for framing protocols. [`Delimited`] implements the trait for protocols with start and end
-//! bytes. A [`Delimited`] is a constant with delimiters, escape bytes and checksum. None of these types allocates or
-//! performs I/O. The feature `serial` applies framing to a byte stream of `embedded-io`.
+//! bytes. A [`Delimited`] is a constant with delimiters, escape bytes and checksum. The types of this module neither
+//! allocate nor perform I/O. The feature `serial` applies framing to a byte stream of `embedded-io`.
 //!
 //! ```
 //! use lexibus::framing::{Check, Delimited, Framing};
@@ -103,7 +103,7 @@ pub trait Framing {
     /// # Errors
     ///
     /// Returns an error if the frame is invalid. The decoder then waits for the next frame. `byte` can be the first
-    /// byte of that frame.
+    /// byte of the next frame.
     fn decode(&self, decoder: &mut Self::Decoder, byte: u8, data: &mut [u8]) -> Result<Option<usize>, FrameError>;
 }
 
@@ -127,7 +127,7 @@ impl<F: Framing + ?Sized> Framing for &F {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FrameError {
-    /// Another frame started before the end of this one.
+    /// Another frame started before the end of the frame.
     Interrupted,
     /// The data are longer than the protocol or the buffer allows.
     TooLong,

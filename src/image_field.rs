@@ -39,11 +39,12 @@ pub enum ImageOrder {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ImageField {
-    /// True if the field is an output of the controller, which the device receives. Otherwise, the field is an input,
+    /// True if the field is an output of the controller, which the device receives; false if the field is an input,
     /// which the device sends.
     pub is_output: bool,
     /// Bit offset: eight times the offset of the first byte, plus the number of unused bits below the field. In a
-    /// big-endian field, the unused bits are in the last byte. In a little-endian field, they are in the first byte.
+    /// big-endian field, the unused bits are in the last byte. In a little-endian field, the unused bits are in the
+    /// first byte.
     pub bit: u32,
     /// Length in bits, at most 64 for a number.
     pub bits: u16,

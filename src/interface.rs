@@ -3,7 +3,7 @@
 /// Version of the interface that this crate provides to generated code.
 pub const VERSION: u32 = 1;
 
-/// Checks that generated code matches the version of this crate. Generated code calls it in a constant.
+/// Checks that generated code matches the version of this crate. Generated code calls this function in a constant.
 ///
 /// ```
 /// const _: () = lexibus::interface::assert_version(lexibus::interface::VERSION);
@@ -11,7 +11,7 @@ pub const VERSION: u32 = 1;
 ///
 /// # Panics
 ///
-/// Panics if `generated` isn't [`VERSION`]. In a constant, this is a compile error.
+/// Panics if `generated` isn't [`VERSION`]. In a constant, the panic is a compile error.
 #[track_caller]
 pub const fn assert_version(generated: u32) {
     assert!(

@@ -259,7 +259,7 @@ registers!(OnCoEAndModbus, register, (index: u16, sub_index: u8));
 registers!(OnCanOpenCoEAndModbus, register, (index: u16, sub_index: u8));
 
 impl<V: Value, A> Item<V, A, OnCoE> {
-    /// Returns the same entry with `offset` added to the index. Use it for a module in another slot.
+    /// Returns the same entry with `offset` added to the index. Use this method for a module in another slot.
     #[must_use]
     pub const fn shifted(self, offset: u16) -> Self {
         let object = self.location.coe;

@@ -24,7 +24,7 @@
 //! const STATUSWORD: Item<u16, Ro, OnCanOpen> =
 //!     Item::new(OnCanOpen::canopen(0x6041, 0x00), "Statusword", Range::Full, Initial::Unknown, "", Flags::TPDO);
 //!
-//! // A bus library implements this trait. Here, it is implemented for a device that stores its last write:
+//! // A bus library implements this trait. This example is a device that stores its last write:
 //! struct Echo([u8; 4]);
 //!
 //! impl Client for Echo {

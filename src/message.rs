@@ -99,9 +99,9 @@ pub trait Message {
     fn write(&self, station: u32, to: &mut Writer<'_>) -> Result<(), WriteError>;
 }
 
-/// The reply to a [`Message`]. A program reads it; a simulated device writes it.
+/// The reply to a [`Message`]. A program decodes replies; a simulated device encodes them.
 pub trait Reply<'r>: Sized {
-    /// True if this reply accepts any data. If so, the data are checked for a refusal first.
+    /// True if this reply accepts any data. If true, the data are checked for a refusal first.
     const IS_ANYTHING: bool = false;
 
     /// Decodes the reply to a request. Returns `None` unless all data match the reply. Parts of the reply that repeat
@@ -113,7 +113,7 @@ pub trait Reply<'r>: Sized {
     /// # Errors
     ///
     /// Returns an error if a field is outside its limits, or if the data don't fit into the buffer. Also returns an
-    /// error if the request is shorter than the part that the reply repeats.
+    /// error if the reply repeats a part of the request, and the request is shorter than this part.
     fn write(&self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError>;
 }
 
@@ -168,8 +168,8 @@ pub enum Completion {
     Immediate,
     /// The device sends the reply when the request is completed, which may take a long time.
     Reply,
-    /// A field of a later reply, or an item, indicates the completion. Replies with such a field have the method
-    /// `is_complete`.
+    /// A field of a later reply, or an item, indicates whether the request is completed. Replies with such a field have
+    /// the method `is_complete`.
     Polled,
     /// The device completes the request after this time in milliseconds.
     Delayed(u32),
@@ -187,6 +187,6 @@ pub trait Selector: Message {
     fn device<C>(client: C) -> Self::Device<C>;
 }
 
-/// Type state of a device whose last [`Selector`] is unknown, or that has received no selector.
+/// Type state of a device whose last [`Selector`] is unknown, or to which no selector has been sent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Unselected;

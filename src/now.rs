@@ -1,4 +1,4 @@
-//! Runs futures that are ready at the first poll, without an async runtime. Used by tests.
+//! Runs futures that are ready at the first poll, without an async runtime. The tests use this module.
 
 use core::future::Future;
 use core::pin::pin;

@@ -89,10 +89,10 @@ macro_rules! reals {
 
 reals! { f32 f64 }
 
-/// Type of a number that has a physical value. The trait is used by
-/// [`Accessor::read_scaled`](crate::Accessor::read_scaled) and [`Item::physical`](crate::Item::physical).
+/// Type of a number that has a physical value. [`Accessor::read_scaled`](crate::Accessor::read_scaled) and
+/// [`Item::physical`](crate::Item::physical) use this trait.
 ///
-/// The methods [`read`](crate::Accessor::read) and [`write`](crate::Accessor::write) still use the raw value.
+/// The methods [`read`](crate::Accessor::read) and [`write`](crate::Accessor::write) use the raw value.
 pub trait Quantity: Fixed {
     /// Type of the physical value: `f64`, or `Option<f64>` if some raw value has a special meaning.
     type Physical: Copy + Into<Option<f64>>;

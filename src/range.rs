@@ -3,7 +3,7 @@
 /// Range of values. The range includes its first and its last value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Range<T: 'static> {
-    /// All values of the type.
+    /// All values of the integer or floating-point type.
     #[default]
     Full,
     /// This value and all higher values.

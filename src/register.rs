@@ -63,7 +63,7 @@ pub struct Register {
     pub table: RegisterTable,
     /// Wire address of the first register, zero-based.
     pub address: u16,
-    /// Number of 16-bit registers that contain the value. For coils and discrete inputs, this is the number of bits.
+    /// Number of 16-bit registers that contain the value. For coils and discrete inputs: number of bits.
     pub count: u16,
     /// Order of the registers.
     pub order: WordOrder,
@@ -72,11 +72,10 @@ pub struct Register {
     /// Bit field of the number that forms the value, or `None` if the value is the whole number. To write a bit field,
     /// a client first reads the registers.
     pub part: Option<RegisterPart>,
-    /// Number of 16-bit registers per address: 1 on most devices, 2 on devices with one address per 32-bit register. On
-    /// the latter, a 32-bit value at `address` is followed by the next value at `address + 1`.
+    /// Number of 16-bit registers per address: 1 on most devices, 2 on devices with one address per 32-bit register.
+    /// With 2 registers per address, a 32-bit value at `address` is followed by the next value at `address + 1`.
     pub words_per_address: u8,
-    /// True if a number with fewer bytes than its registers is sign-extended. Otherwise, the number is padded with
-    /// zeros.
+    /// True if a number with fewer bytes than its registers is sign-extended; false if the number is padded with zeros.
     pub sign_extended: bool,
 }
 
@@ -188,11 +187,11 @@ impl Register {
     /// starts with its least significant byte, a text with its first byte.
     ///
     /// If a number is longer than `buffer`, its upper bytes are discarded, for example those of a one-byte value in a
-    /// register. A text isn't truncated. The returned length is that of the whole text, as
+    /// register. A text isn't truncated. For a text, the returned length is the length of the whole text, as
     /// [`Client::read`](crate::Client::read) requires.
     ///
-    /// Coils and discrete inputs don't need this method. Modbus packs bits into bytes with the first bit lowest, as in
-    /// `buffer`.
+    /// Coils and discrete inputs don't need this method. In Modbus messages and in `buffer`, the first bit is the
+    /// lowest bit of the first byte.
     ///
     /// # Errors
     ///
@@ -222,7 +221,8 @@ impl Register {
     /// # Errors
     ///
     /// Returns [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count), or if `data` is
-    /// longer than `words`. The same error occurs if the value is a bit field in a number of more than four words.
+    /// longer than `words`. [`LengthError`] also occurs if the value is a bit field in a number of more than four
+    /// words.
     pub fn encode(&self, data: &[u8], words: &mut [u16]) -> Result<(), LengthError> {
         self.check(words)?;
         let count = words.len();
@@ -284,8 +284,8 @@ impl Register {
         }
     }
 
-    /// Returns whether the upper half of a word comes first in the value. This applies to texts without swapped bytes
-    /// and to numbers with swapped bytes.
+    /// Returns whether the upper half of a word comes first in the value. The upper half comes first in texts without
+    /// swapped bytes and in numbers with swapped bytes.
     const fn is_big_endian(&self) -> bool {
         matches!(self.order, WordOrder::Bytes) != self.bytes_swapped
     }

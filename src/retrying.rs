@@ -64,7 +64,7 @@ impl<C> Retrying<C> {
     }
 }
 
-/// Returns whether another attempt is made, and counts this attempt.
+/// Returns whether another attempt is allowed, and counts this attempt.
 fn again<T, E>(result: &Result<T, Error<E>>, left: &mut u8) -> bool {
     let is_transient = matches!(result, Err(Error::Timeout | Error::UnexpectedReply | Error::Client(_)));
     let is_again = is_transient && *left > 0;
@@ -132,12 +132,12 @@ macro_rules! retrying {
 retrying! { Client RegisterClient }
 retrying! { AsyncClient AsyncRegisterClient async await }
 
-/// An async client with a timeout for each access. Use it for a client without its own timeout, or to limit the time of
-/// an access with several transfers. `T` is a [`Timer`], for example `tokio::time::sleep` or
+/// An async client with a timeout for each access. Use this client to add a timeout to another client, or to limit the
+/// time of an access with several transfers. `T` is a [`Timer`], for example `tokio::time::sleep` or
 /// `embassy_time::Timer::after`.
 ///
-/// When the timeout expires, the transfer is dropped. After that, the next transfer of any client of this crate is
-/// correct, except with contexts of `tokio-modbus` without a `Link`.
+/// When the timeout expires, the transfer is dropped. After a dropped transfer, the next transfer of any client of this
+/// crate is correct, except with contexts of `tokio-modbus` without a `Link`.
 ///
 /// ```
 /// # use core::time::Duration;
@@ -230,7 +230,7 @@ mod tests {
     use crate::now::now;
     use crate::{AbortCode, Parameter, Serial};
 
-    /// A client whose first accesses fail with an error. The number of these accesses is in the second field.
+    /// A client whose first accesses fail with an error. The second field contains the number of accesses that fail.
     struct Failing(Error<()>, u8);
 
     impl Failing {

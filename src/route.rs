@@ -10,7 +10,7 @@ pub use limited::Limited;
 pub use resized::Resized;
 pub use window::{Handshake, ReadWindow, Through, WriteWindow};
 
-/// Provides the address of a route to tools. A route through a window has no address.
+/// Methods with which tools find the address of a route. A route through a window has no address.
 pub trait Route {
     /// Returns the entry of the object dictionary, on CANopen or on CANopen over EtherCAT.
     fn object(&self) -> Option<Object> {

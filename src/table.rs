@@ -1,5 +1,5 @@
-//! All items of a device as data. Programs use this table to list or search items at run time, simulated devices to
-//! store values.
+//! All items of a device as data. Programs use the table to list or search items at run time, and simulated devices use
+//! it to create their items.
 
 use crate::bus::Object;
 use crate::data_type::DataType;
@@ -55,10 +55,10 @@ pub enum RawInitial {
     NodeId(u64),
 }
 
-/// Limit of a range. The limit belongs to the range.
+/// Limit of a range. The range includes the limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
-    /// The limit is that of the data type.
+    /// The limit of the data type applies.
     Unlimited,
     /// Limit of a signed integer.
     Signed(i64),

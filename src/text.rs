@@ -70,7 +70,7 @@ pub(crate) fn encode_utf16<'s>(text: &str, scratch: &'s mut [u8]) -> Result<&'s 
     Ok(room)
 }
 
-/// UTF-16 text from a device. The code units are valid. `Display` writes the text.
+/// UTF-16 text from a device. All code units are valid UTF-16. `Display` writes the text.
 ///
 /// ```
 /// use lexibus::Utf16;

@@ -29,7 +29,7 @@ pub struct TimeDifference {
     pub days: u16,
 }
 
-/// Mask of the bits for the milliseconds. The four bits above are reserved.
+/// Mask of the bits for the milliseconds. The four bits above the milliseconds are reserved.
 const MILLISECONDS: u32 = 0x0FFF_FFFF;
 
 macro_rules! time {
@@ -48,7 +48,7 @@ macro_rules! time {
                 (self.milliseconds & MILLISECONDS) as u64 | (self.days as u64) << 32
             }
 
-            /// Creates a value from its 48 bits. Ignores reserved bits and bits above the 48.
+            /// Creates a value from the 48 bits that a device sends. Ignores reserved bits and all bits above bit 47.
             #[must_use]
             pub const fn from_raw(raw: u64) -> Self {
                 Self { milliseconds: raw as u32 & MILLISECONDS, days: (raw >> 32) as u16 }

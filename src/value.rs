@@ -17,7 +17,7 @@ pub trait Value {
 ///
 /// Generated newtypes and enumerations implement this trait with the encoding of their integer type.
 pub trait Fixed: Value {
-    /// Size in bits, 1 to 64. The encoding has the next whole number of bytes.
+    /// Size in bits, 1 to 64. The length of the encoding is `BITS` rounded up to whole bytes.
     const BITS: u32;
 
     /// Encodes `native` at the start of `buffer` and returns the length in bytes.
@@ -31,7 +31,7 @@ pub trait Fixed: Value {
     ///
     /// # Errors
     ///
-    /// Returns [`LengthError`] if `bytes` has another length.
+    /// Returns [`LengthError`] if `bytes` doesn't have the length of the encoding.
     fn decode(bytes: &[u8]) -> Result<Self::Native, LengthError>;
 
     /// Returns whether `range` contains `value`.
@@ -46,7 +46,8 @@ pub(crate) fn encode_raw(raw: u64, bits: u32, buffer: &mut [u8; 8]) -> usize {
     byte_len(bits)
 }
 
-/// Decodes `bits` bits. The slice must have exactly the number of bytes that these bits occupy.
+/// Decodes a number of `bits` bits from a slice. The slice must have exactly the number of bytes that the bits of the
+/// number occupy.
 #[inline]
 pub(crate) fn decode_raw(bytes: &[u8], bits: u32) -> Result<u64, LengthError> {
     let expected = byte_len(bits);

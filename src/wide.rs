@@ -55,14 +55,14 @@ impl<const BITS: u32> Uint<BITS> {
         self.0
     }
 
-    /// Creates the integer from the low `BITS` bits of `raw`. Ignores the other bits.
+    /// Creates the integer from the low `BITS` bits of `raw`. Ignores the higher bits of `raw`.
     #[must_use]
     #[inline]
     pub const fn from_raw(raw: u64) -> Self {
         Self(raw & mask(Self::WIDTH))
     }
 
-    /// Returns the low `BITS` bits of the integer's representation. All other bits are 0.
+    /// Returns the low `BITS` bits of the integer's representation. All higher bits of the result are 0.
     #[must_use]
     #[inline]
     pub const fn raw(self) -> u64 {
@@ -98,15 +98,15 @@ impl<const BITS: u32> Int<BITS> {
         self.0
     }
 
-    /// Creates the integer from the low `BITS` bits of `raw`. The highest of these bits is the sign. Ignores the other
-    /// bits.
+    /// Creates the integer from the low `BITS` bits of `raw`. The highest bit of a signed integer is the sign. Ignores
+    /// the higher bits of `raw`.
     #[must_use]
     #[inline]
     pub const fn from_raw(raw: u64) -> Self {
         Self(sign_extend(raw, Self::WIDTH))
     }
 
-    /// Returns the low `BITS` bits of the integer's representation. All other bits are 0.
+    /// Returns the low `BITS` bits of the integer's representation. All higher bits of the result are 0.
     #[must_use]
     #[inline]
     pub const fn raw(self) -> u64 {

@@ -56,8 +56,8 @@ use syn::LitStr;
 /// }
 /// ```
 ///
-/// `overlay: "../dictionaries/drive.overlay.toml"` applies a table that corrects or extends the description. The option
-/// may be repeated.
+/// `overlay: "../dictionaries/drive.overlay.toml"` applies a table that corrects or extends the description. To apply
+/// several tables, repeat the option.
 ///
 /// Diagnostics are reported at the path argument and quote the line of the description. A macro on stable Rust cannot
 /// report warnings, so a warning appears as the use of a deprecated constant. If your crate denies warnings, put

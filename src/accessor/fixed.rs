@@ -50,8 +50,8 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     ///
     /// # Errors
     ///
-    /// Returns [`Error::OutOfRange`] if the value is outside the item's range or doesn't fit its type. In this case,
-    /// nothing is sent.
+    /// Returns [`Error::OutOfRange`] if the value is outside the item's range or doesn't fit its type. An invalid value
+    /// isn't sent.
     #[inline]
     pub fn write(&mut self, value: V::Native) -> Result<(), Error<C::Error>>
     where
@@ -68,8 +68,8 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     ///
     /// # Errors
     ///
-    /// Returns [`Error::OutOfRange`] if the value is outside the item's range or doesn't fit its type. In this case,
-    /// nothing is sent.
+    /// Returns [`Error::OutOfRange`] if the value is outside the item's range or doesn't fit its type. An invalid value
+    /// isn't sent.
     pub async fn write_async(&mut self, value: V::Native) -> Result<(), Error<C::Error>>
     where
         A: Writable,

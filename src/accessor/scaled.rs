@@ -16,7 +16,7 @@ macro_rules! scaled {
     ) => {
         impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
             /// Reads the physical value in the item's unit. The type is `f64`, or `Option<f64>` if some raw value has a
-            /// special meaning. In this case, `None` means that the device sent this raw value.
+            /// special meaning. `None` means that the device sent a raw value with a special meaning.
             ///
             /// # Errors
             ///
@@ -35,7 +35,7 @@ macro_rules! scaled {
             /// # Errors
             ///
             /// Returns [`Error::OutOfRange`] if the raw value is outside the item's range, doesn't fit its type, or has
-            /// a special meaning. In this case, nothing is sent.
+            /// a special meaning. An invalid value isn't sent.
             pub $($async)? fn $write_scaled(&mut self, physical: f64) -> Result<(), Error<C::Error>>
             where
                 A: Writable,

@@ -32,7 +32,7 @@ macro_rules! texts {
             ///
             /// # Errors
             ///
-            /// Returns [`Error::Text`] if a character is outside the range 0x20 to 0x7E. In this case, nothing is sent.
+            /// Returns [`Error::Text`] if a character is outside the range 0x20 to 0x7E; the text isn't sent.
             pub $($async)? fn $write(&mut self, text: &str) -> Result<(), Error<C::Error>>
             where
                 A: Writable,
@@ -63,7 +63,7 @@ macro_rules! texts {
             ///
             /// # Errors
             ///
-            /// Returns [`Error::Length`] if `scratch` is too short. In this case, nothing is sent.
+            /// Returns [`Error::Length`] if `scratch` is too short; the text isn't sent.
             pub $($async)? fn $write(&mut self, text: &str, scratch: &mut [u8]) -> Result<(), Error<C::Error>>
             where
                 A: Writable,

@@ -1,7 +1,7 @@
 //! CANopen over EtherCAT, with `ethercrab` as the master. Needs Rust 1.85, as `ethercrab` does.
 //!
-//! [`Sdo`] reads and writes the objects of one SubDevice, in all states from Pre-Operational on. You can keep it while
-//! the group of the SubDevice changes its state in `ethercrab`.
+//! [`Sdo`] reads and writes the objects of one SubDevice, in all states from Pre-Operational on. You can keep an
+//! [`Sdo`] while the group of the SubDevice changes its state in `ethercrab`.
 //!
 //! ```no_run
 //! use ethercrab::{std::ethercat_now, MainDevice};
@@ -42,23 +42,23 @@
 //!
 //! # Memory of the slave controller
 //!
-//! [`Memory`] reads and writes items with an address in this memory: AL status, error counters, and other registers
-//! that the device's manual lists.
+//! [`Memory`] reads and writes items with an address in the memory of the slave controller: AL status, error counters,
+//! and other registers that the device's manual lists.
 //!
 //! # Process data
 //!
 //! `ethercrab` reads the PDO assignment from the device, and provides the inputs and outputs of a SubDevice as byte
-//! slices. If the default PDOs are assigned, generated `image` types convert these slices: use `Inputs::unpack`,
+//! slices. If the default PDOs are assigned, generated `image` types convert the byte slices: use `Inputs::unpack`,
 //! `Outputs::pack`, or views that access single fields. For another assignment,
-//! [`Assignment::find`](crate::ethercat::Assignment::find) returns the bit offset of a PDO. Pass this offset to the
-//! PDO's `view::…::at`. If a device has several sync managers of one direction, their data follow each other in the
-//! slice. The data of each sync manager start at a byte boundary.
+//! [`Assignment::find`](crate::ethercat::Assignment::find) returns the bit offset of a PDO. Pass the bit offset to
+//! `view::…::at` of the PDO. If a device has several sync managers of one direction, the slice contains their data one
+//! after the other. The data of each sync manager start at a byte boundary.
 //!
 //! # Why not `sdo_read` and `sdo_write` of `ethercrab`
 //!
-//! In version 0.7.1, these functions write at most 4 bytes and cannot read segmented values. They fail or panic if the
-//! device sends an emergency message before its reply. [`Sdo`] exchanges the mailbox messages itself, in datagrams of
-//! `ethercrab`, and needs no buffer.
+//! In version 0.7.1 of `ethercrab`, `sdo_write` writes at most 4 bytes, and `sdo_read` cannot read segmented values.
+//! Both functions fail or panic if the device sends an emergency message before its reply. [`Sdo`] exchanges the
+//! mailbox messages itself, in datagrams of `ethercrab`, and needs no buffer.
 
 mod cycle;
 mod mailbox;
@@ -135,7 +135,7 @@ impl<'m> Sdo<'m> {
 
     /// Sends a start-up list, for example [`Assignment::startup`](crate::ethercat::Assignment::startup), with complete
     /// access for the commands that request it. Call this method in state `PreOp`, before the group changes to
-    /// `PreOpPdi` or `SafeOp`. `ethercrab` reads the PDO assignment during these transitions.
+    /// `PreOpPdi` or `SafeOp`. `ethercrab` reads the PDO assignment during the transitions to these two states.
     ///
     /// # Errors
     ///
@@ -151,7 +151,7 @@ impl<'m> Sdo<'m> {
     }
 
     /// Reads all entries of an object at once, from entry `from` on (complete access, ETG.1000.6 5.6.2.1). Returns the
-    /// length in bytes. Sub-index 0 has two bytes in this transfer.
+    /// length in bytes. With complete access, sub-index 0 has two bytes.
     ///
     /// # Errors
     ///

@@ -24,17 +24,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A [`Link`] has a timeout and discards late replies. Contexts of `tokio-modbus` work too, but they don't discard
-//! late replies, and async contexts have no timeout. After a late reply, a context of [`rtu`] returns the value of the
-//! previous request for each request with the same length. A context of [`tcp`] then rejects every reply. Create a new
-//! context in this case.
+//! A [`Link`] has a timeout and discards late replies. Contexts of `tokio-modbus` work too, but they don't discard late
+//! replies, and async contexts have no timeout. After a late reply, a context of [`rtu`] returns the value of the
+//! previous request for each request with the same length. After a late reply, a context of [`tcp`] rejects every
+//! reply. Create a new context if a reply was late.
 //!
 //! With a [`BlockingLink`] or a context of [`sync`], a [`ModbusClient`] is a [`Client`] and a [`RegisterClient`]. With a
 //! [`Link`] or a context of [`tcp`] or [`rtu`], it is an [`AsyncClient`] and an [`AsyncRegisterClient`].
 //!
-//! Some devices don't support all requests. Generated bindings list the supported ones in the constant `MODBUS`, for
-//! [`with_limits`](ModbusClient::with_limits). The client then uses only supported requests. If none fits, it returns
-//! an error and sends nothing:
+//! Some devices don't support all requests. Generated bindings list the supported requests in the constant `MODBUS`,
+//! for [`with_limits`](ModbusClient::with_limits). With the option `with_limits`, the client uses only supported
+//! requests. If no supported request fits, the client returns an error and sends nothing:
 //!
 //! ```
 //! use lexibus::clients::modbus::ModbusClient;
@@ -84,7 +84,8 @@ pub struct ModbusClient<T> {
 }
 
 impl<T> ModbusClient<T> {
-    /// Creates a client over `context`. It writes one register with function 6 and several with function 16.
+    /// Creates a client over `context`. The client writes one register with function 6, and several registers with
+    /// function 16.
     pub const fn new(context: T) -> Self {
         Self { context, limits: Limits::STANDARD, single: true }
     }
@@ -95,8 +96,8 @@ impl<T> ModbusClient<T> {
         Self { limits, ..self }
     }
 
-    /// Sets whether a single register is written with function 6; some devices support only function 16. Function 6 is
-    /// used anyway if the [limits](Self::with_limits) don't contain function 16.
+    /// Sets whether a single register is written with function 6; some devices support only function 16. The client
+    /// uses function 6 in any case if the [limits](Self::with_limits) don't contain function 16.
     #[must_use]
     pub fn with_single_writes(self, single: bool) -> Self {
         Self { single, ..self }

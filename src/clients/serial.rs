@@ -47,9 +47,10 @@
 //! # Late replies
 //!
 //! A frame does not identify the request to which it replies. After a timeout, an invalid reply or a dropped exchange,
-//! the next exchange first discards the late reply. It waits until a frame arrives, a read of the stream times out, or
-//! the timeout of the line has expired. This requires a stream whose reads time out, or an async line with a timer. If
-//! the stream implements `embedded_io::ReadReady`, [`SerialLine::draining`] discards repeated replies as well.
+//! the next exchange first discards the late reply. Before its request, the next exchange waits until a frame arrives,
+//! a read of the stream times out, or the timeout of the line has expired. A blocking line can discard late replies
+//! only if reads of the stream time out, an async line only if it has a timer. If the stream implements
+//! `embedded_io::ReadReady`, [`SerialLine::draining`] discards repeated replies as well.
 
 use core::error;
 use core::fmt;
@@ -67,15 +68,16 @@ pub use embedded_io_async;
 const MOST_NOISE: usize = 4096;
 
 /// Client for a device on a stream `S` with the framing `F`. `N` is the maximum length of a frame to send, in bytes. If
-/// the framing has escapes, this is twice the length of data and check, plus start and end.
+/// the framing has escapes, `N` is twice the length of data and checksum, plus start and end byte.
 ///
 /// The client is an [`Exchange`] if the stream implements the traits of `embedded_io`, and an [`AsyncExchange`] if the
 /// stream implements those of `embedded_io_async`. The client reads single bytes, and no bytes after the end of a
 /// reply. Use a buffered stream if single reads are too slow.
 ///
 /// Bytes before a reply are ignored. An invalid reply ends the exchange with an error, unless another frame starts
-/// within this reply. In this case, the other frame is the reply. Only the protocol can check whether a reply belongs
-/// to its request. After 4096 bytes without a reply, the exchange ends with [`Error::Timeout`].
+/// within the invalid reply. If another frame starts, the client decodes this frame as the reply. Only the protocol can
+/// check whether a reply belongs to its request. After 4096 bytes without a reply, the exchange ends with
+/// [`Error::Timeout`].
 ///
 /// `T` is the [`Clock`] of a blocking line or the [`Timer`] of an async line.
 pub struct SerialLine<S, F: Framing, const N: usize, T = DefaultClock> {
@@ -143,8 +145,8 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
 }
 
 impl<S, F: Framing, const N: usize, T> SerialLine<S, F, N, T> {
-    /// Returns the line with the option to discard all waiting bytes before each request. These are repeated replies,
-    /// and messages that the device sends without a request.
+    /// Returns the line with the option to discard all waiting bytes before each request. Waiting bytes are repeated
+    /// replies, and messages that the device sends without a request.
     #[must_use]
     pub fn draining(mut self) -> Self
     where

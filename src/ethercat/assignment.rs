@@ -23,7 +23,8 @@ pub struct AssignedPdo {
     pub bit: u32,
     /// Length in bits.
     pub bits: u32,
-    /// Mapping of the PDO: that of the device description, or the mapping passed to [`Assignment::with_mapping`].
+    /// Mapping of the PDO: the mapping in the device description, or the mapping passed to
+    /// [`Assignment::with_mapping`].
     pub mapping: &'static [MappedEntry],
 }
 
@@ -196,7 +197,7 @@ impl<const N: usize> Assignment<N> {
         self.bits(sync_manager).div_ceil(8) as usize
     }
 
-    /// Returns the start-up commands. Send them in Pre-Operational before you request Safe-Operational.
+    /// Returns the start-up commands. Send the commands in Pre-Operational before you request Safe-Operational.
     ///
     /// The device's own commands for the transitions IP and PS come first. The [`commands`](Self::commands) of the
     /// assignment follow.
@@ -206,7 +207,7 @@ impl<const N: usize> Assignment<N> {
         commands.chain(self.commands().map(|write| StartupCommand::of_write(Transition::PS, write)))
     }
 
-    /// Returns the SDO writes that configure the assignment (ETG.1000.6 5.6.7.4). Send them in Pre-Operational.
+    /// Returns the SDO writes that configure the assignment (ETG.1000.6 5.6.7.4). Send the writes in Pre-Operational.
     ///
     /// The writes clear the assignment, write all writable mappings, and then write the assignment. Writes to read-only
     /// objects are left out.

@@ -7,7 +7,8 @@ pub struct ClockMode {
     pub name: &'static str,
     /// Description; may be empty.
     pub description: &'static str,
-    /// Value of register 0x0980, which activates the sync and latch units. The value 0 disables the distributed clocks.
+    /// Value of register 0x0980, which activates the sync and latch units. The register value 0 disables the
+    /// distributed clocks.
     pub assign_activate: u16,
     /// Cycle time of Sync0.
     pub cycle_sync0: ClockTime,

@@ -14,7 +14,8 @@ pub struct Slots {
     pub modules: &'static [&'static Module],
     /// Groups of modules in the order of the process image. If the list is empty, modules are ordered by slot.
     pub pdo_groups: &'static [PdoGroup],
-    /// Transitions during which the master writes the module idents to 0xF030. Empty if the master doesn't write them.
+    /// Transitions during which the master writes the module idents to 0xF030. The set is empty if the master doesn't
+    /// write the module idents.
     pub download_idents: Transitions,
 }
 
@@ -122,7 +123,7 @@ impl SlotGroup {
 }
 
 impl SlotObjects {
-    /// Creates a range from `first` to `last`. Both limits belong to the range.
+    /// Creates a range from `first` to `last`. The range includes `first` and `last`.
     #[must_use]
     pub const fn new(first: u16, last: u16, depends_on: DependsOn) -> Self {
         Self { first, last, depends_on }

@@ -33,7 +33,7 @@ pub struct PdoInfo {
     pub depends_on: DependsOn,
     /// Indices of PDOs that must not be assigned together with this PDO.
     pub excludes: &'static [u16],
-    /// The mapped entries. Each entry has its own slot dependency.
+    /// The mapped entries. Each mapped entry has its own slot dependency.
     pub mapping: &'static [MappedEntry],
 }
 

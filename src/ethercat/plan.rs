@@ -46,7 +46,8 @@ pub enum PlanError {
         /// Ident of the module.
         ident: u32,
     },
-    /// A series of slots has fewer modules than its minimum. The variant contains the number of the first free slot.
+    /// A series of slots has fewer modules than its minimum. The value of the variant is the number of the first free
+    /// slot.
     Empty(u16),
     /// A list object has too few sub-indices. List objects are assignments (0x1C10 and following), the module idents
     /// (0xF030), and the mapping of a padding PDO.

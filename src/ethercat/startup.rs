@@ -59,8 +59,8 @@ impl StartupCommand {
 
     /// Writes the value through a CoE client.
     ///
-    /// [`Client`] doesn't support complete access. If the command uses complete access, this method sends only the
-    /// bytes. In this case, use the functions of the bus library instead.
+    /// [`Client`] doesn't support complete access. If the command uses complete access, this method writes the bytes
+    /// without complete access. For such commands, use the functions of the bus library instead.
     ///
     /// # Errors
     ///

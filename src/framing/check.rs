@@ -1,6 +1,6 @@
 //! Error detection codes at the end of a frame.
 
-/// Error detection code after the data of a frame. The parameter is its initial value.
+/// Error detection code after the data of a frame. The parameter of each variant is the initial value of the code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Check {
@@ -13,7 +13,7 @@ pub enum Check {
     Sum(u8),
     /// One byte: the low eight bits of the negative sum. The sum of data and code is 0 if the initial value is 0.
     Lrc(u8),
-    /// Two bytes, the low byte first: a CRC with the polynomial 0x8005. Modbus RTU uses it with the initial value
+    /// Two bytes, the low byte first: a CRC with the polynomial 0x8005. Modbus RTU uses this CRC with the initial value
     /// 0xFFFF.
     Crc16(u16),
 }

@@ -5,11 +5,12 @@ use crate::value_error::LengthError;
 
 /// Framing with an end byte, and usually a start byte: start, data, checksum, end.
 ///
-/// If frames have a start byte, bytes between frames are ignored. Start and end byte may be equal. In this case, one
-/// byte can be both the end of a frame and the start of the next frame, and frames without data are ignored.
+/// If frames have a start byte, bytes between frames are ignored. Start and end byte may be equal. If both are equal,
+/// one byte can be both the end of a frame and the start of the next frame, and frames without data are ignored.
 ///
 /// A checksum without escapes can contain the end byte. The decoder ends a frame at the first end byte that follows a
-/// matching checksum. In rare cases, this end byte is inside the frame, which the decoder cannot detect.
+/// matching checksum. In rare cases, an end byte inside the frame follows a matching checksum, which the decoder cannot
+/// detect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Delimited {
     /// Start byte; `None` if each frame starts after the end of the last one.
@@ -114,7 +115,8 @@ pub struct DelimitedDecoder {
     state: State,
     /// Number of data bytes so far.
     length: usize,
-    /// The last bytes, which may be the checksum. They are still escaped if the checksum is sent without escapes.
+    /// The last bytes, which may be the checksum. If the checksum is sent without escapes, the held bytes are not
+    /// unescaped.
     held: [u8; 2],
     held_length: usize,
 }

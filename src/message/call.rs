@@ -48,7 +48,7 @@ pub type Answer<T, E, M> = Result<T, Failure<E, <M as Message>::Refusal>>;
 pub enum Failure<E, R> {
     /// The device refused the request.
     Refused(R),
-    /// The message failed for any other reason.
+    /// The call failed for any other reason.
     Error(Error<E>),
 }
 
@@ -139,8 +139,8 @@ macro_rules! calls {
             }
 
             /// Sends the message and returns the device with the messages whose meaning this message selects. The
-            /// returned device borrows the client. Therefore, no other selection can be sent while this device is in
-            /// use.
+            /// returned device borrows the client. Therefore, the program cannot send another selector while it uses
+            /// this device.
             ///
             /// # Errors
             ///

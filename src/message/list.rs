@@ -38,7 +38,7 @@ enum Source<'a, G> {
 }
 
 impl<G: Copy> Source<'_, G> {
-    /// Removes and returns the first group. `read` decodes it if the list was received.
+    /// Removes and returns the first group. If the list was received, `read` decodes the group.
     fn take_next(&mut self, read: impl FnOnce(&mut Reader<'_>) -> Option<G>) -> Option<G> {
         match self {
             Source::Sent(groups) => {
@@ -254,7 +254,7 @@ impl SettingsRule {
     ///
     /// # Errors
     ///
-    /// Returns [`Error::Length`] if the length of `value` differs from that of the received value.
+    /// Returns [`Error::Length`] if the length of `value` differs from the length of the received value.
     pub fn copy<E>(&self, bytes: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
         let found =
             Reader::new(bytes).value(self.order, bytes.len()).ok_or(LengthError::new(value.len(), bytes.len()))?;
@@ -269,7 +269,7 @@ impl<'a> Settings<'a> {
         Self { source: Source::Sent(settings), rule }
     }
 
-    /// Creates a list from received bytes. Returns `None` if they are incomplete or contain an unknown parameter.
+    /// Creates a list from received bytes. Returns `None` if the bytes are incomplete or contain an unknown parameter.
     #[must_use]
     pub fn received(bytes: &'a [u8], rule: SettingsRule) -> Option<Self> {
         let settings = Self { source: Source::Received(bytes), rule };
@@ -288,7 +288,8 @@ impl<'a> Settings<'a> {
     ///
     /// # Errors
     ///
-    /// - [`WriteError::NoMessage`] if a parameter doesn't exist. The device couldn't locate the next parameter.
+    /// - [`WriteError::NoMessage`] if a parameter doesn't exist. Without the length of this parameter, the device
+    ///   couldn't find the next parameter.
     /// - [`WriteError::Length`] if the buffer is too short, or if the length of a value differs from the length of the
     ///   parameter's type.
     pub fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError> {

@@ -61,14 +61,15 @@ impl<S> Outcomes<S> {
 }
 
 impl<S: PartialEq> Outcomes<S> {
-    /// Returns the possible reactions in `state`, or an empty slice if the device description doesn't state them.
+    /// Returns the possible reactions in `state`, or an empty slice if the device description doesn't state the
+    /// reactions.
     #[must_use]
     pub fn of(&self, state: S) -> &'static [Outcome<S>] {
         self.0.iter().find(|row| row.state == state).map_or(&[], |row| row.outcomes)
     }
 
     /// Returns whether the device accepts the message in `state`. Returns `None` if the device description doesn't
-    /// state the reaction, or if it depends on other conditions.
+    /// state the reaction, or if the reaction depends on other conditions.
     #[must_use]
     pub fn accepts(&self, state: S) -> Option<bool> {
         let outcomes = self.of(state);

@@ -2,8 +2,8 @@
 
 /// Reads the fields of a message in order.
 ///
-/// Numbers are big-endian unless a byte order is given. Bit fields start at the most significant bit. All methods
-/// return `None` if the data are too short or don't match the expected data.
+/// Numbers are big-endian unless the method has a parameter for the byte order. Bit fields start at the most
+/// significant bit. All methods return `None` if the data are too short or don't match the expected data.
 #[derive(Clone, Copy, Debug)]
 pub struct Reader<'r> {
     data: &'r [u8],
@@ -14,9 +14,9 @@ pub struct Reader<'r> {
 /// Returns the significance of the byte at position `at` in a value of `length` bytes. The least significant byte has
 /// the significance 0.
 ///
-/// `order` lists the bytes of the longest possible value in wire order, with 0 for the most significant byte. A shorter
-/// value consists of the low bytes of such a value, in this order. A value is big-endian if it is longer than `order`
-/// or if `order` is empty.
+/// `order` lists the byte numbers of the longest possible value in wire order, with 0 for the most significant byte. A
+/// shorter value consists of the low bytes of the longest value, in the same order. A value is big-endian if it is
+/// longer than `order` or if `order` is empty.
 pub(super) fn significance(order: &[u8], length: usize, at: usize) -> usize {
     let big_endian = length.saturating_sub(1).saturating_sub(at);
     let Some(missing) = order.len().checked_sub(length) else { return big_endian };
@@ -112,9 +112,9 @@ impl<'r> Reader<'r> {
 
     /// Reads a value of `length` bytes and returns the value in little-endian byte order. `length` is at most 8.
     ///
-    /// `order` lists the bytes of the longest possible value in wire order, with 0 for the most significant byte. A
-    /// shorter value consists of the low bytes of such a value, in this order. A value is big-endian if it is longer
-    /// than `order` or if `order` is empty.
+    /// `order` lists the byte numbers of the longest possible value in wire order, with 0 for the most significant
+    /// byte. A shorter value consists of the low bytes of the longest value, in the same order. A value is big-endian
+    /// if it is longer than `order` or if `order` is empty.
     pub fn value(&mut self, order: &[u8], length: usize) -> Option<[u8; 8]> {
         let mut value = [0; 8];
         let bytes = self.bytes(length)?;

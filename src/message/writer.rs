@@ -19,13 +19,13 @@ pub struct Writer<'b> {
     bits: usize,
 }
 
-/// Reasons why a message cannot be encoded. In all cases, nothing has been sent.
+/// Reasons why a message cannot be encoded. A message that cannot be encoded isn't sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum WriteError {
     /// A field is out of range.
     OutOfRange(OutOfRange),
-    /// The data exceed the buffer or the maximum length of the protocol.
+    /// The data are longer than the buffer, or longer than the protocol allows.
     Length(LengthError),
     /// The protocol has no message that reads or writes the parameter.
     NoMessage,

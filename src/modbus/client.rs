@@ -45,8 +45,9 @@ pub trait RegisterClient: Client<Bus = Modbus> {
     /// # Errors
     ///
     /// - The errors of [`Client::read`].
-    /// - [`Error::Length`] if an item is longer than the device allows in one request. In this case, nothing is sent.
-    ///   The same error occurs if the length of an item's type differs from the length of its registers.
+    /// - [`Error::Length`] if an item is longer than the device allows in one request; the client then sends no
+    ///   request. [`Error::Length`] also occurs if the length of an item's type differs from the length of its
+    ///   registers.
     fn read_block<const N: usize, B: Block<N>>(&mut self, block: B) -> Result<B::Values, Error<Self::Error>>
     where
         Self: Sized,

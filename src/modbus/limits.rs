@@ -2,7 +2,7 @@
 
 use crate::register::RegisterTable;
 
-/// The requests that a device supports, for each Modbus table. Generated bindings contain them as the constant
+/// The requests that a device supports, for each Modbus table. Generated bindings contain these limits as the constant
 /// `MODBUS`.
 ///
 /// ```
@@ -35,18 +35,18 @@ pub struct Limits {
 /// The requests that a device supports for one table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TableLimits {
-    /// Supported function codes. If the list is empty, the device description doesn't state them, and clients assume
-    /// all functions of the table.
+    /// Supported function codes. The list is empty if the device description doesn't state the supported functions;
+    /// clients then assume that the device supports all functions of the table.
     pub functions: &'static [u8],
     /// Maximum number of registers or bits in a read request.
     pub max_read: u16,
     /// Maximum number of registers or bits in a write request.
     pub max_write: u16,
-    /// True if a value that exceeds one request is split into several requests. Such a transfer isn't atomic. The
-    /// device or the client may see a mix of the old and the new value.
+    /// True if a value that exceeds one request is split into several requests. A transfer in several requests isn't
+    /// atomic: the device or the client may see a mix of the old and the new value.
     pub split: bool,
-    /// Addresses that a request can include between the addresses of items. These addresses exist on every model, and
-    /// reading them has no side effects.
+    /// Addresses that a request can include between the addresses of items. Readable addresses exist on every model,
+    /// and reading them has no side effects.
     pub readable: &'static [Span],
 }
 
@@ -92,13 +92,14 @@ impl TableLimits {
         Self { functions: &[], max_read, max_write, split: false, readable: &[] }
     }
 
-    /// Returns whether the table supports a function. Returns true if the device description doesn't list functions.
+    /// Returns whether the table supports a function. If the device description lists no functions, returns true for
+    /// every function.
     #[must_use]
     pub const fn takes(&self, function: u8) -> bool {
         self.functions.is_empty() || self.names(function)
     }
 
-    /// Returns whether the device description lists a function for the table.
+    /// Returns whether the device description lists any function for the table.
     #[must_use]
     pub const fn names(&self, function: u8) -> bool {
         let mut at = 0;

@@ -1,7 +1,7 @@
 //! Reads of several Modbus values at once, and the limits of a device's requests.
 //!
-//! [`Item::at`](crate::Item::at) reads one value per request. For cyclic reads, use [`RegisterClient::read_block`].
-//! This method reads any number of values with as few requests as the device allows.
+//! [`Item::at`](crate::Item::at) reads one value per request. For cyclic reads, use [`RegisterClient::read_block`],
+//! which reads any number of values with as few requests as the device allows.
 //!
 //! ```
 //! use lexibus::modbus::RegisterClient;
@@ -45,10 +45,10 @@
 //! # Items in one request
 //!
 //! One request reads values of the same table at consecutive addresses. Addresses between the values are included if
-//! the [`Limits`] of the device allow it. Generated bindings contain these limits as the constant `MODBUS`. A request
-//! never exceeds the device's limit and never includes an address that isn't described. The values of one request are
-//! consistent if the device updates its registers together. The values of different requests are not consistent.
-//! [`Plan`] can compute the requests at compile time.
+//! the [`Limits`] of the device allow it. Generated bindings contain the limits as the constant `MODBUS`. A request
+//! never exceeds the device's limit, and never includes an address that isn't in the device description. The values of
+//! one request are consistent if the device updates its registers together. The values of different requests are not
+//! consistent. [`Plan`] can compute the requests at compile time.
 
 mod block;
 mod client;

@@ -38,8 +38,8 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// Returns [`LengthError`], in bytes, if an item has no registers. The same error occurs if an item exceeds one
-    /// request and the device doesn't allow a [split](super::TableLimits::split).
+    /// Returns [`LengthError`], in bytes, if an item has no registers. [`LengthError`] also occurs if an item exceeds
+    /// one request and the device doesn't allow a [split](super::TableLimits::split).
     pub const fn new(items: [Register; N], limits: &Limits) -> Result<Self, LengthError> {
         let mut at = 0;
         while at < N {
@@ -91,7 +91,7 @@ impl<const N: usize> Plan<N> {
         &self.request_of
     }
 
-    /// Returns the item at which the next request begins. This is the item with the lowest address among those that are
+    /// Returns the item at which the next request begins: the item with the lowest address among the items that are
     /// compatible with the first unassigned item.
     const fn leftmost(&self, items: &[Register; N]) -> Option<usize> {
         let (mut at, mut found) = (0, N);
@@ -111,7 +111,7 @@ impl<const N: usize> Plan<N> {
     }
 
     /// Returns the end address of the request that begins with item `first`. The request includes further items, and
-    /// readable addresses between them, up to the limit.
+    /// readable addresses between the items, up to the limit.
     const fn reach(&self, items: &[Register; N], first: usize, limits: &Limits) -> u32 {
         let start = items[first];
         let max = limits.max_read(start.table);
@@ -173,7 +173,7 @@ const fn is_alike(one: &Register, other: &Register) -> bool {
     one.table as u8 == other.table as u8 && one.step() == other.step()
 }
 
-/// Returns whether each of these addresses belongs to an item or to a readable span.
+/// Returns whether each address of a range belongs to an item or to a readable span.
 const fn is_known(items: &[Register], kind: &Register, addresses: Range<u32>, limits: &Limits) -> bool {
     let spans = limits.of(kind.table).readable;
     let mut address = addresses.start;

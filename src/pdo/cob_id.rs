@@ -42,8 +42,8 @@ impl CobId {
     }
 }
 
-/// Returns whether PDOs must not use a CAN-ID (CiA 301 7.3.5). Restricted CAN-IDs are those of NMT, SDO and heartbeat,
-/// and reserved ones.
+/// Returns whether PDOs must not use a CAN-ID (CiA 301 7.3.5). The CAN-IDs of NMT, SDO and heartbeat are restricted,
+/// and so are reserved CAN-IDs.
 #[cfg(any(feature = "canopen", feature = "std"))]
 pub(crate) const fn is_restricted(can_id: u32) -> bool {
     matches!(can_id, 0..=0x7F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x6FF | 0x701..)

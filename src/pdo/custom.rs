@@ -16,7 +16,7 @@ pub trait Remappable {
     /// Type of the default COB-ID: [`CobId`], [`NoCobId`] if there is no default, or [`OnEtherCat`].
     type CobId: Identifier;
 
-    /// The default COB-ID (CiA 301 7.5.2.35). If there is no default, this is the COB-ID of a disabled PDO.
+    /// The default COB-ID (CiA 301 7.5.2.35). If there is no default, the constant is the COB-ID of a disabled PDO.
     const COB_ID: CobId = CobId::fixed(0x8000_0000);
 
     /// Index of the mapping object.
@@ -39,7 +39,7 @@ pub trait Remappable {
     /// Entries that must stay in the mapping (`Fixed` of an entry, ETG.2000).
     const KEPT: &'static [MappedEntry] = &[];
 
-    /// Index of the communication parameters. `None` on EtherCAT, and if the COB-ID is read-only.
+    /// Index of the communication parameters; `None` on EtherCAT, and if the COB-ID is read-only.
     const COMMUNICATION: Option<u16> = None;
 
     /// Writes that set the default transmission type and timers.
@@ -54,7 +54,7 @@ pub enum Rpdo {}
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tpdo {}
 
-/// Marks an object that PDOs of both directions can map.
+/// Marks an object that can be mapped into PDOs of both directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnyPdo {}
 
@@ -67,9 +67,9 @@ pub enum NoCobId {}
 pub enum OnEtherCat {}
 
 /// An object that can be mapped into PDOs of direction `D`. The field of the PDO has the type `F`. `WORD` is the
-/// mapping entry.
+/// mapping entry of the object.
 ///
-/// The generated module `mappable` has a type alias for each such object.
+/// The generated module `mappable` has a type alias for each mappable object.
 pub struct Mappable<F, D, const WORD: u32>(PhantomData<fn() -> (F, D)>);
 
 /// The field and the mapping entry of a [`Mappable`].
@@ -90,7 +90,7 @@ impl<F, D, const WORD: u32> Mapped for Mappable<F, D, WORD> {
     const WORD: u32 = WORD;
 }
 
-/// An object that PDOs of direction `D` can map.
+/// This trait is implemented for objects that can be mapped into PDOs of direction `D`.
 #[diagnostic::on_unimplemented(
     message = "this object cannot be mapped into a PDO of direction `{D}`",
     label = "the device allows it only in the other direction",
@@ -106,7 +106,8 @@ impl<F, const WORD: u32> MappableInto<Tpdo> for Mappable<F, Tpdo, WORD> {}
 impl<F, const WORD: u32> MappableInto<Rpdo> for Mappable<F, AnyPdo, WORD> {}
 impl<F, const WORD: u32> MappableInto<Tpdo> for Mappable<F, AnyPdo, WORD> {}
 
-/// Implemented only by [`CobId`]. Because of the lifetime, rustc checks the bound only when the method is called.
+/// Only [`CobId`] implements this trait. The trait has a lifetime parameter, so that rustc checks the bound only when
+/// the method is called.
 #[diagnostic::on_unimplemented(
     message = "this PDO has no default COB-ID",
     label = "the default COB-ID is unknown",
@@ -116,7 +117,8 @@ pub trait IsCobId<'a> {}
 
 impl IsCobId<'_> for CobId {}
 
-/// Implemented only by the COB-ID types of CANopen PDOs. The lifetime has the same purpose as in [`IsCobId`].
+/// Only the COB-ID types of CANopen PDOs implement this trait. The lifetime parameter has the same purpose as in
+/// [`IsCobId`].
 #[diagnostic::on_unimplemented(
     message = "this is an EtherCAT PDO, which has no COB-ID",
     label = "not a CANopen PDO",
@@ -148,7 +150,8 @@ impl Identifier for OnEtherCat {
 /// The result of a compile-time check, represented as a type.
 pub struct Check<const HOLDS: bool>;
 
-/// Implemented only by [`Check<true>`](Check). Requires that the length of the entry is a multiple of the granularity.
+/// Requires that the length of the entry is a multiple of the granularity. Only [`Check<true>`](Check) implements this
+/// trait.
 #[diagnostic::on_unimplemented(
     message = "this object cannot be mapped: its length is not a multiple of the granularity",
     label = "not a multiple of the device's mapping granularity"
@@ -160,7 +163,7 @@ pub trait FitsGranularity {
 
 impl FitsGranularity for Check<true> {}
 
-/// Checks by [`pdo!`](crate::pdo!) at compile time.
+/// Checks that [`pdo!`](crate::pdo!) makes at compile time.
 pub mod check {
     use super::{MappedEntry, Remappable};
 
@@ -214,7 +217,7 @@ pub mod check {
 }
 
 /// Returns the mapping entry for a gap of `bits` bits. The entry is a dummy entry on CANopen and padding on EtherCAT.
-/// Returns 0 if the device supports no such entry.
+/// Returns 0 if the device supports no entry for such a gap.
 #[must_use]
 pub const fn gap<P: Remappable>(bits: u32) -> u32 {
     if !P::CobId::NEEDS_DUMMIES && bits <= 0xFF {
@@ -272,7 +275,8 @@ pub const fn bits(mapping: &[MappedEntry]) -> u32 {
 /// Returns the writes that change the mapping: clear the mapping, write the entries, write their number. `N` is the
 /// number of entries plus 2.
 ///
-/// While you send these writes, a CANopen PDO must be disabled, and an EtherCAT device must be in Pre-Operational.
+/// While you send the writes of a mapping, a CANopen PDO must be disabled, and an EtherCAT device must be in
+/// Pre-Operational.
 #[must_use]
 pub const fn mapping_writes<P: Remappable, const N: usize>(mapping: &[MappedEntry]) -> [SdoWrite; N] {
     let clear = SdoWrite::new_u8(P::INDEX, 0, 0);

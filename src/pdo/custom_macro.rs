@@ -2,8 +2,8 @@
 //!
 //! A declarative macro needs no cargo feature and runs no code on the build machine. The macro refers to names in
 //! generated code: PDOs in the module `remappable`, objects in `mappable`. If a name is unknown, rustc reports the
-//! error at its position. A conflict between two parts is an unimplemented trait. A conflict of the whole mapping is a
-//! constant that panics.
+//! error at the position of the name. A conflict between two parts of the mapping causes the compile error that a trait
+//! isn't implemented. A conflict of the whole mapping causes a panic in a constant.
 
 /// Declares a custom mapping: a struct for a PDO with a writable mapping. The mapping is checked at compile time.
 ///
@@ -38,14 +38,14 @@
 /// # Ok::<(), lexibus::LengthError>(())
 /// ```
 ///
-/// The path is that of the PDO's struct in the module `pdo` of its device. PDOs without a default mapping have paths of
-/// the same form.
+/// The path in the declaration is the path of the PDO's struct in the module `pdo` of the device. PDOs without a
+/// default mapping have paths of the same form.
 ///
 /// A field has the name and value type of an accessor, such as `controlword`. For an entry of an array or a record,
 /// write a field name and the path of the entry: `pressure: analog_inputs::input_2`. `_: 8` is a gap of 8 bits. On
-/// EtherCAT, a gap is padding. On CANopen, it is a dummy entry (CiA 301 7.4.9.2) that the device must support.
+/// EtherCAT, a gap is padding. On CANopen, a gap is a dummy entry (CiA 301 7.4.9.2) that the device must support.
 ///
-/// The macro keeps the attributes of the struct and its fields. Derive the traits that you need.
+/// The macro keeps the attributes of the struct and its fields. Use `#[derive]` for the traits that you need.
 ///
 /// # Generated items
 ///
@@ -53,9 +53,9 @@
 /// implementation of [`Pdo`](crate::Pdo). In addition, the struct has these methods:
 ///
 /// - `configuration(node_id)` and `configuration_as(cob_id)` return the writes that configure a CANopen device.
-/// - `mapping_writes()` returns only the writes of the mapping. On EtherCAT, send these writes in Pre-Operational while
-///   the PDO isn't assigned. [`Assignment::with_mapping`](crate::ethercat::Assignment::with_mapping) includes them in
-///   the assignment.
+/// - `mapping_writes()` returns only the writes of the mapping. On EtherCAT, send the writes of the mapping in
+///   Pre-Operational while the PDO isn't assigned.
+///   [`Assignment::with_mapping`](crate::ethercat::Assignment::with_mapping) includes these writes in the assignment.
 ///
 /// # Compile-time checks
 ///
@@ -63,8 +63,8 @@
 /// - Each object must exist and be mappable in the PDO's direction (`cannot find type … in module …::mappable`).
 /// - The length of each object must be a multiple of the granularity.
 /// - The device must support a dummy entry for each gap.
-/// - The number of entries must not exceed the mapping object. The number of bits must not exceed 64 on CANopen, or the
-///   maximum length of the sync manager on EtherCAT.
+/// - The mapping object must have enough sub-indices for all entries. The number of bits must not exceed 64 on CANopen,
+///   or the maximum length of the sync manager on EtherCAT.
 /// - The mapping must include all fixed entries (`Fixed`, ETG.2000).
 ///
 /// An object can be mapped if the device description allows it or maps the object by default. If the description is
@@ -191,8 +191,8 @@ macro_rules! pdo {
 
             /// Returns only the writes of the mapping: clear the mapping, write the entries, write their number.
             ///
-            /// On EtherCAT, send them in Pre-Operational while the PDO is not assigned. On CANopen, the PDO must be
-            /// disabled.
+            /// On EtherCAT, send the writes in Pre-Operational while the PDO is not assigned. On CANopen, the PDO must
+            /// be disabled.
             #[must_use]
             pub const fn mapping_writes() -> [$crate::SdoWrite; <Self as $crate::Pdo>::MAPPING.len() + 2] {
                 $crate::pdo::custom::mapping_writes::<$path, { <Self as $crate::Pdo>::MAPPING.len() + 2 }>(

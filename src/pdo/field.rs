@@ -125,7 +125,7 @@ impl<const LEN: usize> Frame<LEN> {
         Self { word: 0, data: [0; LEN] }
     }
 
-    /// Adds a field of `bits` bits at bit offset `at`. No field may have been added there before.
+    /// Adds a field of `bits` bits at bit offset `at`. The bits of the field must still be 0.
     #[must_use]
     #[inline]
     pub fn with<F: Field>(mut self, field: F, at: u32, bits: u32) -> Self {

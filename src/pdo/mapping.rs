@@ -55,7 +55,7 @@ impl MappedEntry {
     }
 }
 
-/// A PDO with a known layout. Implemented by generated code and by [`pdo!`](crate::pdo!).
+/// A PDO with a known layout. Generated code and [`pdo!`](crate::pdo!) implement this trait.
 pub trait Pdo {
     /// Index of the mapping object, 0x1600 to 0x17FF or 0x1A00 to 0x1BFF.
     const INDEX: u16;

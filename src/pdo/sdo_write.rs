@@ -7,7 +7,7 @@ use crate::bus::{Bus, Object};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 
-/// A write of at most 8 bytes to an object. A configuration consists of such writes.
+/// A write of at most 8 bytes to an object. A configuration is a list of SDO writes.
 ///
 /// ```
 /// use lexibus::SdoWrite;

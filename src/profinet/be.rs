@@ -1,8 +1,7 @@
 //! Big-endian fields in a byte string.
 //!
-//! A bit field is a part of a big-endian number. This number consists of all bytes with bits of the field. Bit 0 is the
-//! least significant bit of the last byte. A read beyond the end of the data returns 0. A write beyond the end has no
-//! effect.
+//! A bit field is a part of a big-endian number, which consists of all bytes with bits of the field. Bit 0 is the least
+//! significant bit of the last byte. A read beyond the end of the data returns 0. A write beyond the end has no effect.
 
 use crate::pdo::{mask, sign_extend};
 use crate::time::{TimeDifference, TimeOfDay};
@@ -74,7 +73,7 @@ pub fn put_bit(data: &mut [u8], at: usize, bit: u32, value: bool) {
     }
 }
 
-/// Returns the number of bytes with bits of a field, at most 8. The field has `width` bits at bit offset `shift`.
+/// Returns how many bytes contain bits of a field, at most 8. The field has `width` bits at bit offset `shift`.
 const fn touched(shift: u32, width: u32) -> usize {
     let bytes = shift.saturating_add(width).div_ceil(8);
     if bytes > 8 {
@@ -84,7 +83,7 @@ const fn touched(shift: u32, width: u32) -> usize {
     }
 }
 
-/// Returns the number of a field's bits in a ninth byte, or `None` if the field ends before this byte.
+/// Returns how many bits of a field are in a ninth byte, or `None` if the field ends before the ninth byte.
 const fn in_ninth(shift: u32, width: u32) -> Option<u32> {
     if shift < 8 && width <= 64 && shift + width > 64 {
         Some(8 - shift)

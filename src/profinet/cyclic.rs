@@ -21,9 +21,9 @@ const CYCLE: Duration = Duration::from_millis(1);
 ///
 /// Outputs keep the values that were written last. The caller sets the status of the outputs, for example with
 /// [`Plan::set_status`](super::Plan::set_status). Each access exchanges the frames once. When a write returns, the data
-/// have been sent. When a read returns, the data are from this exchange. If the program has its own cycle, call
-/// [`by_hand`](Self::by_hand). In this case, only [`cycle`](Self::cycle) exchanges the frames, and one cycle can send
-/// several fields together.
+/// have been sent. When a read returns, the data are from the exchange of this access. If the program has its own
+/// cycle, call [`by_hand`](Self::by_hand). After this call, only [`cycle`](Self::cycle) exchanges the frames, and one
+/// cycle can send several fields together.
 ///
 /// ```
 /// use lexibus::profinet::{Cyclic, ImageClient, SubmoduleIo, IoSpan, IoStatus};
@@ -71,7 +71,7 @@ impl<I, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O,
         Self { image, submodule, outputs, inputs, is_by_hand: false }
     }
 
-    /// Turns off the frame exchange with each access. The caller must call [`cycle`](Self::cycle) or
+    /// Turns off the frame exchange in each access. Instead, the caller must call [`cycle`](Self::cycle) or
     /// [`cycle_async`](Self::cycle_async). An access that waits still exchanges frames.
     #[must_use]
     pub fn by_hand(self) -> Self {
@@ -125,7 +125,7 @@ fn span_of(span: Option<IoSpan>) -> Result<IoSpan, LengthError> {
     span.ok_or(LengthError::new(1, 0))
 }
 
-/// Returns the next step of a waiting time. A step is at most [`CYCLE`].
+/// Splits the next step off the remaining waiting time. A step is at most [`CYCLE`].
 fn step(left: &mut Duration) -> Option<Duration> {
     let step = (*left).min(CYCLE);
     *left -= step;

@@ -41,8 +41,8 @@ pub struct Module {
     pub name: &'static str,
     /// Built-in submodules, and submodules that can be plugged in.
     pub submodules: &'static [SubmoduleUse],
-    /// Available subslots, as ranges of the first and the last number. If empty, the available subslots are those of
-    /// the submodules.
+    /// Available subslots, as ranges of the first and the last number. If the list is empty, the available subslots are
+    /// the subslots of the submodules.
     pub subslots: &'static [(u16, u16)],
 }
 

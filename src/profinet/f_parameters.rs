@@ -1,12 +1,12 @@
 //! F-parameters of PROFIsafe.
 //!
 //! The checksum F_Par_CRC has the polynomial 0x4EAB and the start value 0. The checksum covers F_iPar_CRC first, and
-//! then all other fields. Layout and checksum have been compared with the default values in the GSDML files of several
-//! vendors.
+//! then all other fields. The layout and the checksum of the record have been compared with the default values in the
+//! GSDML files of several vendors.
 
 use crate::value_error::LengthError;
 
-/// Writes bytes at offset `$at` of an array. The macro can be used in constants.
+/// Writes bytes at offset `$at` of an array. This macro can be used in constants.
 macro_rules! push {
     ($record:ident, $at:ident, $bytes:expr) => {
         let bytes = $bytes;
@@ -67,7 +67,7 @@ pub struct FParameters {
     pub sil: Sil,
     /// F_CRC_Length: length of the CRC in an F-message trailer.
     pub crc_length: FCrcLength,
-    /// F_CRC_Seed. The value is false for `CRC-Seed24/32`.
+    /// F_CRC_Seed: false for `CRC-Seed24/32`.
     pub crc_seed: bool,
     /// F_Passivation: unit that is passivated after a fault.
     pub passivation: FPassivation,
@@ -108,7 +108,7 @@ impl FParameters {
         self.block_id & 2 != 0
     }
 
-    /// Returns F_Prm_Flag1. From bit 1 upwards, the byte contains F_Check_iPar, F_SIL, F_CRC_Length and F_CRC_Seed.
+    /// Returns F_Prm_Flag1. From bit 1 upwards, F_Prm_Flag1 contains F_Check_iPar, F_SIL, F_CRC_Length and F_CRC_Seed.
     #[must_use]
     pub const fn flag1(&self) -> u8 {
         (self.check_i_par as u8) << 1
@@ -117,8 +117,8 @@ impl FParameters {
             | (self.crc_seed as u8) << 6
     }
 
-    /// Returns F_Prm_Flag2. The byte contains F_Passivation in bit 0, F_Block_ID in bits 3 to 5, and F_Par_Version in
-    /// bits 6 and 7.
+    /// Returns F_Prm_Flag2. F_Prm_Flag2 contains F_Passivation in bit 0, F_Block_ID in bits 3 to 5, and F_Par_Version
+    /// in bits 6 and 7.
     #[must_use]
     pub const fn flag2(&self) -> u8 {
         self.passivation as u8 | (self.block_id & 7) << 3 | (self.par_version & 3) << 6

@@ -106,8 +106,9 @@ impl<const LEN: usize> FRecord<LEN> {
     ///
     /// # Errors
     ///
-    /// Returns [`NotAllowed`] if an F-parameter has a value that isn't allowed. The same error occurs if the record has
-    /// F_WD_Time_2, because the checksum cannot be computed. In this case, use [`FParameters::encode_with_crc`].
+    /// Returns [`NotAllowed`] if an F-parameter has a value that isn't allowed. [`NotAllowed`] also occurs if the
+    /// record has F_WD_Time_2, because the checksum cannot be computed. For a record with F_WD_Time_2, use
+    /// [`FParameters::encode_with_crc`].
     pub fn encode(&self, parameters: &FParameters) -> Result<[u8; LEN], NotAllowed> {
         self.check(parameters)?;
         let refused = NotAllowed { field: FField::BlockId.name() };

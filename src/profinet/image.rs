@@ -49,12 +49,13 @@ pub trait ImageClient {
     /// # Errors
     ///
     /// Returns [`Error::Client`] if the bus fails or the device is disconnected, or [`Error::Length`] if a frame has
-    /// another length.
+    /// the wrong length.
     fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<Self::Error>>;
 
     /// Waits, as [`Client::wait`](crate::Client::wait) does.
     ///
-    /// If an access takes time, [`Cyclic`](super::Cyclic) calls this method between two cycles, with at most 1 ms.
+    /// If an access has to wait, [`Cyclic`](super::Cyclic) calls this method between two cycles, for at most 1 ms at a
+    /// time.
     ///
     /// # Errors
     ///
@@ -147,16 +148,16 @@ impl IoSpan {
 
 /// Positions of the data and the status of one submodule in the frames.
 ///
-/// A position is `None` if the submodule has no such data. In this case, an access fails like an access beyond the end
-/// of the frame.
+/// A position is `None` if the submodule has no such data. An access without a position fails like an access beyond the
+/// end of the frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SubmoduleIo {
     /// Number of the slot.
     pub slot: u16,
     /// Number of the subslot.
     pub subslot: u16,
-    /// Inputs with their provider status, in the input frame. If the submodule has neither inputs nor outputs, this
-    /// span contains only the status.
+    /// Inputs with their provider status, in the input frame. If the submodule has neither inputs nor outputs, the span
+    /// contains only the status.
     pub inputs: Option<IoSpan>,
     /// Outputs with their provider status, in the output frame.
     pub outputs: Option<IoSpan>,

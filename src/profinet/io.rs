@@ -7,7 +7,7 @@ pub trait IoData: Sized {
     /// Length of the user data in bytes.
     const LEN: usize;
 
-    /// Length in bytes of the F-message trailer (PROFIsafe), which follows the user data. 0 if there is no trailer.
+    /// Length in bytes of the F-message trailer (PROFIsafe), which follows the user data; 0 if there is no trailer.
     const TRAILER_LEN: usize;
 
     /// Length in bytes of the provider status, which follows the user data and the trailer.
@@ -38,7 +38,7 @@ impl IoStatus {
     /// The data are valid.
     pub const GOOD: Self = Self(0x80);
 
-    /// The data are invalid. The subslot reports this status.
+    /// The data are invalid. The subslot reports the invalid data.
     pub const BAD: Self = Self(0x00);
 
     /// Returns whether the data are valid (bit 7).

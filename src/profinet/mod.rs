@@ -15,7 +15,7 @@
 //! - [`RecordAccess`] uses a record client to access records as structs, and items in records. [`parameter_access`]
 //!   uses a record client to access PROFIdrive parameters.
 //! - [`Cyclic`] uses an image client to access items in the data of a submodule. [`Plan::layout`] returns the offsets
-//!   of these data.
+//!   of the data of all submodules.
 //!
 //! ```
 //! use lexibus::profinet::{Dap, IoLengths, Module, ModuleUse, Places, Plan, PlanError, Submodule, SubmoduleUse};

@@ -1,8 +1,8 @@
 //! Base mode parameter access of PROFIdrive, which uses the records 0xB02E and 0xB02F.
 //!
 //! A request reads or changes up to [`MAX_PARAMETERS`] parameters of one axis. The controller writes the request to a
-//! record. Then, the controller reads the response from the same record. [`ParameterAccess`] does both through any
-//! [`RecordClient`](super::RecordClient):
+//! record. Then, the controller reads the response from the same record. [`ParameterAccess`] writes requests and reads
+//! responses through any [`RecordClient`](super::RecordClient):
 //!
 //! ```
 //! use lexibus::profinet::parameter_access::ParameterAccess;

@@ -24,12 +24,12 @@ pub trait RecordData: Sized {
     /// Returns [`LengthError`] if `data` has fewer than [`RecordData::LEN`] bytes.
     fn decode(data: &[u8]) -> Result<Self, LengthError>;
 
-    /// Writes the record to the first [`RecordData::LEN`] bytes of `data` and returns them.
+    /// Writes the record to the first [`RecordData::LEN`] bytes of `data` and returns these bytes.
     ///
     /// # Errors
     ///
     /// Returns [`RecordError::NotAllowed`] if a field has a value that isn't allowed, or [`RecordError::Length`] if
-    /// `data` is too short. In both cases, `data` is unchanged.
+    /// `data` is too short. After an error, `data` is unchanged.
     fn encode_into<'b>(&self, data: &'b mut [u8]) -> Result<&'b [u8], RecordError>;
 }
 
@@ -74,7 +74,7 @@ impl fmt::Display for NotAllowed {
 
 impl error::Error for NotAllowed {}
 
-/// Checks that `value` is in one of the `allowed` ranges. The limits belong to the ranges.
+/// Checks that `value` is in one of the `allowed` ranges. The ranges include their limits.
 ///
 /// # Errors
 ///

@@ -144,8 +144,8 @@ macro_rules! access {
             ///
             /// # Errors
             ///
-            /// Returns [`Error::NotAllowed`] if a field has a value that isn't allowed. In this case, nothing is sent.
-            /// Otherwise, returns the errors of [`RecordClient::write_record`].
+            /// Returns [`Error::NotAllowed`] if a field has a value that isn't allowed; the record isn't sent. Also
+            /// returns the errors of [`RecordClient::write_record`].
             pub $($async)? fn $write<T: RecordData>(
                 &mut self,
                 submodule: SubmoduleAddress,

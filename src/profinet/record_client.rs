@@ -1,4 +1,4 @@
-//! Record clients. Adapters to controller libraries implement them.
+//! Record clients. Adapters to controller libraries implement the traits of this module.
 
 use super::plan::{Plan, RecordWrite};
 use crate::error::Error;
@@ -60,7 +60,7 @@ impl<const N: usize> Plan<N> {
 /// A client that reads and writes records of one device. The client blocks until the response arrives.
 ///
 /// [`RecordAccess`](super::RecordAccess) uses this trait for typed records.
-/// [`ParameterAccess`](super::parameter_access::ParameterAccess) uses it for PROFIdrive parameters.
+/// [`ParameterAccess`](super::parameter_access::ParameterAccess) uses this trait for PROFIdrive parameters.
 ///
 /// ```
 /// use std::collections::HashMap;
@@ -101,8 +101,8 @@ pub trait RecordClient {
 
     /// Reads the record at `address` into `buffer` and returns the length of the record in bytes.
     ///
-    /// If the record is longer than `buffer`, implementations return the length of the record or an error. In this
-    /// case, the content of `buffer` is unspecified.
+    /// If the record is longer than `buffer`, implementations return the length of the record or an error. If a record
+    /// is too long, the content of `buffer` is unspecified.
     ///
     /// # Errors
     ///

@@ -3,11 +3,11 @@
 use core::error;
 use core::fmt;
 
-/// The PNIO status of a failed record access (IEC 61158-6-10). From the most significant byte down, it contains error
-/// code, error decode, error code 1 and error code 2.
+/// The PNIO status of a failed record access (IEC 61158-6-10). From the most significant byte down, the status contains
+/// error code, error decode, error code 1 and error code 2.
 ///
 /// Controller libraries return the PNIO status as a 32-bit number or as four bytes. A
-/// [`RecordClient`](super::RecordClient) can use this type as its error type or as a part of it.
+/// [`RecordClient`](super::RecordClient) can use this type as its error type, or as a part of its error type.
 ///
 /// ```
 /// use lexibus::profinet::PnioStatus;

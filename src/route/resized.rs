@@ -56,7 +56,7 @@ use crate::value_error::{LengthError, OutOfRange};
 pub struct Resized<R> {
     /// Route to the number.
     pub at: R,
-    /// Width of the number on the bus in bits, 1 to 64. It is transferred in whole bytes.
+    /// Width of the number on the bus in bits, 1 to 64. The number is transferred in whole bytes.
     pub bits: u8,
     /// True if the narrower of the two numbers is in two's complement.
     pub is_signed: bool,
@@ -77,7 +77,7 @@ impl<R> Resized<R> {
 }
 
 /// Converts `value` from `from` bits to `to` bits. Returns `None` if the value doesn't fit. The narrower number is in
-/// two's complement if `is_signed`.
+/// two's complement if `is_signed` is set.
 const fn fit(value: u64, from: u32, to: u32, is_signed: bool) -> Option<u64> {
     let narrow = if from < to { from } else { to };
     let low = value & mask(narrow);

@@ -1,5 +1,5 @@
-//! Windows: indirect access to values. A client writes the number of a value to one address, and accesses the value at
-//! another address.
+//! Windows: indirect access to values, of which each has a number. A client writes the number of a value to one
+//! address, and accesses the value at another address.
 
 use core::time::Duration;
 
@@ -16,10 +16,10 @@ const INTERVAL: Duration = Duration::from_millis(1);
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Handshake {
     /// Maximum number of polls if the device clears the number to 0. Polls are 1 ms apart if the client [can
-    /// wait](Client::wait). 0 if the device doesn't clear the number.
+    /// wait](Client::wait). The value is 0 if the device doesn't clear the number.
     pub polls: u16,
-    /// Time in milliseconds that the device needs, if it doesn't clear the number. A client that cannot wait fails with
-    /// [`Error::NoClock`].
+    /// Time in milliseconds that the device needs for the access, if it doesn't clear the number. An access through a
+    /// client that cannot wait fails with [`Error::NoClock`].
     pub wait: u16,
 }
 
@@ -27,7 +27,7 @@ impl Handshake {
     /// The device needs no time after its reply.
     pub const NONE: Self = Self { polls: 0, wait: 0 };
 
-    /// Creates the handshake of a device that clears the number to 0. Polls at most `polls` times.
+    /// Creates the handshake of a device that clears the number to 0. The client polls at most `polls` times.
     #[must_use]
     pub const fn cleared(polls: u16) -> Self {
         Self { polls, wait: 0 }
@@ -73,7 +73,8 @@ pub struct WriteWindow<A> {
     pub value: A,
     /// Width of the value in bits.
     pub value_bits: u8,
-    /// True if the number is written before the value. In a process image, both are sent in one cycle.
+    /// True if the number is written before the value. In a process image, the number and the value are sent in one
+    /// cycle.
     pub is_number_first: bool,
     /// Specifies how the device reports that it has accepted the value.
     pub handshake: Handshake,

@@ -86,8 +86,8 @@ impl CanNode {
         node
     }
 
-    /// Returns the device. If you change its values, the node sends the resulting frames before the next frame is
-    /// received.
+    /// Returns the device. If you change values of the device, the node sends the resulting frames before the next
+    /// frame is received.
     pub fn device(&mut self) -> &mut Device {
         &mut self.device
     }
@@ -117,7 +117,7 @@ impl CanNode {
     }
 
     /// Returns and removes the errors of received PDOs. Each error is the mapping object of a PDO and the abort code
-    /// for a value that the device refused. A real device doesn't report these errors on the bus.
+    /// for a value that the device refused. A real device doesn't report refused values on the bus.
     pub fn take_refused(&mut self) -> Vec<(u16, AbortCode)> {
         core::mem::take(&mut self.refused)
     }
@@ -279,7 +279,7 @@ impl CanNode {
     }
 }
 
-/// A bus with only this node. Waiting for a frame moves its clock forward.
+/// A bus with only this node. When a client waits for a frame, the clock of the node moves forward.
 impl CanPort for CanNode {
     type Error = Infallible;
 

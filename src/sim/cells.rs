@@ -35,7 +35,7 @@ const fn is_bits(table: RegisterTable) -> bool {
     matches!(table, RegisterTable::Coil | RegisterTable::DiscreteInput)
 }
 
-/// Returns the contents of the registers if the item has this value. `held` contains the current contents.
+/// Returns the contents of an item's registers if the item has this value. `held` contains the current contents.
 fn encode(register: Register, value: &[u8], held: Vec<u16>) -> Vec<u16> {
     if is_bits(register.table) {
         let bit = |at: usize| value.get(at / 8).map_or(0, |byte| u16::from(byte >> (at % 8) & 1));

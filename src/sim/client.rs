@@ -12,8 +12,8 @@ use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::register::Register;
 
-/// Blocking and async client for a simulated device on the bus `B`. [`Device::client`] creates it. `D` is the device or
-/// a reference to the device.
+/// Blocking and async client for a simulated device on the bus `B`. [`Device::client`] creates a client. `D` is the
+/// device or a reference to the device.
 pub struct Connection<B, D = Device> {
     device: D,
     bus: PhantomData<fn() -> B>,

@@ -30,7 +30,8 @@ const FIRST_NODE: NodeId = match NodeId::new(1) {
 /// Function that is called after a write.
 type Reaction = Box<dyn FnMut(&mut Device, usize, &Entry) -> Result<(), AbortCode> + Send>;
 
-/// A reaction, and the positions of the items for which it is called. If `slots` is `None`, it is called for all items.
+/// A reaction, and the positions of the items for which it is called. If `slots` is `None`, the reaction is called for
+/// all items.
 struct Hook {
     slots: Option<Vec<usize>>,
     reaction: Reaction,
@@ -45,14 +46,14 @@ pub(super) enum Network {
 
 /// A simulated device, created from the table of its bindings.
 ///
-/// Clients access the device within the access rights and limits of its description. [`client`](Self::client) creates a
-/// client. Tests simulate the behavior of the device: they [`get`](Self::get) and [`set`](Self::set) all items, and
-/// [react](Self::on_write) to writes.
+/// Clients access the device within the access rights and limits of the device description. [`client`](Self::client)
+/// creates a client. Tests simulate the behavior of the device: they [`get`](Self::get) and [`set`](Self::set) all
+/// items, and [react](Self::on_write) to writes.
 ///
 /// # Errors
 ///
 /// Methods for tests return [`NO_OBJECT`](AbortCode::NO_OBJECT) or [`NO_SUB_INDEX`](AbortCode::NO_SUB_INDEX) if the
-/// device doesn't have the item. These errors have the type [`AbortCode`], so a reaction can return them with `?`.
+/// device doesn't have the item. The error type is [`AbortCode`], so a reaction can return these errors with `?`.
 pub struct Device {
     pub(super) slots: Slots,
     pub(super) cells: Cells,
@@ -67,8 +68,8 @@ pub struct Device {
 impl Device {
     /// Creates a device after power-on with node-ID 1. `entries` is the static table `ENTRIES` of the bindings.
     ///
-    /// If the description gives no initial value, a text or byte string is empty. A number is 0, or the number within
-    /// its limits that is nearest to 0.
+    /// If the device description declares no initial value, a text or byte string is empty. A number is 0, or the
+    /// number within its limits that is nearest to 0.
     #[must_use]
     pub fn new(entries: &[Entry]) -> Self {
         let mut device = Self {
@@ -132,8 +133,8 @@ impl Device {
     /// Sets the value of an item, as the device itself does. Access rights and limits don't apply, and no reaction is
     /// called.
     ///
-    /// If the item has different widths as an object and on Modbus, the table has two entries for the item. This method
-    /// sets both entries. A client writes only the entry of its bus.
+    /// If the item has different widths as an object and on Modbus, the table has two entries for the item. The method
+    /// `set` changes both entries. A client writes only the entry of its bus.
     ///
     /// # Errors
     ///
@@ -168,7 +169,7 @@ impl Device {
     }
 
     /// Sets the current value of an item, as [`set`](Self::set) does, and its initial value after power-on. Use this
-    /// method if the description gives no initial value, for example for the statusword.
+    /// method if the device description declares no initial value, for example for the statusword.
     ///
     /// # Errors
     ///
@@ -230,7 +231,7 @@ impl Device {
         self.hooks.push(Hook { slots: None, reaction: Box::new(reaction) });
     }
 
-    /// Makes the next access of a client fail with `fault`. Several calls make several accesses fail, in the order of
+    /// Makes the next access of a client fail with `fault`. After several calls, several accesses fail, in the order of
     /// the calls. Faults don't affect process data.
     pub fn fail_next(&mut self, fault: impl Into<Fault>) {
         self.faults.push_back(fault.into());
@@ -304,7 +305,8 @@ impl Device {
         self.slots.of_object(object)
     }
 
-    /// Returns all positions of an item. If the widths differ, the register and the object are separate entries.
+    /// Returns the positions of all entries of an item. If the item has different widths on its buses, the register and
+    /// the object are separate entries.
     fn slots_of(&self, address: &impl ItemAddress, axis: u8) -> Result<Vec<usize>, AbortCode> {
         let mut slots = [self.slot(address, axis)?].to_vec();
         let registered = address.register().filter(|_| axis == 1 && address.is_resized());
@@ -358,9 +360,10 @@ impl fmt::Debug for Device {
     }
 }
 
-/// One axis of a simulated device. Tests use it to access the items of this axis. [`Device::axis`] creates it.
+/// One axis of a simulated device. Tests access the items of the axis through this type. [`Device::axis`] returns an
+/// axis.
 ///
-/// The methods are those of the device and take the handles of the first axis. The methods return
+/// The methods are the same as those of [`Device`], and take the handles of the first axis. The methods return
 /// [`AbortCode::NO_OBJECT`] if the axis doesn't exist or doesn't have the item.
 #[derive(Debug)]
 pub struct DeviceAxis<'d> {

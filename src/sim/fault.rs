@@ -42,7 +42,7 @@ from! {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Exception {
-    /// The function isn't allowed for this table. For example, inputs cannot be written.
+    /// The function isn't allowed for the table. For example, discrete inputs cannot be written.
     IllegalFunction,
     /// A register doesn't exist, or cannot be read or written.
     IllegalDataAddress,
@@ -64,7 +64,7 @@ impl Exception {
         }
     }
 
-    /// Returns the Modbus exception for an error that has the abort code `code` in an SDO transfer.
+    /// Returns the Modbus exception for an error whose abort code in an SDO transfer is `code`.
     #[must_use]
     pub const fn of_abort(code: AbortCode) -> Self {
         match code {

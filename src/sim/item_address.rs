@@ -15,8 +15,8 @@ pub trait ItemAddress {
     /// Returns the Modbus register of the item, if it has one.
     fn register(&self) -> Option<Register>;
 
-    /// Returns whether the widths of the item differ between its buses. If so, the table has several entries for the
-    /// item.
+    /// Returns whether the widths of the item differ between its buses. If the widths differ, the table has several
+    /// entries for the item.
     fn is_resized(&self) -> bool {
         false
     }

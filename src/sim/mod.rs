@@ -39,13 +39,13 @@
 //! - Behavior: [`Device::on_write`] reacts to writes. A reaction can also refuse values that the table allows, such as
 //!   undefined values of an enumeration. [`Device::fail_next`] simulates faults.
 //! - CANopen process data: [`Device::receive_pdo`] and [`Device::transmit_pdo`] use the current mapping. A master can
-//!   change this mapping as on a real device.
+//!   change the mapping as on a real device.
 //! - EtherCAT process data: [`Device::receive_image`] and [`Device::transmit_image`] exchange process images.
-//! - Modbus: [`Device::read_words`] and related methods handle requests. A Modbus server can call them.
+//! - Modbus: [`Device::read_words`] and related methods handle requests. A Modbus server can call these methods.
 //! - CAN: with the feature `canopen`, a `CanNode` is a device on a simulated CAN bus. The CANopen clients of this crate
-//!   can use this node.
-//! - Further axes: [`Device::with_axes`] adds them.
-//! - Parameters: the device stores them (0x1010) and restores them (0x1011) if it has these objects.
+//!   can use a `CanNode`.
+//! - Further axes: [`Device::with_axes`] adds further axes.
+//! - Parameters: the device stores parameters (0x1010) and restores parameters (0x1011) if it has these objects.
 //!
 //! A simulated device checks only the data in the table. The device doesn't check the length of texts, the values of
 //! enumerations, or gaps in a range.

@@ -51,7 +51,7 @@ impl Device {
     /// - [`Exception::IllegalFunction`] if the table isn't [`Holding`](RegisterTable::Holding).
     /// - The exception for the abort code of a reaction.
     ///
-    /// In all of these cases, nothing is written.
+    /// After any of these errors, nothing is written.
     pub fn write_words(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), Exception> {
         if table != RegisterTable::Holding {
             return Err(Exception::IllegalFunction);

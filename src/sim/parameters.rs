@@ -29,7 +29,7 @@ fn require(condition: bool, code: AbortCode) -> Result<(), AbortCode> {
 }
 
 impl Device {
-    /// Checks a write by a client. Writes to other objects than PDO parameters are accepted.
+    /// Checks a write by a client. Writes to all objects except PDO parameters are accepted.
     pub(super) fn check_pdo_parameter(&self, network: Network, object: Object, data: &[u8]) -> Result<(), AbortCode> {
         let value = from_bytes(data);
         match object.index {
@@ -40,7 +40,7 @@ impl Device {
         }
     }
 
-    /// Returns whether a PDO is enabled. `communication` is the index of its communication parameters.
+    /// Returns whether a PDO is enabled. `communication` is the index of the PDO's communication parameters.
     pub(super) fn is_used(&self, communication: u16) -> bool {
         self.slots.number(communication, 1).is_some_and(|cob_id| cob_id & UNUSED == 0)
     }

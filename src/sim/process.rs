@@ -49,8 +49,8 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Returns [`AbortCode::TOO_SHORT`] if bytes are missing. In this case, nothing is written. Otherwise, the abort
-    /// code of the first value that the device refuses. The other values are written.
+    /// Returns [`AbortCode::TOO_SHORT`] if bytes are missing; then nothing is written. Returns the abort code of the
+    /// first value that the device refuses; then the other values are written.
     pub fn receive_pdo(&mut self, index: u16, data: &[u8]) -> Result<(), AbortCode> {
         let mapping = self.mapping(index)?;
         self.receive_mapped(&mapping, data)

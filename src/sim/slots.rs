@@ -21,7 +21,7 @@ pub(super) struct Slot {
     pub entry: Entry,
     /// Current value, the least significant byte first.
     pub value: Vec<u8>,
-    /// Initial value that the test has set. This value replaces the initial value in the description.
+    /// Initial value that the test has set, instead of the initial value in the device description.
     pub initial: Option<Vec<u8>>,
     /// Stored value, which is restored at power-on.
     pub stored: Option<Vec<u8>>,
@@ -80,9 +80,9 @@ impl Slots {
         }
     }
 
-    /// Returns the initial value of a sub-index 0 that contains the number of entries, if the description gives no
-    /// value. In a mapping, only entries with a value in the description count. In other objects, the value is the
-    /// highest sub-index.
+    /// Returns the initial value of a sub-index 0 that contains the number of entries, if the device description
+    /// declares no value. In a mapping object, only entries with a value in the description count. In all other
+    /// objects, the initial value of sub-index 0 is the highest sub-index.
     ///
     /// The error list (CiA 301 7.5.2.4) is empty after power-on. A value in the description is the capacity of the list
     /// (`CompactSubObj` of CiA 306).

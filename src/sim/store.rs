@@ -12,8 +12,9 @@ const STORE: u16 = 0x1010;
 /// Index of "restore default parameters" (CiA 301 7.5.2.14).
 const RESTORE: u16 = 0x1011;
 
-/// Returns whether sub-index `group` of 0x1010 or 0x1011 includes an object. Sub-index 1 includes all parameters, 2
-/// communication parameters, 3 application parameters. All others include manufacturer-specific parameters.
+/// Returns whether sub-index `group` of 0x1010 or 0x1011 includes an object. Sub-index 1 includes all parameters,
+/// sub-index 2 communication parameters, and sub-index 3 application parameters. All other sub-indices include
+/// manufacturer-specific parameters.
 fn is_in_group(group: u8, index: u16) -> bool {
     match group {
         1 => true,
@@ -30,8 +31,8 @@ fn can_be_stored(entry: &Entry, group: u8) -> bool {
 }
 
 impl Device {
-    /// Executes a write if it is a command. Returns whether it was a command. A command doesn't change the value of the
-    /// object.
+    /// Executes a write if it is a command. Returns whether the write was a command. A command doesn't change the value
+    /// of the object.
     pub(super) fn command(&mut self, object: Object, data: &[u8]) -> Result<bool, AbortCode> {
         match (object.index, object.sub_index) {
             (STORE, 1..) => self.save(object.sub_index, data)?,

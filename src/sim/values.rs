@@ -9,7 +9,7 @@ use crate::node_id::NodeId;
 use crate::pdo::{from_bytes, mask, sign_extend};
 use crate::table::{Bound, Entry, RawInitial};
 
-/// Returns the length of a type in bytes, or `None` if it depends on the value.
+/// Returns the length of a type in bytes, or `None` if the length depends on the value.
 pub(super) fn byte_length(data_type: DataType) -> Option<usize> {
     data_type.bits().map(|bits| bits.div_ceil(8) as usize)
 }
@@ -117,8 +117,8 @@ fn real(bound: Bound) -> Option<f64> {
     }
 }
 
-/// Returns the initial value after power-on. If the description gives no value, the initial value is empty or the
-/// number within the limits that is nearest to 0.
+/// Returns the initial value after power-on. If the device description declares no value, the initial value is empty or
+/// the number within the limits that is nearest to 0.
 pub(super) fn initial(entry: &Entry, node: NodeId) -> Vec<u8> {
     let bytes = match entry.initial {
         RawInitial::Bytes(bytes) => bytes.to_vec(),

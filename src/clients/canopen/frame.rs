@@ -51,7 +51,8 @@ impl CanFrame {
         }
     }
 
-    /// Converts the frame to a frame of another library. Returns `None` if that library cannot represent it.
+    /// Converts the frame to a frame of another library. Returns `None` if the other library cannot represent the
+    /// frame.
     pub fn to_frame<F: embedded_can::Frame>(&self) -> Option<F> {
         F::new(StandardId::new(self.id)?, self.data())
     }

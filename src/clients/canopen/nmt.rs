@@ -15,15 +15,15 @@ pub const SYNC: u16 = 0x080;
 /// NMT command to one node or to all nodes (CiA 301 7.2.8.3.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum NmtCommand {
-    /// Changes to Operational. PDOs are exchanged in this state.
+    /// The node enters Operational, the state in which nodes exchange PDOs.
     Start,
-    /// Changes to Stopped. Only NMT and heartbeat work in this state.
+    /// The node enters Stopped, a state in which only NMT and heartbeat work.
     Stop,
-    /// Changes to Pre-operational. Nodes are configured in this state.
+    /// The node enters Pre-operational, the state for the configuration of nodes.
     EnterPreOperational,
-    /// Restarts the node, as after power-on.
+    /// The node restarts, as after power-on.
     ResetNode,
-    /// Restarts the communication of the node. Objects 0x1000 to 0x1FFF are reset to their initial values.
+    /// The node restarts its communication. Objects 0x1000 to 0x1FFF are reset to their initial values.
     ResetCommunication,
 }
 
@@ -77,7 +77,7 @@ pub enum NmtState {
 }
 
 impl NmtState {
-    /// Returns the state for a number. Ignores bit 7, the toggle bit of node guarding.
+    /// Returns the state with this number. Ignores bit 7, the toggle bit of node guarding.
     #[must_use]
     pub const fn from_raw(raw: u8) -> Self {
         match raw & 0x7F {
@@ -118,7 +118,7 @@ impl NmtState {
     }
 }
 
-/// Returns a SYNC message (CiA 301 7.2.5). Nodes send and apply synchronous PDOs when they receive this message.
+/// Returns a SYNC message (CiA 301 7.2.5). When nodes receive SYNC, they send and apply their synchronous PDOs.
 #[must_use]
 pub fn sync() -> CanFrame {
     CanFrame::of(SYNC, [])

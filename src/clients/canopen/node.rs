@@ -22,10 +22,10 @@ pub const TIMEOUT: Duration = Duration::from_millis(500);
 ///
 /// # Late replies
 ///
-/// If a reply doesn't arrive within the timeout, the client aborts the transfer. The reply may still arrive. The next
-/// transfer therefore waits for the late reply, for at most one more timeout, and discards it. After an async transfer
-/// that was dropped, the next transfer sends the abort first. A transfer after a timeout thus takes up to one timeout
-/// longer. Replies to other requests don't prolong a transfer.
+/// If a reply doesn't arrive within the timeout, the client aborts the transfer. The reply to the aborted transfer may
+/// still arrive. The next transfer therefore waits for the late reply, for at most one more timeout, and discards it.
+/// After an async transfer that was dropped, the next transfer sends the abort first. Therefore, a transfer after a
+/// timeout takes up to one timeout longer. Replies to other requests don't prolong a transfer.
 #[derive(Clone, Debug)]
 pub struct Node<P> {
     port: P,
@@ -123,8 +123,7 @@ macro_rules! methods {
                 self.$send(&frame)$(.$await)?
             }
 
-            /// Sends SYNC. All nodes of the network send and apply their synchronous PDOs when they receive this
-            /// message.
+            /// Sends SYNC. When the nodes of the network receive SYNC, they send and apply their synchronous PDOs.
             ///
             /// # Errors
             ///
@@ -148,8 +147,8 @@ macro_rules! methods {
                 Ok(frame.map_err(Error::Client)?.and_then(|frame| state_of(&frame, id)))
             }
 
-            /// Waits for a heartbeat with this state. Pass [`NmtState::BootUp`] to wait for the boot-up message, which
-            /// a node sends after its start.
+            /// Waits for a heartbeat that reports this state. Pass [`NmtState::BootUp`] to wait for the boot-up
+            /// message, which a node sends after its start.
             ///
             /// This method also accepts heartbeats that a [`Buffered`](super::Buffered) interface has stored. Call
             /// [`clear`](super::Buffered::clear) first to ignore stored heartbeats.
@@ -188,7 +187,8 @@ macro_rules! methods {
                 self.$send(&frame)$(.$await)?
             }
 
-            /// Waits for the next PDO with this COB-ID and returns it. Pass its data to `unpack` of a generated struct.
+            /// Waits for the next PDO with this COB-ID and returns it. Pass the data of the PDO to `unpack` of a
+            /// generated struct.
             ///
             /// If several PDOs are waiting, this method returns the oldest one. For the newest PDO, use
             /// [`latest_pdo`](Self::latest_pdo), or call [`clear`](super::Buffered::clear) before SYNC.

@@ -185,13 +185,14 @@ impl Transfer {
         }
     }
 
-    /// Returns whether this is a segment without data that isn't the last one. A node could send these forever.
+    /// Returns whether a reply is an empty segment that isn't the last one. A node could send empty segments forever.
     const fn is_empty_segment(&self, data: &[u8; 8]) -> bool {
         self.received.is_some() && data[0] & 0xEF == 0x0E
     }
 
-    /// Returns the length of an upload if it is longer than the caller's buffer. This is the length that the node
-    /// announces, or the length of the segments if it announces none. Memory is allocated only for data that fit.
+    /// Returns the length of an upload if it is longer than the caller's buffer. The length of an upload is the length
+    /// that the node announces, or the length of the segments if the node announces none. Memory is allocated only for
+    /// data that fit.
     fn too_long(&mut self, data: &[u8; 8]) -> Option<usize> {
         let [command, _, _, _, length @ ..] = *data;
         let length = match (command >> 5, self.received) {

@@ -9,8 +9,8 @@ use ethercrab::{DefaultLock, MainDevice, SubDeviceGroup, SubDeviceState};
 
 /// Exchanges process data and checks that all SubDevices of a group took part.
 ///
-/// `ethercrab` returns from `tx_rx` without an error if a SubDevice didn't process the datagram, or if it left
-/// Operational. The inputs of this SubDevice then keep their values of an earlier cycle.
+/// `ethercrab` returns from `tx_rx` without an error if a SubDevice didn't process the datagram, or if a SubDevice left
+/// Operational. The inputs of such a SubDevice keep their values of an earlier cycle.
 ///
 /// ```no_run
 /// use ethercrab::subdevice_group::Op;
@@ -74,8 +74,8 @@ impl Cycle {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`check`](Self::check), or [`CycleError::Bus`] if no frame came back. In both cases, the
-    /// inputs are stale.
+    /// Returns the errors of [`check`](Self::check), or [`CycleError::Bus`] if no frame came back. After any of these
+    /// errors, the inputs are stale.
     pub async fn run<const N: usize, const P: usize, DC>(
         self,
         maindevice: &MainDevice<'_>,

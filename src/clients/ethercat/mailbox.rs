@@ -81,7 +81,8 @@ pub(super) struct Mailbox<'m> {
     station: u16,
     pub(super) timeout: Duration,
     pub(super) clock: Option<fn() -> Duration>,
-    /// Buffers for sending and receiving. The client reads them from the registers at the first use.
+    /// Mailbox buffers for sending and receiving. The client reads their addresses and lengths from the registers at
+    /// the first use.
     buffers: Option<(Buffer, Buffer)>,
     pub(super) emergency: Option<Emergency>,
 }

@@ -22,19 +22,19 @@ use super::request::Echo;
 use super::Reply;
 use crate::framing::Check;
 
-/// Minimum silence between two RTU frames at more than 19,200 bit/s (MODBUS over Serial Line 2.5.1.1). After this
-/// silence, a late reply is also considered complete.
+/// Minimum silence between two RTU frames at more than 19,200 bit/s (MODBUS over Serial Line 2.5.1.1). After a silence
+/// of this length, the link considers a late reply complete.
 const GAP: Duration = Duration::from_micros(1750);
 
-/// Minimum wait after which the executor reports waiting bytes.
+/// Minimum waiting time: the executor must have time to report bytes that have already arrived.
 const TURN: Duration = Duration::from_millis(1);
 
 /// Connection to a device that never mistakes a late reply for the reply to another request.
 ///
 /// Modbus RTU has no transaction ID, so a reply cannot be matched to its request. After a timeout, an invalid reply or
 /// a dropped call, the link waits before it sends the next request. The link discards the late reply, or it waits until
-/// the line has been silent for twice the timeout. Such a call takes at most four timeouts. All other calls take at
-/// most one timeout.
+/// the line has been silent for twice the timeout. A call that first waits for a late reply takes at most four
+/// timeouts. Every other call takes at most one timeout.
 ///
 /// Before each RTU request, the link waits for the silence that separates frames.
 ///

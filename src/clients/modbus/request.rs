@@ -123,7 +123,7 @@ impl Answer {
         Ok(self.bits.len().div_ceil(8))
     }
 
-    /// Returns the registers.
+    /// Returns the registers that were read.
     pub(super) fn into_words(self) -> Vec<u16> {
         self.words
     }

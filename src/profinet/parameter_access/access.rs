@@ -27,9 +27,9 @@ const POLLS: u32 = 200;
 /// `_async` don't block.
 ///
 /// A call writes a request and reads the record until the drive provides the response. The call reads again if the
-/// record is empty or if the client reports that the device is busy ([`RecordClient::is_busy`]). Between two reads, it
-/// calls [`RecordClient::pause`]. [`with_polls`](Self::with_polls) limits the number of reads. A drive processes only
-/// one request at a time.
+/// record is empty or if the client reports that the device is busy ([`RecordClient::is_busy`]). Between two reads, the
+/// call pauses with [`RecordClient::pause`]. [`with_polls`](Self::with_polls) limits the number of reads. A drive
+/// processes only one request at a time.
 ///
 /// # Errors
 ///
@@ -48,7 +48,7 @@ pub struct ParameterAccess<C> {
 
 impl<C> ParameterAccess<C> {
     /// Creates an access through the record [`LOCAL`] of a submodule. The submodule must belong to the PROFIdrive
-    /// application process. In most drives, the slot is that of the axis, and the subslot is 1.
+    /// application process. In most drives, the slot is the slot of the axis, and the subslot is 1.
     pub const fn new(client: C, slot: u16, subslot: u16) -> Self {
         Self::with_record(client, SubmoduleAddress::new(API, slot, subslot).record(LOCAL))
     }
@@ -59,7 +59,7 @@ impl<C> ParameterAccess<C> {
         Self { client, record, polls: POLLS, reference: 0 }
     }
 
-    /// Returns the access with this number of attempts to read a response. 0 counts as 1.
+    /// Returns the access with this number of attempts to read a response. The value 0 counts as 1.
     #[must_use]
     pub fn with_polls(self, polls: u32) -> Self {
         Self { polls, ..self }
@@ -75,7 +75,7 @@ impl<C> ParameterAccess<C> {
         self.client
     }
 
-    /// Returns the reference for the next request. References count from 1 to 255, and then restart at 1.
+    /// Returns the reference for the next request. References count from 1 to 255, and then start at 1 again.
     pub fn next_reference(&mut self) -> u8 {
         self.reference = self.reference.checked_add(1).unwrap_or(1);
         self.reference

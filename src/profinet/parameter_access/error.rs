@@ -35,14 +35,14 @@ pub enum ParameterError {
         /// Axis of the response.
         actual: u8,
     },
-    /// The response has more parameters than the request, or it has fewer parameters but no refusal.
+    /// The response has more parameters than the request, or fewer parameters without a refusal.
     ParameterCount {
         /// Number of parameters in the request.
         expected: u8,
         /// Number of parameters in the response.
         actual: u8,
     },
-    /// A value has another format than requested, or a format of unknown length.
+    /// A value has a format that the requested type cannot read, or a format of unknown length.
     Format(Format),
     /// The response doesn't contain the requested value.
     NoValue,
@@ -57,7 +57,8 @@ pub struct Refusal {
     pub parameter: u8,
     /// Error number.
     pub number: ErrorNumber,
-    /// Second error value, if the drive sends one. For many error numbers, this is the first affected subindex.
+    /// Second error value, if the drive sends one. For many error numbers, the second error value is the first affected
+    /// subindex.
     pub information: Option<u16>,
 }
 

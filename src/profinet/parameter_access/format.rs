@@ -82,7 +82,7 @@ impl fmt::Display for Format {
 
 /// A Rust type for parameter values. A newtype can delegate this trait to its inner type.
 pub trait ParameterValue: Sized {
-    /// Format in which values are written.
+    /// Format in which the type writes values.
     const FORMAT: Format;
 
     /// Type of the big-endian bytes of a value.
@@ -141,7 +141,7 @@ values! {
     f64 8: FLOAT64;
 }
 
-/// One byte. The values 0 and 1 are written. Every value except 0 is read as `true`.
+/// One byte. `false` is written as 0, and `true` as 1. Every value except 0 is read as `true`.
 impl ParameterValue for bool {
     const FORMAT: Format = Format::BOOLEAN;
     type Bytes = [u8; 1];

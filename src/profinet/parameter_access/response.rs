@@ -34,7 +34,7 @@ pub enum Answer<'r> {
 pub struct Values<'r> {
     /// Format of the values.
     pub format: Format,
-    /// Number of values. For strings, this is the number of characters.
+    /// Number of values. For strings, the number of values is the number of characters.
     pub count: u8,
     /// Encoded values.
     pub bytes: &'r [u8],
@@ -51,8 +51,8 @@ impl<'r> Response<'r> {
     /// - [`ParameterError::OtherReference`], [`ParameterError::OtherAxis`], [`ParameterError::ResponseId`] or
     ///   [`ParameterError::ParameterCount`] if the response doesn't belong to the request.
     /// - [`ParameterError::Length`] if the response is incomplete.
-    /// - [`ParameterError::Format`] if a parameter has a format of unknown length. Only the last parameter may have
-    ///   such a format.
+    /// - [`ParameterError::Format`] if a parameter has a format of unknown length. Only the last parameter may have a
+    ///   format of unknown length.
     /// - [`ParameterError::NoValue`] if a refusal has no error number.
     pub fn decode(request: &[u8], data: &'r [u8]) -> Result<Self, ParameterError> {
         let [own_reference, own_id, own_axis, own_count] =
@@ -131,8 +131,8 @@ impl<'r> Response<'r> {
     ///
     /// # Errors
     ///
-    /// Returns [`ParameterError::Refused`] if the drive refused the parameter, or [`ParameterError::NoValue`] if it has
-    /// no values.
+    /// Returns [`ParameterError::Refused`] if the drive refused the parameter, or [`ParameterError::NoValue`] if the
+    /// parameter has no values.
     pub fn values(&self) -> Result<Values<'r>, ParameterError> {
         match self.answers().next() {
             Some(Answer::Values(values)) => Ok(values),

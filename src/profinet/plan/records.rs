@@ -18,7 +18,7 @@ pub struct RecordWrite<'r> {
     pub data: &'r [u8],
 }
 
-/// New content for a record in a plan. This content replaces the default content.
+/// New content for a record in a plan, instead of the default content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Replacement<'r> {
     /// Slot.

@@ -20,8 +20,8 @@ const EVENT: u64 = 254;
 /// Maximum transmission type of synchronous PDOs.
 const SYNCHRONOUS: u64 = 240;
 
-/// Error codes of emergency messages for received PDOs (CiA 301 7.2.7.1). A PDO that is too short isn't processed. A
-/// PDO that is too long is processed.
+/// Error codes of emergency messages for received PDOs (CiA 301 7.2.7.1). The node doesn't process a PDO that is too
+/// short, but processes a PDO that is too long.
 const TOO_SHORT: u16 = 0x8210;
 const TOO_LONG: u16 = 0x8220;
 /// Error register bits: generic error and communication error.
