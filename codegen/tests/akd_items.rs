@@ -99,7 +99,7 @@ const ITEMS: &[(u8, How)] = &[
     (43, Doubt(&[(1100, "12-15"), (1103, "stato 1")])),
     // Section 4.6: the mailbox.
     (44, Doubt(&[(1211, "dal byte 2 al byte 11")])),
-    (45, Finding("items-45-46-reply-of-the-mailbox", &["has the length 14 in `length` instead of 10"])),
+    (45, Finding("items-45-46-reply-of-the-mailbox", &["has the value 14 in the length field `length` instead of 10"])),
     (45, Doubt(&[(1230, "0x0E")])),
     (46, Finding("items-45-46-reply-of-the-mailbox", &["always 0x3000"])),
     (46, Doubt(&[(1237, "0x20"), (1149, "richiesta SDO"), (1150, "risposta SDO")])),

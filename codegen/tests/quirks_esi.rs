@@ -96,7 +96,7 @@ fn too_many_pdos_of_a_sync_manager() {
     };
     let found = slave(0x1600..0x16FF);
     let [found] = found.diagnostics.list() else { panic!("{:?}", codes(&found)) };
-    let message = "sync manager 0 has 255 default PDOs, but an assignment holds at most 254";
+    let message = "sync manager 0 has 255 default PDOs, but a PDO assignment holds at most 254";
     assert_eq!((found.code.id, found.message.as_str()), ("PDO024", message));
     assert_eq!(codes(&slave(0x1601..0x16FF)), [""; 0]);
 }

@@ -95,7 +95,7 @@ impl Reader<'_, '_> {
             Some(Number::Int { value, is_hex }) if ty.is_integer() && ty.fits(value, is_hex) => {
                 facts.push(("na", format!("{{ {} = \"not available\" }}", int(value, is_hex))));
             }
-            _ => self.unreadable(cell, &format!("a value of {}", ty.text())),
+            _ => self.unreadable(cell, &format!("a value of the type {}", ty.text())),
         }
     }
 
@@ -196,7 +196,7 @@ impl Reader<'_, '_> {
             let Some(cell) = self.cell(record, field) else { continue };
             match number.and_then(|number| self.raw(cell.span, number, ty, factor)) {
                 Some(text) => facts.push((key, text)),
-                None => self.unreadable(cell, &format!("a value of {}", ty.text())),
+                None => self.unreadable(cell, &format!("a value of the type {}", ty.text())),
             }
         }
     }

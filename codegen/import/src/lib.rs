@@ -90,7 +90,7 @@ fn convert(source: &Source, options: &Options, diagnostics: &mut Diagnostics) ->
     let (records, columns) = match divide(source, options) {
         Ok(divided) => divided,
         Err(column) => {
-            let message = format!("there is no column `{}`", brief(&column));
+            let message = format!("the list has no column `{}`", brief(&column));
             diagnostics.push(Diagnostic::new(&codes::CSV_NO_SUCH_COLUMN, Span::new(FILE, 0, 0), message));
             return None;
         }

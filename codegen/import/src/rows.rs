@@ -379,7 +379,7 @@ impl Reader<'_, '_> {
             (_, Some(written)) => self.sized(record, written, size),
             (Some(cell), None) => {
                 let ty = guess(size);
-                let message = format!("`{}` is not a type", brief(&tidy(&cell.text)));
+                let message = format!("`{}` is not a known data type", brief(&tidy(&cell.text)));
                 self.report(&codes::CSV_UNREADABLE_CELL, cell.span, message, &format!("read as {}", ty.text()));
                 ty
             }
@@ -387,14 +387,14 @@ impl Reader<'_, '_> {
                 let ty = guess(size);
                 let lists = [Field::Bits, Field::Enum].into_iter().any(|field| !self.text(record, field).is_empty());
                 if !lists {
-                    let message = format!("the line states no type: {} is assumed", ty.text());
+                    let message = format!("the line states no data type, so {} is assumed", ty.text());
                     let span = self.cell(record, Field::Reg).map_or(record.span, |cell| cell.span);
                     match self.columns.get(Field::Type) {
                         Some(_) => self.diagnostics.push(Diagnostic::new(&codes::CSV_ASSUMPTION, span, message)),
                         None => self.assume(
                             "type",
                             span,
-                            "no column states types, so each type is derived from the length, or is u16",
+                            "no column states data types, so each type is derived from the length, or is u16 without a length",
                         ),
                     }
                 }

@@ -25,7 +25,7 @@ pub(super) fn readings(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         let Some(low) = positive_limit_of_reading(context.owner, item) else { continue };
         let (name, access) = (brief(&item.name), item.access.name());
-        let message = format!("`{name}` is {access} and signed, but has the minimum {low}");
+        let message = format!("`{name}` is {access} and signed, but its minimum {low} is above zero");
         let help =
             "remove the minimum if it belongs to a setpoint and the value can be zero; otherwise use an unsigned type";
         diagnostics.push(codes::READING_LIMITS.at(access_span(item, item.at.low), message).help(help));
@@ -43,7 +43,7 @@ fn contradictions(item: &Item) -> [Option<(Span, &'static str)>; 3] {
     let behaviour = item.behaviour.as_deref();
     let saved = behaviour.filter(|behaviour| matches!(behaviour.storage, Storage::Immediate | Storage::OnCommand(_)));
     let saved = match saved {
-        Some(_) if !writable => conflict(Span::default(), ", but non-volatile"),
+        Some(_) if !writable => conflict(Span::default(), ", but declared as non-volatile"),
         Some(saved) if saved.self_clearing => conflict(Span::default(), " and non-volatile, but the device clears it"),
         _ => None,
     };

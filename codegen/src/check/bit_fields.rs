@@ -44,7 +44,11 @@ fn outside(
     let mut beyond = fields.iter().filter(|field| field.end() > width);
     let first = beyond.next()?;
     let others = more(beyond.count(), |others| format!(" and {}", count_of(others, "other field")));
-    let message = format!("{base} has {width} bits, but `{}` names {}{others}", brief(&definition.name), called(first));
+    let message = format!(
+        "{base} has {width} bits, but the bit field `{}` contains {}{others}",
+        brief(&definition.name),
+        called(first)
+    );
     let found = codes::BIT_OUTSIDE_TYPE.at(used(), message);
     let found = found.note_at(first.at.0.or(definition.origin.span), "definition of the bits");
     Some(found.help("use a longer type, or count the bits from 0"))
@@ -149,7 +153,7 @@ mod tests {
         assert_eq!(
             found(vec![field("low", 0, 5), field("high", 4, 5)]),
             [
-                "UNSIGNED8 has 8 bits, but `Status` names bits 8-4 (`high`)",
+                "UNSIGNED8 has 8 bits, but the bit field `Status` contains bits 8-4 (`high`)",
                 "bits 4-0 (`low`) and bits 8-4 (`high`) of `Status` overlap"
             ]
         );

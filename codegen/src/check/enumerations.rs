@@ -76,7 +76,7 @@ fn outside(definition: &TypeDef, base: Type, values: &[EnumValue], used: impl Fn
         others => format!(" and {} are", count_of(others, "other value")),
     };
     let value = if first.value < low { first.value } else { first.range().1 };
-    let message = format!("{value} (`{}`){others} outside of the range of {base}", brief(&first.name));
+    let message = format!("the value {value} (`{}`){others} outside of the range of {base}", brief(&first.name));
     let found = codes::NAME_OUTSIDE_TYPE.at(used(), message);
     let found = found.note_at(first.at.0.or(definition.origin.span), "definition of the value");
     Some(match (base, value) {
@@ -116,7 +116,7 @@ mod tests {
         let beyond = vec![value("back", -1, None), value("far", 256, None)];
         assert_eq!(
             found(Type::Unsigned(8), beyond),
-            ["-1 (`back`) and 1 other value are outside of the range of UNSIGNED8"]
+            ["the value -1 (`back`) and 1 other value are outside of the range of UNSIGNED8"]
         );
     }
 }

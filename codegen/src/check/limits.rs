@@ -62,7 +62,7 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
         }
     }
     let default = (item.default.as_ref(), item.at.default, "default");
-    for (value, span, what) in [default, (item.configured_value(), item.at.configured, "value")] {
+    for (value, span, what) in [default, (item.configured_value(), item.at.configured, "configured value")] {
         let Some(value) = value else { continue };
         let Some(reason) = excluded(&item.limits, value) else { continue };
         let limit = match reason {

@@ -43,7 +43,7 @@ impl Mapping<'_> {
         if sub > 0 {
             let before = self.words.entry(index).or_default().insert(sub, value);
             if before.is_some() && self.cleared.contains(&index) {
-                let message = format!("`{name}` writes entry {sub} of 0x{index:04X} twice");
+                let message = format!("the procedure `{name}` writes entry {sub} of 0x{index:04X} twice");
                 let found = codes::STEP_IMPOSSIBLE.at(span, message);
                 diagnostics.push(found.help(format!("write the next entry to sub-index {}", sub.saturating_add(1))));
             }
@@ -53,7 +53,9 @@ impl Mapping<'_> {
             return;
         }
         if let Some(problem) = self.count(index, value) {
-            let message = format!("`{name}` writes {value} as the number of entries of 0x{index:04X}, but {problem}");
+            let message = format!(
+                "the procedure `{name}` writes {value} as the number of entries of 0x{index:04X}, but {problem}"
+            );
             diagnostics.push(codes::STEP_IMPOSSIBLE.at(span, message));
         }
         let bits = self.bits(index, value);

@@ -58,7 +58,10 @@ impl<'a> Frame<'a> {
             let Some(bits) = self.bits(field) else { return problems };
             let last = at + bits;
             if last > self.bytes.len() * 8 {
-                problems.push(format!("has {}, but the fields need more", count_of(self.bytes.len(), "byte")));
+                problems.push(format!(
+                    "has {}, but the fields of the message need more",
+                    count_of(self.bytes.len(), "byte")
+                ));
                 return problems;
             }
             problems.extend(self.field(field, at..last));
@@ -66,7 +69,7 @@ impl<'a> Frame<'a> {
         }
         if at.div_ceil(8) != self.bytes.len() {
             problems.push(format!(
-                "has {}, but the fields need {}",
+                "has {}, but the fields of the message need {}",
                 count_of(self.bytes.len(), "byte"),
                 at.div_ceil(8)
             ));
@@ -97,7 +100,8 @@ impl<'a> Frame<'a> {
         let problem = match field {
             MessageField::Constant(expected) => {
                 let found = self.bytes.get(range.start / 8..range.end / 8).unwrap_or_default();
-                (found != expected).then(|| format!("has {} instead of the constant {}", hex(found), hex(expected)))
+                (found != expected)
+                    .then(|| format!("has the hex bytes {} instead of the constant {}", hex(found), hex(expected)))
             }
             MessageField::Value(value) => return self.value(value, number(self.bytes, range, &value.byte_order)),
             MessageField::Echo { field, bytes } => self.echo(field, *bytes, range),
@@ -120,7 +124,7 @@ impl<'a> Frame<'a> {
         let (found, sent) = (found.get(..count)?, sent.get(..count)?);
         (found != sent).then(|| {
             format!(
-                "has {} as the copy of the request bytes from byte {first} on, but the request has {}",
+                "has the hex bytes {} as the copy of the request bytes from byte {first} on, but the request has {}",
                 hex(found),
                 hex(sent)
             )
@@ -133,13 +137,13 @@ impl<'a> Frame<'a> {
         let mut problems = Vec::new();
         let signed = signed(self.owner, item, number);
         if let Some(expected) = fixed(item).filter(|&only| signed.is_some_and(|signed| signed != only)) {
-            problems.push(format!("has {number:#X} in `{name}`, which is always {expected:#X}"));
+            problems.push(format!("has {number:#X} in `{name}`, whose value is always {expected:#X}"));
         } else if let Some(limit) = signed.and_then(|signed| beyond(item, signed)) {
             problems.push(format!("has {number:#X} in `{name}`, whose {limit}"));
         }
         if let Some(counted) = value.counts.as_ref().and_then(|from| self.counted(from)) {
             if number != counted as u64 {
-                problems.push(format!("has the length {number} in `{name}` instead of {counted}"));
+                problems.push(format!("has the value {number} in the length field `{name}` instead of {counted}"));
             }
         }
         problems.extend(self.meaning(item.ty, name, number));
@@ -200,8 +204,14 @@ impl<'a> Frame<'a> {
         let is_whole = [range.start, range.len(), start].iter().all(|bits| bits.is_multiple_of(8));
         let part = |bytes: &'a [u8], start: usize| bytes.get(start / 8..(start + range.len()) / 8);
         let (found, sent) = (part(self.bytes, range.start)?, part(bytes, start).filter(|_| is_whole)?);
-        (found != sent)
-            .then(|| format!("has {} as the copy of `{}`, but the request has {}", hex(found), brief(field), hex(sent)))
+        (found != sent).then(|| {
+            format!(
+                "has the hex bytes {} as the copy of `{}`, but the request has {}",
+                hex(found),
+                brief(field),
+                hex(sent)
+            )
+        })
     }
 }
 

@@ -63,7 +63,7 @@ impl Check<'_, '_> {
             Some(_) => Number::of("fixed value", default, at.default.or(at.low)),
             None => Number::of("default", default, at.default),
         };
-        default.into_iter().chain(Number::of("value", self.item.configured_value(), at.configured)).collect()
+        default.into_iter().chain(Number::of("configured value", self.item.configured_value(), at.configured)).collect()
     }
 
     /// Returns the minimum and the maximum, if they differ.
@@ -106,8 +106,8 @@ impl Check<'_, '_> {
         let Number { what, value, span } = number;
         let name = brief(&self.definition.name);
         let message = match reserved(values, value) {
-            Some(true) => format!("the {what} {value} is reserved in `{name}`"),
-            None if strict => format!("the {what} {value} has no name in `{name}`"),
+            Some(true) => format!("the {what} {value} is reserved in the enumeration `{name}`"),
+            None if strict => format!("the {what} {value} has no name in the enumeration `{name}`"),
             _ => return,
         };
         self.report(&codes::UNNAMED_VALUE, span, message);
@@ -121,7 +121,8 @@ impl Check<'_, '_> {
         let mut beyond = values.iter().filter(|label| label.is_named() && is_beyond(extreme(label)));
         let Some(first) = beyond.next() else { return };
         let others = more(beyond.count(), |others| format!(" and {}", count_of(others, "other value")));
-        let message = format!("the {what} {limit} excludes {} (`{}`){others}", extreme(first), brief(&first.name));
+        let message =
+            format!("the {what} {limit} excludes the value {} (`{}`){others}", extreme(first), brief(&first.name));
         self.report(&codes::NAME_OUTSIDE_LIMITS, span, message);
     }
 
@@ -203,14 +204,14 @@ fn always(fields: &[BitFieldEntry]) -> impl Iterator<Item = &BitFieldEntry> {
     fields.iter().filter(|field| field.when.is_none() && field.availability.is_none())
 }
 
-/// Returns the named values with a verb: `1 is`, `0, 1 and 3 are`.
+/// Returns the named values with a verb: `the value 1 is`, `the values 0, 1 and 3 are`.
 fn listed(values: &[EnumValue]) -> String {
     let named: Vec<String> = values.iter().filter(|value| value.is_named()).map(EnumValue::numbers).collect();
     match named.as_slice() {
         [] => "reserved values are".to_owned(),
-        [one] => format!("{one} is"),
+        [one] => format!("the value {one} is"),
         [.., _] if named.len() > MAX_LISTED => format!("{} other values are", named.len()),
-        [first @ .., last] => format!("{} and {last} are", first.join(", ")),
+        [first @ .., last] => format!("the values {} and {last} are", first.join(", ")),
     }
 }
 
@@ -268,16 +269,16 @@ mod tests {
         let is = |found: Vec<(&'static str, String)>, code, message: &str| {
             assert_eq!(found, [(code, message.to_owned())]);
         };
-        is(found(modes(false), limits(0, 2)), "TAB018", "the maximum 2 has no name in `Mode`");
-        is(found(modes(true), limits(0, 5)), "TAB018", "the maximum 5 has no name in `Mode`");
-        is(found(modes(false), limits(0, 8)), "TAB018", "the maximum 8 is reserved in `Mode`");
-        is(found(modes(false), limits(0, 0x7F)), "TAB018", "the maximum 127 is reserved in `Mode`");
+        is(found(modes(false), limits(0, 2)), "TAB018", "the maximum 2 has no name in the enumeration `Mode`");
+        is(found(modes(true), limits(0, 5)), "TAB018", "the maximum 5 has no name in the enumeration `Mode`");
+        is(found(modes(false), limits(0, 8)), "TAB018", "the maximum 8 is reserved in the enumeration `Mode`");
+        is(found(modes(false), limits(0, 0x7F)), "TAB018", "the maximum 127 is reserved in the enumeration `Mode`");
         let one = found(modes(false), limits(1, 200));
-        is(one, "TAB016", "the minimum 1 excludes 0 (`off`)");
+        is(one, "TAB016", "the minimum 1 excludes the value 0 (`off`)");
         let default = |value| move |item: &mut Item| item.default = Some(Value::Int(value));
         assert_eq!(found(modes(false), default(3)), []);
-        is(found(modes(true), default(3)), "TAB018", "the default 3 has no name in `Mode`");
-        is(found(modes(false), default(9)), "TAB018", "the default 9 is reserved in `Mode`");
+        is(found(modes(true), default(3)), "TAB018", "the default 3 has no name in the enumeration `Mode`");
+        is(found(modes(false), default(9)), "TAB018", "the default 9 is reserved in the enumeration `Mode`");
     }
 
     #[test]

@@ -116,7 +116,7 @@ impl Mapping<'_, '_> {
         }
         let span = mapping.sub(0).map_or(mapping.origin.span, |item| item.at.configured.or(item.at.default));
         let message = format!(
-            "sub-index 0 declares {}, but the number of entries with a value is {found}",
+            "sub-index 0 declares {}, but the number of mapping entries that have a value is only {found}",
             count_of(announced, "mapped object")
         );
         self.report(&codes::MAPPING_COUNT, span.or(mapping.origin.span), message);
@@ -144,7 +144,10 @@ impl Mapping<'_, '_> {
         let granularity = u32::from(self.canopen.granularity.unwrap_or(1).clamp(1, 64));
         // Some tools write 1 for "the mapping can be changed".
         if granularity > 1 && !bits.is_multiple_of(granularity) {
-            let message = format!("the entry has {}, but the granularity is {granularity}", count_of(bits, "bit"));
+            let message = format!(
+                "the mapping entry has {}, but the granularity of the device is {granularity} bits",
+                count_of(bits, "bit")
+            );
             self.report(&codes::GRANULARITY, span, message);
         }
     }
@@ -166,7 +169,7 @@ impl Mapping<'_, '_> {
         }
         if item.access == Access::ReadWrite && item.mappable.rpdo == item.mappable.tpdo {
             let message = format!(
-                "{object} is rw, which does not state whether it can be mapped into {}",
+                "{object} has the access type rw, which does not state whether the object can be mapped into {}",
                 pdo_name(self.direction)
             );
             self.mapped_report(item, &codes::UNCLEAR_DIRECTION, span, message);

@@ -49,7 +49,10 @@ fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
     let outside = |name: &str, mask: u64, value: &Value| {
         let outside = value.as_int().is_some_and(|value| mask != u64::MAX && value & !i128::from(mask) != 0);
         outside.then(|| {
-            format!("has the value {value} for `{}` & {mask:#X}, but {value} has bits outside of the mask", brief(name))
+            format!(
+                "has the value {value} for `{}` & {mask:#X}, but {value} has bits outside of this mask",
+                brief(name)
+            )
         })
     };
     match step {
@@ -122,7 +125,7 @@ fn assignments(device: &Device, procedure: &Procedure, diagnostics: &mut Diagnos
                 if let Some(other) = owner_of_cob_id(device, index, value) {
                     let (cob_id, other) = (format!("{value:#X}"), format!("0x{other:04X}"));
                     let message = format!(
-                        "`{name}` writes the COB-ID {cob_id} to 0x{index:04X}, but {other} already has this COB-ID"
+                        "the procedure `{name}` writes the COB-ID {cob_id} to 0x{index:04X}, but {other} already has this COB-ID"
                     );
                     diagnostics.push(codes::STEP_IMPOSSIBLE.at(span, message));
                 }
@@ -133,7 +136,7 @@ fn assignments(device: &Device, procedure: &Procedure, diagnostics: &mut Diagnos
     for (index, span) in mapped {
         let assigned = &assigned_to[usize::from(index >= 0x1A00)];
         if !assigned.is_empty() && !assigned.contains(&i128::from(index)) {
-            let message = format!("`{name}` maps 0x{index:04X}, but assigns other PDOs");
+            let message = format!("the procedure `{name}` maps the PDO 0x{index:04X}, but assigns other PDOs");
             diagnostics.push(codes::MAPPED_NOT_ASSIGNED.at(span, message));
         }
     }

@@ -64,7 +64,7 @@ fn lengths(by_default: &DefaultAssignment, sync_managers: &[SyncManager], diagno
         let (count, bits) = inside[usize::from(number)];
         if count > MAX_PDO_SUBS {
             let message = format!(
-                "sync manager {number} has {count} default PDOs, but an assignment holds at most {MAX_PDO_SUBS}"
+                "sync manager {number} has {count} default PDOs, but a PDO assignment holds at most {MAX_PDO_SUBS}"
             );
             diagnostics.push(codes::TOO_MANY_PDOS.at(manager.origin.span, message));
         }

@@ -193,7 +193,7 @@ codes! {
     EDS026 REVERSED_NODEID Repair Warn "a formula does not start with `$NODEID`"
         "CiA 306 requires the form `$NODEID+0x180`. Tools that follow the grammar drop a value in the reverse order. \
         Lexibus reads the formula as the standard form. Write `$NODEID` first."
-    EDS027 UNKNOWN_FORMULA Repair Warn "a formula has an unknown form"
+    EDS027 UNKNOWN_FORMULA Repair Warn "a node-ID formula has an unknown form"
         "CiA 306 defines only sums of `$NODEID` and numbers. Lexibus keeps any other formula as text. Correct the \
         formula. If it contains another name of the node-ID, declare the name with `--node-id-alias`."
     EDS028 REAL_FOR_INTEGER Repair Warn "a decimal fraction is given for an integer"
@@ -233,7 +233,7 @@ codes! {
     EDS039 COMPLEX_DATA_TYPE Lint Warn "an entry has a reserved data type or the type of a record"
         "A single value cannot have a record type (0x20 to 0x23) or a reserved code. Lexibus keeps the value as raw \
         bytes. Correct DataType."
-    EDS040 ORPHAN_SUB Repair Warn "a sub-index has no object"
+    EDS040 ORPHAN_SUB Repair Warn "a sub-index belongs to an object that is not described"
         "The file has a section for a sub-index, but none for its object. Lexibus creates an unnamed RECORD for the \
         sub-index. Describe the object with ObjectType and SubNumber."
     EDS041 LISTED_NOT_DESCRIBED Lint Warn "an object is listed but not described"
@@ -246,7 +246,7 @@ codes! {
         "SupportedObjects, or a similar key, is the number of entries, which are numbered from 1. Lexibus uses the \
         entries that exist. Correct the number, because other tools may ignore entries beyond it."
     EDS044 LISTED_TWICE Lint Warn "an object is listed twice"
-        "One entry in the object lists is enough. Lexibus ignores the second entry. Delete the second entry."
+        "An object needs only one entry in the object lists. Lexibus ignores the second entry. Delete the second entry."
     EDS045 WRONG_LIST Lint Warn "an object is in the wrong list"
         "`[MandatoryObjects]` lists 0x1000, 0x1001 and 0x1018. `[ManufacturerObjects]` lists 0x2000 to 0x5FFF. \
         `[OptionalObjects]` lists all others from 0x1000 on. Lexibus keeps the object. Move the object to the right \
@@ -278,9 +278,9 @@ codes! {
         "Files before version 4.0 have no CompactSubObj, no ObjFlags and no `$NODEID` in limits. These files also \
         describe modules differently. A missing EDSVersion means 3.0. Ask the vendor for a newer file, or add \
         EDSVersion if only the key is missing."
-    EDS054 UNRESOLVED_MODULE Lint Warn "a module or extension is announced but not described"
+    EDS054 UNRESOLVED_MODULE Lint Warn "a module or extension is declared but not described"
         "The sections of a module are `[M<n>ModuleInfo]`, `[M<n>FixedObjects]`, `[M<n>SubExtends]` and so on. Lexibus \
-        keeps an announced module without these sections as an empty one. Add the sections, or correct the list."
+        keeps a declared module without these sections as an empty one. Add the sections, or correct the list."
     EDS055 DANGLING_LINK Lint Warn "an object link has no target"
         "`[<index>ObjectLinks]` names an object that the file does not describe. Lexibus keeps the link. Correct the \
         index, or describe the object."
@@ -335,7 +335,7 @@ codes! {
         "CiA 306 defines the key, but not for this kind of object. Examples are a DataType of an object with \
         sub-indices, and a SubNumber of a single value. Lexibus keeps the entry as an extension attribute. This lint \
         is off by default. Delete the entry, or correct ObjectType."
-    EDS071 HEX_COUNT Lint Warn "the number of entries is hexadecimal"
+    EDS071 HEX_COUNT Lint Warn "the number of entries of a list is hexadecimal"
         "Many tools read the number of entries of a list only as decimal, and then see an empty list. Lexibus reads \
         hexadecimal too. Write the number in decimal."
     XML001 MALFORMED_XML Error Deny "the XML is not well-formed"
@@ -356,7 +356,7 @@ codes! {
         "Lexibus follows references only to files in the folder of the description and in folders below it. The \
         content of the referenced file is missing. Put the file into one of these folders, under the name in the \
         reference."
-    ESI001 ESI_VALUE Repair Warn "a text or attribute has an unknown form"
+    ESI001 ESI_VALUE Repair Warn "the value of an element or attribute has an unknown form"
         "ETG.2000 fixes the form of the value, such as a decimal number, `#x` with hexadecimal digits, or one of a few \
         words. Lexibus leaves the value out, or keeps it as text if the intermediate representation can hold it. \
         Correct the value."
@@ -368,18 +368,19 @@ codes! {
         hexadecimal. Lexibus reads numbers without letters as decimal, although the author may have meant them as \
         hexadecimal too. Write `#x` before all hexadecimal numbers."
     ESI010 UNRESOLVED_TYPE Repair Warn "a data type is unknown"
-        "The name is neither a DataType of this dictionary nor a basic type (ETG.1000.6), or the DataType defines only \
-        its name. Lexibus keeps the value as raw bytes. Define the type in DataTypes, or use a basic type such as \
+        "The name is neither a DataType of this dictionary nor a base data type of ESI, or the DataType defines only \
+        its name. Lexibus keeps the value as raw bytes. Define the type in DataTypes, or use a base data type such as \
         UINT."
-    ESI011 TYPE_ALIAS Lint Allow "a basic type has a name of another standard"
-        "ETG.1000.6 calls the basic types USINT, UINT, UDINT and so on. This file uses the name of the same type in \
-        CiA 301 or C, such as UNSIGNED16. Lexibus reads the name as the basic type. This lint is off by default. Use \
-        the name of ETG.1000.6 if another tool requires it."
+    ESI011 TYPE_ALIAS Lint Allow "a base data type has its name from another standard"
+        "ESI calls the base data types USINT, UINT, UDINT and so on. This file uses the name of the same type in CiA \
+        301 or C, such as UNSIGNED16. Lexibus reads the name as the base data type. This lint is off by default. Use \
+        the ESI name if another tool requires it."
     ESI012 GUESSED_TYPE Repair Warn "a data type was guessed from the beginning of its name"
-        "The name begins with a basic type (`UINT_hex`), the sizes agree, and nothing else defines the type. Lexibus \
-        uses the basic type. Define the type, or use the name of the basic type."
+        "The name begins with a base data type (`UINT_hex`), the sizes agree, and nothing else defines the type. \
+        Lexibus uses the base data type. Define the type, or use the name of the base data type."
     ESI013 DUPLICATE_TYPE Repair Warn "two data types have the same name"
-        "A reference can mean either type. Lexibus uses the first type, as most tools do. Rename one of the types."
+        "A reference to this name can mean either type. Lexibus uses the first type, as most tools do. Rename one of \
+        the types."
     ESI014 SUB_ITEM_NAME Lint Warn "a sub-item has no unique name"
         "The name is missing, or another sub-item of the data type has the same name. Generated code distinguishes the \
         sub-items by sub-index. Give each sub-item a unique name."
@@ -414,8 +415,9 @@ codes! {
         "Examples are a fraction for an integer, and a text for a number. Lexibus converts the value if it can mean \
         only one thing. Otherwise it keeps the value as text. Write the value in the form of its type."
     ESI024 MINUS_ONE Repair Warn "-1 is given for an unsigned integer"
-        "In C, -1 is an unsigned integer with all bits set. Lexibus reads -1 as this number. Write the unsigned number."
-    ESI025 SUB_ITEM_PLACE Lint Warn "a sub-item shares bits with another, or exceeds its data type"
+        "In C, -1 becomes an unsigned integer with all bits set. Lexibus reads -1 as that integer. Write the unsigned \
+        number."
+    ESI025 SUB_ITEM_PLACE Lint Warn "a sub-item shares bits with another sub-item, or exceeds its data type"
         "BitOffs and BitSize of a sub-item state its position in the whole value. BitSize of the data type states the \
         length of the whole value. CoE complete access transfers the whole value, so a wrong position mixes up the \
         sub-items. Lexibus keeps the sub-items. Correct BitOffs or BitSize."
@@ -428,7 +430,7 @@ codes! {
     ESI032 ESI_DUPLICATE_OBJECT Repair Warn "an object or sub-index occurs twice"
         "An index must be unique in a device, and a sub-index in its object. Lexibus uses the first definition and \
         leaves out the second one. Delete the wrong definition."
-    ESI033 ESI_MISSING_INDEX Repair Warn "an object, PDO entry or module has no usable number"
+    ESI033 ESI_MISSING_INDEX Repair Warn "an object, PDO entry or module has no usable index or ident number"
         "An object without an index cannot be addressed. A module without an ident number fits no slot. Lexibus leaves \
         out such objects and modules. Lexibus keeps a PDO entry without an index if the entry has a name and a type, \
         and otherwise reads the entry as padding. Add the number."
@@ -446,8 +448,8 @@ codes! {
         "Some devices offer a PDO on two sync managers, of which only one can be assigned. Lexibus keeps both PDOs. \
         Correct the index, or allow this code if the device works this way."
     ESI043 UNNAMED_PDO Lint Warn "a PDO has no name"
-        "Name is mandatory. Generated code names the PDO by its index. Add the name of the PDO."
-    ESI044 ENTRY_LENGTH Lint Warn "the length of a PDO entry is not that of its data type"
+        "The element Name is mandatory. Generated code names the PDO by its index. Add the name of the PDO."
+    ESI044 ENTRY_LENGTH Lint Warn "the length of a PDO entry differs from the length of its data type"
         "Lexibus uses BitLen for the layout and DataType for the type. A wrong BitLen shifts all entries after it. \
         Compare BitLen and DataType with the manual, and correct the wrong one."
     ESI050 DUPLICATE_MODULE Lint Warn "two modules have the same ident number"
@@ -505,11 +507,11 @@ codes! {
     GSD007 ATTRIBUTE_CASE Repair Warn "the name of an attribute has the wrong case"
         "XML is case-sensitive, so engineering tools do not see the attribute. Lexibus reads the attribute all the \
         same. Write the name as in the schema."
-    GSD008 MISSING_TEXT Repair Warn "a text is missing in the text list"
+    GSD008 MISSING_TEXT Repair Warn "a text is missing from the text list"
         "Names are references to ExternalTextList. Lexibus uses the identifier as the name if the list does not \
         contain it. Add the text to the list."
     GSD009 MISSING_TRANSLATION Lint Warn "a language lacks texts that the primary language has"
-        "Readers of that language see these texts in the primary language, which is English. Add the translations."
+        "A text without a translation is displayed in the primary language, which is English. Add the translations."
     GSD010 DUPLICATE_ID Repair Warn "an identifier, text, language or element occurs twice"
         "An ID must be unique among the elements of one kind. Texts and languages must be unique in the text list, and \
         some elements in their parent. The diagnostic says which of them Lexibus uses. References refer to the first \
@@ -559,7 +561,7 @@ codes! {
     PDO002 NOT_MAPPABLE Lint Warn "a PDO maps an object that is not mappable"
         "The description declares that the object cannot be mapped; in an EDS, PDOMapping is 0. A CANopen device \
         rejects the mapping with abort code 0x06040041. Lexibus keeps the entry. Correct the mapping or the object."
-    PDO003 WRONG_DIRECTION Lint Warn "a PDO maps an object against its access rights"
+    PDO003 WRONG_DIRECTION Lint Warn "a PDO maps an object in a direction that its access rights do not allow"
         "A TPDO carries readable objects (ro, const, rw, rwr), and an RPDO writable ones (wo, rw, rww). In EtherCAT, \
         PdoMapping states the direction. Lexibus keeps the entry. Correct the mapping or the object."
     PDO004 PDO_TOO_LONG Lint Warn "a PDO is longer than 64 bits"
@@ -581,13 +583,13 @@ codes! {
         "`[DummyUsage]` lists the data types that the device accepts as dummy entries. The data type of this entry is \
         missing in `[DummyUsage]`, or is 0. Lexibus keeps the entry. Correct the mapping or `[DummyUsage]`."
     PDO010 PDO_COUNT Lint Warn "NrOfRXPDO or NrOfTXPDO is not the number of PDOs"
-        "The file describes more PDOs than `[DeviceInfo]` announces. Or it describes fewer PDOs, and no CompactPDO \
+        "The file describes more PDOs than `[DeviceInfo]` declares. Or it describes fewer PDOs, and no CompactPDO \
         describes the others. Lexibus uses the described PDOs. Correct the number, or describe the missing PDOs."
-    PDO011 GRANULARITY Lint Warn "a mapping is finer than the granularity of the device"
+    PDO011 GRANULARITY Lint Warn "the length of a mapping entry is not a multiple of the granularity"
         "Granularity is the smallest unit of mapping in bits: 8 for bytes, 1 for bits. Granularity is 0 if mappings \
         are fixed. The length of this entry is not a multiple of Granularity. Lexibus keeps the entry. Correct the \
         mapping or Granularity."
-    PDO012 MULTIPLEXED_PDO Lint Warn "a device without multiplexed PDOs describes one"
+    PDO012 MULTIPLEXED_PDO Lint Warn "a multiplexed PDO is described, but the device supports none"
         "Sub-index 0 of the mapping is 254 or 255, which marks a multiplexed PDO. GroupMessaging is 0, which means \
         that the device has none. Correct sub-index 0 or GroupMessaging."
     PDO013 PDO_COUNT_1004 Lint Warn "object 0x1004 contradicts `[DeviceInfo]`"
@@ -622,13 +624,13 @@ codes! {
     PDO022 ENTRY_TOO_LONG Lint Warn "a PDO entry is longer than 65535 bits"
         "No EtherCAT frame carries that much, so BitLen is wrong. Lexibus documents the PDO as the file describes it, \
         but generates no struct, view or process image field for it. Correct BitLen."
-    PDO023 MAPPED_READ_ONLY Lint Allow "an EtherCAT PDO maps an object against its SDO access rights"
+    PDO023 MAPPED_READ_ONLY Lint Allow "an EtherCAT PDO writes a read-only object, or reads a write-only object"
         "An RxPDO carries an object that is read-only by SDO, or a TxPDO one that is write-only. Many slaves state the \
         access rights for SDO only, so this lint is off by default. Compare the access rights with the manual."
     PDO024 TOO_MANY_PDOS Lint Warn "a sync manager has more default PDOs than its assignment can hold"
         "The assignment object of a sync manager has 254 sub-indices, so no master can write a longer list. Generated \
         code has no `STARTUP`. Assign fewer PDOs by default."
-    TAB001 REGISTER_FORMULA Lint Warn "an object does not match the rule for its register"
+    TAB001 REGISTER_FORMULA Lint Warn "the object of a register does not match the rule of its space"
         "The rule of a space derives the object from the register number. This row names another object, or names no \
         object although the neighboring rows do. Lexibus uses the object of the row. One of the two numbers is \
         probably misprinted. Compare the neighboring rows, record the ambiguity in `doubt`, and `allow` this code on \
@@ -674,13 +676,13 @@ codes! {
         digit was doubled or lost, or the type is wrong. This code also reports the prefix `0X`. Lexibus uses the \
         number. Compare the number with the manual.\n\
         In an EDS, numbers with exactly the digits of a longer type are reported only if you set a level for this code."
-    TAB013 BIT_OUTSIDE_TYPE Lint Warn "a bit is outside of its integer"
+    TAB013 BIT_OUTSIDE_TYPE Lint Warn "a bit is outside of its integer type"
         "The bit field names a bit that the integer does not have. Generated code leaves the field out. The type is \
         too short, or the manual counts bits from 1. Correct the type or the number of the bit."
     TAB014 BITS_OVERLAP Lint Warn "two fields share bits"
         "A bit has one meaning at a time. If the meaning depends on another item, the firmware or the model, state the \
         condition in each field: `when`, `since`, `until` or `models`. Otherwise correct the bits of the wrong field."
-    TAB015 NAME_OUTSIDE_TYPE Lint Warn "an enumeration names a value that its integer cannot have"
+    TAB015 NAME_OUTSIDE_TYPE Lint Warn "an enumeration names a value that its integer type cannot hold"
         "The value is negative and the integer unsigned, or the value has more bits than the integer or field. Correct \
         the type or the value."
     TAB016 NAME_OUTSIDE_LIMITS Lint Warn "a named value or bit is outside of the limits of its item"
@@ -728,10 +730,10 @@ codes! {
     TAB027 VERSION_FORM Lint Warn "a firmware version cannot be compared"
         "A firmware version consists of numbers separated by points. Each number is compared separately: 6.27 is later \
         than 6.3. Lexibus does not compare this version with others. Write the version as numbers separated by points."
-    TAB028 STATES_OVERLAP Lint Deny "two states of a machine have the same status value"
+    TAB028 STATES_OVERLAP Lint Deny "two states of a state machine match the same status value"
         "Some values of the status item match both states, so the state of the device is ambiguous. This lint is an \
         error by default. Correct the mask or value of one state."
-    TAB029 COMMANDS_OVERLAP Lint Allow "two commands of a machine have the same control value"
+    TAB029 COMMANDS_OVERLAP Lint Allow "two commands of a state machine match the same control value"
         "Some values of the control item match both commands. This is correct if the state determines which command is \
         meant, as in CiA 402, so this lint is off by default. Otherwise correct the mask or value of one command."
     TAB030 OVERLAY_NO_MATCH Lint Warn "an overlay entry matches nothing"
@@ -759,7 +761,7 @@ codes! {
         "Some bits are neither named nor reserved, or a narrow field has an unnamed value between named ones. Manuals \
         often omit such bits and values, so this lint is off by default. Name or reserve the bits and values if the \
         manual does."
-    TAB037 MODE_WITHOUT_BITS Lint Warn "bits that depend on a mode have no meaning in one of the modes"
+    TAB037 MODE_WITHOUT_BITS Lint Warn "bits that depend on a mode are not described for one of the modes"
         "The manual's table of bits has no column for the mode, or the mode does not use the bits. The value 0 is not \
         checked, because it usually means no mode. Describe the bits, or `allow` this code on the bit field if the \
         mode does not use them."
@@ -788,13 +790,13 @@ codes! {
         "Lexibus compares the requests and replies that the manual prints with the fields of the message. The lint \
         checks the length, constants, echoes, reserved bits and named values. The frame or the field is misprinted. \
         Keep the bytes that the other frames support, and record the ambiguity in `doubt`."
-    TAB045 CELLS_TWICE Lint Warn "two codes have the same cells"
+    TAB045 CELLS_TWICE Lint Warn "two codes of a code table have the same cells"
         "The table declares with `distinct` that no two codes have the same cells. The manual probably repeats a row. \
         Record the ambiguity in `doubt`, and `allow` this code on the table."
-    TAB048 NARROW_WINDOW Lint Warn "an item of a space has more bits than its windows"
+    TAB048 NARROW_WINDOW Lint Warn "an item has more bits than the item through which it is read or written"
         "The item is read or written through an item with fewer bits, and no other window of the space is wider. The \
         upper bits are lost. Correct the type of one item, or add a wider window."
-    TAB049 WINDOW_ORDER Lint Warn "a window's procedure writes the number before the value"
+    TAB049 WINDOW_ORDER Lint Warn "a procedure of a window writes the number before the value"
         "Writing the number starts the transfer, so the device transfers the previous value. In a process image, the \
         number and the value are sent together, so their order is not checked. Write the value before the number."
     TAB050 QUANTITIES_DIFFER Lint Warn "two items for the same quantity have different default values"
@@ -804,7 +806,7 @@ codes! {
     TAB051 NUMBER_GAP Lint Allow "a number is missing between consecutive parameters"
         "A row of the manual's table may be missing. Devices often skip numbers, so this lint is off by default. Look \
         for the parameter in the manual."
-    TAB052 CONVERSION_DIFFERS Lint Warn "a conversion in the manual contradicts the scale"
+    TAB052 CONVERSION_DIFFERS Lint Warn "a conversion in the manual contradicts the scale of the item"
         "`conversions` holds raw values and the physical values that the manual gives for them. The scale gives a \
         physical value that differs by more than one raw step. A digit is misprinted, or the scale, a machine value or \
         the base is wrong. Keep the numbers that fit each other, and add a `doubt`."
@@ -849,7 +851,7 @@ codes! {
         "A client selects a parameter by its number, and sends the message of the first space that has it. To transfer \
         the other parameter, use its message directly."
     MOD001 MODULE_INDEX_CLASH Lint Warn "a fixed object of a module is also an object of the device"
-        "The index would identify two objects. Correct the index in the module or in the device."
+        "The index would identify both an object of the module and an object of the device. Correct one of the indices."
     MOD002 SUB_EXTEND Lint Warn "a sub-index extension breaks the rules of CiA 306"
         "`[M<n>SubExtends]` must list the extension `[M<n>SubExt<index>]`. Count is a number of sub-indices, or 0, `;` \
         and a number of bits. ObjExtend is 0 or 1, and the other keys are those of a VAR. The extended object must \

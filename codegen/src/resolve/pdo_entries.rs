@@ -39,7 +39,7 @@ fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut 
     let Some(item) = dictionary.items.get(entry.index, entry.sub_index) else {
         // Objects that depend on the slot belong to a module. Without a dictionary, no object is missing.
         if !entry.depends_on_slot && !dictionary.items.is_empty() && diagnostics.wants(&codes::MAPPED_OBJECT_MISSING) {
-            let message = format!("{} is mapped, but not in the dictionary", address(entry));
+            let message = format!("{} is mapped, but not in the object dictionary", address(entry));
             let found = codes::MAPPED_OBJECT_MISSING.at(entry.origin.span, message);
             diagnostics.push(found.label("added an object with the facts of the entry"));
         }

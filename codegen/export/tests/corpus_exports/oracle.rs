@@ -167,7 +167,7 @@ fn rejection(case: &Case) -> (&'static str, &'static str) {
         "negative/adjacent (POWERLINK XDD)" => ("XDD002", "POWERLINK"),
         "negative (Xilinx constraints .xdc)" => ("IO002", "this is not a device description"),
         "bad/edge" if case.file.bytes.is_empty() => ("IO002", "the file is empty"),
-        "bad/edge (git symlink target text)" | "bad/edge" => ("EDS002", "this is not an EDS"),
+        "bad/edge (git symlink target text)" | "bad/edge" => ("EDS002", "the file has no section"),
         other => panic!("{}: unknown class {other:?}", case.name()),
     }
 }

@@ -33,13 +33,19 @@ fn problem(device: &Device, item: &Item, quantity: &Quantity, conversion: &Conve
     };
     let (below, exact, above) = match (convert(raw - 1.0), convert(raw), convert(raw + 1.0)) {
         (Ok(below), Ok(exact), Ok(above)) => (below, exact, above),
-        (Err(why), ..) | (_, Err(why), _) | (.., Err(why)) => return Some(format!("`{name}`: {why}")),
+        (Err(why), ..) | (_, Err(why), _) | (.., Err(why)) => {
+            return Some(format!("the conversion of `{name}` cannot be checked: {why}"))
+        }
     };
     let (low, high) = (below.min(above), below.max(above));
     let is_within = low <= value && value <= high || low.is_nan() || high.is_nan();
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    (!is_within)
-        .then(|| format!("the raw value {raw} of `{name}` is {}{unit}, not {value}", physical::rounded(exact, DIGITS)))
+    (!is_within).then(|| {
+        format!(
+            "according to the scale of `{name}`, the raw value {raw} is {}{unit}, not {value}",
+            physical::rounded(exact, DIGITS)
+        )
+    })
 }
 
 /// Returns the physical value of a raw value.
@@ -50,7 +56,7 @@ fn physical(device: &Device, quantity: &Quantity, conversion: &Conversion, raw: 
         constant
             .flatten()
             .or(conversion.by)
-            .ok_or_else(|| format!("the key `by` with the value of `{}` is missing", brief(name)))
+            .ok_or_else(|| format!("the key `by`, which holds the value of `{}`, is missing", brief(name)))
     })
 }
 

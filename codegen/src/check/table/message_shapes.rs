@@ -96,9 +96,10 @@ fn parameters(context: &Context<'_>, shapes: &[Shaped<'_>], diagnostics: &mut Di
                 None => _ = carried.insert(code, &space.name),
                 Some(first) => {
                     let (name, first) = (brief(&item.name), brief(first));
-                    let text =
-                        format!("`{name}` has the number {code:#X}, which a parameter of the space `{first}` also has");
-                    let text = text + ": clients transfer only the parameter of that space";
+                    let text = format!(
+                        "the parameter `{name}` has the same number {code:#X} as a parameter in the space `{first}`"
+                    );
+                    let text = text + ", and clients transfer only the parameter in that space";
                     diagnostics.push(codes::PARAMETERS_ALIKE.at(item.origin.span, text));
                 }
             }

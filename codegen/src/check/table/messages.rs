@@ -159,8 +159,8 @@ fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     }
     let (name, ((position, common), others)) = (brief(&framed.message.name), (others.0, others.1.len()));
     let message = format!(
-        "`{name}` has the constant 0x{byte:02X} in byte {position}, but {others} other requests have 0x{common:02X} \
-         in this byte"
+        "the request `{name}` has the constant 0x{byte:02X} in byte {position}, but {others} other requests have \
+         0x{common:02X} in this byte"
     );
     let found = report(framed, &codes::ODD_REQUEST, message);
     diagnostics.push(
@@ -194,8 +194,8 @@ fn cells(machine: &str, row: &CommandOutcomes, message: &Message, diagnostics: &
         };
         let (name, state, machine) = (brief(&message.name), brief(&cell.state), brief(machine));
         let text = format!(
-            "the message `{name}` {stated} the state `{state}`, but in the table of `{machine}`, \
-             this state {table} the command"
+            "the message `{name}` {stated} the state `{state}`, but according to the \
+             table of `{machine}`, the device {table} the command in this state"
         );
         let found = codes::STATES_DIFFER.at(message.origin.span, text);
         diagnostics.push(found.help("keep the statement that lists the states one by one, and add a `doubt`"));

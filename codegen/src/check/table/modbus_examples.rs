@@ -18,7 +18,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for example in &context.device.modbus_examples {
         let mut report = |what: &str, span: Span, problems: Vec<String>| {
             for problem in problems {
-                let found = codes::EXAMPLE_DIFFERS.at(span, format!("the {what} {problem}"));
+                let found = codes::EXAMPLE_DIFFERS.at(span, format!("the example {what} {problem}"));
                 diagnostics
                     .push(found.help("keep the bytes that other frames of the manual confirm, and add a `doubt`"));
             }
@@ -70,13 +70,15 @@ impl Request {
             problems.push(format!("starts at the address 0x{:04X}, which no row has", self.start));
         } else if !of_space().any(|register| self.covers(register)) {
             let quantity = self.quantity;
-            problems
-                .push(format!("covers {}, but no item ends with the last register", count_of(quantity, "register")));
+            problems.push(format!(
+                "covers {}, but no item ends at the last of these registers",
+                count_of(quantity, "register")
+            ));
         }
         if self.function == 16 && bytes.get(6).is_some_and(|count| u16::from(*count) != self.quantity.saturating_mul(2))
         {
             problems.push(format!(
-                "announces {} bytes for {}",
+                "has the byte count {} for {}",
                 bytes.get(6).unwrap_or(&0),
                 count_of(self.quantity, "register")
             ));

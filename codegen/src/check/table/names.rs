@@ -39,7 +39,7 @@ fn case_only<'g>(names: &mut HashMap<CompactString, &'g Item>, item: &'g Item, d
     let first = *names.entry(item.name.to_lowercase()).or_insert(item);
     if first.name != item.name {
         let (name, other) = (brief(&item.name), brief(&first.name));
-        let message = format!("the names `{name}` and `{other}` differ only in upper and lower case");
+        let message = format!("the names `{name}` and `{other}` differ only in case");
         let found = codes::NAME_TWICE.at(name_span(item), message).note_at(name_span(first), "the other name");
         diagnostics.push(found.help("use one spelling if both are the same name"));
     }

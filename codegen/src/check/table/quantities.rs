@@ -23,7 +23,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         let differences = differences(device, item, other);
         if let Some((first, others)) = differences.split_first() {
             let names = format!("`{}` and `{}`", brief(&item.name), brief(&other.name));
-            let message = format!("{names} are the same quantity, but {first}");
+            let message = format!("{names} are declared as the same quantity, but {first}");
             let found = codes::QUANTITIES_DIFFER.at(item.at.default.or(item.origin.span), message);
             let found = others.iter().fold(found, |found, other| found.note(format!("{names} also differ: {other}")));
             diagnostics.push(found.note_at(other.at.default.or(other.origin.span), "the other item"));
@@ -53,7 +53,7 @@ fn differences(device: &Device, one: &Item, other: &Item) -> Vec<String> {
             let on = model.map(|model| format!(" on {}", brief(&model.name))).unwrap_or_default();
             let [number, other] = [one.0, other.0].map(|number| physical::rounded(number, DIGITS));
             let unit = if one.1.is_empty() { String::new() } else { format!(" {}", brief(&one.1)) };
-            found.push(format!("their defaults{on} are {number} and {other}{unit}"));
+            found.push(format!("their default values{on} are {number} and {other}{unit}"));
         }
     }
     found

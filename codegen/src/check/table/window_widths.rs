@@ -84,7 +84,8 @@ fn order(
     let last_value = procedure.steps.iter().rposition(|step| writes(step, &side.value));
     let Some((at, _)) = last_value.zip(first).filter(|(last_value, first)| first < last_value) else { return };
     let name = brief(&procedure.name);
-    let message = format!("`{name}` writes the number to `{address}` before the value to `{value}`, but {begins}");
+    let message =
+        format!("the procedure `{name}` writes the number to `{address}` before the value to `{value}`, but {begins}");
     let span = procedure.step_spans.get(at).copied().unwrap_or(procedure.origin.span);
     diagnostics.push(codes::WINDOW_ORDER.at(span, message).help("write the value before the number"));
 }

@@ -35,7 +35,7 @@ impl ObjectType<'_> {
             Some(2) => return ObjectCode::Domain,
             Some(7) => {}
             _ => {
-                let message = format!("`{}` is not a valid object type of a {}", self.text, terms.sub_object);
+                let message = format!("`{}` is not a valid object type for a {}", self.text, terms.sub_object);
                 let found = Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, self.span, message);
                 diagnostics.push(found.label("read as VAR"));
             }
@@ -64,7 +64,7 @@ pub fn object_code(
             diagnostics.push(found.label(format!("read as {}", by_content.name())));
         }
         _ if has_subs => {
-            let message = format!("0x{index:04X} is a VAR but has sub-indices");
+            let message = format!("object 0x{index:04X} is a VAR, but has sub-indices");
             let found = Diagnostic::new(&codes::VAR_WITH_SUBS, span, message).label("read as a RECORD");
             diagnostics.push(found.help(terms.records));
         }
@@ -83,7 +83,7 @@ pub fn type_by_code(code: u32, span: Span, defined: Option<Type>, diagnostics: &
             (&codes::COMPLEX_DATA_TYPE, format!("{code:#06x} is a record type, but a single value needs a basic type"))
         }
         0x0E | 0x17 | 0x1C..=0x1F => (&codes::COMPLEX_DATA_TYPE, format!("the data type {code:#06x} is reserved")),
-        _ => (&codes::UNKNOWN_DATA_TYPE, format!("{code:#06x} is not a data type of CiA 301 or of this file")),
+        _ => (&codes::UNKNOWN_DATA_TYPE, format!("neither CiA 301 nor this file defines the data type {code:#06x}")),
     };
     diagnostics.push(Diagnostic::new(kind, span, message).label("kept as raw bytes"));
     Type::Opaque(Some(code))
@@ -120,8 +120,12 @@ pub fn sub_number(
     let described = group.items.len() - structure;
     let Terms { sub_number, elements, .. } = terms;
     let found = if structure > 0 && announced == group.items.len() as i128 {
-        Diagnostic::new(&codes::STRUCTURE_ENTRY, span, format!("{sub_number} includes sub-index 0xFF"))
-            .label(format!("expected {described}"))
+        Diagnostic::new(
+            &codes::STRUCTURE_ENTRY,
+            span,
+            format!("{sub_number} counts sub-index 0xFF, which is not an element"),
+        )
+        .label(format!("expected {described}"))
     } else if announced != described as i128 {
         let message = format!("{sub_number} is {text}, but the file describes {described} sub-indices");
         Diagnostic::new(&codes::SUB_NUMBER, span, message).label(format!("the existing {elements} are used"))
@@ -137,7 +141,8 @@ pub fn define_type(group: &Group, types: &mut Vec<TypeDef>, diagnostics: &mut Di
     let (index, code) = (group.index()?, group.object_code()?);
     if !matches!(code, ObjectCode::DefType | ObjectCode::DefStruct) {
         if index < 0x1000 && index > 0 {
-            let message = format!("0x{index:04X} is in the data type area but is a {}", code.name());
+            let message =
+                format!("object 0x{index:04X} is in the data type area, but has the object type {}", code.name());
             diagnostics.push(Diagnostic::new(&codes::TYPE_AREA_OBJECT, group.origin.span, message));
         }
         return None;

@@ -151,7 +151,7 @@ impl Converter<'_> {
         // digits.
         let is_usual = matches!(digits.len(), 2 | 4 | 8 | 16) && !self.diagnostics.asks_for(&codes::HEX_DIGITS);
         if digits.len() > needed && !is_usual && digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
-            let message = format!("`{}` has {} digits, but {ty} has {needed}", brief(text), digits.len());
+            let message = format!("`{}` has {} hexadecimal digits, but {ty} needs {needed}", brief(text), digits.len());
             let found = Diagnostic::new(&codes::HEX_DIGITS, span, message).label("the number is used as written");
             self.diagnostics.push(found.help("check the digits and the data type against the manual"));
         }
@@ -305,7 +305,7 @@ impl Converter<'_> {
 
     fn unknown_formula(&mut self, text: &str, span: Span) {
         self.diagnostics.push(
-            Diagnostic::new(&codes::UNKNOWN_FORMULA, span, format!("`{text}` is not a formula of CiA 306"))
+            Diagnostic::new(&codes::UNKNOWN_FORMULA, span, format!("`{text}` is not a formula that CiA 306 defines"))
                 .label("kept as text")
                 .help(
                     "write $NODEID or $NODEID+number, or declare the other name of the node-ID with `--node-id-alias`",
@@ -319,8 +319,8 @@ impl Converter<'_> {
         let (code, message): (&'static Code, String) = match quirk {
             Quirk::Octal => (&codes::OCTAL_NUMBER, format!("{text} is octal because of its leading zero")),
             Quirk::LeadingZero => (&codes::LEADING_ZERO, format!("{text} has a leading zero")),
-            Quirk::HexSuffix => (&codes::HEX_SUFFIX, format!("{text} has a hexadecimal suffix")),
-            Quirk::CSuffix => (&codes::TRAILING_TEXT, format!("{text} has a C suffix")),
+            Quirk::HexSuffix => (&codes::HEX_SUFFIX, format!("{text} has the suffix `h` of a hexadecimal number")),
+            Quirk::CSuffix => (&codes::TRAILING_TEXT, format!("{text} has the suffix of a C literal")),
             Quirk::ReversedNodeId => (&codes::REVERSED_NODEID, format!("`{text}` does not start with $NODEID")),
         };
         let fix = match number.parsed {

@@ -160,10 +160,10 @@ fn header_field(header: &mut Header, which: usize) -> &mut CompactString {
 
 fn header_format(reader: &mut Reader<'_, '_>, entry: &Entry, which: usize) {
     let expected = match which {
-        1 | 2 => "an integer up to 255",
-        3 => "a version x.y, such as 4.0",
-        5 | 8 => "a time hh:mm with AM or PM, such as 09:30AM",
-        _ => "a date mm-dd-yyyy, such as 12-31-2020",
+        1 | 2 => "an integer from 0 to 255",
+        3 => "a version of the form x.y, such as 4.0",
+        5 | 8 => "a time of the form hh:mm with AM or PM, such as 09:30AM",
+        _ => "a date of the form mm-dd-yyyy, such as 12-31-2020",
     };
     let message = format!("{} is not {expected}", FILE_INFO[which]);
     let span = reader.doc.value_span(entry);
@@ -177,9 +177,11 @@ fn old_version(reader: &mut Reader<'_, '_>, sections: &[Section], header: &Heade
     };
     if version.parse::<f64>().is_ok_and(|version| version < 4.0) {
         let (message, span) = match entry.filter(|_| given) {
-            Some(entry) => (format!("the file has EDS version {version}"), reader.doc.value_span(entry)),
+            Some(entry) => {
+                (format!("the file has EDS version {version}, which is older than 4.0"), reader.doc.value_span(entry))
+            }
             None => {
-                ("the file has no EDSVersion, which means version 3.0".to_owned(), reader.doc.name_span(&sections[0]))
+                ("the file has no EDSVersion, so its EDS version is 3.0".to_owned(), reader.doc.name_span(&sections[0]))
             }
         };
         reader.diagnostics.push(Diagnostic::new(&codes::OLD_EDS_VERSION, span, message));
@@ -438,7 +440,7 @@ fn dynamic_channel(reader: &mut Reader<'_, '_>, fields: &[Option<Entry>; 4]) -> 
     match offsets(text) {
         Some((offset, difference)) => (segment.offset, segment.difference) = (offset, difference),
         None => {
-            let message = format!("`{text}` is not an offset");
+            let message = format!("`{text}` is not a valid PPOffset");
             let label = "expected `offset` or `offset, difference`";
             reader.diagnostics.push(Diagnostic::new(&codes::ILLEGAL_NUMBER, span, message).label(label));
         }

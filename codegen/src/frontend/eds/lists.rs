@@ -60,7 +60,7 @@ pub(super) fn numbered(
         }
     };
     if let (Some(((number, entry), expected)), true) = (gap, agrees) {
-        let message = format!("the next entry of the list has the number {number}, expected {expected}");
+        let message = format!("the next entry in the list has the number {number} instead of {expected}");
         reader.diagnostics.push(
             Diagnostic::new(&codes::LIST_COUNT, reader.doc.key_span(entry), message)
                 .label("the existing entries are used")
@@ -130,13 +130,13 @@ pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count:
     let Some(announced) = reader.unsigned(entry, 0xFFFF) else { return true };
     let (key, text, span) = (reader.doc.key(entry), reader.doc.value(entry), reader.doc.value_span(entry));
     if announced as usize != count {
-        let message = format!("{key} announces {announced} entries, but the list has {count}");
+        let message = format!("{key} is {announced}, but the number of entries in the list is {count}");
         let found = Diagnostic::new(&codes::LIST_COUNT, span, message).label("the existing entries are used");
         reader.diagnostics.push(if has_gap { found.help(NO_GAP) } else { found.fix(count.to_string()) });
         return false;
     }
     if text.starts_with("0x") || text.starts_with("0X") {
-        let message = format!("{key} is a hexadecimal number");
+        let message = format!("{key} is a hexadecimal number, which many tools cannot read");
         reader.diagnostics.push(
             Diagnostic::new(&codes::HEX_COUNT, span, message)
                 .label(format!("read as {announced}"))
@@ -196,7 +196,7 @@ pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device)
         }
         let right = belongs(index);
         if right != Some(list) {
-            let message = format!("0x{index:04X} does not belong in this list");
+            let message = format!("object 0x{index:04X} is in the wrong list");
             let label = match right {
                 Some(right) => format!("it belongs in [{}]", right.name()),
                 None => "objects in the data type area belong in no list".to_owned(),
@@ -227,7 +227,7 @@ fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &Indices, devi
     for group in &device.groups {
         let Some(index) = group.index().filter(|&index| index >= 0x1000) else { continue };
         if !listed.contains(index) {
-            let message = format!("0x{index:04X} is described but not listed");
+            let message = format!("object 0x{index:04X} is described, but is in no object list");
             reader.diagnostics.push(Diagnostic::new(&codes::NOT_LISTED, group.origin.span, message));
         }
     }

@@ -58,7 +58,7 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
     let sorted = Sorted::new(&mut reader);
     if sorted.is_empty() {
         reader.diagnostics.push(
-            Diagnostic::new(&codes::NOT_AN_EDS, Span::new(file, 0, 0), "this is not an EDS: it has no section of CiA 306")
+            Diagnostic::new(&codes::NOT_AN_EDS, Span::new(file, 0, 0), "the file has no section that CiA 306 defines")
                 .help(
                     "check that the file has [FileInfo], [DeviceInfo], object lists, and sections of objects such as [1000]",
                 ),
@@ -235,7 +235,9 @@ fn report_oddities(doc: &Document<'_>, diagnostics: &mut Diagnostics) {
     let mut hash_seen = false;
     for &(oddity, span) in &oddities {
         let (code, message, label) = match oddity {
-            Oddity::Junk => (&codes::JUNK_LINE, "this line is not a section, entry or comment", "skipped"),
+            Oddity::Junk => {
+                (&codes::JUNK_LINE, "this line is neither a section header, an entry nor a comment", "skipped")
+            }
             Oddity::EntryOutsideSection => {
                 (&codes::ENTRY_OUTSIDE_SECTION, "this entry is above the first section", "skipped")
             }

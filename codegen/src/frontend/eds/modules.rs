@@ -58,7 +58,7 @@ fn check_announced(reader: &mut Reader<'_, '_>, by_module: &BTreeMap<u32, Parts>
         return;
     };
     if announced as usize != described {
-        let message = format!("the file announces {}, but describes {described}", count_of(announced, "module"));
+        let message = format!("the file declares {}, but describes {described}", count_of(announced, "module"));
         reader.diagnostics.push(Diagnostic::new(&codes::UNRESOLVED_MODULE, span, message));
     }
 }
@@ -75,7 +75,7 @@ fn module(reader: &mut Reader<'_, '_>, number: u32, mut parts: Parts, device: &D
         if let Some(group) = reader.object(index, sections) {
             clash(reader, &group, device);
             if !fixed.contains_key(&index) {
-                let message = format!("0x{index:04X} is not in [M{number}FixedObjects]");
+                let message = format!("object 0x{index:04X} is not listed in [M{number}FixedObjects]");
                 reader.diagnostics.push(Diagnostic::new(&codes::NOT_LISTED, group.origin.span, message));
             }
             module.fixed_objects.push(group);
@@ -88,7 +88,7 @@ fn module(reader: &mut Reader<'_, '_>, number: u32, mut parts: Parts, device: &D
         let extension = sub_extension(reader, index, sections);
         let origin = extension.template.origin.span;
         if !extends.contains_key(&index) {
-            let message = format!("0x{index:04X} is not in [M{number}SubExtends]");
+            let message = format!("object 0x{index:04X} is not listed in [M{number}SubExtends]");
             reader.diagnostics.push(Diagnostic::new(&codes::SUB_EXTEND, origin, message));
         }
         extended_object(reader, index, origin, device);
@@ -151,7 +151,7 @@ fn missing(
             let span = reader.doc.value_span(entry);
             let message = format!("the section {} is missing", section_name(*index));
             reader.diagnostics.push(
-                Diagnostic::new(&codes::UNRESOLVED_MODULE, span, message).label("this entry announces the section"),
+                Diagnostic::new(&codes::UNRESOLVED_MODULE, span, message).label("this entry declares the section"),
             );
         }
     }
@@ -199,18 +199,18 @@ fn sub_count(reader: &mut Reader<'_, '_>, raw: &Raw) -> (u16, Option<u16>) {
         reader.diagnostics.push(Diagnostic::new(&codes::SUB_EXTEND, span, message).label(label).help(help));
     };
     let Some(entry) = raw.more[0].filter(|entry| !reader.doc.value(entry).is_empty()) else {
-        let message = "Count is missing";
+        let message = "the key Count is missing";
         report(raw.origin.span, message.into(), "");
         return (0, None);
     };
     let (text, span) = (reader.doc.value(&entry), reader.doc.value_span(&entry));
     let Some((number, bits)) = count(text) else {
-        report(span, format!("`{text}` is not a valid Count"), "left out");
+        report(span, format!("`{text}` is not a valid value of Count"), "left out");
         return (0, None);
     };
     match (number, bits) {
-        (0, None) => report(span, "the module adds no sub-index".into(), ""),
-        (1.., Some(_)) => report(span, format!("`{text}` declares both sub-indices and bits"), ""),
+        (0, None) => report(span, "Count is 0, so the module adds no sub-index".into(), ""),
+        (1.., Some(_)) => report(span, format!("Count `{text}` declares both sub-indices and bits"), ""),
         _ => {}
     }
     (number, bits)

@@ -64,7 +64,7 @@ impl<'a> Reader<'a, '_> {
                 Diagnostic::new(
                     &codes::ORPHAN_SUB,
                     group.origin.span,
-                    format!("[{index:04X}sub{sub:X}] belongs to no object"),
+                    format!("the section [{index:04X}sub{sub:X}] belongs to an object that the file does not describe"),
                 )
                 .label(format!("the section [{index:04X}] is missing; read as part of a RECORD"))
                 .help("add the section of the object, with ObjectType and SubNumber"),
@@ -423,7 +423,10 @@ impl<'a> Reader<'a, '_> {
         let all = sections.refinements.iter().map(|(_, section)| section).chain(&sections.links);
         for section in all {
             let span = self.doc.name_span(section);
-            let message = format!("[{}] belongs to an object that the file does not describe", self.doc.name(section));
+            let message = format!(
+                "the section [{}] belongs to an object that the file does not describe",
+                self.doc.name(section)
+            );
             self.diagnostics.push(
                 Diagnostic::new(&codes::NAME_WITHOUT_SUB, span, message)
                     .label(format!("the section [{index:04X}] is missing; kept as extension attributes")),

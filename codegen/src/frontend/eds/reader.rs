@@ -47,7 +47,7 @@ pub(super) enum Fixed {
 const COMMENT: CompactString = CompactString::const_new(";");
 
 fn repeated(later: Span, key: &str) -> Diagnostic {
-    Diagnostic::new(&codes::DUPLICATE_KEY, later, format!("`{key}` occurs twice in this section"))
+    Diagnostic::new(&codes::DUPLICATE_KEY, later, format!("the key `{key}` occurs twice in this section"))
 }
 
 impl<'a, 'd> Reader<'a, 'd> {
@@ -193,7 +193,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.converter().quirk(number, text, span);
         let index = number.int().and_then(|index| u16::try_from(index).ok());
         if index.is_none() {
-            let message = format!("`{text}` is not an index");
+            let message = format!("`{text}` is not an object index");
             self.diagnostics.push(
                 Diagnostic::new(&codes::ILLEGAL_NUMBER, span, message)
                     .label("left out")
@@ -242,7 +242,7 @@ impl<'a, 'd> Reader<'a, 'd> {
             );
         }
         if self.diagnostics.wants(&codes::UNKNOWN_KEY) {
-            let message = format!("`{key}` is not a key of CiA 306");
+            let message = format!("CiA 306 does not define the key `{key}`");
             self.diagnostics.push(
                 Diagnostic::new(&codes::UNKNOWN_KEY, self.doc.key_span(entry), message)
                     .label("kept as an extension attribute"),

@@ -40,7 +40,10 @@ pub(super) fn of_object<'t, 'a>(
         let following = record.fields.get(position + 1).and_then(|field| field.sub_index);
         let (first, mut count, mut element) = span_of(types, field, field_type, next, following);
         if count > 1 && first.saturating_add(count) > SUB_INDICES {
-            let message = format!("the {count} elements of `{}` exceed the 255 sub-indices", brief(&field.name.text));
+            let message = format!(
+                "the {count} elements of `{}` exceed the 255 sub-indices that an object can have",
+                brief(&field.name.text)
+            );
             reader.report(&codes::SUB_INDEX_RANGE, raw.origin.span, message, "kept as a single array value");
             (count, element) = (1, field_type);
         }

@@ -131,7 +131,7 @@ fn number_as_flag<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option
 }
 
 fn unknown(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &str, label: &str) {
-    let message = format!("`{}` is not a valid {what} of ETG.2000", brief(&given.text));
+    let message = format!("ETG.2000 does not define the {what} `{}`", brief(&given.text));
     reader.report(&codes::UNKNOWN_FLAG, given.span, message, label);
 }
 

@@ -58,7 +58,7 @@ pub(super) fn check_length(diagnostics: &mut Diagnostics, entry: &PdoEntry, ty: 
         Some(bits)
             if bits != entry.bits && entry.kind != PdoEntryKind::Padding && diagnostics.wants(&codes::ENTRY_LENGTH) =>
         {
-            let message = format!("the entry has {} bits, but {} has {bits}", entry.bits, ty.text);
+            let message = format!("the PDO entry has {} bits, but {} has {bits}", entry.bits, ty.text);
             diagnostics
                 .push(Diagnostic::new(&codes::ENTRY_LENGTH, ty.span, message).label("BitLen is used for the layout"));
         }

@@ -101,9 +101,11 @@ impl<'a> Reader<'a, '_> {
         if let Some(fault) = number.fault {
             let text = brief(&given.text);
             let (code, message, fix) = match fault {
-                Fault::Bare => {
-                    (&codes::BARE_HEX, format!("`{text}` has hexadecimal digits"), format!("#x{}", given.text))
-                }
+                Fault::Bare => (
+                    &codes::BARE_HEX,
+                    format!("`{text}` has hexadecimal digits, but no prefix `#x`"),
+                    format!("#x{}", given.text),
+                ),
                 Fault::TwoPrefixes => {
                     (&codes::ESI_VALUE, format!("`{text}` has two prefixes"), format!("#x{}", &given.text[4..]))
                 }

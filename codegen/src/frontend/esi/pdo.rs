@@ -127,7 +127,7 @@ fn entry<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, channel: u16) -> Rea
     }
     if index.given.is_empty() {
         let read_as = if entry.kind == PdoEntryKind::Unnumbered { "kept without an object" } else { "read as padding" };
-        reader.report(&codes::ESI_MISSING_INDEX, parent.span, "this entry has no index", read_as);
+        reader.report(&codes::ESI_MISSING_INDEX, parent.span, "this PDO entry has no index", read_as);
     }
     Ok((entry, ty))
 }

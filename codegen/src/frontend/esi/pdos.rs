@@ -78,7 +78,7 @@ fn complete<'a>(
     content: &mut Content<'a>,
 ) -> Read<bool> {
     let Some(template) = reader.format.templates.get(&reference.name.text) else {
-        let message = format!("the file has no PDO template `{}`", brief(&reference.name.text));
+        let message = format!("the file has no PDO template with the RefName `{}`", brief(&reference.name.text));
         let label = "the PDO has no index and no entries";
         reader.report(&codes::PDO_WITHOUT_INDEX, reference.name.span, message, label);
         reader.note("Pdo@Ref", &reference.name);

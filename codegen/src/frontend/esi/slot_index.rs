@@ -35,7 +35,7 @@ impl<'a> SlotIndex<'a> {
         let number = base.into() + i128::from(factor) * i128::from(channel);
         let value = T::try_from(number).ok();
         if value.is_none() {
-            let message = format!("the index of channel {channel} is out of range: {number}");
+            let message = format!("the {what} of channel {channel} is out of range: {number}");
             reader.report(&codes::ESI_VALUE, self.given.span, message, "left out");
         }
         value

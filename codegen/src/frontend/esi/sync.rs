@@ -100,7 +100,7 @@ pub(super) fn settle(
         if by_text.is_none() {
             let message = match given.text.as_ref() {
                 "" => "this sync manager has no purpose".to_owned(),
-                text => format!("`{}` is not a purpose of a sync manager", brief(text)),
+                text => format!("`{}` is not a valid purpose of a sync manager", brief(text)),
             };
             let reason = if by_pdos.is_some() {
                 "because of the PDOs that name it"

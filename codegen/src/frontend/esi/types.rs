@@ -214,7 +214,7 @@ impl<'t, 'a> Types<'t, 'a> {
             }
             None => {}
         }
-        let message = format!("the data type `{}` has no definition", brief(&ty.name.text));
+        let message = format!("the data type `{}` defines only its name", brief(&ty.name.text));
         reader.diagnostics.push(
             Diagnostic::new(&codes::UNRESOLVED_TYPE, ty.name.span.or(ty.origin.span), message)
                 .label("kept as raw bytes")
@@ -265,7 +265,7 @@ impl<'t, 'a> Types<'t, 'a> {
         let bits = of_element.zip(count).and_then(|(bits, count)| bits.checked_mul(count));
         if let (Some(size), Some(bits)) = (ty.bits, bits) {
             if size != bits {
-                let message = format!("the elements have {bits} bits in total, but BitSize is {size}");
+                let message = format!("the elements of the array have {bits} bits in total, but BitSize is {size}");
                 let span = ty.dimensions.first().map_or(ty.origin.span, |first| first.origin.span);
                 reader.report(&codes::ARRAY_BOUNDS, span, message, "the number of elements is used");
             }
@@ -281,7 +281,8 @@ impl<'t, 'a> Types<'t, 'a> {
         if count < 2 || size % element != 0 || !ty.name.text.ends_with("ARR") {
             return None;
         }
-        let message = format!("`{}` has the length of {count} elements but no ArrayInfo", brief(&ty.name.text));
+        let message =
+            format!("the data type `{}` has the length of {count} elements, but no ArrayInfo", brief(&ty.name.text));
         let label = format!("read as an array of {count} elements");
         reader.report(&codes::ARRAY_BOUNDS, ty.name.span.or(ty.origin.span), message, label);
         Some(Shape::Array { element: base, dimensions: vec![(1, count)] })
@@ -320,7 +321,7 @@ impl<'t, 'a> Types<'t, 'a> {
     /// becomes raw bytes.
     fn part(&mut self, reader: &mut Reader<'_, '_>, at: usize, part: u32, given: &Given<'_>) -> Type {
         if self.links.is_endless(at) && self.links.is_endless(part as usize) {
-            let message = format!("`{}` contains itself or is nested too deeply", brief(&given.text));
+            let message = format!("the data type `{}` contains itself or is nested too deeply", brief(&given.text));
             reader.report(&codes::ENDLESS_TYPE, given.span, message, "kept as raw bytes");
             return Type::Opaque(None);
         }
@@ -458,7 +459,7 @@ fn spelled(diagnostics: &mut Diagnostics, spelling: Spelling, name: &Given<'_>, 
         Spelling::Prefix => &codes::GUESSED_TYPE,
     };
     if diagnostics.wants(code) {
-        let message = format!("`{}` is not a type of ETG.1000.6", brief(&name.text));
+        let message = format!("`{}` is not the name of an ESI base data type", brief(&name.text));
         diagnostics
             .push(Diagnostic::new(code, name.span, message).label(format!("read as {}", type_name::name_of(ty))));
     }
@@ -602,7 +603,7 @@ pub(super) fn guessed(diagnostics: &mut Diagnostics, name: &Given<'_>) -> Type {
 
 /// Reports a type name that has no definition.
 fn unresolved(diagnostics: &mut Diagnostics, name: &Given<'_>) {
-    let message = format!("there is no data type `{}`", brief(&name.text));
+    let message = format!("the data type `{}` is not defined", brief(&name.text));
     diagnostics.push(
         Diagnostic::new(&codes::UNRESOLVED_TYPE, name.span, message)
             .label("kept as raw bytes")

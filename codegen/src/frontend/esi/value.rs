@@ -188,7 +188,7 @@ fn text(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role) -
         Type::OctetString(_) => Value::Bytes(raw.given.text.as_bytes().to_vec()),
         Type::Opaque(_) | Type::Named(_) | Type::Domain => Value::Text(raw.given.compact()),
         _ => {
-            let message = format!("the value is marked as text, but the type is {ty}");
+            let message = format!("the value is in DefaultString, but the type is {ty}");
             reader.report(&codes::VALUE_FORM, raw.given.span, message, "read as a number");
             number(reader, raw, ty, role)
         }

@@ -34,7 +34,7 @@ impl<'a> Reader<'a, '_> {
             let data = self.direction(&tag, direction)?;
             let target = if direction == Direction::Transmit { &mut submodule.input } else { &mut submodule.output };
             if target.replace(Box::new(data)).is_some() {
-                let message = format!("<{}> occurs twice", tag.name);
+                let message = format!("the element <{}> occurs twice", tag.name);
                 self.report(&codes::DUPLICATE_ID, tag.span, message, "replaces the previous element");
             }
         }
@@ -45,7 +45,7 @@ impl<'a> Reader<'a, '_> {
         let [consistency] = self.attributes(parent, ["Consistency"])?;
         let consistent = consistency.text == "All items consistency";
         if !consistent && !consistency.is_missing() && consistency.text != "Item consistency" {
-            self.bad(&consistency, "consistency", "read as `Item consistency`");
+            self.bad(&consistency, "value of Consistency", "read as `Item consistency`");
         }
         let mut layout = Layout::default();
         let mut channels = Vec::new();
@@ -79,7 +79,7 @@ impl<'a> Reader<'a, '_> {
         let use_as_bits = self.flag_or(&use_as_bits, false);
         self.bit_data_items(tag, &mut item)?;
         if !item.bits.is_empty() && !use_as_bits {
-            let message = "the bits of this item have names, but UseAsBits is not true";
+            let message = "the bits of this data item have names, but UseAsBits is not true";
             self.report(&codes::BIT_DATA_ITEM, tag.name_span(), message, "read as bits");
         }
         layout.add(item, self);
@@ -270,8 +270,11 @@ impl Layout {
         for (at, bit) in bits {
             if bit.offset >= length || at < next {
                 let message = match at < next {
-                    true => format!("bit {} of this item already has a name", bit.offset),
-                    false => format!("the item has only {length} bits, but the offset is {}", bit.offset),
+                    true => format!("bit {} of this data item already has a name", bit.offset),
+                    false => format!(
+                        "the data item has only {length} bits, but the offset of the named bit is {}",
+                        bit.offset
+                    ),
                 };
                 reader.report(&codes::BIT_DATA_ITEM, bit.origin.span, message, "left out");
                 continue;

@@ -116,7 +116,7 @@ impl<'a> Links<'a> {
 
 /// Reports a reference to an element that does not exist.
 pub(super) fn unresolved(element: &str, target: &Given<'_>, diagnostics: &mut Diagnostics) {
-    let message = format!("there is no {element} with the ID `{}`", brief(&target.text));
+    let message = format!("the file has no {element} with the ID `{}`", brief(&target.text));
     diagnostics.push(
         Diagnostic::new(&codes::UNRESOLVED_TARGET, target.span, message)
             .label("the reference is ignored")

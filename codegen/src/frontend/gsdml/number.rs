@@ -25,7 +25,7 @@ impl<'a> Reader<'a, '_> {
         let value = hex(&given.text).and_then(fits);
         match value {
             Some(value) => {
-                let message = format!("`{}` is hexadecimal, but GSDML requires decimal digits here", given.text);
+                let message = format!("`{}` is hexadecimal, but GSDML requires a decimal number", given.text);
                 self.diagnostics.push(
                     Diagnostic::new(&codes::GSDML_VALUE, given.span, message)
                         .label(format!("read as {value}"))
@@ -89,7 +89,7 @@ impl<'a> Reader<'a, '_> {
             }
         }
         if let Some(part) = broken {
-            let message = format!("`{part}` is neither a number up to 65535 nor a range `first..last`");
+            let message = format!("`{part}` is neither a number up to 65535 nor an ascending range `first..last`");
             let label = if range(part).is_some() { "read with the limits swapped" } else { "left out" };
             self.diagnostics.push(Diagnostic::new(&codes::GSDML_VALUE, given.span, message).label(label));
         }

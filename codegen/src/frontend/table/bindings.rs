@@ -250,7 +250,8 @@ impl Rows {
             // The printed range may be that of the first item or that of all items.
             let all = repeat.step.saturating_mul(repeat.count - 1).saturating_add(needed);
             if ![needed, all, repeat.step.saturating_mul(repeat.count)].contains(&printed) {
-                let of_all = if repeat.count > 1 { format!(", or {all} for all items") } else { String::new() };
+                let of_all =
+                    if repeat.count > 1 { format!(", or {all} for all items of the row") } else { String::new() };
                 let registers = count_of(printed, "register");
                 let message = format!("the row names {registers} of {unit} bits, but the type needs {needed}{of_all}");
                 reader
@@ -275,7 +276,7 @@ impl Rows {
     fn part(&self, reader: &mut Reader<'_, '_>, part: &At<NumberOrText>, bits: Option<u32>, unit: u32) -> Option<u8> {
         let text = part.value.to_string();
         let Some((offset, count)) = notation::bits(&text) else {
-            let message = format!("`{}` is not a bit or a range of bits", brief(&text));
+            let message = format!("`{}` is neither a bit number nor a range of bits", brief(&text));
             let help = "write a bit such as `7`, or a range such as `\"7-0\"`";
             reader.report_with_help(&codes::TABLE_PLACE, reader.span(part), message, help);
             return None;
@@ -318,7 +319,7 @@ impl Rows {
         if let Some((ruled, ruled_sub)) = by_rule {
             if ruled != index || sub_index.is_some_and(|sub| sub != ruled_sub) {
                 let message =
-                    format!("the row has object {text}, but its `[spaces]` rule derives 0x{ruled:04X}:{ruled_sub}");
+                    format!("the row has object {text}, but the rule in `[spaces]` gives 0x{ruled:04X}:{ruled_sub}");
                 reader.diagnostics.push(
                     Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(object), message)
                         .label("the object of the row is used")
@@ -338,7 +339,7 @@ impl Rows {
         for name in list {
             let bus = buses::read(reader, std::slice::from_ref(name));
             if !bus.is_empty() && bus.and(self.buses).is_empty() {
-                let message = format!("the device does not have the bus {}", brief(&name.value));
+                let message = format!("`buses` of the device does not contain {}", brief(&name.value));
                 let wrong = Diagnostic::new(&codes::TABLE_VALUE, reader.span(name), message);
                 reader.diagnostics.push(wrong.help("add the bus to `buses` of `[device]`, or delete it from the row"));
             }

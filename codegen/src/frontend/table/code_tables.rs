@@ -31,7 +31,11 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
         device.doubts.extend(reader.doubts_about(row, origin, SubjectKind::Codes, owner, &key.value));
         let same_cells = distinct.as_mut().and_then(|distinct| distinct.before(key, row));
         if let Some(other) = same_cells {
-            let message = format!("the codes {} and {} have the same cells", brief(&other.value), brief(&key.value));
+            let message = format!(
+                "the codes {} and {} have the same cells in the code table",
+                brief(&other.value),
+                brief(&key.value)
+            );
             let found = Diagnostic::new(&codes::CELLS_TWICE, reader.span(key), message);
             reader.diagnostics.push(found.note_at(reader.span(other), "the first of the two codes"));
         }

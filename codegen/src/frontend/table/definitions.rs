@@ -372,7 +372,7 @@ fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, base: Type, first:
     let Some((byte, bits)) = key.value.split_once(':') else {
         let found = notation::bits(&key.value);
         if found.is_none() {
-            let message = format!("`{}` is not a bit or a range of bits", brief(&key.value));
+            let message = format!("`{}` is neither a bit number nor a range of bits", brief(&key.value));
             let help = "write a bit such as `7`, or a range such as `\"3-2\"`";
             reader.report_with_help(&codes::TABLE_PLACE, reader.span(key), message, help);
         }
@@ -390,7 +390,7 @@ fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, base: Type, first:
     let number = byte.checked_sub(first.into()).and_then(|number| u8::try_from(number).ok());
     let number = number.filter(|&number| u32::from(number) < bytes);
     if number.is_none() {
-        let message = format!("the byte {byte:#06X} is outside of {base} at {first:#06X}").replace("0X", "0x");
+        let message = format!("the byte at {byte:#06X} is outside of the {base} at {first:#06X}").replace("0X", "0x");
         let found = Diagnostic::new(&codes::BIT_OUTSIDE_TYPE, reader.span(key), message);
         reader.diagnostics.push(found.label("left out"));
     }

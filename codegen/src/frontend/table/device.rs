@@ -92,7 +92,7 @@ fn sections(reader: &mut Reader<'_, '_>, table: &ManualTable) -> Vec<ManualSecti
         match key.value.parse() {
             Ok(start) => sections.push(ManualSection { start, title: title.value.as_str().into() }),
             Err(_) => {
-                let message = format!("`{}` is not a page number or line number", brief(&key.value));
+                let message = format!("`{}` is neither a page number nor a line number", brief(&key.value));
                 let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), message);
                 reader
                     .diagnostics

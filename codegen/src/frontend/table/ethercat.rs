@@ -19,7 +19,7 @@ pub(super) fn settings(reader: &mut Reader<'_, '_>, table: &At<EtherCatTable>, b
     let settings_table = &table.value;
     if !buses.contains(Bus::EtherCat) {
         let found =
-            Diagnostic::new(&codes::TABLE_VALUE, reader.span(table), "the device does not have the bus EtherCAT");
+            Diagnostic::new(&codes::TABLE_VALUE, reader.span(table), "`buses` of the device does not contain EtherCAT");
         reader.diagnostics.push(found.help("add the bus to `buses` of `[device]`, or delete the table"));
         return;
     }

@@ -126,7 +126,7 @@ impl InUse {
         let other = other.filter(|(_, other)| !apart(other.availability.as_deref(), item.availability.as_deref()));
         if let Some(((_, start), other)) = other {
             let message = format!(
-                "`{}` ({space} register {}) overlaps `{}` ({})",
+                "`{}` ({space} register {}) overlaps `{}` (register {})",
                 brief(&item.name),
                 numbers(first, last),
                 brief(&other.name),

@@ -21,12 +21,14 @@ pub(super) fn number(reader: &mut Reader<'_, '_>, given: &At<Literal>, value: &V
     if let (Type::Integer(bits) | Type::Unsigned(bits), Some(digits)) = (ty, hexadecimal(reader.source.slice(span))) {
         let (count, needed) = (digits.len(), usize::from(bits).div_ceil(4));
         let problem = match count {
-            _ if count > needed => Some(format!("has {count} digits")),
-            2.. if count < needed && digits.starts_with('0') => Some(format!("is padded to {count} digits")),
+            _ if count > needed => Some(format!("has {count} hexadecimal digits")),
+            2.. if count < needed && digits.starts_with('0') => {
+                Some(format!("is padded to {count} hexadecimal digits"))
+            }
             _ => None,
         };
         if let Some(problem) = problem {
-            let message = format!("`0x{}` {problem}, but {ty} has {needed}", brief(&digits));
+            let message = format!("`0x{}` {problem}, but {ty} needs {needed}", brief(&digits));
             let found = Diagnostic::new(&codes::HEX_DIGITS, span, message);
             reader.diagnostics.push(found.help(DIGITS));
         }
@@ -54,7 +56,8 @@ pub(super) fn key(reader: &mut Reader<'_, '_>, given: &At<String>, base: Type) {
     let needed = bits.div_ceil(4) as usize;
     let longest = given.value.split("..").filter_map(hexadecimal).find(|digits| digits.len() > needed);
     if let Some(digits) = longest {
-        let message = format!("`0x{}` has {} digits, but {base} has {needed}", brief(&digits), digits.len());
+        let message =
+            format!("`0x{}` has {} hexadecimal digits, but {base} needs {needed}", brief(&digits), digits.len());
         let found = Diagnostic::new(&codes::HEX_DIGITS, reader.span(given), message);
         reader.diagnostics.push(found.help(DIGITS));
     }
@@ -192,7 +195,7 @@ pub(super) fn unprinted(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row
         };
         let Some((index, _)) = number.and_then(|number| space?.object(number)) else { continue };
         let message = format!(
-            "the row has no object, but its `[spaces]` rule derives 0x{index:04X}, and other rows of the chapter have objects"
+            "the row has no object, but the rule in `[spaces]` gives 0x{index:04X}, and other rows of the chapter have objects"
         );
         let found = Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(reg), message);
         reader.diagnostics.push(found.help("use a space without this rule if the register is not an object"));
@@ -221,7 +224,7 @@ fn patterns(reader: &mut Reader<'_, '_>, list: &Entries<PatternTable>, what: &st
         for (other_key, other_mask, other) in list.iter().take(at) {
             if (value ^ other) & mask & other_mask == 0 && other & !other_mask == 0 {
                 let message = format!(
-                    "{:#X} matches both {what} `{}` and `{}`",
+                    "the value {:#X} matches both {what} `{}` and `{}`",
                     value | other,
                     brief(&other_key.value),
                     brief(&key.value)

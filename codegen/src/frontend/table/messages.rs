@@ -453,7 +453,7 @@ fn byte_order(reader: &mut Reader<'_, '_>, order: &At<String>) -> Vec<u8> {
     if is_order {
         return bytes;
     }
-    let message = format!("`{}` is not a byte order", brief(&order.value));
+    let message = format!("`{}` is not a valid byte order", brief(&order.value));
     let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(order), message);
     reader.diagnostics.push(found.help("write consecutive letters from `A`, each exactly once, such as `CDAB`"));
     Vec::new()

@@ -170,7 +170,7 @@ fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names<'
             }
         };
         if !known.insert(outcome.clone()) {
-            let message = format!("the cell has `{}` twice", brief(one));
+            let message = format!("the cell contains `{}` twice", brief(one));
             let help = "compare the cell with the manual, and correct one of the two effects";
             reader.diagnostics.push(Diagnostic::new(&codes::TABLE_DUPLICATE, span, message).help(help));
             continue;

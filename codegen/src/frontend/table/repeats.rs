@@ -59,7 +59,7 @@ impl Repeats {
         let left = self.left.and_then(|left| left.checked_sub(items));
         if left.is_none() && self.left.is_some() {
             let message = format!(
-                "`count`, ranges of objects, and long texts of `defaults` and `units` add up to more than \
+                "rows with `count`, ranges of objects, and long texts in `defaults` and `units` expand to more than \
                  {MAX_DERIVED_ITEMS} items"
             );
             let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);

@@ -115,7 +115,7 @@ impl Rows {
         let written = row.ty.as_ref().and_then(|ty| {
             let found = types::named(&ty.value);
             if found.is_none() {
-                let what = format!("`{}` is not a type", brief(&ty.value));
+                let what = format!("`{}` is not a known data type", brief(&ty.value));
                 let similar = types::suggestion(&ty.value);
                 let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, reader.span(ty), what);
                 reader.diagnostics.push(match similar {
@@ -136,7 +136,7 @@ impl Rows {
         };
         let Some(base) = base else {
             if row.ty.is_none() {
-                let message = format!("`{}` has no `type`", brief(&named.key.value));
+                let message = format!("the row `{}` has no `type`", brief(&named.key.value));
                 reader.report(&codes::TABLE_VALUE, reader.span(named.key), message);
             }
             return None;
@@ -291,7 +291,7 @@ impl Rows {
                 let names = self.definitions.units.names().map(|name| name.value.as_str());
                 let names = names.take_while(|_| reader.helps());
                 let similar = super::tree::similar(&unit.value, names).or_else(|| super::units::usual(&unit.value));
-                let message = format!("`{}` is neither a name of `[units]` nor a known unit", brief(&unit.value));
+                let message = format!("`{}` is neither defined in `[units]` nor a known unit", brief(&unit.value));
                 let diagnostic = Diagnostic::new(&codes::UNKNOWN_UNIT, reader.span(unit), message);
                 reader.diagnostics.push(match similar {
                     Some(name) => diagnostic.help(format!("did you mean `{name}`?")),

@@ -24,7 +24,7 @@ pub(super) fn item(reader: &mut Reader<'_, '_>, definitions: &Definitions, given
         names(reader, summary, &item.name, &item.names);
         code(reader, summary, if is_domain { ObjectCode::Domain } else { ObjectCode::Var });
         if let Some(subs) = summary.subs.as_ref().filter(|subs| subs.value != 1) {
-            let message = format!("the summary has {} sub-indices, but the row is one value", subs.value);
+            let message = format!("`summary` states {} sub-indices, but the row is one value", subs.value);
             report(reader, summary, reader.span(subs), message);
         }
     }
@@ -52,7 +52,7 @@ pub(super) fn objects(
             }
             let (Some(subs), count) = (&summary.subs, group.items.len()) else { continue };
             if subs.value as usize != count && group.object_code() != Some(ObjectCode::Var) {
-                let message = format!("the summary has {} sub-indices, but the table has {count}", subs.value);
+                let message = format!("`summary` states {} sub-indices, but the table has {count}", subs.value);
                 report(reader, summary, reader.span(subs), message);
             }
         }
@@ -65,7 +65,7 @@ fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, messa
         "write the correct value in the row, record the other value in a `doubt`, and allow this code on the row",
     );
     reader.diagnostics.push(match &summary.cite {
-        Some(cite) => found.note(format!("location of the summary in the manual: {}", cited(cite))),
+        Some(cite) => found.note(format!("page or line of the summary in the manual: {}", cited(cite))),
         None => found,
     });
 }
@@ -76,7 +76,7 @@ fn code(reader: &mut Reader<'_, '_>, summary: &SummaryTable, described: ObjectCo
     let stated = reader.word(given, "object code", &OBJECT_CODES);
     if stated.is_some_and(|stated| stated != described) {
         let word = OBJECT_CODES.iter().find(|(_, code)| *code == described).map_or("another", |(word, _)| word);
-        let message = format!("the summary has the object code `{}`, but the row has `{word}`", brief(&given.value));
+        let message = format!("`summary` states the object code `{}`, but the row has `{word}`", brief(&given.value));
         report(reader, summary, reader.span(given), message);
     }
 }
@@ -88,7 +88,7 @@ fn names(reader: &mut Reader<'_, '_>, summary: &SummaryTable, name: &str, names:
         |name: &str| -> String { name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect() };
     let stated = plain(&given.value);
     if stated != plain(name) && !names.iter().any(|other| plain(&other.text) == stated) {
-        let message = format!("the summary has the name `{}`, but the row has `{}`", brief(&given.value), brief(name));
+        let message = format!("`summary` states the name `{}`, but the row has `{}`", brief(&given.value), brief(name));
         report(reader, summary, reader.span(given), message);
     }
 }
@@ -111,7 +111,7 @@ fn of_item(
             }
             Some(_) => {}
             None => {
-                let message = format!("`{}` is not a type", brief(&given.value));
+                let message = format!("`{}` is not a known data type", brief(&given.value));
                 reader.report(&codes::TABLE_VALUE, reader.span(given), message);
             }
         }
@@ -146,7 +146,7 @@ fn of_item(
     numbers(reader, summary, item, base, &mut differs);
     let found = !differs.is_empty();
     for (span, says, has) in differs {
-        report(reader, summary, span, format!("the summary has {}, but {subject} has {has}", brief(&says)));
+        report(reader, summary, span, format!("`summary` states {}, but {subject} has {has}", brief(&says)));
     }
     found
 }

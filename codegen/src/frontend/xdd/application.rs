@@ -160,7 +160,7 @@ impl<'a> Application<'a> {
 }
 
 pub(super) fn dangling(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &str) {
-    let message = format!("there is no {what} with the uniqueID `{}`", brief(&given.text));
+    let message = format!("the file has no {what} with the uniqueID `{}`", brief(&given.text));
     reader.report(&codes::DANGLING_REFERENCE, given.span, message, "the reference is ignored");
 }
 

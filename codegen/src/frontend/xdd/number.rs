@@ -30,7 +30,7 @@ impl Reader<'_, '_> {
         match value {
             None => self.bad(given, what, "left out; expected hexadecimal digits"),
             Some(value) if digits.len() != text.len() => {
-                let message = format!("{text} has a prefix, which CiA 311 does not allow here");
+                let message = format!("{text} has a prefix, but CiA 311 requires hexadecimal digits without a prefix");
                 self.diagnostics.push(
                     Diagnostic::new(&codes::XDD_VALUE, given.span, message)
                         .label(format!("read as {value:#06x}"))

@@ -341,7 +341,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
 
     /// Reads the attribute `objFlags`, which has four hexadecimal digits.
     pub(super) fn flags(&mut self, raw: &Raw<'a>) -> u32 {
-        self.reader.hex(raw.field(Key::ObjFlags), u32::MAX, "objFlags").unwrap_or(0)
+        self.reader.hex(raw.field(Key::ObjFlags), u32::MAX, "value of objFlags").unwrap_or(0)
     }
 
     /// Returns the type of a sub-object as a component of the object's type.

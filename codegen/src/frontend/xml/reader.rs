@@ -167,7 +167,7 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
     fn in_another_case(&mut self, attribute: &Attribute<'a>, names: &[&str]) -> Option<usize> {
         let at = names.iter().position(|name| name.eq_ignore_ascii_case(attribute.name))?;
         if let (Some(code), Some(name)) = (F::CASE, names.get(at)) {
-            let message = format!("the attribute name is {name}, not {}", attribute.name);
+            let message = format!("the attribute {} has the wrong case: the schema defines {name}", attribute.name);
             let diagnostic = Diagnostic::new(code, attribute.name_span, message);
             self.diagnostics.push(diagnostic.label(format!("read as {name}")).fix(*name));
         }

@@ -13,7 +13,7 @@ impl<'a, F: Format> Reader<'a, '_, F> {
     /// Reports an element that the standard does not define in this position, and stores its contents as extensions.
     pub fn unknown(&mut self, tag: &Tag<'a>) -> Read<()> {
         if self.diagnostics.wants(F::UNKNOWN) {
-            let message = format!("{} does not define the element <{}> here", F::STANDARD, brief(tag.name));
+            let message = format!("{} does not allow the element <{}> at this position", F::STANDARD, brief(tag.name));
             self.report(F::UNKNOWN, tag.name_span(), message, "kept as extension attributes");
         }
         self.keep(tag)

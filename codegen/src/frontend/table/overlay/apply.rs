@@ -322,7 +322,7 @@ impl<'o> Applied<'o> {
         let units = definitions.units.names();
         let units = units.filter(|name| !rows().any(|unit| unit.value == name.value));
         for name in unused.chain(units) {
-            let message = format!("no row of the overlay uses `{}`", brief(&name.value));
+            let message = format!("no row of the overlay uses the definition `{}`", brief(&name.value));
             reader.report(&codes::OVERLAY_NO_MATCH, reader.span(name), message);
         }
     }
