@@ -6,7 +6,7 @@ use crate::ir::Format;
 use crate::source::{FileId, Source, Span};
 use crate::syntax::ini::{Document, Section};
 
-/// Number of bytes at the start of a file that are searched for the root element or the first sections.
+/// Number of bytes, from the start of the file, that are searched for the root element or the first sections.
 pub const LOOK_AHEAD: usize = 64 * 1024;
 
 /// Recognizes a register table by its file name or its first key.
@@ -46,7 +46,7 @@ pub(super) fn eds(source: &Source) -> Option<Format> {
         Some("dcf") => Some(Format::Dcf),
         _ => None,
     };
-    // The first section usually identifies the format, which avoids parsing the whole file.
+    // The first section usually identifies the format, so the whole file need not be parsed.
     if by_name.is_some() && starts_as_canopen(source.text()) {
         return by_name;
     }
@@ -66,7 +66,8 @@ pub(super) fn eds(source: &Source) -> Option<Format> {
     by_name.or_else(|| Some(if document.sections().iter().any(is_configuration) { Format::Dcf } else { Format::Eds }))
 }
 
-/// Returns the error for a file that no front end recognizes. The message names the format if it is known.
+/// Returns the error for a file that no front end recognizes. The message names the format of the file if this format
+/// is known but not supported.
 pub(super) fn unknown(source: &Source, file: FileId) -> Diagnostic {
     let text = source.text();
     let start = text.trim_start();
@@ -126,7 +127,8 @@ fn local_name(name: &str) -> &str {
     name.rsplit(':').next().unwrap_or(name)
 }
 
-/// Returns whether an ISO 15745 profile describes a PROFINET device. CANopen XDD files have the same root element.
+/// Returns whether an ISO 15745 profile describes a PROFINET device. CANopen XDD files have the same root element as
+/// GSDML files.
 fn is_gsdml(text: &str) -> bool {
     let head = head(text);
     ["/GSDML/", "GSDML-DeviceProfile", "<DeviceAccessPointList"].iter().any(|mark| head.contains(mark))

@@ -35,7 +35,7 @@ struct Input<'s> {
 
 type Read = fn(&mut Input<'_>, &mut Diagnostics) -> Option<Catalog>;
 
-/// Front end: cargo feature and functions.
+/// Front end of a format: its cargo feature and its functions.
 struct FrontEnd {
     /// Returns the format of a source that belongs to this front end.
     recognize: fn(&Source) -> Option<Format>,

@@ -10,7 +10,7 @@ pub fn dummy_code(key: &str) -> Option<u8> {
     hexadecimal.then(|| u8::from_str_radix(digits, 16).ok()).flatten()
 }
 
-/// Reports a PDO mapping granularity of more than 64 bits, the length of a PDO.
+/// Reports a PDO mapping granularity of more than 64 bits, the maximum length of a PDO.
 pub fn granularity(bits: u8, span: Span, diagnostics: &mut Diagnostics) {
     if bits > 64 {
         let message = format!("a granularity of {bits} bits exceeds the 64 bits of a PDO");
@@ -18,7 +18,7 @@ pub fn granularity(bits: u8, span: Span, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns `number` as a node-ID. Reports a number outside 1 to 127.
+/// Returns `number` as a node-ID. Reports a number that is outside of the range 1 to 127.
 pub fn node_id(number: u32, span: Span, diagnostics: &mut Diagnostics) -> Option<u8> {
     let node_id = u8::try_from(number).ok().filter(|node_id| (1..=127).contains(node_id));
     if node_id.is_none() {

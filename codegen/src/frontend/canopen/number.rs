@@ -30,7 +30,7 @@ pub enum Parsed {
 /// Deviation from the number grammar of CiA 306.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quirk {
-    /// Octal number with a leading zero. A decimal number with the same digits has a different value.
+    /// Octal number with a leading zero, whose digits have a different value in decimal.
     Octal,
     /// Leading zero before digits that have the same value in octal and decimal, or that are not octal.
     LeadingZero,
@@ -79,8 +79,9 @@ pub fn parse(text: &str, aliases: &[String]) -> Number {
     parse_number(text)
 }
 
-/// Returns the value of a plain number, which needs no diagnostic. Plain numbers are decimal digits without a leading
-/// zero, with an optional minus sign, or `0x` and hexadecimal digits. Plain numbers have at most 15 digits.
+/// Returns the value of a plain number, or `None` for any other text. Plain numbers need no diagnostic. A plain number
+/// consists of an optional minus sign and decimal digits without a leading zero, or of `0x` and hexadecimal digits.
+/// Plain numbers have at most 15 digits.
 #[inline]
 pub fn plain(text: &str) -> Option<i64> {
     let decimal = |digits: &[u8]| {

@@ -6,19 +6,19 @@ use crate::ir::{Access, Group, ObjectCode, Shape, Type, TypeDef};
 use crate::source::Span;
 use crate::text::brief;
 
-/// Names of the parts of an object in a format.
+/// Names that a file format uses for the parts of an object.
 pub struct Terms {
     /// Key for the number of sub-indices.
     pub sub_number: &'static str,
     /// Name of the section or element that describes a sub-index.
     pub sub_object: &'static str,
-    /// Name for several sections or elements that describe sub-indices.
+    /// Plural name of the sections or elements that describe sub-indices.
     pub elements: &'static str,
     /// Help text that explains how to declare objects with sub-indices.
     pub records: &'static str,
 }
 
-/// Object type as in the file.
+/// Object type as written in the file.
 pub struct ObjectType<'t> {
     /// Text of the object type.
     pub text: &'t str,
@@ -44,7 +44,7 @@ impl ObjectType<'_> {
     }
 }
 
-/// Returns the object code of the object `index`. If its object type is missing or invalid, the presence of sub-indices
+/// Returns the object code of the object `index`. If the object type is missing or invalid, the presence of sub-indices
 /// determines the code. The diagnostic for a missing object type marks `span`.
 pub fn object_code(
     index: u16,
@@ -89,7 +89,7 @@ pub fn type_by_code(code: u32, span: Span, defined: Option<Type>, diagnostics: &
     Type::Opaque(Some(code))
 }
 
-/// Returns the access rights for an access type of CiA 306. Reports any other text.
+/// Returns the access rights for an access type of CiA 306. Reports a text that is not an access type.
 pub fn access(text: &str, span: Span, diagnostics: &mut Diagnostics) -> Access {
     if let Some(access) = Access::from_cia306(text) {
         return access;
@@ -107,7 +107,7 @@ pub fn unknown_access(text: &str, span: Span, access: Access, help: &str, diagno
 }
 
 /// Compares the announced number of sub-indices, written as `text`, with the number of described sub-indices. Sub-index
-/// 0 counts; sub-index 0xFF does not count.
+/// 0 is counted; sub-index 0xFF is not counted.
 pub fn sub_number(
     group: &Group,
     announced: i128,
@@ -135,8 +135,8 @@ pub fn sub_number(
     diagnostics.push(found.fix(described.to_string()));
 }
 
-/// Adds the type that an object in the data type area defines to `types`. Returns the code and the type. The type is an
-/// alias of a basic type, or raw bits.
+/// Adds the type that an object in the data type area defines to `types`. Returns the data type code and the type. The
+/// type is an alias of a basic type, or raw bits.
 pub fn define_type(group: &Group, types: &mut Vec<TypeDef>, diagnostics: &mut Diagnostics) -> Option<(u32, Type)> {
     let (index, code) = (group.index()?, group.object_code()?);
     if !matches!(code, ObjectCode::DefType | ObjectCode::DefStruct) {

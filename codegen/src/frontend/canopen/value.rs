@@ -17,7 +17,7 @@ pub enum Role {
 
 /// Converts texts to values, and reports repairs.
 pub struct Converter<'d> {
-    /// List to which problems are reported.
+    /// Diagnostics reported so far.
     pub diagnostics: &'d mut Diagnostics,
     /// Further names of `$NODEID`.
     pub aliases: &'d [String],
@@ -61,7 +61,7 @@ impl Converter<'_> {
         fits.then(|| Value::Int(value.into()))
     }
 
-    /// Reads a number and reports deviations from the grammar. Reports any other text and returns `None`.
+    /// Reads a number and reports deviations from the grammar. Reports a text that is not a number, and returns `None`.
     pub fn number(&mut self, text: &str, span: Span) -> Option<Value> {
         let number = number::parse(text, self.aliases);
         self.quirk(number, text, span);
@@ -141,14 +141,14 @@ impl Converter<'_> {
         Value::Int(value)
     }
 
-    /// Reports a number that has more hexadecimal digits than its type. A digit may be doubled, or the type may be too
-    /// short.
+    /// Reports a number that has more hexadecimal digits than its type needs. Possible causes are a doubled digit or a
+    /// type that is too short.
     fn digits(&mut self, text: &str, span: Span, ty: Type) {
         let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
         let (Some(digits), Some(bits)) = (digits, ty.bits()) else { return };
         let needed = bits.div_ceil(4) as usize;
-        // Numbers with 2, 4, 8 or 16 digits are reported only on request, because many tools write all numbers with 8
-        // digits.
+        // Numbers with 2, 4, 8 or 16 digits are reported only if the user explicitly enables this diagnostic, because
+        // many tools write all numbers with 8 digits.
         let is_usual = matches!(digits.len(), 2 | 4 | 8 | 16) && !self.diagnostics.asks_for(&codes::HEX_DIGITS);
         if digits.len() > needed && !is_usual && digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
             let message = format!("`{}` has {} hexadecimal digits, but {ty} needs {needed}", brief(text), digits.len());
@@ -168,7 +168,7 @@ impl Converter<'_> {
         Value::NodeId(offset)
     }
 
-    /// Reads a number with a zero fraction, such as `0.0`, for an integer type. Keeps any other text as text.
+    /// Reads a number with a zero fraction, such as `0.0`, for an integer type. Stores any other text unchanged.
     fn fraction(&mut self, text: &str, span: Span, ty: Type) -> Value {
         if let Some((whole, fraction)) = text.split_once('.') {
             if !fraction.is_empty() && fraction.bytes().all(|byte| byte == b'0') {
@@ -241,8 +241,8 @@ impl Converter<'_> {
         }
     }
 
-    /// Reads a hexadecimal number for a real type. A number with exactly the digits of the type is a bit pattern; any
-    /// other number is the value itself.
+    /// Reads a hexadecimal number for a real type. If the number has exactly as many digits as the type needs, the
+    /// digits are a bit pattern. Otherwise, the number is the value itself.
     fn real_bits(&mut self, digits: &str, text: &str, span: Span, bits: u32) -> Value {
         let ty = if bits == 32 { Type::Real32 } else { Type::Real64 };
         let Ok(pattern) = u64::from_str_radix(digits, 16) else { return self.illegal(text, span, ty) };

@@ -34,7 +34,7 @@ pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, 
         item.origin = raw.origin;
         group.items.push(item);
     }
-    // All sub-indices share the keywords of the object, which are read and reported once.
+    // The keywords of the object apply to all sub-indices, so they are read once and their errors are reported once.
     let template = reader.item(index, 1, raw, ObjectCode::Array);
     group.flags = template.flags;
     let bytes = copied(reader, raw, &template) + group.name.len();

@@ -54,7 +54,7 @@ fn by_kind(header: &[(SectionKind, Section)]) -> Vec<(SectionKind, Vec<Section>)
     kinds
 }
 
-/// Puts the name of the section before the keys of its extensions, as `section/key`.
+/// Prefixes the keys of a section's extensions with the name of the section, as in `section/key`.
 fn name_section(kind: SectionKind, extensions: &mut [Extension]) {
     for extension in extensions.iter_mut() {
         extension.key = compact_str::format_compact!("{}/{}", kind.name(), extension.key);
@@ -300,7 +300,7 @@ fn bit_rate(
     true
 }
 
-/// Reads the PDO mapping granularity, from 1 to 64 bits. Some tools write this number as a flag.
+/// Reads the PDO mapping granularity, from 1 to 64 bits. Some tools write the flag 0 or 1 instead.
 fn granularity(reader: &mut Reader<'_, '_>, entry: &Entry) -> Option<u8> {
     let value = reader.unsigned(entry, 0xFF)?;
     network::granularity(value as u8, reader.doc.value_span(entry), reader.diagnostics);
@@ -322,7 +322,7 @@ fn dummy_usage(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut D
     canopen.dummies = (0..=u8::MAX).filter(|&code| usage[usize::from(code)]).collect();
 }
 
-/// Reads the entries `Line1`, `Line2` and so on in the order of their numbers. Missing numbers add no line.
+/// Reads the entries `Line1`, `Line2` and so on in the order of their numbers. A gap in the numbers adds no empty line.
 pub(super) fn comments(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -336,7 +336,7 @@ pub(super) fn comments(
         let digits = key.get(4..).filter(|_| key[..4].eq_ignore_ascii_case("Line"));
         match digits.and_then(|digits| digits.parse::<u32>().ok()) {
             Some(number) => numbered.push((number, *entry)),
-            // The number of lines is ignored because it is redundant and often wrong.
+            // The value of `Lines` is ignored because it is redundant and often wrong.
             None if key.eq_ignore_ascii_case("Lines") => {
                 if let Some(earlier) = count.replace(*entry) {
                     reader.duplicate_key(&earlier, entry);

@@ -30,7 +30,8 @@ pub(super) enum Key {
 /// Number of keywords in [`Key`].
 const KEYS: usize = 17;
 
-/// Returns the keyword that is spelled `key`, ignoring case. Length and first letter leave at most two candidates.
+/// Returns the keyword that is spelled `key`, ignoring case. The length and the first letter of `key` leave at most two
+/// candidate keywords.
 fn keyword(key: &str) -> Option<Key> {
     let bytes = key.as_bytes();
     let (name, keyword) = match (bytes.len(), bytes.first()? | 0x20) {

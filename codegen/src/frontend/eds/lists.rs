@@ -73,7 +73,7 @@ pub(super) fn numbered(
 const NO_GAP: &str = "number the entries from 1 without a gap";
 
 /// Returns the entries of a list whose keys are sub-indices, each with its sub-index. Sub-indices may be missing.
-/// Passes all other entries to `others`.
+/// Passes entries with keys other than sub-indices and `NrOfEntries` to `others`.
 pub(super) fn by_sub_index(
     reader: &mut Reader<'_, '_>,
     section: &Section,
@@ -89,7 +89,7 @@ pub(super) fn by_sub_index(
 }
 
 /// Returns the entries with decimal keys in ascending order, and the entry with the key `count_key`. Leaves out empty
-/// entries and earlier duplicates. Passes all other entries to `others`.
+/// entries and earlier duplicates. Passes entries with neither a decimal key nor the key `count_key` to `others`.
 fn by_number(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -115,7 +115,7 @@ fn by_number(
         for pair in entries.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
             reader.duplicate_key(&pair[0].1, &pair[1].1);
         }
-        // The stable sort keeps duplicates in file order. The reversal lets `dedup_by_key` keep the last one.
+        // The stable sort keeps duplicates in file order. The reversal makes `dedup_by_key` keep the last duplicate.
         entries.reverse();
         entries.dedup_by_key(|&mut (number, _)| number);
         entries.reverse();
@@ -124,8 +124,8 @@ fn by_number(
     (entries, count)
 }
 
-/// Returns whether `entry` announces the correct number of entries. Reports a wrong number. The diagnostic has no fix
-/// if the list has a gap, because the number may be right and the numbering wrong.
+/// Returns whether `entry` announces the correct number of entries. Reports an incorrect number of entries. If the list
+/// has a gap, the diagnostic has no fix, because the announced number may be right and the numbering wrong.
 pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count: usize, has_gap: bool) -> bool {
     let Some(announced) = reader.unsigned(entry, 0xFFFF) else { return true };
     let (key, text, span) = (reader.doc.key(entry), reader.doc.value(entry), reader.doc.value_span(entry));
@@ -148,7 +148,7 @@ pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count:
 
 /// Set of object indices, stored as bits.
 struct Indices {
-    /// Minimum index, divided by 64.
+    /// Minimum index of the set, divided by 64.
     first: u16,
     words: Vec<u64>,
 }

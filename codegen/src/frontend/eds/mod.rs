@@ -81,7 +81,8 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
     Some(Catalog::of_device(device, modules))
 }
 
-/// Rank of the sections that refine sub-indices. These sections follow those that describe sub-indices.
+/// Sort rank of the sections that refine sub-indices. The refining sections are sorted after the sections that describe
+/// sub-indices.
 const REFINEMENT: u16 = 0x200;
 
 /// Sections of a file, grouped by subject.
@@ -90,7 +91,7 @@ struct Sorted {
     header: Vec<(SectionKind, Section)>,
     /// Index, rank and section number of each object section, sorted by index and rank.
     objects: Vec<(u16, u16, u32)>,
-    /// Module number, part and section of module sections, sorted by module number.
+    /// Module number, part and section of each module section, sorted by module number.
     modules: Vec<(u32, sections::ModulePart, Section)>,
     /// Unknown sections, in the order of the file.
     unknown: Vec<Section>,
@@ -178,13 +179,13 @@ fn illegal_name(reader: &mut Reader<'_, '_>, section: &Section, kind: SectionKin
     reader.diagnostics.push(diagnostic);
 }
 
-/// Stores the entries of sections that CiA 306 does not define as extensions of the device, with keys such as
-/// `section/key`.
+/// Stores the entries of sections that are unknown to CiA 306. The entries become extensions of the device, with keys
+/// such as `section/key`.
 fn unknown_sections(reader: &mut Reader<'_, '_>, unknown: &[Section], device: &mut Device) {
     let mut seen: HashMap<String, &Section> = HashMap::new();
     for section in unknown {
         let name = reader.doc.name(section);
-        // CiA 306-1 defines [Tools] for the tools that it names, so this section is not reported.
+        // CiA 306-1 defines the section [Tools], which lists software tools, so this section is not reported.
         if !name.eq_ignore_ascii_case("Tools") {
             reader.diagnostics.push(
                 Diagnostic::new(

@@ -26,7 +26,7 @@ const TERMS: Terms = Terms {
 /// Sections of an object, collected from the whole file.
 #[derive(Default)]
 pub(super) struct ObjectSections {
-    /// Section `[xxxx]`, or several if the file repeats this section.
+    /// Section `[xxxx]`, or several such sections if the file repeats the section.
     pub object: Vec<Section>,
     /// Sections `[xxxxsubN]`, each with its sub-index.
     pub subs: Vec<(u8, Section)>,
@@ -114,7 +114,8 @@ impl<'a> Reader<'a, '_> {
             let mut item = self.item(index, 0, &raw, code);
             item.name = group.name.clone();
             item.at.name = group.name_at;
-            // An object without sub-indices has a single section, so its other entries are extensions of the object.
+            // An object without sub-indices has a single section, so the remaining entries of this section are
+            // extensions of the object.
             group.extensions.append(&mut item.extensions);
             group.items = vec![item];
         }
@@ -122,7 +123,8 @@ impl<'a> Reader<'a, '_> {
         compact::refine(self, group, index, &sections.refinements);
     }
 
-    /// Stores entries that have no meaning for this object as extensions, unless they are empty or 0.
+    /// Stores entries as extensions if they have no meaning for the object. Leaves out empty entries, and counts and
+    /// flags of 0.
     pub(super) fn unused(&mut self, raw: &Raw, keys: &[Key], extensions: &mut Extensions) {
         for &key in keys {
             let Some(entry) = raw.get(key) else { continue };
@@ -276,7 +278,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Returns the data type of an object or sub-index. Returns `None` if the data type is missing and the value needs
-    /// one.
+    /// a data type.
     fn data_type(&mut self, raw: &Raw, code: ObjectCode, item: &mut Item) -> Option<Type> {
         let (text, span) = match raw.get(Key::DataType) {
             Some(entry) => self.fixed(entry, Fixed::Number),

@@ -1,4 +1,4 @@
-//! Reader of a file, and functions that read single entries.
+//! Reader of an EDS or DCF file, and functions that read single entries.
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::canopen::number::{self, Parsed};
@@ -12,8 +12,8 @@ pub(super) struct Reader<'a, 'd> {
     pub doc: &'a Document<'a>,
     pub diagnostics: &'d mut Diagnostics,
     pub aliases: &'d [String],
-    /// Types that the file defines, by data type code. Objects are read in the order of their indices, so types come
-    /// first.
+    /// Types that the file defines, by data type code. Objects are read in the order of their indices, so data types
+    /// are read before the objects that use them.
     pub types: Vec<(u32, Type)>,
     /// Targets of object links, which are checked after all objects are read.
     pub link_spans: Vec<(u16, Span)>,
@@ -27,10 +27,10 @@ pub(super) struct Reader<'a, 'd> {
     /// Remaining number of text bytes that may be copied into derived elements.
     pub copies_left: usize,
     pub copies_exceeded: bool,
-    /// Comments after values, until the element to which they belong is complete.
+    /// Comments after values, collected until the element to which they belong is complete.
     pub comments: Extensions,
-    /// Span of the first flag that is a hexadecimal number, and the number of such flags. All such flags are reported
-    /// once, because a tool writes all flags in the same way.
+    /// Span of the first flag that is a hexadecimal number, and the number of such flags. One diagnostic reports all
+    /// hexadecimal flags, because a tool writes all flags in the same way.
     pub hex_flags: Option<(Span, usize)>,
 }
 
@@ -65,7 +65,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.fixed_part(text, span, cut, form)
     }
 
-    /// Reads a value like [`fixed`](Self::fixed), if `mark` is the offset of the first comment or quotation mark.
+    /// Reads a value like [`fixed`](Self::fixed). `mark` is the offset of the first comment mark or quotation mark in
+    /// `text`.
     #[cold]
     fn fixed_part(&mut self, text: &'a str, span: Span, mark: usize, form: Fixed) -> (&'a str, Span) {
         // A comment mark in quotation marks is part of the value.
@@ -85,7 +86,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         let found = match (text.as_bytes()[cut], form) {
             (b'#', _) => Some((&codes::HASH_COMMENT, "there is a `#` comment after the value")),
             (_, Fixed::Flag) => Some((&codes::TRAILING_TEXT, "there is text after the value")),
-            // Most tools end a number at `;`, which starts a comment line in CiA 306.
+            // A comment after `;` is not reported. CiA 306 defines `;` only at the start of a line, but most tools end
+            // a number at `;`.
             _ => None,
         };
         if let Some((code, message)) = found {
@@ -150,7 +152,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.diagnostics.push(Diagnostic::new(&codes::NOT_BOOLEAN, span, message).label(label));
     }
 
-    /// Reads a number without reporting its spelling, which the regular reading of the entry reports.
+    /// Reads a number without reporting a nonstandard spelling, which is reported when the entry itself is read.
     pub(super) fn peek_number(&self, entry: Option<&Entry>) -> Option<i128> {
         let text = self.doc.value(entry?);
         let text = text.split([';', '#']).next().unwrap_or("").trim().trim_matches('"');
@@ -214,7 +216,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         entry.map_or(Span::default(), |entry| self.doc.value_span(entry))
     }
 
-    /// Reads a name into `name`: free text without one surrounding pair of quotation marks.
+    /// Reads free text into `name`, and removes one surrounding pair of quotation marks.
     pub(super) fn name(&mut self, entry: Option<&Entry>, name: &mut CompactString, at: &mut Span) {
         let Some(entry) = entry else { return };
         let (text, span) = (self.doc.value(entry), self.doc.value_span(entry));
@@ -222,11 +224,11 @@ impl<'a, 'd> Reader<'a, 'd> {
         *at = span;
     }
 
-    /// Stores an entry for which the IR has no field as an extension, or a comment that contains a letter or digit.
+    /// Stores an entry or a comment as an extension. Drops a comment that contains no letter or digit.
     pub(super) fn extension(&mut self, entry: &Entry, extensions: &mut Extensions) {
         let (key, value, span) = (self.doc.key(entry), self.doc.value(entry), self.doc.value_span(entry));
         if self.doc.is_comment(entry) {
-            // A comment that is only a line of dashes is dropped.
+            // A comment without letters and digits, such as a line of dashes, is dropped.
             if value.bytes().any(|byte| byte.is_ascii_alphanumeric() || !byte.is_ascii()) {
                 extensions.push(Extension { key: COMMENT, value: value.into(), span });
             }
@@ -285,7 +287,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.diagnostics.push(found.note_at(self.doc.name_span(first), "first occurrence"));
     }
 
-    /// Stores an entry of a section that CiA 306 does not define as an extension with the key `section/key`.
+    /// Stores an entry as an extension with the key `section/key`. The section of the entry is unknown to CiA 306.
     pub(super) fn foreign(&mut self, section: &Section, entry: &Entry, extensions: &mut Extensions) {
         let name = self.doc.name(section);
         let key = if self.doc.is_comment(entry) { ";" } else { self.doc.key(entry) };
@@ -296,7 +298,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         }
     }
 
-    /// Returns whether another `bytes` bytes of text may be copied. Reports only the first refusal.
+    /// Returns whether another `bytes` bytes of text may be copied. Only the first copy that exceeds the limit is
+    /// reported.
     pub(super) fn may_copy(&mut self, bytes: usize, span: Span) -> bool {
         if let Some(left) = self.copies_left.checked_sub(bytes) {
             self.copies_left = left;

@@ -1,6 +1,6 @@
 //! Classifies sections by their names (CiA 306, "section names").
 
-/// Kind of a section, by its name.
+/// Kind of a section, which the name of the section determines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SectionKind {
     FileInfo,
@@ -61,7 +61,7 @@ const NAMED: [(&str, SectionKind); 12] = [
     ("MandatoryObjects", SectionKind::List(List::Mandatory)),
     ("OptionalObjects", SectionKind::List(List::Optional)),
     ("ManufacturerObjects", SectionKind::List(List::Manufacturer)),
-    // CiA 306 misspells `DeviceCommissioning` in this way. The reader accepts both spellings.
+    // CiA 306 misspells `DeviceCommissioning` as `DeviceComissioning`. The reader accepts both spellings.
     ("DeviceComissioning", SectionKind::Commissioning),
     ("DeviceCommissioning", SectionKind::Commissioning),
     ("SupportedModules", SectionKind::SupportedModules),
@@ -70,7 +70,7 @@ const NAMED: [(&str, SectionKind); 12] = [
 ];
 
 impl SectionKind {
-    /// Returns the name of a section that occurs at most once, or an empty string for other kinds.
+    /// Returns the section name for a kind of section that occurs at most once, or an empty string for any other kind.
     pub(super) fn name(self) -> &'static str {
         NAMED.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
     }

@@ -9,11 +9,11 @@ use super::object::RawSub;
 use super::types::Types;
 use crate::frontend::xml::Given;
 
-/// Selects the field of a value to set: the default value, the minimum or the maximum.
+/// Selects the field to set: the default value, the minimum or the maximum.
 type Target<'a> = for<'i> fn(&'i mut RawInfo<'a>) -> &'i mut Option<RawValue<'a>>;
 
-/// Splits the default value and limits of each array between its elements. The first element keeps its part. The other
-/// parts are returned by the position of their element in `entries`.
+/// Splits the default value and limits of each array between its elements. The first element of an array keeps its part
+/// of the value. Returns the parts of the other elements, by the position of the element in `entries`.
 ///
 /// For each entry, `of_entry` contains the position of its sub-item in `subs`.
 pub(super) fn split<'a>(
@@ -24,7 +24,8 @@ pub(super) fn split<'a>(
 ) -> HashMap<usize, RawInfo<'a>> {
     let mut parts: HashMap<usize, RawInfo<'a>> = HashMap::new();
     for (first, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.element == Some(1)) {
-        // Only the following elements without a sub-item in the object get a part of the value.
+        // Only the elements that directly follow the first element, and have no sub-item in the object, get a part of
+        // the value.
         let others = entries.iter().zip(of_entry).skip(first + 1);
         let others = others.take_while(|(other, sub)| std::ptr::eq(other.field, entry.field) && sub.is_none()).count();
         let Some(sub) = of_entry.get(first).copied().flatten().and_then(|at| subs.get_mut(at)) else { continue };
@@ -67,8 +68,8 @@ fn without_blanks<'a>(given: &Given<'a>) -> Given<'a> {
     Given { text, span: given.span }
 }
 
-/// Returns the data of the element `number`, counted from 0. The span is that of the whole value if the data is
-/// wrapped.
+/// Returns the data of the element `number`, counted from 0. If the data is wrapped over several lines, the result has
+/// the span of the whole value.
 fn part<'a>(whole: &Given<'a>, number: usize, digits: usize) -> Given<'a> {
     let range = number * digits..(number + 1) * digits;
     let is_verbatim = whole.text.len() == (whole.span.end - whole.span.start) as usize;

@@ -1,4 +1,5 @@
-//! Limits the copies of data types, vendors and referenced files, which short references can multiply.
+//! Limits the size of the copies that references to data types, vendors and files cause. A short reference can copy a
+//! large definition.
 
 use crate::limits;
 

@@ -1,4 +1,4 @@
-//! Data types as in the file, before references are resolved.
+//! Data types as written in the file, before references are resolved.
 
 use compact_str::format_compact;
 
@@ -47,7 +47,7 @@ pub(super) struct RawField<'a> {
     pub info: RawInfo<'a>,
     pub comment: Names<'a>,
     pub origin: Origin,
-    /// Number of text bytes that each item of this sub-item copies.
+    /// Number of text bytes that each item created from this sub-item copies.
     pub weight: usize,
 }
 
@@ -64,7 +64,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut 
             "Comment" => reader.name(&tag, &mut raw.comment)?,
             "ArrayInfo" => raw.dimensions.push(dimension(reader, &tag)?),
             "SubItem" => {
-                // The field is filled in the list to avoid a copy of the large struct.
+                // The large struct is filled after it was added to the list, which avoids a copy.
                 raw.fields.push(RawField::default());
                 if let Some(last) = raw.fields.last_mut() {
                     field(reader, &tag, last)?;

@@ -64,7 +64,7 @@ impl Reference {
 pub(super) struct OtherFiles {
     pub files: Vec<Reference>,
     pub types: Vec<EntryType>,
-    /// Diagnosis messages of a module, which apply to all modules.
+    /// Diagnosis messages that a module declares. In the IR, these messages apply to all modules.
     pub messages: Vec<CodeTable>,
 }
 
@@ -73,7 +73,7 @@ pub(super) struct OtherFiles {
 pub(super) struct EntryType {
     /// Span of the PDO entry.
     pub entry: Span,
-    /// Name of the type.
+    /// Type name of the PDO entry.
     pub name: Given<'static>,
 }
 

@@ -13,11 +13,10 @@ use crate::ir::{Buses, CodeRow, CodeTable, Documentation, LocalText, SharedList,
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
-/// Names of the flags of a diagnosis message, in the order of the columns.
+/// Names of the flags of a diagnosis message, in the order of the table columns.
 const COLUMNS: [&str; 4] = ["DiagClass", "DiagReset", "DiagReaction", "DiagType"];
 
-/// Reads a `DiagMessages` element. Returns a table of the messages, and a table for each list of codes that the flags
-/// use.
+/// Reads a `DiagMessages` element. Returns a table of the messages, and a table for each list of flag values.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Vec<CodeTable>> {
     let origin = reader.origin(parent);
     let table = |name: &'static str, columns: &[&'static str]| CodeTable {
@@ -91,8 +90,8 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<Cod
     Ok(Some(CodeRow { printed, printed_cells, code, last, name, names, availability, documentation, cells }))
 }
 
-/// Returns a hexadecimal code such as `#x8000` in the notation of all outputs (`0x8000`). Returns an empty string for a
-/// decimal code.
+/// Returns a hexadecimal code such as `#x8000` in the notation that all outputs use (`0x8000`). Returns an empty string
+/// for a decimal code.
 fn printed(text: &str, code: i128) -> CompactString {
     match text.trim_start().starts_with('#') {
         true => format!("0x{code:04X}").into(),
@@ -100,7 +99,7 @@ fn printed(text: &str, code: i128) -> CompactString {
     }
 }
 
-/// Maximum number of previous elements that are searched for a translation of the same text.
+/// Maximum number of preceding elements that are compared to find translations of the same text.
 const NEIGHBOURS: usize = 16;
 
 /// Title of a paragraph, and its text in each language.
@@ -159,7 +158,7 @@ fn documentation(
         names.all().map(|local| (local.language, local.text)).collect()
     };
     let texts: Vec<_> = paragraphs.iter().map(by_language).collect();
-    // Each language gets a copy of every paragraph that has no translation, which the budget must allow.
+    // Each language gets a copy of every paragraph that has no translation. The budget must allow these copies.
     let affordable = reader.derive(Cost::text(languages.len().saturating_mul(text.len())), message);
     let in_language = |language: &CompactString| {
         let paragraphs =

@@ -21,7 +21,7 @@ pub(super) struct Dictionary<'a> {
 }
 
 impl<'a> Dictionary<'a> {
-    /// Reads a `Dictionary` element and adds its contents.
+    /// Reads a `Dictionary` element and adds its contents to `self`.
     pub fn read(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
         while let Some(list) = reader.child(parent)? {
             match list.name {

@@ -52,7 +52,7 @@ fn category<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<(u
     Ok(number.map(|number| (number, data)))
 }
 
-/// Reads an `ESC` element. The child elements have the names of register addresses, such as `Reg0108`.
+/// Reads an `ESC` element. The names of its child elements contain register addresses, as in `Reg0108`.
 pub(super) fn registers<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,

@@ -16,7 +16,7 @@ const SUB_INDICES: u32 = 256;
 /// Maximum number of diagnostics about repeated sub-indices of an object.
 const MAX_REPORTED: usize = 16;
 
-/// Value of an object as the object's data type defines it.
+/// Entry (sub-index) that the data type of an object defines.
 pub(super) struct Entry<'t, 'a> {
     pub sub_index: u8,
     pub ty: Type,
@@ -49,8 +49,8 @@ pub(super) fn of_object<'t, 'a>(
         }
         for number in 0..count {
             let Some(sub_index) = first.checked_add(number).and_then(|sub| u8::try_from(sub).ok()) else {
-                // Only the first field beyond sub-index 255 is reported. A type may have many such fields, and many
-                // objects may use the type.
+                // Only the first field beyond sub-index 255 is reported, because a type may have many such fields, and
+                // many objects may use the type.
                 if !std::mem::replace(&mut is_reported, true) {
                     let message = "an object has at most 255 sub-indices after sub-index 0";
                     reader.report(&codes::SUB_INDEX_RANGE, field.origin.span, message, "left out");
@@ -124,7 +124,7 @@ pub(super) struct Matched {
 pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawSub<'_>]) -> Matched {
     let mut matched = Matched { of_entry: vec![None; entries.len()], extra: Vec::new() };
     let named = |entry: &Entry<'_, '_>, sub: &RawSub<'_>| sub.name.text == entry.field.name.text;
-    // The data type declares no names for array elements, so any name fits.
+    // The data type declares no names for array elements, so an array element matches a sub-item with any name.
     let fits = |(entry, sub): (&Entry<'_, '_>, &RawSub<'_>)| entry.element.is_some() || named(entry, sub);
     if entries.iter().zip(subs).all(fits) && subs.len() <= entries.len() {
         (0..subs.len()).zip(&mut matched.of_entry).for_each(|(at, place)| *place = Some(at));
@@ -137,7 +137,7 @@ pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], s
         by_name.entry(entry.field.name.text.as_ref()).or_insert(at);
     }
     if by_name.len() < singles.len() && subs.len() == entries.len() {
-        // A repeated name does not identify the entry.
+        // A repeated name does not identify an entry, so the sub-items are assigned by position.
         return by_position(reader, entries, subs);
     }
     let mut next = 0;

@@ -11,7 +11,7 @@ use crate::text::brief;
 /// Contents of a `Flags` element.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Flags {
-    /// True if the file contains the element.
+    /// True if the file contains the `Flags` element.
     pub given: bool,
     pub access: Option<Access>,
     pub access_at: Span,
@@ -109,7 +109,8 @@ fn category(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<Category> 
     }
 }
 
-/// Reads a PDO mapping. `R` means that the item can be mapped into an RxPDO, `T` into a TxPDO.
+/// Reads a PDO mapping. `R` means that the item can be mapped into an RxPDO, and `T` that it can be mapped into a
+/// TxPDO.
 fn mapping(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<Mappable> {
     let mut mappable = Mappable::default();
     for letter in given.text.bytes() {
@@ -140,7 +141,7 @@ impl Flags {
         self.more.get_or_insert_default()
     }
 
-    /// Returns the cost in bytes of a copy of the texts in these flags.
+    /// Returns the number of text bytes that a copy of the flags needs.
     pub fn weight(&self) -> usize {
         let Some(more) = self.more.as_deref() else { return 0 };
         let states = more.read_states.iter().chain(&more.write_states);
@@ -160,8 +161,9 @@ impl Flags {
         (flags.mappable.unwrap_or_default(), flags.mappable_at)
     }
 
-    /// Returns the storage, safety and access states of a sub-item. A sub-item without flags has the storage of its
-    /// object. A sub-item that declares no safety or access states has those of its object.
+    /// Returns the storage, the safety mapping, and the states with read or write access of a sub-item. A sub-item
+    /// without flags has the storage of its object. A sub-item without a safety mapping, or without access states, has
+    /// those of its object.
     pub fn behaviour_or(&self, object: &Flags) -> Option<Box<Behaviour>> {
         let stored = if self.given { self } else { object };
         let (backup, setting) = (stored.backup.unwrap_or(false), stored.setting.unwrap_or(false));

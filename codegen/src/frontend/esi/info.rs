@@ -69,7 +69,7 @@ fn read_list<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, description: &mut 
                 Ok(())
             })?;
         }
-        // PDOs that refer to the templates in this list read the templates.
+        // A template in this list is read when a PDO refers to the template.
         "Pdos" => reader.skip(list)?,
         _ => reader.unknown(list)?,
     }

@@ -25,7 +25,7 @@ pub(super) struct MoreInfo<'a> {
     pub display: Names<'a>,
 }
 
-/// Value as in the file, and its notation.
+/// Value as written in the file, and its notation.
 pub(super) struct RawValue<'a> {
     pub form: Form,
     pub given: Given<'a>,
@@ -38,12 +38,12 @@ pub(super) enum Form {
     Data,
     /// Decimal or hexadecimal number.
     Number,
-    /// Text in a string type.
+    /// Text of a string type.
     Text,
 }
 
 impl<'a> RawInfo<'a> {
-    /// Returns the number of text bytes that a copy of these values needs.
+    /// Returns the number of text bytes that a copy of the default value, limits, unit and display name needs.
     pub fn weight(&self) -> usize {
         let length = |raw: &Option<RawValue<'a>>| raw.as_ref().map_or(0, |raw| raw.given.text.len());
         let of_more =

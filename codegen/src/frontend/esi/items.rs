@@ -20,8 +20,8 @@ use crate::frontend::xml::Given;
 use crate::ir::{Access, Binding, Group, GroupKind, Item, ObjectCode, Quantity, Type};
 use crate::text::brief;
 
-/// Converts the objects of a dictionary to groups, sorted by index. Adds types that only their name defines, such as
-/// `BITARR8`, to `types`.
+/// Converts the objects of a dictionary to groups, sorted by index. Adds types that are defined only by their names,
+/// such as `BITARR8`, to `types`.
 pub(super) fn build<'a>(
     reader: &mut Reader<'_, '_>,
     types: &mut Types<'_, 'a>,
@@ -146,7 +146,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
             if !reader.derive(cost, raw.origin.span) {
                 break;
             }
-            // The item is filled in the list to avoid a copy of the large struct.
+            // The large struct is filled after it was added to the list, which avoids a copy.
             group.items.push(Item::new(Binding::coe(raw.index.unwrap_or(0), entry.sub_index)));
             if let Some(item) = group.items.last_mut() {
                 let part = parts.remove(&position).unwrap_or_default();
@@ -215,8 +215,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
     }
 
-    /// Adds the sub-items of an object that its data type does not define. These sub-items get the sub-indices after
-    /// the last entry, and the type of the last entry.
+    /// Adds the sub-items of an object that its data type does not define. The added sub-items get the sub-indices
+    /// after the last entry, and the type of the last entry.
     fn extra(
         &mut self,
         reader: &mut Reader<'_, '_>,

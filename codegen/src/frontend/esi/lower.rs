@@ -35,7 +35,7 @@ pub(super) fn lower<'a>(
     (types.into_defs(), groups)
 }
 
-/// Returns the type that a PDO entry names, or an integer type of the entry's length if it names none.
+/// Returns the type that a PDO entry names, or an integer type of the entry's length if the entry names no type.
 fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Given<'_>, entry: &PdoEntry) -> Type {
     if given.is_empty() {
         return match u8::try_from(entry.bits) {
@@ -43,7 +43,7 @@ fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Gi
             _ => Type::Opaque(None),
         };
     }
-    // The type name of a padding entry has no effect unless it is a basic type.
+    // The type name of a padding entry has no effect unless it is the name of a basic type.
     if entry.kind == PdoEntryKind::Padding && type_name::basic(&given.text).is_none() {
         return Type::Opaque(None);
     }
@@ -52,7 +52,7 @@ fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Gi
     ty
 }
 
-/// Reports a PDO entry whose length differs from the length of its type, which is `bits`.
+/// Reports a PDO entry whose length differs from the length of its type. `bits` is the length of the type.
 pub(super) fn check_length(diagnostics: &mut Diagnostics, entry: &PdoEntry, ty: &Given<'_>, bits: Option<u32>) {
     match bits {
         Some(bits)

@@ -1,9 +1,9 @@
 //! Converts EtherCAT slave information (ESI, ETG.2000) to IR.
 //!
-//! The reader accepts elements in any order, because real files do not follow the schema. It reads each file once.
-//! Facts that depend on later elements are resolved at the end of the common parent element. Examples are the data
-//! types of objects and the vendor of devices. Data types, objects and PDOs belong to one device or module. Referenced
-//! files are read last.
+//! The reader accepts elements in any order, because real files do not follow the schema. Each file is read once. Facts
+//! that depend on later elements, such as the data types of objects and the vendor of devices, are resolved at the end
+//! of the common parent element. Data types, objects and PDOs belong to one device or module. Referenced files are read
+//! last.
 //!
 //! | file | subject |
 //! |---|---|

@@ -19,7 +19,7 @@ use crate::ir::{
 use crate::limits;
 use crate::syntax::xml::Tag;
 
-/// Reads a `Module` element. Also returns its references to other files.
+/// Reads a `Module` element. Also returns the references of the module to other files.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Module, OtherFiles)> {
     let start = reader.extensions.len();
     let mut module = Module { origin: reader.origin(parent), ..Module::default() };

@@ -94,8 +94,8 @@ pub(super) fn nibble(digit: u8) -> Option<u8> {
 }
 
 impl<'a> Reader<'a, '_> {
-    /// Reads a number in any notation, and reports nonstandard notations. Returns `None` for any other text, which the
-    /// caller reports.
+    /// Reads a number in any notation, and reports nonstandard notations. Returns `None` for a text that is not a
+    /// number, which the caller reports.
     pub fn parse(&mut self, given: &Given<'_>) -> Option<Number> {
         let number = parse(&given.text)?;
         if let Some(fault) = number.fault {
@@ -116,7 +116,7 @@ impl<'a> Reader<'a, '_> {
         Some(number)
     }
 
-    /// Reads a number of type `T`. Reports any other text and numbers that do not fit `T`.
+    /// Reads a number of type `T`. Reports a text that is not a number, and a number that does not fit `T`.
     pub fn int<T: TryFrom<i128>>(&mut self, given: &Given<'_>, what: &str) -> Option<T> {
         if given.is_empty() {
             return None;

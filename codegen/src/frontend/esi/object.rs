@@ -1,4 +1,4 @@
-//! Objects as in the file, before data types are resolved.
+//! Objects as written in the file, before data types are resolved.
 
 use std::ops::Range;
 
@@ -88,7 +88,7 @@ fn info<'a>(
 ) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         if tag.name == "SubItem" {
-            // The sub-item is filled in the list to avoid a copy of the large struct.
+            // The large struct is filled after it was added to the list, which avoids a copy.
             subs.push(RawSub::default());
             if let Some(last) = subs.last_mut() {
                 sub_item(reader, &tag, last)?;

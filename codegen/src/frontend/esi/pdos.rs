@@ -9,7 +9,7 @@ use crate::ir::{Direction, Pdo, PdoEntry, ProcessData, Type};
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// PDOs of a device or module. The types of their entries are resolved after the dictionary is read.
+/// PDOs of a device or module. The types of the PDO entries are resolved after the dictionary is read.
 #[derive(Default)]
 pub(super) struct Pdos<'a> {
     pub list: Vec<Pdo>,
@@ -69,8 +69,8 @@ fn check(reader: &mut Reader<'_, '_>, tag: &Tag<'_>, pdo: &Pdo, has_index: bool)
     }
 }
 
-/// Adds the missing facts of a PDO from its template. Reports the reference and returns false if the file has no such
-/// template.
+/// Completes a PDO with facts from its template. If the file does not contain the template, reports the reference and
+/// returns false.
 fn complete<'a>(
     reader: &mut Reader<'a, '_>,
     reference: &Reference<'a>,

@@ -10,7 +10,7 @@ use crate::source::Span;
 
 pub(super) type Reader<'a, 'd> = xml::Reader<'a, 'd, Esi<'a, 'd>>;
 
-/// Text in several languages, each with its language identifier (`LcId`) if the file declares one.
+/// Texts in several languages, each with its language identifier (`LcId`) if the file declares one.
 pub(super) type Names<'a> = xml::Names<'a, Lcid>;
 
 /// State of the ESI reader in addition to that of the XML reader.

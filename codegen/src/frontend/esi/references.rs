@@ -45,8 +45,8 @@ pub(super) fn follow(
     let main_name = Path::new(main.name()).file_name().map(|name| name.to_string_lossy().into_owned());
     // Content of each file for later references; `None` if later references cannot use the file.
     let mut files: HashMap<String, Option<Content>> = HashMap::new();
-    // A description with devices uses only the modules of referenced files. A description without devices is a list of
-    // files, and also uses their devices.
+    // A description with devices uses only the modules of referenced files. A description without devices only lists
+    // other files, and uses the devices of these files, too.
     let only_modules = !description.catalog.devices.is_empty();
     let mut is_reported = false;
     let mut queue: VecDeque<(Owner, Reference)> = std::mem::take(&mut description.references).into();
@@ -133,7 +133,7 @@ fn normal(name: &str) -> String {
     name.trim_start_matches("./").to_owned()
 }
 
-/// Reads a referenced file. Returns its contents, and its length in bytes.
+/// Reads a referenced file. Returns the contents of the file, and its length in bytes.
 fn open(
     reference: &Reference,
     is_reported: &mut bool,
@@ -191,8 +191,8 @@ fn join(description: &mut Description, read: Description) -> Vec<(Owner, Referen
     references.into_iter().map(|(owner, reference)| (moved(owner), reference)).collect()
 }
 
-/// Adds the dictionary or the diagnosis messages of a file to the element that refers to it, unless this was done
-/// before.
+/// Adds the dictionary or the diagnosis messages of a file to the element that refers to the file, unless the element
+/// already has them.
 fn attach(
     description: &mut Description,
     owner: Owner,
@@ -202,7 +202,7 @@ fn attach(
     budget: &mut Budget,
 ) {
     let is_dictionary = reference.target == Target::Dictionary;
-    // Diagnosis messages of a module apply to all modules, so they belong to the catalog.
+    // The IR has no diagnosis messages for single modules, so the messages of a module belong to the catalog.
     let owner = if is_dictionary || matches!(owner, Owner::Device(_)) { owner } else { Owner::Catalog };
     if !content.owners.insert((owner, reference.target)) {
         return;

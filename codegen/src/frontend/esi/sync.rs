@@ -60,7 +60,7 @@ pub(super) fn sync_manager<'a>(
         default_size: reader.int(size, "size in bytes"),
         size_range: (reader.int(min, "size in bytes"), reader.int(max, "size in bytes")),
         control: reader.int(control, "control byte").unwrap_or(0),
-        // Bit 0 is the enable bit of the register; the other bits have other meanings.
+        // Only bit 0 of the value enables the sync manager; the other bits have other meanings.
         enable: reader.int::<u32>(enable, "value of the enable register").is_some_and(|value| value & 1 == 1),
         op_only: reader.flag(op_only),
         is_virtual: reader.flag(is_virtual),
@@ -82,8 +82,8 @@ pub(super) fn settle(
     let has_mailbox = list.len() >= 4;
     let mut managers = Vec::with_capacity(list.len());
     for (position, (mut manager, given)) in list.into_iter().enumerate() {
-        // In the control register, bits 0 and 1 are the mode (2 = mailbox). Bits 2 and 3 are the direction (1 =
-        // written by the master).
+        // In the control register, bits 0 and 1 are the mode (2 = mailbox). Bits 2 and 3 of this register are the
+        // direction (1 = written by the master).
         let (is_mailbox, is_written) = match manager.control {
             0 => (has_mailbox && position < 2, position == 0 || (has_mailbox && position == 2)),
             control => (control & 0b11 == 2, control & 0b1100 == 0b0100),

@@ -2,7 +2,7 @@
 //! `Ref`.
 //!
 //! `Chn` is the channel of the PDO, counted from 0. `ChnFac` is the increment of an index or sub-index per channel. A
-//! template is read again for each PDO that refers to it, because its numbers depend on the channel.
+//! template is read again for each PDO that refers to it, because its indices and sub-indices depend on the channel.
 
 use std::borrow::Cow;
 use std::cell::Cell;
@@ -33,7 +33,7 @@ impl<'a> Templates<'a> {
     /// Ignores syntax errors, which the main reader reports.
     pub fn of(text: &'a str, file: FileId) -> Self {
         let mut templates = Templates { text, by_name: HashMap::new() };
-        // Newer files have no templates, so a fast text search avoids parsing them twice.
+        // Newer files have no templates, so a fast text search avoids a second parse of these files.
         if memchr::memmem::find(text.as_bytes(), b"RefName").is_some() {
             let _ = templates.find(file);
         }

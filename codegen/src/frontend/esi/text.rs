@@ -1,4 +1,4 @@
-//! Reads elements that have many parents: texts with a language, images, vendor-specific elements.
+//! Reads elements that occur in many parent elements: texts with a language, images, vendor-specific elements.
 
 use compact_str::format_compact;
 
@@ -30,8 +30,8 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Stores the children of a `VendorSpecific` element as extensions, with attributes and texts. Deeper elements are
-    /// dropped because only the vendor's tool uses them.
+    /// Stores the children of a `VendorSpecific` element as extensions, with attributes and texts. Elements inside of
+    /// the children are dropped because only the vendor's tool uses them.
     pub fn vendor_specific(&mut self, tag: &Tag<'a>) -> Read<()> {
         while let Some(child) = self.child(tag)? {
             self.keep_attributes(&child)?;

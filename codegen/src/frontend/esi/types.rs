@@ -22,9 +22,9 @@ pub(super) struct Types<'t, 'a> {
     raw: &'t [RawType<'a>],
     by_name: HashMap<&'t str, u32>,
     links: Links,
-    /// Type for each data type of the file; for the alias of a basic type, the basic type.
+    /// IR type for each data type of the file. An alias of a basic type has the basic type itself.
     meaning: Vec<Type>,
-    /// Types in the order of the file, followed by types that only their name defines.
+    /// Types in the order of the file, followed by types that are defined only by their names.
     defs: Vec<TypeDef>,
     made: HashMap<CompactString, Type>,
 }
@@ -33,9 +33,10 @@ pub(super) struct Types<'t, 'a> {
 #[derive(Default)]
 struct Links {
     bases: Vec<Option<u32>>,
-    /// Data types to which the fields refer, for all fields of all data types.
+    /// Position of each field's data type, for the fields of all data types; `None` for a type that the file does not
+    /// define.
     fields: Vec<Option<u32>>,
-    /// Position in `fields` of the first field of each type.
+    /// Position in `fields` of the first field of each data type.
     first: Vec<usize>,
     /// For each data type, whether it contains itself or is nested too deeply.
     endless: Vec<bool>,
@@ -44,7 +45,7 @@ struct Links {
 impl Links {
     fn new<'r>(raw: &'r [RawType<'_>], by_name: &HashMap<&str, u32>) -> Self {
         let mut links = Links::default();
-        // The last name is kept because adjacent fields often have the same type.
+        // The last result is cached because adjacent fields often have the same type.
         let mut last = ("", None);
         let mut find = |name: &'r str| {
             if last.0 != name {
@@ -317,8 +318,8 @@ impl<'t, 'a> Types<'t, 'a> {
         unsigned
     }
 
-    /// Returns the type that the data type at `at` refers to as `part`. A reference that makes the data type endless
-    /// becomes raw bytes.
+    /// Returns the IR type of the data type at `part`, to which the data type at `at` refers. A circular or too deeply
+    /// nested reference becomes raw bytes.
     fn part(&mut self, reader: &mut Reader<'_, '_>, at: usize, part: u32, given: &Given<'_>) -> Type {
         if self.links.is_endless(at) && self.links.is_endless(part as usize) {
             let message = format!("the data type `{}` contains itself or is nested too deeply", brief(&given.text));
@@ -341,7 +342,7 @@ impl<'t, 'a> Types<'t, 'a> {
         self.by_name.contains_key(name) || matches!(type_name::basic(name), Some((_, Spelling::Standard)))
     }
 
-    /// Returns the data type behind `ty` if it is a record.
+    /// Returns the data type to which `ty` refers, if this data type is a record.
     pub fn record_of(&self, ty: Type) -> Option<&'t RawType<'a>> {
         let Type::Named(TypeId(at)) = ty else { return None };
         self.raw.get(at as usize).filter(|raw| !raw.fields.is_empty())
@@ -445,7 +446,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Returns the types in the order of the file, followed by types that only their name defines.
+    /// Returns the types in the order of the file, followed by types that are defined only by their names.
     pub fn into_defs(self) -> Vec<TypeDef> {
         self.defs
     }
@@ -510,7 +511,8 @@ impl<'n> Seen<'n> {
     }
 }
 
-/// Reports the first sub-item that overlaps another sub-item, and the first sub-item that ends after the data type.
+/// Reports the first sub-item that overlaps another sub-item, and the first sub-item that ends beyond the end of the
+/// data type.
 fn check_layout(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, fields: &[Field]) {
     let end = |field: &Field| field.bit_offset.saturating_add(field.bits);
     let mut order: Vec<(&Field, &RawField<'_>)> =

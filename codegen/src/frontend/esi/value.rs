@@ -1,4 +1,5 @@
-//! Converts default values and limits to the type of their item. A file writes each value as bytes, a number or a text.
+//! Converts default values and limits to the type of their item. A file contains each value as bytes, a number or a
+//! text.
 
 use std::cmp::Ordering;
 
@@ -137,8 +138,8 @@ fn integer(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role
     Value::Int(value)
 }
 
-/// Converts a text that is not an integer to an integer type. Drops a fraction of zero, and keeps any other text as
-/// text.
+/// Converts a text that is not an integer to an integer type. Drops a fraction of zero. Any other text is stored
+/// unchanged.
 fn fraction(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
     let given = &raw.given;
     let whole = given.text.split_once('.').filter(|(_, rest)| rest.bytes().all(|digit| digit == b'0'));

@@ -5,15 +5,15 @@ use crate::ir::{TimeFormat, Type};
 /// Data type that GSDML defines by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum DataType {
-    /// Type that the IR has.
+    /// Type that also exists in the IR.
     Basic(Type),
-    /// String whose length in bytes is in the file.
+    /// String whose length in bytes the file declares.
     String(StringType),
     /// Number with a defined meaning (PROFIdrive and process control profiles).
     Number(&'static NumberType),
     /// Value with its quality, or two values.
     Pair(&'static PairType),
-    /// Octets whose number is in the file. The last octet is a status.
+    /// Octets whose number the file declares. The last octet is a status.
     OctetsWithStatus,
     /// Trailer of a PROFIsafe message, with its length in bytes. The trailer contains no user data.
     Trailer(u32),
@@ -28,7 +28,8 @@ pub(super) enum DataType {
 pub(super) enum StringType {
     Visible,
     Octet,
-    /// String in another encoding or with a header. The string is read as octets; the type keeps this name.
+    /// String in another encoding or with a header. The string is read as octets, and the contained text is the name of
+    /// its IR type.
     Named(&'static str),
 }
 
@@ -57,7 +58,8 @@ const fn number(name: &'static str, base: Type, factor: Option<f64>) -> NumberTy
     NumberType { name, base, factor }
 }
 
-/// Normalized values of PROFIdrive, and fixed-point numbers of IEC 61158-6-10. 100 % is 2^14 for N2 and 2^30 for N4.
+/// Normalized values of PROFIdrive, and fixed-point numbers of IEC 61158-6-10. A value of 100 % is 2^14 for N2 and 2^30
+/// for N4.
 static NUMBERS: [NumberType; 13] = [
     number("N2", Type::Integer(16), Some(100.0 / 16_384.0)),
     number("N4", Type::Integer(32), Some(100.0 / 1_073_741_824.0)),
@@ -144,7 +146,7 @@ impl DataType {
         BASIC.iter().copied().chain(numbers).chain(PAIRS.iter().map(|pair| (pair.name, DataType::Pair(pair))))
     }
 
-    /// Returns the length in bytes, or `None` if the type does not define a length.
+    /// Returns the length of the data type in bytes, or `None` if the data type does not define a length.
     pub fn bytes(self) -> Option<u32> {
         match self {
             DataType::Basic(Type::Boolean) => Some(1),

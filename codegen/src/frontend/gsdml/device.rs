@@ -1,4 +1,5 @@
-//! Reads device access points: the properties of a device, and the modules and submodules that fit.
+//! Reads device access points: the properties of a device, and the modules and submodules that can be plugged into the
+//! device.
 
 use compact_str::format_compact;
 
@@ -16,7 +17,7 @@ use crate::syntax::xml::Tag;
 /// Maximum record length in bytes if the file does not declare one.
 const RECORD_SIZE: u32 = 4068;
 
-/// Send clock factor if the file does not declare one: 1 ms.
+/// Send clock factor if the file does not declare one: 32 × 31.25 µs = 1 ms.
 const SEND_CLOCK: u16 = 32;
 
 impl<'a> Reader<'a, '_> {
@@ -113,7 +114,7 @@ impl<'a> Reader<'a, '_> {
                 Ok(())
             }
             "ApplicationRelations" => {
-                // GSDML V1.0 and V2.0 define this element for the device access point, not for the interface.
+                // GSDML V1.0 and V2.0 define this element as a child of the device access point, not of the interface.
                 let mut kept = Submodule::default();
                 self.application_relations(tag, Some(settings), &mut kept)?;
                 settings.attributes.append(&mut kept.attributes);

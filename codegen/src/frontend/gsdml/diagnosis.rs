@@ -11,7 +11,7 @@ use crate::ir::{
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
 
-/// Names in a list of codes: the attribute with the code, the tables and their columns.
+/// Names for a list of codes: the attribute that contains the code, and the tables with their columns.
 struct List {
     code: &'static str,
     table: &'static str,
@@ -20,7 +20,7 @@ struct List {
     extended_columns: &'static [&'static str],
 }
 
-/// Code list of channel errors. The table of extended errors begins with the error type of the parent.
+/// Code list of channel errors. The first column of the table of extended errors is the error type of the parent.
 static CHANNEL_DIAGNOSIS: List = List {
     code: "ErrorType",
     table: "channel_diagnosis",
@@ -29,7 +29,7 @@ static CHANNEL_DIAGNOSIS: List = List {
     extended_columns: &["error_type", "maintenance_alarm_state", "api", "add_value"],
 };
 
-/// Code list of process alarms. The table of extended reasons begins with the reason of the parent.
+/// Code list of process alarms. The first column of the table of extended reasons is the reason of the parent.
 static PROCESS_ALARMS: List = List {
     code: "Reason",
     table: "process_alarms",
@@ -84,7 +84,8 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Reads a code and its extended codes. `parent` is the code and the API number of the parent of an extended code.
+    /// Reads a code and its extended codes. For an extended code, `parent` contains the code and the API number of the
+    /// parent element.
     fn code(&mut self, tag: &Tag<'a>, list: &'static List, parent: Option<(i128, u32)>, rows: &mut Rows) -> Read<()> {
         // Some files have the attribute `ErrorType` instead of `Reason`.
         let names = [list.code, "MaintenanceAlarmState", "API", "ErrorType"];

@@ -86,7 +86,7 @@ impl<'a> Document<'a> {
         while let Some(tag) = reader.child(parent)? {
             match tag.name {
                 "Family" => self.header.family(reader, &tag)?,
-                // The element has the wrong parent, but its meaning is clear.
+                // In some files, `ApplicationProcess` has the wrong parent element, but its meaning is clear.
                 "ApplicationProcess" => {
                     let message = "<ApplicationProcess> is not in <ProfileBody>";
                     reader.report(&codes::GSDML_VALUE, tag.name_span(), message, "read as a part of <ProfileBody>");

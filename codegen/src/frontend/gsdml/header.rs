@@ -138,7 +138,7 @@ fn version_of_name(name: &str) -> Option<&str> {
     let rest = rest.strip_suffix(".xml").or_else(|| rest.strip_suffix(".XML"))?;
     let (version, rest) = rest.split_once('-')?;
     let digits = |text: &str, count| text.len() == count && text.bytes().all(|byte| byte.is_ascii_digit());
-    // The date is the last part of the name, or the time comes after the date.
+    // The last part of the name is the date, or the time after the date.
     let (front, last) = rest.rsplit_once('-')?;
     let front = match (digits(last, 8), front.rsplit_once('-')) {
         (true, _) => front,

@@ -86,7 +86,8 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Returns the declared length of a data item, if its type needs one or the file declares one.
+    /// Returns the declared length of a data item in bytes. Reports a missing length if the data type does not define a
+    /// length.
     fn item_length(&mut self, tag: &Tag<'a>, item: &DataItem, given: &Given<'a>) -> Option<u32> {
         let length = self.unsigned(given, u16::MAX.into(), "length in bytes");
         let fixed = item.found.and_then(DataType::bytes);
@@ -174,9 +175,9 @@ struct Bit {
 struct Layout {
     fields: Vec<PdoEntry>,
     items: Vec<IoItem>,
-    /// Length of the fields in bits so far.
+    /// Length in bits of the fields that were added so far.
     at: u32,
-    /// Number of bytes at the end that are not user data.
+    /// Number of bytes at the end of the data that are not user data.
     overhead: u32,
     /// Positions and origins of the PROFIsafe trailers in `items`.
     trailers: Vec<(usize, Origin)>,

@@ -1,4 +1,4 @@
-//! Identifiers of elements, and references to them. A reference may come before its element.
+//! Identifiers of elements, and references to these elements. A reference may come before the element.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -75,7 +75,7 @@ impl<'a> Links<'a> {
         self.submodules.push((owner, target, places));
     }
 
-    /// Adds a reference that is only checked, because the IR does not resolve it.
+    /// Adds a reference whose target must exist, but that the IR does not resolve.
     pub fn mention(&mut self, kind: ElementKind, target: &Given<'a>) {
         self.others.push((kind, target.clone()));
     }

@@ -11,7 +11,7 @@ use crate::syntax::xml::Tag;
 /// Contents of a `ModuleInfo` element.
 #[derive(Default)]
 pub(super) struct Info<'a> {
-    /// Placeholder for the name.
+    /// Placeholder for the name of the module, submodule or device.
     pub name: CompactString,
     pub documentation: Option<Box<Documentation>>,
     pub vendor: Given<'a>,

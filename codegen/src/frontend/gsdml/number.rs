@@ -74,7 +74,7 @@ impl<'a> Reader<'a, '_> {
         self.ident(given, u32::MAX, "ident number").unwrap_or(0)
     }
 
-    /// Reads a list of numbers and ranges such as `1..3 7`. Reports and ignores all other parts.
+    /// Reads a list of numbers and ranges such as `1..3 7`. Reports and ignores invalid parts of the list.
     pub fn numbers(&mut self, given: &Given<'_>) -> Numbers {
         let mut list = SmallVec::new();
         let mut broken = None;
@@ -117,7 +117,7 @@ pub(super) fn tokens(text: &str) -> impl Iterator<Item = &str> {
     text.split(';').map(str::trim).filter(|token| !token.is_empty())
 }
 
-/// Reads a list of 32-bit numbers and ranges. Returns `None` if a part is neither.
+/// Reads a list of 32-bit numbers and ranges. Returns `None` if a part is neither a number nor a range.
 pub(super) fn wide_ranges(text: &str) -> Option<Vec<(i128, i128)>> {
     let number = |text: &str| text.parse::<u32>().ok().map(i128::from);
     let range = |part: &str| match part.split_once("..") {

@@ -14,11 +14,11 @@ pub(super) type Reader<'a, 'd> = xml::Reader<'a, 'd, Gsdml<'a>>;
 /// State of the GSDML reader in addition to that of the XML reader.
 #[derive(Default)]
 pub(super) struct Gsdml<'a> {
-    /// References to texts, which are at the end of the file.
+    /// References to the texts at the end of the file.
     pub texts: TextReferences<'a>,
     /// Types that were added to the catalog.
     pub types: Types<'a>,
-    /// Identifiers of elements, and references to them.
+    /// Identifiers of elements, and references to these elements.
     pub links: Links<'a>,
     /// Buffer for the parameters of a record, which is reused for each record.
     pub items: Vec<Item>,

@@ -19,7 +19,7 @@ impl<'a> Reader<'a, '_> {
                 _ => self.unknown(&tag)?,
             }
         }
-        // The sequence number 0 means any order, so these records come last.
+        // Records with the sequence number 0 may be transferred in any order, so they come last.
         let order = |group: &Group| match &group.kind {
             GroupKind::Record(record) if record.transfer_sequence > 0 => record.transfer_sequence,
             _ => u16::MAX,
@@ -67,7 +67,7 @@ impl<'a> Reader<'a, '_> {
         while let Some(tag) = self.child(parent)? {
             match tag.name {
                 "Ref" => {
-                    // The item is filled in the list to avoid a copy of the large struct.
+                    // The large struct is filled after it was added to the list, which avoids a copy.
                     items.push(Item::new(Binding::Record { index: record.index, bit_offset: 0, bits: 0 }));
                     if let Some(item) = items.last_mut() {
                         self.parameter(&tag, record.index, item)?;
@@ -83,7 +83,7 @@ impl<'a> Reader<'a, '_> {
                 _ => self.unknown(&tag)?,
             }
         }
-        // Items are large, so the group reserves only the exact length.
+        // Items are large, so the group reserves memory only for the exact number of items.
         group.items.reserve_exact(items.len());
         group.items.append(&mut items);
         self.format.items = items;

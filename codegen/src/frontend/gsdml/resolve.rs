@@ -116,7 +116,8 @@ pub(super) struct Resolver<'a, 'd> {
     pub diagnostics: &'d mut Diagnostics,
     /// Texts with a suffix, by text identifier and suffix.
     suffixed: HashMap<(Cow<'a, str>, CompactString), (CompactString, Texts)>,
-    /// Numbers of the missing references that were reported. Several elements of the IR may have the same reference.
+    /// Numbers of the references whose missing texts were reported. Several elements of the IR may have the same
+    /// reference.
     missing: HashSet<usize>,
     /// Remaining number of text bytes that may be copied.
     budget: usize,
@@ -184,8 +185,8 @@ impl<'a, 'd> Resolver<'a, 'd> {
         self.spend_at(length, given.span)
     }
 
-    /// Subtracts `length` bytes from the budget for copied texts. Returns false if the budget is too small, and reports
-    /// this once.
+    /// Subtracts `length` bytes from the budget for copied texts. Returns false if the budget is too small. Only the
+    /// first excess of the budget is reported.
     pub fn spend_at(&mut self, length: usize, span: Span) -> bool {
         if let Some(rest) = self.budget.checked_sub(length) {
             self.budget = rest;

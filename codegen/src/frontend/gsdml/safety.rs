@@ -47,8 +47,8 @@ static KNOWN: [Known; 12] = [
         ("2-Byte-CRC", 1),
         ("4-Byte-CRC", 2),
     ]),
-    // GSDML defines one seed, which is a cleared bit. The checksums that vendors declare for their default values prove
-    // this.
+    // GSDML defines one value of `F_CRC_Seed`, which is a cleared bit in the record. Only with a cleared bit, the
+    // checksums that vendors declare for their default values are correct.
     known("F_CRC_Seed", "CRC-Seed24/32", "CRC-Seed24/32", false).optional().labels(&[("CRC-Seed24/32", 0)]),
     known("F_Passivation", "Device/Module", "Device/Module", false)
         .optional()

@@ -128,7 +128,7 @@ impl<'a> Reader<'a, '_> {
         settings: Option<&mut ProfinetSettings>,
         submodule: &mut Submodule,
     ) -> Read<()> {
-        // The element of a further interface becomes attributes of the submodule.
+        // The `ApplicationRelations` element of a further interface becomes attributes of the submodule.
         let Some(settings) = settings.filter(|settings| settings.startup_modes.is_empty()) else {
             return self.keep_as_attributes(parent, &mut submodule.attributes);
         };

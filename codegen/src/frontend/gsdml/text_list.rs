@@ -23,8 +23,8 @@ pub(super) struct TextList<'a> {
     primaries: usize,
     languages: Vec<CompactString>,
     seen: HashMap<CompactString, Span>,
-    /// Position of the entry that the next text or reference probably belongs to. All languages and most references
-    /// have the same order.
+    /// Position of the entry that the next text or reference probably belongs to. The texts of all languages and most
+    /// references have the same order.
     next: usize,
 }
 
@@ -35,13 +35,13 @@ struct Entry<'a> {
     primary: Option<Cow<'a, str>>,
     /// Positions of the first and the last translation.
     translations: Option<(usize, usize)>,
-    /// Text with its translations, which the first reference creates.
+    /// Text with its translations, created when the first reference is resolved.
     finished: Option<(CompactString, Texts)>,
 }
 
 struct Translation<'a> {
     language: usize,
-    /// Span of the text identifier in the list of the language.
+    /// Span of the text identifier in the text list of the translation's language.
     span: Span,
     text: Cow<'a, str>,
     next: Option<usize>,
@@ -157,8 +157,8 @@ impl<'a> TextList<'a> {
             .label("the primary language is used instead");
         let last = |entry: &Entry<'a>| entry.translations.and_then(|(_, last)| self.translations.get(last));
         let translated = |entry: &Entry<'a>| last(entry).is_some_and(|last| last.language == language);
-        // The search covers only as many entries as the language has texts. A file may have many languages with one
-        // text each.
+        // The search covers only one entry more than the language has texts, because a file may have many languages
+        // with one text each.
         let mut near = self.entries.iter().take(count + 1);
         if let Some(first) = near.find(|entry| entry.primary.is_some() && !translated(entry)) {
             diagnostic = diagnostic.note_at(first.span, "first text without a translation");
@@ -246,7 +246,7 @@ fn read_text<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option<Text
         reader.unknown(tag)?;
         return Ok(None);
     }
-    // Blanks around a text belong to the text.
+    // Leading and trailing blanks belong to the text.
     let [id, value] = reader.attributes_with_blanks(tag, ["TextId", "Value"])?;
     reader.no_children(tag)?;
     if !reader.require(tag, &id, "TextId", "left out because references need an ID") {

@@ -1,4 +1,4 @@
-//! References to texts, which are at the end of a file.
+//! References to the texts at the end of a file.
 //!
 //! Before the text list is read, a name in the IR is a placeholder: the number of a reference. A blank and a suffix may
 //! follow the number. `resolve` replaces placeholders with texts.

@@ -113,7 +113,7 @@ fn less(a: &Value, b: &Value) -> bool {
     }
 }
 
-/// Adds a range to the allowed values. The first range becomes only the minimum and maximum.
+/// Adds a range to the allowed values. A single range is stored only as the minimum and the maximum.
 fn add(limits: &mut Limits, first: Value, last: Value) {
     let (Some(low), Some(high)) = (&mut limits.low, &mut limits.high) else {
         (limits.low, limits.high) = (Some(first), Some(last));

@@ -111,7 +111,7 @@ mod schema {
         }
     }
 
-    /// Implements JSON Schemas that are inserted at each use.
+    /// Implements a JSON Schema that is inserted at each use of the type.
     macro_rules! inline {
         ($($name:ident $prefix:literal $inner:ident $schema:tt)*) => {$(
             impl<T: JsonSchema> JsonSchema for $name<T> {

@@ -247,7 +247,7 @@ impl Rows {
         let unit = self.unit(space);
         if let (Some(last), Some(bits), 0) = (last, bits, number) {
             let (printed, needed) = ((last - first).saturating_add(1), bits.div_ceil(unit));
-            // The printed range may be that of the first item or that of all items.
+            // The printed range of register numbers may cover only the first item, or all items.
             let all = repeat.step.saturating_mul(repeat.count - 1).saturating_add(needed);
             if ![needed, all, repeat.step.saturating_mul(repeat.count)].contains(&printed) {
                 let of_all =
@@ -272,7 +272,7 @@ impl Rows {
         })
     }
 
-    /// Returns the first bit of `part`, the bits of a register that contain the value.
+    /// Returns the first bit of the key `part`, which names the bits of a register that contain the value.
     fn part(&self, reader: &mut Reader<'_, '_>, part: &At<NumberOrText>, bits: Option<u32>, unit: u32) -> Option<u8> {
         let text = part.value.to_string();
         let Some((offset, count)) = notation::bits(&text) else {
@@ -348,7 +348,7 @@ impl Rows {
         found.and(self.buses)
     }
 
-    /// Returns the buses of the object of a row. Reports a row without a bus that has objects.
+    /// Returns the buses on which the object of a row exists. Reports a row that exists on neither CANopen nor EtherCAT.
     pub(super) fn object_buses(&self, reader: &mut Reader<'_, '_>, row: &Row, at: &At<impl Clone>) -> ObjectBuses {
         let objects = self.buses_of(reader, row).with_objects();
         if Buses::from(objects).is_empty() {

@@ -91,7 +91,7 @@ fn printed_cells(reader: &Reader<'_, '_>, cells: &[At<Literal>]) -> Vec<CompactS
     cells.iter().map(text).collect()
 }
 
-/// First code for each combination of cells.
+/// First code with each combination of cells.
 #[derive(Default)]
 struct Distinct<'t>(HashMap<Vec<Cell<'t>>, &'t At<String>>);
 

@@ -53,7 +53,7 @@ struct About<'t> {
 }
 
 impl Definitions {
-    /// Returns the type of a named definition over the integer type `base`. Reports a name without a definition.
+    /// Returns the type of a named definition with the underlying integer type `base`. Reports a name without a definition.
     pub fn named(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -109,7 +109,7 @@ impl Definitions {
     /// Returns the basic type of a bit field, an enumeration or an alias.
     pub fn underlying(&self, ty: Type) -> Type {
         let mut ty = ty;
-        // Definitions form no cycle: each refers to earlier ones.
+        // The types form no cycle, because each type refers only to earlier types.
         while let Type::Named(TypeId(id)) = ty {
             match self.types.get(id as usize).map(|def| &def.shape) {
                 Some(Shape::Alias(base) | Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => ty = *base,
@@ -137,7 +137,7 @@ impl Definitions {
         let enums = self.enums.names().map(|name| (DefinitionKind::Enumeration, name.clone()));
         let all: Vec<_> = enums.chain(self.bits.names().map(|name| (DefinitionKind::Bits, name.clone()))).collect();
         for (kind, name) in all {
-            // The creation of another definition may have created this type.
+            // The type may already exist, because another definition refers to it.
             if !self.made.contains_key(&(kind, name.value.clone())) {
                 let base = self.base(reader, kind, &name.value).unwrap_or(Type::Unsigned(16));
                 self.named(reader, kind, &name, base);
@@ -366,8 +366,7 @@ impl Definitions {
     }
 }
 
-/// Returns the first bit and the number of bits that a key names. The key may also be the address of a byte with bits in this
-/// byte.
+/// Returns the first bit and the number of bits that a key names. A key such as `0x221:3-2` names bits in the byte at an address.
 fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, base: Type, first: Option<u32>) -> Option<(u8, u8)> {
     let Some((byte, bits)) = key.value.split_once(':') else {
         let found = notation::bits(&key.value);
@@ -394,7 +393,7 @@ fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, base: Type, first:
         let found = Diagnostic::new(&codes::BIT_OUTSIDE_TYPE, reader.span(key), message);
         reader.diagnostics.push(found.label("left out"));
     }
-    // An integer has at most 64 bits.
+    // The result fits `u8` because an integer has at most 64 bits.
     Some((number?.saturating_mul(8).saturating_add(offset), bits))
 }
 
@@ -427,7 +426,7 @@ fn zone_name(zone: Zone) -> &'static str {
     }
 }
 
-/// Reports a name that contains a placeholder such as `{n}` without a value.
+/// Reports a name with a placeholder such as `{n}` for which there is no value.
 pub(super) fn unfilled(reader: &mut Reader<'_, '_>, key: &At<String>, name: Option<&str>) {
     if let Some(name) = name.filter(|name| name.contains('{')) {
         let message = format!("the placeholder in the name `{}` has no value", brief(name));
@@ -436,7 +435,7 @@ pub(super) fn unfilled(reader: &mut Reader<'_, '_>, key: &At<String>, name: Opti
     }
 }
 
-/// Returns the integer type called `name`. Reports any other name.
+/// Returns the integer type called `name`. Reports a name that is not an integer type.
 pub(super) fn integer(reader: &mut Reader<'_, '_>, name: &At<String>) -> Option<Type> {
     let ty = types::named(&name.value).filter(|named| named.elements.is_none()).map(|named| named.ty);
     let integer = ty.filter(|ty| matches!(ty, Type::Unsigned(_) | Type::Integer(_)));

@@ -1,5 +1,5 @@
-//! Types of the register table format. `dictionaries/README.md` explains the keys to authors of tables. The doc comments become
-//! descriptions in the JSON Schema.
+//! Types of the register table format. `dictionaries/README.md` explains the keys to authors of tables. The doc comments of the
+//! types become descriptions in the JSON Schema.
 
 use std::fmt;
 
@@ -78,13 +78,13 @@ macro_rules! table {
     ({ meaning $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// Definition of the bits, or a name of `[bits]`.
+            /// Definition of the bits, or the name of a definition in `[bits]`.
             #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS)))]
             pub bits: Option<At<TextOr<BitEntries>>>,
-            /// Definition of the values, or a name of `[enums]`.
+            /// Definition of the values, or the name of a definition in `[enums]`.
             #[cfg_attr(test, schemars(transform = schema::keys(schema::VALUES)))]
             pub values = "enum": Option<At<TextOr<ValueEntries>>>,
-            /// Symbol of the unit, or a name of `[units]`.
+            /// Symbol of the unit, or the name of a unit in `[units]`.
             pub unit: Option<At<String>>,
             /// Scale factor (physical value = raw value × scale + offset), or another rule that converts raw values.
             pub scale: Option<At<Scaling>>,
@@ -173,13 +173,13 @@ macro_rules! table {
     };
 }
 
-/// Values of a condition, and the bits that it compares.
+/// Values that fulfill a condition, and the bits that the condition compares.
 #[derive(Clone, Debug)]
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(untagged))]
 pub enum ConditionValues {
     /// Values of the whole item.
     Values(OneOrMany<Literal>),
-    /// Values of some of its bits.
+    /// Values of some bits of the item.
     Bits(ConditionTable),
 }
 
@@ -192,7 +192,7 @@ impl Default for ConditionValues {
 /// Required values of other items, by item name.
 pub type Conditions = Entries<ConditionValues>;
 
-/// Creates a row from an image field or message field, with the keys that both have.
+/// Creates a row from an image field or message field, with the keys that rows and fields have in common.
 macro_rules! field_row {
     ($field:ident) => {
         Row {
@@ -219,10 +219,10 @@ pub(super) use field_row;
 /// Text, or a list of texts.
 pub type Words = OneOrMany<String>;
 
-/// Bits by position: a name, a definition, or several meanings.
+/// Bits by position, each with a name, a definition, or several meanings.
 pub type BitEntries = Entries<OneOrMany<TextOr<BitTable>>>;
 
-/// Values by number: a name or a definition.
+/// Values by number, each with a name or a definition.
 pub type ValueEntries = Entries<TextOr<ValueTable>>;
 
 /// Number or text.
@@ -254,13 +254,13 @@ pub enum FlagOrText {
     Text(String),
 }
 
-/// Scale factor, or the rule for it.
+/// Scale factor, or another rule that converts raw values.
 #[derive(Clone, Debug)]
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(untagged))]
 pub enum Scaling {
-    /// physical = raw × factor.
+    /// Scale factor: physical value = raw value × factor.
     Factor(f64),
-    /// Another rule.
+    /// Any other rule that converts raw values.
     Rule(Box<ScaleRule>),
 }
 
@@ -269,7 +269,7 @@ tables! {
     pub struct ScaleRule {
         /// Physical value of 1 LSB.
         pub factor: Option<f64>,
-        /// Physical value of raw 0.
+        /// Physical value of the raw value 0.
         pub offset: Option<f64>,
         /// Item by whose value the raw value is divided.
         pub by: Option<At<String>>,
@@ -480,7 +480,7 @@ tables! {
         pub parameter: Option<FlagOr<ParameterMessages>>,
         /// Whether `reg` is an address in the memory of an EtherCAT slave controller.
         pub esc: bool,
-        /// Window through which the driver accesses the value, or several windows.
+        /// Window through which the driver accesses the registers of the space, or a list of windows.
         pub indirect: Option<OneOrMany<IndirectRule>>,
     }
 
@@ -536,7 +536,7 @@ tables! {
 
     /// Window: items through which the driver accesses the registers of a space.
     pub struct IndirectRule {
-        /// Buses on which the window exists. Default: all buses of its items.
+        /// Buses on which the window exists. Default: all buses of the items in the window.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
         /// Register numbers for which the window is valid, such as `"0x8000..0x8FFF"`. Default: all numbers.
@@ -545,17 +545,17 @@ tables! {
         pub add: Option<i64>,
         /// Item to which the driver writes the register number.
         pub write_address: Option<At<String>>,
-        /// Item through which the driver reads the value, or a table.
+        /// Item through which the driver reads the value, or a table with further keys.
         pub read: Option<At<TextOr<WindowTable>>>,
-        /// Item through which the driver writes the value, or a table.
+        /// Item through which the driver writes the value, or a table with further keys.
         pub write: Option<At<TextOr<WindowTable>>>,
-        /// Whether the device resets the register number to 0 after the transfer. Default: `clears` of the item with the number.
+        /// Whether the device resets the register number to 0 after the transfer. Default: `clears` of the item that receives the number.
         pub clears: Option<bool>,
         /// Time in ms that the transfer takes, if the device does not reset the register number.
         pub wait: Option<u32>,
         /// Maximum time in ms until the device resets the register number.
         pub timeout: Option<u32>,
-        /// Procedure that describes the sequence.
+        /// Procedure that describes the access sequence.
         pub procedure: Option<At<String>>,
     }
 
@@ -574,7 +574,7 @@ tables! {
         pub wait: Option<u32>,
         /// Maximum time in ms until the device resets the register number.
         pub timeout: Option<u32>,
-        /// Procedure that describes the sequence.
+        /// Procedure that describes the access sequence.
         pub procedure: Option<At<String>>,
     }
 
@@ -606,7 +606,7 @@ tables! {
         /// Access rights of the slave's processor to the memory of the slave controller: `ro`, `rw` or `wo`.
         #[cfg_attr(test, schemars(transform = schema::words("ro rw wo")))]
         pub pdi: Option<At<String>>,
-        /// Length in bytes at `esc`. Without `esc`: length that the manual prints; the compiler compares this length with the type.
+        /// Length of the memory at `esc` in bytes. Without `esc`: length that the manual prints; the compiler compares this length with the type.
         pub length: Option<At<u16>>,
         /// Name of the item in an ASCII protocol.
         pub ascii: Option<String>,
@@ -632,17 +632,17 @@ tables! {
         pub fixed: Option<At<Literal>>,
         /// Valid values and ranges of values (`"3..7"`); all other values are invalid.
         pub allowed: Option<At<Vec<Literal>>>,
-        /// Physical value of raw 0.
+        /// Physical value of the raw value 0.
         pub offset: Option<f64>,
         /// Increment: the device rounds written raw values to multiples of this value.
         pub step: Option<At<Literal>>,
-        /// Differences on some models or buses.
+        /// Differences of the item on some models or buses.
         pub variants: Option<Vec<At<VariantTable>>>,
         /// Storage: `true` (non-volatile), `false` (volatile), or the name of the command that stores the value.
         pub save: Option<FlagOrText>,
         /// Event after which a written value takes effect, if not immediately.
         pub effective: Option<String>,
-        /// Conditions: the value is writable only while these items have one of these values.
+        /// Conditions for writing: the value is writable only while each listed item has one of its listed values.
         pub when: Option<Conditions>,
         /// Values and ranges of values that may be written (`"3..7"`).
         pub writable: Option<At<Vec<Literal>>>,
@@ -663,7 +663,7 @@ tables! {
         pub per_axis: Option<bool>,
         /// Item that contains the upper half of the number; this item contains the lower half.
         pub upper: Option<At<String>>,
-        /// Item for the same quantity in another scale; the compiler compares the default values of both items.
+        /// Item for the same quantity in another scale; the compiler compares the physical default values of both items.
         pub same_quantity: Option<At<String>>,
         /// Item that accesses the same value at another address.
         pub same_as: Option<At<String>>,
@@ -699,17 +699,17 @@ tables! {
         pub remove: Option<bool>,
     }
 
-    /// Facts that differ on some models or buses; the row contains all other facts.
+    /// Facts of an item that differ on some models or buses; the row contains all other facts.
     pub struct VariantTable: doc cite {
         /// Models to which the variant applies; `*` matches any characters.
         pub models: Option<Vec<At<String>>>,
         /// Buses to which the variant applies.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// Integer type on the buses of the variant, if it has another width there.
+        /// Integer type on the buses of the variant, if its width differs from that of the row's type.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
-        /// Access rights on the buses of the variant, if they are more restrictive there.
+        /// Access rights on the buses of the variant, if they are more restrictive than those of the row.
         #[cfg_attr(test, schemars(transform = schema::words("ro rw wo")))]
         pub access: Option<At<String>>,
         /// Valid values and ranges of values; all other values are invalid.
@@ -730,33 +730,33 @@ tables! {
     pub struct ConditionTable {
         /// Bits that the condition compares.
         pub mask: Option<u64>,
-        /// Value that these bits must have, or a list of values.
+        /// Value that the compared bits must have, or a list of values.
         pub value: Option<OneOrMany<Literal>>,
     }
 
-    /// Facts about an item in another part of the manual: in an overview, a table of contents or the text.
+    /// Summary of an item: facts in another part of the manual, such as an overview, a table of contents or the text.
     pub struct SummaryTable: cite {
-        /// Data type in that part of the manual.
+        /// Data type that the summary states.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
-        /// Access rights in that part of the manual.
+        /// Access rights that the summary states.
         pub access: Option<At<String>>,
-        /// PDO direction in that part of the manual.
+        /// PDO direction that the summary states.
         pub pdo: Option<At<String>>,
-        /// Object code in that part of the manual.
+        /// Object code that the summary states.
         #[cfg_attr(test, schemars(transform = schema::words("var array record domain")))]
         pub code: Option<At<String>>,
-        /// Name in that part of the manual.
+        /// Name that the summary states.
         pub name: Option<At<String>>,
-        /// Number of sub-indices, including sub-index 0.
+        /// Number of sub-indices that the summary states, including sub-index 0.
         pub subs: Option<At<u32>>,
-        /// Length in bytes in that part of the manual.
+        /// Length in bytes that the summary states.
         pub length: Option<At<u32>>,
-        /// Minimum in that part of the manual.
+        /// Minimum that the summary states.
         pub min: Option<At<Literal>>,
-        /// Maximum in that part of the manual.
+        /// Maximum that the summary states.
         pub max: Option<At<Literal>>,
-        /// Default value in that part of the manual.
+        /// Default value that the summary states.
         pub default: Option<At<Literal>>,
     }
 
@@ -766,7 +766,7 @@ tables! {
         pub symbol: Option<String>,
         /// Scale factor (physical value = raw value × scale + offset), or another rule that converts raw values.
         pub scale: Option<At<Scaling>>,
-        /// Physical value of raw 0.
+        /// Physical value of the raw value 0.
         pub offset: Option<f64>,
         /// Conversion of physical values to a machine unit.
         pub machine: Option<MachineUnitTable>,
@@ -774,7 +774,7 @@ tables! {
         pub orig: Option<String>,
     }
 
-    /// Machine unit: the physical value, multiplied and divided by properties of `[given]`.
+    /// Machine unit: the physical value is multiplied and divided by properties that `[given]` defines.
     pub struct MachineUnitTable {
         /// Symbol of the machine unit.
         pub unit: Option<At<String>>,
@@ -794,7 +794,7 @@ tables! {
 
     /// Enumeration: named values of an integer.
     pub struct EnumTable: orig doc cite doubt allow {
-        /// Integer type of the values; required only if no row implies it.
+        /// Integer type of the values; required only if it does not follow from a row.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub base: Option<At<String>>,
         /// Whether the device never uses an unlisted value.
@@ -814,7 +814,7 @@ tables! {
         /// Buses on which the value exists.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// Conditions: the value exists only while these items have one of these values.
+        /// Condition: the value exists only while the listed item has one of the listed values.
         pub when: Option<Conditions>,
         /// Name of the value that replaces this value.
         pub replaced_by: Option<String>,
@@ -822,7 +822,7 @@ tables! {
 
     /// Named bits and bit fields of an integer.
     pub struct BitsTable: orig doc cite doubt allow {
-        /// Integer type of the bits; required only if no row implies it.
+        /// Integer type of the bits; required only if it does not follow from a row.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub base: Option<At<String>>,
         /// Address of the byte with bits 0 to 7, if the manual counts the bits of each byte from 0 (`"0x221:3-2"`).
@@ -850,7 +850,7 @@ tables! {
         /// Edge or event that starts the command: `rising`, `falling`, `toggle` or `self_clearing`.
         #[cfg_attr(test, schemars(transform = schema::words(schema::TRIGGERS)))]
         pub trigger: Option<At<String>>,
-        /// Conditions: the bits have this meaning only while these items have one of these values.
+        /// Condition: the bits have this meaning only while the listed item has one of the listed values.
         pub when: Option<Conditions>,
         /// Access rights to the bits, if they differ from the access rights of the row.
         #[cfg_attr(test, schemars(transform = schema::words("ro rw wo const rwr rww")))]
@@ -859,13 +859,13 @@ tables! {
         pub replaced_by: Option<String>,
     }
 
-    /// Rules that derive the objects of further axes from the first axis.
+    /// Rules that derive the objects of further axes from those of the first axis.
     pub struct AxesTable: doc cite doubt {
         /// Number of axes.
         pub count: u8,
         /// Models that have this number of axes; `*` matches any characters.
         pub models: Option<Vec<At<String>>>,
-        /// Rules that derive objects; if several rules contain an object, the first one applies.
+        /// Rules that derive objects; if several rules contain an object, the first of these rules applies.
         pub rules: Vec<At<AxisRuleTable>>,
     }
 
@@ -892,7 +892,7 @@ tables! {
         /// Direction as seen from the device: `rx` or `tx`.
         #[cfg_attr(test, schemars(transform = schema::words("rx tx")))]
         pub direction: Option<At<String>>,
-        /// Entries: an object (`"0x6040:0/16"`), an item name, padding (`"pad/8"`), or a field without an object (`"? name/16"`, `"? name/i16"`).
+        /// Entries, each an object (`"0x6040:0/16"`), an item name, padding (`"pad/8"`), or a field without an object (`"? name/16"`, `"? name/i16"`).
         pub entries: Vec<At<String>>,
         /// Length in bytes that the manual prints, or a list of such lengths; the compiler compares each length with the entries.
         pub length: Option<At<OneOrMany<u32>>>,
@@ -972,11 +972,11 @@ tables! {
         pub status: Option<At<String>>,
         /// Item to which commands are written.
         pub control: Option<At<String>>,
-        /// States as bit patterns of `status`, or the name of an enumeration.
+        /// States, each with its bit pattern in the `status` item; or the name of an enumeration of the states.
         pub states: Option<At<TextOr<Entries<PatternTable>>>>,
         /// State after power-on.
         pub initial: Option<At<String>>,
-        /// Commands as bit patterns of `control`.
+        /// Commands, each with its bit pattern in the `control` item.
         pub commands: Entries<PatternTable>,
         /// Transitions between the states.
         pub transitions: Vec<At<TransitionTable>>,
@@ -986,7 +986,7 @@ tables! {
 
     /// State-command matrix: outcomes of commands by state.
     pub struct MatrixTable: doc cite doubt {
-        /// States of the columns, in order.
+        /// States of the matrix columns, in order.
         pub states: Vec<At<String>>,
         /// Notes to which cells refer, by number.
         pub notes: Entries<String>,
@@ -996,7 +996,7 @@ tables! {
 
     /// Row of a state-command matrix: outcomes of a command in each state.
     pub struct MatrixRow: doc cite doubt {
-        /// Messages or commands of the row, if its name is not one; empty if only the matrix describes the command.
+        /// Messages or commands of the row, if the key of the row is not their name; empty if only the matrix describes the command.
         pub commands: Option<Vec<At<String>>>,
         /// One outcome per state: `same`, `refused`, `?`, the next state, or `"a > b"` if `b` follows `a` automatically.
         /// Several outcomes are separated by `or`.
@@ -1009,7 +1009,7 @@ tables! {
 
     /// Cell of a state-command matrix with an outcome and further facts.
     pub struct MatrixCell: cite {
-        /// Outcome, with the same notation as in a cell without further facts.
+        /// Outcome, in the notation of a cell without further facts.
         pub to: Option<At<String>>,
         /// Number of a note of the matrix.
         pub note: Option<At<NumberOrText>>,
@@ -1021,7 +1021,7 @@ tables! {
     pub struct PatternTable: orig doc cite {
         /// Bits that belong to the pattern.
         pub mask: Option<u32>,
-        /// Value of these bits.
+        /// Value of the bits in `mask`.
         pub value: Option<u32>,
     }
 
@@ -1039,7 +1039,7 @@ tables! {
 
     /// Procedure: a sequence of steps.
     pub struct ProcedureTable: orig doc cite doubt allow {
-        /// Names of the arguments that the caller passes, and that steps write with `argument`.
+        /// Names of the arguments that the caller passes; steps write these arguments with `argument`.
         pub arguments: Vec<At<String>>,
         /// Steps of the procedure, in order.
         pub steps: Vec<At<StepTable>>,
@@ -1071,7 +1071,7 @@ tables! {
         pub mask: Option<At<u64>>,
         /// Value that the step writes or waits for.
         pub value: Option<Literal>,
-        /// Argument of the procedure that the step writes.
+        /// Procedure argument that the step writes.
         pub argument: Option<At<String>>,
         /// Maximum time in ms that the step waits for the value.
         pub timeout: Option<At<u32>>,
@@ -1104,7 +1104,7 @@ tables! {
         pub value: Option<f64>,
         /// Unit of the physical value, if it is the machine unit instead of the unit of the item.
         pub unit: Option<At<String>>,
-        /// Properties of the machine in the example (names of `[given]` with their values).
+        /// Properties of the machine in the example: names that `[given]` defines, each with a value.
         pub given: Entries<f64>,
         /// Model whose constants the example uses.
         pub model: Option<At<String>>,
@@ -1161,7 +1161,7 @@ tables! {
         pub when: Option<Conditions>,
         /// Approximate time in ms until a late reply arrives.
         pub reply_time: Option<u32>,
-        /// Message after which the reply to an identical request has this form.
+        /// Message after which the reply has this form, if several messages have identical requests.
         pub after: Option<At<String>>,
         /// Whether the reply also has this form after power-on.
         pub default: bool,
@@ -1210,9 +1210,9 @@ tables! {
         pub ty = "type": Option<At<String>>,
         /// Byte order of the value in the frame; `A` is the most significant byte.
         pub order: Option<At<String>>,
-        /// Physical value of raw 0.
+        /// Physical value of the raw value 0.
         pub offset: Option<f64>,
-        /// Named field: the value is the number of bytes from there to the end of the frame.
+        /// Name of a field: the value is the number of bytes from the named field to the end of the frame.
         pub counts: Option<At<String>>,
         /// Request field that the reply repeats; with `part`, the reply repeats only some bytes.
         pub echo: Option<At<String>>,
@@ -1220,11 +1220,11 @@ tables! {
         pub part: Option<At<NumberOrText>>,
         /// Bytes of the request that the reply repeats (`"3..5"`); byte 0 is the first data byte.
         pub copy: Option<At<NumberOrText>>,
-        /// Space whose parameter number the field contains.
+        /// Space of the parameter whose number the field contains.
         pub code: Option<At<String>>,
-        /// Space of the preceding `code` field: the field contains the value of that parameter.
+        /// Space of the preceding `code` field; the field contains the value of the parameter that the `code` field names.
         pub value_of: Option<At<String>>,
-        /// Space of the preceding `code` field: zero bytes in place of the value of that parameter.
+        /// Space of the preceding `code` field; the field contains zero bytes in place of the parameter's value.
         pub zeros_for: Option<At<String>>,
         /// Number of bytes that have no meaning.
         pub pad: Option<u8>,
@@ -1280,7 +1280,7 @@ tables! {
         pub enums: Entries<EnumTable>,
         /// Named bits and bit fields, by name.
         pub bits: Entries<BitsTable>,
-        /// Rules that derive the objects of further axes from the first axis.
+        /// Rules that derive the objects of further axes from those of the first axis.
         pub axes: Option<At<AxesTable>>,
         /// Process data objects whose entries do not follow from the default values of the mapping objects.
         pub pdos: Vec<At<PdoTable>>,

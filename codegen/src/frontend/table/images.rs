@@ -24,7 +24,7 @@ struct FieldPosition {
 
 /// Items of the images that were read so far.
 pub(super) struct Images {
-    /// Items that only images have, with one group per image.
+    /// Items that exist only in images, in one group per image.
     groups: Vec<Group>,
     /// Positions of the items of the device and of earlier images, by name. If a name is repeated, the first item counts.
     positions: HashMap<CompactString, ItemPosition>,
@@ -159,7 +159,7 @@ fn of_item(
     position(reader, &rows.definitions.types, key, field, ty)
 }
 
-/// Reads a field that defines a new item. The field is read as a row with the same keys.
+/// Reads a field that defines a new item. The field is read as a row that has the same keys.
 fn new_item(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
@@ -217,14 +217,14 @@ impl Fields {
         self.0.insert((field.bit_offset.into(), end(&field), self.0.len()), field);
     }
 
-    /// Returns whether a field is within its image and does not overlap another field. Reports the error otherwise.
+    /// Returns whether a field is within its image and does not overlap another field. Otherwise, reports an error.
     fn is_free(&self, reader: &mut Reader<'_, '_>, key: &At<String>, entry: &PdoEntry, length: u32) -> bool {
         if end(entry) > u64::from(length) * 8 {
             let message = format!("`{}` ends after the {length} bytes of its image", brief(&key.value));
             reader.report(&codes::TABLE_PLACE, reader.span(key), message);
             return false;
         }
-        // No two known fields overlap, so only the last one that begins before the end of this field can overlap it.
+        // Earlier fields do not overlap, so only the last field that begins before the end of `entry` can overlap `entry`.
         let before = self.0.range(..(end(entry), 0, 0)).next_back();
         let Some((_, other)) = before.filter(|(range, _)| u64::from(entry.bit_offset) < range.1) else { return true };
         let message = format!("`{}` overlaps `{}`", brief(&key.value), brief(&other.name));

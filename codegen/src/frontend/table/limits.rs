@@ -52,7 +52,7 @@ impl Rows {
     }
 }
 
-/// Reports a value that contradicts the rest of its row.
+/// Reports a value that contradicts other facts of its row.
 fn exclude(reader: &mut Reader<'_, '_>, span: Span, message: String) {
     let found = Diagnostic::new(&codes::DEFAULT_OUT_OF_LIMITS, span, message);
     reader.diagnostics.push(found.help(
@@ -75,7 +75,7 @@ fn default(reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, given
     item.at.default = reader.span(&literal);
 }
 
-/// Reads the default values of an array, one for each element. The item stores only the first one.
+/// Reads the default values of an array, one for each element. The item stores only the first default value.
 fn elements(
     reader: &mut Reader<'_, '_>,
     item: &mut Item,

@@ -10,8 +10,8 @@ use crate::ir::{Type, Value};
 use crate::source::Span;
 use crate::text::brief;
 
-/// Minimum number of rows that print both a register number and its object. From this number on, the lint expects an object in
-/// each row.
+/// If at least this number of rows print both a register number and its object, the lint expects an object in each row of the
+/// chapter.
 const PRINTED: usize = 3;
 
 /// Checks the digits and the value of a number against its type.
@@ -50,7 +50,8 @@ fn capital(reader: &mut Reader<'_, '_>, span: Span) {
 const DIGITS: &str =
     "compare the number and its type with the manual: a digit was doubled or lost, or the type is wrong";
 
-/// Reports a key for values that has more digits than the type of the values. Types below 8 bits are not checked.
+/// Reports the key of a value if it has more hexadecimal digits than the integer type of the values. Types of less than 8 bits
+/// are not checked.
 pub(super) fn key(reader: &mut Reader<'_, '_>, given: &At<String>, base: Type) {
     let Some(bits) = base.bits().filter(|&bits| bits >= 8) else { return };
     let needed = bits.div_ceil(4) as usize;
@@ -105,7 +106,7 @@ pub(super) fn index<T>(reader: &mut Reader<'_, '_>, given: &At<T>) {
     }
 }
 
-/// Returns a description of the wrong digits in an index or range, or `None` if the digits are correct.
+/// Returns a description of the wrong number of digits in an index or range, or `None` if the number of digits is correct.
 pub(super) fn digits_of_index<T>(reader: &Reader<'_, '_>, given: &At<T>) -> Option<String> {
     let text = reader.source.slice(reader.span(given)).trim_matches(['"', '\'']);
     let mut indices = text.split(':').next().unwrap_or_default().split("..");
@@ -143,7 +144,8 @@ impl Printed {
         Some(Printed { span: reader.span(obj), number, index, rule: rule.map(|(index, _)| index.into()) })
     }
 
-    /// Returns whether both register numbers are in one block. The objects of different blocks may have different offsets.
+    /// Returns whether both register numbers are in one block. In different blocks, the indices of objects may have different
+    /// offsets from the register numbers.
     fn is_near(&self, other: &Printed) -> bool {
         self.number.abs_diff(other.number) <= BLOCK
     }
@@ -165,7 +167,7 @@ pub(super) fn series(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)]
             _ => (after, offset(Some(at + 2))),
         };
         let (Some(expected), true) = (neighbors.0, neighbors.0 == neighbors.1) else { continue };
-        // If the neighbors follow the rule, the violation was already reported.
+        // If the neighboring rows follow the rule of the space, another check already reported the object of this row.
         let by_rule = row.rule == Some(row.number.wrapping_add(expected));
         let is_member = [at.checked_sub(1), Some(at + 1)].into_iter().flatten().filter_map(|at| printed.get(at));
         let is_member = is_member.clone().count() > 0 && is_member.into_iter().all(|other| row.is_near(other));
@@ -233,7 +235,8 @@ fn patterns(reader: &mut Reader<'_, '_>, list: &Entries<PatternTable>, what: &st
                 reader
                     .diagnostics
                     .push(found.note_at(reader.span(other_key), format!("the other {}", what.trim_end_matches('s'))));
-                // Each pattern is reported only once, because the number of pairs is quadratic.
+                // Each pattern is reported only once, because the number of pairs grows quadratically with the number of
+                // patterns.
                 break;
             }
         }

@@ -18,7 +18,7 @@ fn text(at: &At<String>) -> CompactString {
 }
 
 /// Reads a state machine. Reports transitions with unknown states or commands; a command may be a message. Returns `false` if the
-/// machine exceeds `budget`. The caller must then ignore all further machines.
+/// machine exceeds `budget`. After a return value of `false`, the caller must ignore all further machines.
 pub(super) fn machine(
     reader: &mut Reader<'_, '_>,
     name: &At<String>,

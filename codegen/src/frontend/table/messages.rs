@@ -66,7 +66,7 @@ fn spaces<'t>(
     }
 }
 
-/// Returns the end of a message in the file, including its fields and examples.
+/// Returns the byte offset at which a message ends in the file, including its fields and examples.
 fn end(table: &At<MessageTable>) -> u32 {
     let message = &table.value;
     let fields = message.request.iter().chain(&message.reply).map(|field| field.end);
@@ -179,7 +179,7 @@ fn availability(message: &MessageTable) -> Availability {
     }
 }
 
-/// Adds the names to which a message refers to the list `all`.
+/// Adds to `all` the names to which a message refers.
 fn references(message: &MessageTable, all: &mut References) {
     let messages = [&message.after, &message.error, &message.replaced_by];
     all.extend(messages.into_iter().flatten().map(|name| (name.clone(), "message")));
@@ -202,7 +202,7 @@ fn completion(
         },
         TextOr::Table(table) => match (&table.poll, table.delay) {
             (Some(item), None) => {
-                // The part after a dot is a bit of the item or field, so it is not looked up.
+                // The text after the dot names a bit of the item or field. Only the item or field is looked up.
                 let whole = item.value.split('.').next().unwrap_or_default();
                 if !replies.iter().any(|field| field == whole) {
                     let name = At { value: whole.to_owned(), start: item.start, end: item.end };
@@ -374,7 +374,7 @@ impl Fields<'_, '_, '_> {
         MessageField::Echo { field: text(echo), bytes }
     }
 
-    /// Reads a range of bytes. Returns its first and its last byte number.
+    /// Reads a range of bytes. Returns the numbers of the first and the last byte.
     fn bytes<T: TryFrom<i128> + PartialOrd>(&mut self, given: &At<NumberOrText>) -> Option<(T, T)> {
         let range = notation::range(&given.value.to_string());
         let found = range.and_then(|(first, last)| Some((T::try_from(first).ok()?, T::try_from(last).ok()?)));
@@ -387,7 +387,7 @@ impl Fields<'_, '_, '_> {
         found
     }
 
-    /// Reads a field of fixed bits: an unsigned integer type of less than 64 bits, and the value.
+    /// Reads a field of constant bits, whose type is an unsigned integer of less than 64 bits.
     fn fixed(&mut self, fixed: &At<Literal>, field: &At<FieldTable>) -> Option<MessageField> {
         let ty = field.value.ty.as_ref().and_then(|ty| types::named(&ty.value)).map(|named| named.ty);
         let Some(ty @ Type::Unsigned(bits @ 1..=63)) = ty else {
@@ -421,7 +421,7 @@ impl Fields<'_, '_, '_> {
         }
     }
 
-    /// Reads a field that contains a value. The field is read as a row with the same keys.
+    /// Reads a named message field with a data type. The field is read as a row that has the same keys.
     fn typed(&mut self, field: &At<FieldTable>, name: &At<String>) -> Option<MessageField> {
         let given = &field.value;
         let row = Row { offset: given.offset, fixed: given.fixed.clone(), ..field_row!(given) };

@@ -5,7 +5,7 @@ use super::format::{NumberOrText, Row};
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 
-/// Keys, each with whether the row has the key, and the reason why the key has no effect.
+/// Keys, each with a flag that is true if the row has the key, and with the reason why the key has no effect.
 type Misplaced<'r> = &'r [(&'r str, bool, &'r str)];
 
 /// Checks a row in `[chapters.registers]` of a register table.
@@ -99,7 +99,7 @@ fn report(reader: &mut Reader<'_, '_>, key: &At<String>, list: Misplaced<'_>) {
     }
 }
 
-/// Returns the first key of a row that describes a value. An object with sub-entries has no value.
+/// Returns the first key of a row that describes a value. An object with sub-entries does not have a value of its own.
 pub(super) fn of_value(row: &Row) -> Option<&'static str> {
     macro_rules! first {
         ($($key:literal $field:ident)*) => {

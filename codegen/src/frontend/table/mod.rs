@@ -106,8 +106,8 @@ pub fn usual_unit(text: &str) -> Option<&'static str> {
     units::usual(text)
 }
 
-/// Returns whether the format knows a unit symbol, or a product, quotient or power of known symbols such as `rev/s²`. A table
-/// defines other units in `[units]`.
+/// Returns whether the format knows a unit symbol, or a product, quotient or power of known symbols such as `rev/s²`. All other
+/// units must be defined in `[units]` of the table.
 ///
 /// ```
 /// use lexibus_codegen::frontend::table::is_unit;
@@ -409,7 +409,8 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Reads the rows of a chapter. Returns its registers as a group, and adds its objects to `dictionary`.
+/// Reads the rows of a chapter. Returns the registers of the chapter as a group, and adds the objects of the chapter to
+/// `dictionary`.
 fn chapter<'a>(
     reader: &mut Reader<'a, '_>,
     rows: &mut Rows,
@@ -462,7 +463,7 @@ fn chapter<'a>(
 /// Rows of a chapter's registers or objects, with their keys.
 type RowList = Vec<(At<String>, At<Row>)>;
 
-/// Separates the rows of a chapter from its other keys, so that an error in one row does not affect the others.
+/// Separates the rows of a chapter from its other keys, so that an error in one row does not affect the other rows.
 fn divide<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<(RowList, RowList, Node<'a>)> {
     let mut node = node;
     let span = node.span();
@@ -487,7 +488,7 @@ fn divide<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<(RowList, R
     Some((registers, objects, node))
 }
 
-/// Reports names in rows and sequences that have no definition.
+/// Reports names without a definition, in rows and sequences.
 fn resolve(reader: &mut Reader<'_, '_>, rows: &Rows, device: &Device) {
     let all = rows.references.iter().chain(&rows.definitions.mentioned);
     references::resolve(reader, all.map(|(name, what)| (name, *what)), device, &rows.numbered);

@@ -51,8 +51,8 @@ pub(super) fn mentioned(reader: &mut Reader<'_, '_>, list: &[Numbered], device: 
     if list.is_empty() {
         return;
     }
-    // Ranges sorted by first number. The end of each range is raised to the maximum of all ends before it. A number then exists
-    // if the last range that starts at or below the number includes it.
+    // The ranges are sorted by their first number. The end of each range is raised to the maximum of all ends before it. A number
+    // then exists if the last range that starts at or below the number includes it.
     let mut ranges: Vec<(u32, u32)> = list.iter().map(|item| (item.first, item.last)).collect();
     ranges.sort_unstable();
     let mut last = 0;
@@ -73,8 +73,7 @@ pub(super) fn mentioned(reader: &mut Reader<'_, '_>, list: &[Numbered], device: 
     }
 }
 
-/// Returns the register numbers in a text. A word such as `register` precedes each of them: `register 10015`, `registro
-/// 10086-87`.
+/// Returns the register numbers in a text. A word such as `register` precedes each number: `register 10015`, `registro 10086-87`.
 fn mentions(text: &str) -> impl Iterator<Item = u32> + '_ {
     const WORDS: [&str; 4] = ["register", "registers", "registro", "registri"];
     let words = text.split(|c: char| c.is_whitespace() || matches!(c, '(' | ')' | '<' | '>'));

@@ -125,7 +125,7 @@ fn head(
     dictionary.insert(index, group);
 }
 
-/// Reports a placeholder in the name of a row that has no value.
+/// Reports a placeholder in the `name` of a row, if there is no value for the placeholder.
 fn unfilled_name(reader: &mut Reader<'_, '_>, row: &Row, number: u32, sub: Option<u8>) {
     if let Some(name) = row.name.as_ref().filter(|_| number == 0) {
         super::definitions::unfilled(reader, name, Some(&notation::filled(&name.value, number, sub)));

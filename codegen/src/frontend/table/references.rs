@@ -31,7 +31,7 @@ pub(super) fn resolve<'r>(
     let known = Known::new(device);
     let mut seen = HashSet::new();
     for (name, kind) in references {
-        // The names in a unit or space occur again for each row that uses the unit or space.
+        // The names in a unit or space occur again for each row that uses the unit or space, but are checked only once.
         if !seen.insert((name.start, name.value.as_str(), kind)) {
             continue;
         }

@@ -34,7 +34,7 @@ impl Repeats {
         self.take(reader, self.defaults.iter().sum(), span)
     }
 
-    /// Returns whether a row may use a unit, because the row copies the texts of the unit.
+    /// Returns whether the budget allows a row to use a unit. The row copies the texts of the unit.
     pub fn unit(&mut self, reader: &mut Reader<'_, '_>, units: &ByName<UnitTable>, name: &str, span: Span) -> bool {
         let items = units.get(name).map_or(0, |(_, unit)| beyond(length(unit)));
         self.take(reader, items, span)

@@ -35,13 +35,13 @@ pub(super) struct Rows {
     pub numbered: Vec<Numbered>,
     /// Diagnostics that rows and definitions allow, with the spans in which they are allowed.
     pub allowed: Vec<(Span, &'static Code)>,
-    /// Statements of other sections about objects that have sub-entries, by the index of the object.
+    /// Statements of other sections of the manual about objects that have sub-entries, by the index of the object.
     pub summaries: Vec<(u16, Summaries)>,
     /// Limit for the items that rows create, and for the texts that they copy.
     pub repeats: Repeats,
 }
 
-/// Name of an item, its number among the items of its row, and the span of the row.
+/// Name of an item, its number among the items of its row, and the key and the end of the row.
 #[derive(Clone, Copy)]
 pub(super) struct Named<'k> {
     pub name: &'k str,
@@ -67,7 +67,7 @@ impl Rows {
         self.allow_in(reader, Span::new(reader.file, key.start, row.end), &row.value.allow);
     }
 
-    /// Allows the diagnostics that the key `allow` of definitions names, for their names and contents.
+    /// Allows the diagnostics that definitions name in their key `allow`, within the names and contents of these definitions.
     pub fn allow_of_definitions(&mut self, reader: &mut Reader<'_, '_>) {
         fn whole<T>(reader: &Reader<'_, '_>, name: &At<String>, entries: &Entries<T>) -> Span {
             let spans = entries.iter().map(|(key, value)| (key.start, value.end));
@@ -84,7 +84,7 @@ impl Rows {
         }
     }
 
-    /// Allows the diagnostics that the key `allow` of another element names.
+    /// Allows the diagnostics that the key `allow` of an element names, in the byte range `at`.
     pub fn allow_at(&mut self, reader: &mut Reader<'_, '_>, at: (u32, u32), names: &Option<Vec<At<String>>>) {
         self.allow_in(reader, Span::new(reader.file, at.0, at.1), names);
     }
@@ -148,7 +148,7 @@ impl Rows {
         })
     }
 
-    /// Returns the bit field or enumeration of a row over the row's integer type.
+    /// Returns the bit field or enumeration of a row, with the underlying integer type `base`.
     pub fn meaning(&mut self, reader: &mut Reader<'_, '_>, named: Named<'_>, row: &Row, base: Type) -> Option<Type> {
         let origin = reader.origin(named.key);
         if let (Some(_), Some(values)) = (&row.bits, &row.values) {
@@ -394,7 +394,7 @@ impl Rows {
             availability.replaced_by = Some(reader.reference(replaced));
             self.references.push((replaced.clone(), ITEM));
         }
-        // The addresses of an item already show its other buses.
+        // Only PROFINET and serial buses are stored, because the addresses of an item already show its other buses.
         let buses = row.buses.iter().flatten().filter_map(|bus| Bus::from_name(&bus.value)).collect::<Buses>();
         if buses.contains(Bus::Profinet) || buses.contains(Bus::Serial) {
             availability.buses = buses;
@@ -457,7 +457,7 @@ pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Bo
     documentation
 }
 
-/// Returns whether a row states that the manual names no bits or values, with `bits = ""` or `enum = ""`.
+/// Returns whether `bits = ""` or `enum = ""` in a row states that the manual names no bits or values.
 fn states_no_meaning(row: &Row) -> bool {
     matches!(&row.bits, Some(At { value: TextOr::Text(name), .. }) if name.is_empty())
         || matches!(&row.values, Some(At { value: TextOr::Text(name), .. }) if name.is_empty())

@@ -12,7 +12,7 @@ use crate::source::Span;
 const MAX_FRACTION: u8 = 63;
 
 /// Reads a scale and the separate offset. Returns `None` if raw and physical values are equal. Reports and ignores an invalid
-/// scale. If the scale has no span, the span of the row is used.
+/// scale. A diagnostic about an offset without a scale marks the span `row`.
 pub(super) fn read(
     reader: &mut Reader<'_, '_>,
     given: Option<&At<Scaling>>,

@@ -3,7 +3,8 @@
 //! The module is compiled for unit tests only, so that the compiler does not depend on `schemars`. The test below compares the
 //! schema with the file [`super::SCHEMA`].
 //!
-//! `format` derives the schema. This module adds the allowed words, the grammars of keys, and options in place of values.
+//! The types in `format` derive the schema. This module adds the allowed words, the grammars of keys, and options in place of
+//! values.
 
 use std::path::Path;
 
@@ -106,7 +107,7 @@ pub(super) fn types(schema: &mut Schema) {
     });
 }
 
-/// Allows a number or a text with this grammar. In the grammar, `#` is a number.
+/// Allows a number, or a text that matches `grammar`. In the grammar, `#` stands for a number.
 pub(super) fn notation(grammar: &'static str) -> impl FnMut(&mut Schema) {
     move |schema| {
         let grammar = format!(r"^ *({}|\$[a-z].*) *$", grammar.replace('#', NUMBER));
@@ -122,7 +123,7 @@ pub(super) fn notation(grammar: &'static str) -> impl FnMut(&mut Schema) {
     }
 }
 
-/// Allows only keys with this grammar. In the grammar, `#` is a number.
+/// Allows only keys that match `grammar`. In the grammar, `#` stands for a number.
 pub(super) fn keys(grammar: &'static str) -> impl FnMut(&mut Schema) {
     move |schema| grammar_of_keys(schema, &format!("^{}$", grammar.replace('#', NUMBER)))
 }
@@ -152,7 +153,7 @@ pub(super) const BITS: &str = r"\[?#((\.\.|-)#)?\]?";
 pub(super) const BITS_OF_BYTES: &str = r"(#:)?\[?#((\.\.|-)#)?\]?";
 pub(super) const VALUES: &str = r"[-+]?#(\.\.=?[-+]?#)?";
 
-/// Words for the names of buses.
+/// Names of the buses, separated by blanks.
 pub(super) const BUSES: &str = "canopen ethercat modbus profinet serial";
 pub(super) const PURPOSES: &str = "mailbox_out mailbox_in outputs inputs";
 pub(super) const CHECKS: &str = "xor sum lrc crc8 crc16";

@@ -215,7 +215,8 @@ impl Space {
             return None;
         };
         let bits = numbers.bits.unwrap_or(u32::from(self.bits));
-        // Coils and discrete inputs are bits. All other Modbus registers have 16 bits, even if a register number addresses more.
+        // Coils and discrete inputs are bits. All other Modbus registers have 16 bits, even if a register number addresses more
+        // bits.
         let unit = match rule.space {
             RegisterSpace::Coil | RegisterSpace::DiscreteInput => 1,
             _ => 16,
@@ -232,7 +233,7 @@ impl Space {
             low_word_first: numbers.low_word_first.unwrap_or(rule.low_word_first),
             bytes_swapped: numbers.bytes_swapped.unwrap_or(rule.bytes_swapped),
             bit_offset: numbers.bit_offset,
-            // A register number that addresses 32 bits is one address, but two Modbus registers.
+            // A register number that addresses 32 bits has one wire address, but contains two 16-bit words.
             words_per_address: if unit == 16 { (self.bits / 16).max(1) } else { 1 },
             extended,
         };

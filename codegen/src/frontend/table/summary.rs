@@ -70,7 +70,7 @@ fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, messa
     });
 }
 
-/// Compares the object code in a statement with that of the object, if the statement has one.
+/// Compares the object code in a statement with that of the object, if the statement contains an object code.
 fn code(reader: &mut Reader<'_, '_>, summary: &SummaryTable, described: ObjectCode) {
     let Some(given) = &summary.code else { return };
     let stated = reader.word(given, "object code", &OBJECT_CODES);
@@ -81,7 +81,7 @@ fn code(reader: &mut Reader<'_, '_>, summary: &SummaryTable, described: ObjectCo
     }
 }
 
-/// Compares the name in a statement, if it has one, with the names of the row in all languages. Ignores case and punctuation.
+/// Compares the name in a statement, if any, with the names of the row in all languages. Ignores case and punctuation.
 fn names(reader: &mut Reader<'_, '_>, summary: &SummaryTable, name: &str, names: &Texts) {
     let Some(given) = &summary.name else { return };
     let plain =
@@ -93,7 +93,8 @@ fn names(reader: &mut Reader<'_, '_>, summary: &SummaryTable, name: &str, names:
     }
 }
 
-/// Compares an item with a statement. Returns whether they differ. `subject` is the name of the item in messages.
+/// Compares an item with a statement. Returns whether the item and the statement differ. `subject` is the name of the item in
+/// messages.
 fn of_item(
     reader: &mut Reader<'_, '_>,
     definitions: &Definitions,
@@ -151,7 +152,8 @@ fn of_item(
     found
 }
 
-/// Compares the limits and default value in a statement with those of the item, if both have them.
+/// Compares the limits and default value in a statement with those of the item. Skips values that the statement or the item
+/// lacks.
 fn numbers(
     reader: &Reader<'_, '_>,
     summary: &SummaryTable,

@@ -36,7 +36,7 @@ pub(super) struct Reader<'a, 'd> {
     pub diagnostics: &'d mut Diagnostics,
     /// Language of the manual.
     pub language: CompactString,
-    /// Standard that the file restates; empty if the file describes a device.
+    /// Standard from which a profile was transcribed; empty if the file describes a device.
     pub standard: CompactString,
     /// Byte ranges of the elements in each list, by the byte range of the list.
     pub lists: RefCell<HashMap<ByteRange, Rc<[ByteRange]>>>,
@@ -86,7 +86,7 @@ impl<'a> Reader<'a, '_> {
                 MistakeKind::UnknownKey { .. } if attempt == MAX_UNKNOWN_KEYS => break,
                 MistakeKind::UnknownKey { key, known } => {
                     self.unknown_key(&key, known, span);
-                    // A misspelled key is read as the most similar one, to avoid follow-up errors.
+                    // A misspelled key is read as the most similar known key, to avoid follow-up errors.
                     let suggestion = similar(&key, known.iter().copied());
                     if !remove(node.get_mut(), span, &key, suggestion) {
                         return None;
@@ -132,7 +132,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Reports a key that the table does not have.
+    /// Reports a key that the format does not define for the table.
     pub fn unknown_key(&mut self, key: &str, known: &[&str], span: Span) {
         let message = format!("unknown key `{}`", brief(key));
         let diagnostic = Diagnostic::new(&codes::UNKNOWN_TABLE_KEY, span, message);
@@ -263,7 +263,7 @@ impl<'a> Reader<'a, '_> {
         let text = doc.unwrap_or_default().to_owned();
         let (cite, text_from) = match self.standard.as_str() {
             "" => (cite.map(CompactString::from), None),
-            // An element that cites no clause is part of an element that cites one.
+            // An element that cites no clause is part of an element that cites a clause.
             standard => (None, cite.map(|clause| FactOrigin::Standard(standard_and_clause(standard, &clause).into()))),
         };
         Some(Box::new(Documentation { text, cite, text_from: text_from.map(Box::new), ..Documentation::default() }))
@@ -285,7 +285,7 @@ impl<'a> Reader<'a, '_> {
         self.doubts(table.doubt_tables(), origin, table.cited().as_deref())
     }
 
-    /// Returns the ambiguities that a table contains, marked as those of an element of the device.
+    /// Returns the ambiguities that a table contains, marked as ambiguities of an element of the device.
     pub fn doubts_about(
         &mut self,
         table: &impl Doubted,
@@ -318,7 +318,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// Marks ambiguities as those of an element of the device.
+/// Marks ambiguities as ambiguities of an element of the device.
 pub(super) fn about(doubts: Doubts, kind: SubjectKind, name: &str, element: &str) -> Doubts {
     let subject = Subject { kind, name: name.into(), element: element.into() };
     let about = |doubt| Doubt { subject: Some(Box::new(subject.clone())), ..doubt };
@@ -361,7 +361,8 @@ fn first_line(message: &str) -> &str {
     message.lines().next().unwrap_or_default()
 }
 
-/// Removes the key at `span` from `value` and the tables in it, or renames it to `suggestion`. Returns whether the key was found.
+/// Removes the key at `span` from `value` or a table in `value`, or renames the key to `suggestion`. Returns whether the key was
+/// found.
 fn remove(value: &mut DeValue<'_>, span: Span, key: &str, suggestion: Option<&str>) -> bool {
     match value {
         DeValue::Table(table) => {

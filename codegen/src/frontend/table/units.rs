@@ -66,7 +66,7 @@ pub(super) fn usual(text: &str) -> Option<&'static str> {
     ];
     let lower = text.to_lowercase();
     let known = SPELLINGS.iter().find(|(_, spellings)| spellings.contains(&lower.as_str()));
-    // The case of these symbols can be ignored, because the lower-case forms are not other units.
+    // The case of these symbols can be ignored, because no lower-case form is the symbol of another unit.
     let cased = ["V", "A", "W", "kW", "kWh", "Wh", "kV", "mV", "mA", "kVA", "VA", "Hz", "kHz", "var", "bar", "Nm"];
     let cased = || cased.into_iter().find(|symbol| symbol.to_lowercase() == lower && !matches!(text, "a" | "mw"));
     known.map(|&(symbol, _)| symbol).or_else(cased)

@@ -126,7 +126,7 @@ pub(super) fn integer(value: i128, ty: Type, is_pattern: bool) -> i128 {
     }
 }
 
-/// Returns the value of a number. A bit pattern is negative if its sign bit is set.
+/// Returns the signed value of a number. A bit pattern is negative if its sign bit is set.
 fn signed(value: i128, bits: u8, is_pattern: bool) -> i128 {
     let modulus = 1i128 << bits.min(64);
     if is_pattern && value >= modulus / 2 && value < modulus {

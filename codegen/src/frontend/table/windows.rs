@@ -111,7 +111,7 @@ pub(super) fn references(tables: &Entries<SpaceTable>) -> References {
     found
 }
 
-/// Returns the windows through which the register number `first` of the space is accessed on these buses.
+/// Returns the windows through which the register number `first` of the space is accessed on `buses`.
 pub(super) fn bindings<'w>(
     space: &'w str,
     windows: &'w [Window],

@@ -1,4 +1,4 @@
-//! Words of tables for access rights, directions of PDOs and object codes.
+//! Words for access rights, PDO directions and object codes in register tables.
 
 use crate::ir::{Access, Mappable, ObjectCode};
 

@@ -76,7 +76,7 @@ pub(super) struct Unit<'a> {
     pub texts: Texts<'a>,
 }
 
-/// Parameter with its template. Facts of the parameter take precedence.
+/// Parameter with its template. Facts of the parameter take precedence over those of the template.
 #[derive(Clone, Copy)]
 pub(super) struct View<'p, 'a> {
     /// Position in the list of parameters.
@@ -102,7 +102,8 @@ impl<'p, 'a> View<'p, 'a> {
         self.parameter.and_then(&fact).or_else(|| self.template.and_then(&fact))
     }
 
-    /// Returns the labels and descriptions of the parameter. If either is missing, returns that of the template.
+    /// Returns the labels and descriptions of the parameter. If the labels or the descriptions are missing, returns
+    /// those of the template.
     pub fn texts(&self) -> Texts<'a> {
         let has = |names: &&'p Names<'a, Lang>| !names.is_empty();
         let labels = self.find(|parameter| Some(&parameter.texts.labels).filter(has));

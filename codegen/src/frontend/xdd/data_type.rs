@@ -36,7 +36,7 @@ impl<'a> TypeRef<'a> {
     }
 }
 
-/// Data type as in the file.
+/// Data type as written in the file.
 pub(super) struct RawType<'a> {
     pub name: CompactString,
     pub texts: Texts<'a>,
@@ -83,7 +83,7 @@ fn basic(name: &str) -> Option<Type> {
     })
 }
 
-/// Returns an enumeration value with the name and documentation in its labels.
+/// Returns an enumeration value whose name and documentation come from `texts`.
 pub(super) fn enum_value(value: i128, texts: &Texts<'_>) -> EnumValue {
     let name = texts.labels.name();
     let (names, documentation) = (texts.labels.except(&name), texts.descriptions.documentation());

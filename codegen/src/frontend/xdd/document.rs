@@ -99,7 +99,7 @@ fn body<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Profil
             return Err(powerlink(*span));
         }
         if !kind.contains("canopen") {
-            // The profile is for another technology, so its contents become extensions.
+            // The profile is for a technology other than CANopen, so its contents become extensions.
             return reader.keep(parent);
         }
         profiles.canopen_seen = true;

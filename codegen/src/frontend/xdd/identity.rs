@@ -56,7 +56,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &m
             "orderNumber" => order_number(reader, &tag, device)?,
             "vendorID" => number(reader, &tag, &mut device.identity.vendor_id)?,
             "productID" => number(reader, &tag, &mut device.identity.product_code)?,
-            // A schema in use misspells the name as `revisionNumer`.
+            // A schema that some tools use misspells this name as `revisionNumer`.
             "revisionNumber" | "revisionNumer" => number(reader, &tag, &mut device.identity.revision_number)?,
             "version" => {
                 let kind = reader.attribute(&tag, "versionType")?;
@@ -97,8 +97,8 @@ fn order_number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Dev
     Ok(())
 }
 
-/// Reads a decimal number or a number with the prefix `0x`. Other ISO 15745 profiles have texts in these elements,
-/// which become extensions.
+/// Reads a decimal number or a number with the prefix `0x`. In other ISO 15745 profiles, the element may contain a
+/// text, which becomes an extension.
 fn number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, number: &mut Option<u32>) -> Read<()> {
     let given = reader.text(tag)?;
     if given.is_missing() {
@@ -117,7 +117,7 @@ fn number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, number: &mut Option<u3
     Ok(())
 }
 
-/// Reads a number of the identity. Eight digits without a prefix are a 32-bit hexadecimal number (`hexBinary`).
+/// Reads a number of the device identity. Eight digits without a prefix are a 32-bit hexadecimal number (`hexBinary`).
 fn parse(given: &Given<'_>) -> Option<i128> {
     let text = given.text.as_ref();
     if text.len() == 8 && text.bytes().all(|byte| byte.is_ascii_hexdigit()) {

@@ -78,12 +78,13 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             };
             let defined = self.codes.get(&number).copied();
             let ty = object::type_by_code(number, given.span, defined, self.reader.diagnostics);
-            // The parameter's type is used if it is an enumeration over the type of the object.
+            // The type of the parameter is used if it is based on the type of the object, for example as an
+            // enumeration.
             let named = parameter.map(|parameter| self.application.resolve(self.reader, parameter));
             return named.filter(|&named| named != ty && underlying(&self.types, named) == ty).or(Some(ty));
         }
         item.at.ty = parameter.map_or(raw.origin.span, |parameter| parameter.span());
-        // IEC 61131-3 has no type for a DOMAIN, so the parameter declares a different type.
+        // IEC 61131-3 has no type for a DOMAIN, so the parameter declares a different type, which is ignored.
         if code == ObjectCode::Domain {
             return Some(Type::Domain);
         }
@@ -182,7 +183,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Returns an enumeration for allowed values that all have labels. Otherwise returns `ty`.
+    /// Returns an enumeration of the allowed values if all of them have labels, otherwise `ty`.
     fn enumeration(&mut self, ty: Type, view: &View<'p, 'a>, allowed: Option<&'p Allowed<'a>>) -> Type {
         let (Some(allowed), Some(position)) = (allowed, view.position) else { return ty };
         let labeled = allowed.ranges.is_empty() && allowed.values.iter().all(|(_, texts)| !texts.labels.is_empty());
@@ -208,7 +209,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         Type::Named(id)
     }
 
-    /// Sets the limits of an item. If the object has no limits, the allowed values of the parameter determine them.
+    /// Sets the limits of an item. If the object has no limits, the allowed values of the parameter determine the
+    /// limits of the item.
     fn limits(&mut self, raw: &Raw<'a>, ty: Type, allowed: Option<&'p Allowed<'a>>, item: &mut Item) {
         let attribute = |key| raw.get(key);
         (item.at.low, item.at.high) = (span_of(attribute(Key::LowLimit)), span_of(attribute(Key::HighLimit)));
@@ -309,7 +311,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     }
 }
 
-/// Stores the exact list of allowed values as an extension. The limits contain only its minimum and maximum.
+/// Stores the exact list of allowed values as an extension. The limits of the item contain only the minimum and the
+/// maximum of this list.
 fn keep_allowed(allowed: &Allowed<'_>, extensions: &mut Extensions) {
     let text = |given: Option<&Given<'_>>| given.map_or_else(String::new, |given| given.text.to_string());
     let range = |range: &AllowedRange<'_>| format!("{}..{}", text(range.low.non_empty()), text(range.high.non_empty()));

@@ -4,11 +4,11 @@
 //! network profile contains the object list, bit rates and network management.
 //!
 //! An object either contains all of its facts, or refers to a parameter of the application process, which may come
-//! later in the file. [`read`] therefore reads the file once and records only the positions of the objects. It then
-//! reads the objects in the order of their indices.
+//! later in the file. [`read`] therefore reads the file once and records only the positions of the objects. The objects
+//! are then read in the order of their indices.
 //!
-//! The IR is the same as for an EDS file of the device. Versions 1.0 and 1.1 differ only in the namespace, and in the
-//! object attributes that a parameter may supply. The front end reads both versions in the same way.
+//! The IR is the same as for an EDS file of the device. The CiA 311 versions 1.0 and 1.1 differ only in the namespace,
+//! and in the object attributes that a parameter may supply. The front end reads both versions in the same way.
 //!
 //! | file | subject |
 //! |---|---|

@@ -98,7 +98,7 @@ pub(super) fn transport_layers<'a>(
 ) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            // Some files omit the `PhysicalLayer` element.
+            // `PhysicalLayer` is optional because some files omit this element around `baudRate`.
             "PhysicalLayer" => transport_layers(reader, &tag, canopen)?,
             "baudRate" => baud_rate(reader, &tag, canopen)?,
             _ => reader.unknown(&tag)?,

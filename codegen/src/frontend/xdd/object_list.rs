@@ -13,7 +13,7 @@ pub(super) struct ObjectList(pub Vec<(u16, Origin)>);
 impl ObjectList {
     /// Reads the indices and positions of the objects in a `CANopenObjectList` element, and skips their content.
     pub fn read<'a>(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
-        // These attributes contain the numbers of objects, which are redundant.
+        // These attributes contain counts of objects, which are redundant.
         reader.attributes(parent, ["mandatoryObjects", "optionalObjects", "manufacturerObjects"])?;
         while let Some(tag) = reader.child(parent)? {
             match tag.name {

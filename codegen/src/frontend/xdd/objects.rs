@@ -271,8 +271,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         group.items.insert(0, item);
     }
 
-    /// Stores attributes that have no meaning for this object as extensions, except a PDO mapping of `no` or a count of
-    /// `0`.
+    /// Stores attributes as extensions if they have no meaning for the object, except a PDO mapping of `no` and a count
+    /// of `0`.
     fn unused(&mut self, raw: &Raw<'a>, keys: &[Key], extensions: &mut Extensions) {
         for &key in keys {
             let Some(given) = raw.get(key) else { continue };
@@ -306,7 +306,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     }
 
     /// Subtracts `weight` bytes from the budget for copies of the application process. Returns false if the budget is
-    /// too small; only the first refusal is reported.
+    /// too small; only the first excess of the budget is reported.
     pub(super) fn charge(&mut self, weight: usize, span: Span) -> bool {
         if let Some(left) = self.copies_left.checked_sub(weight) {
             self.copies_left = left;
@@ -344,7 +344,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         self.reader.hex(raw.field(Key::ObjFlags), u32::MAX, "value of objFlags").unwrap_or(0)
     }
 
-    /// Returns the type of a sub-object as a component of the object's type.
+    /// Returns the type that the type of the object defines for a sub-object.
     fn component(&self, whole: Type, sub: u8, position: usize, count: usize) -> Option<Type> {
         let Type::Named(TypeId(at)) = underlying(&self.types, whole) else { return None };
         match &self.types.get(at as usize)?.shape {

@@ -57,7 +57,7 @@ impl<'a> Reader<'a, '_> {
         Ok(texts)
     }
 
-    /// Reads a label or description into `texts`. Any other element becomes extensions.
+    /// Reads a label or description into `texts`. Stores any other element as extensions.
     pub fn text_or_keep(&mut self, tag: &Tag<'a>, texts: &mut Texts<'a>) -> Read<()> {
         let names = match tag.name {
             "label" => &mut texts.labels,

@@ -81,7 +81,7 @@ fn parts<'p, 'a>(application: &'p Application<'a>, at: usize) -> impl Iterator<I
     })
 }
 
-/// Lowers the data type at `at`. The lengths of the types that it refers to are known.
+/// State for lowering the data type at `at`. `bits` contains the lengths of the types that were lowered before.
 struct Types<'t, 'a, 'd> {
     reader: &'t mut Reader<'a, 'd>,
     application: &'t Application<'a>,
@@ -127,8 +127,8 @@ impl<'t, 'a> Types<'t, 'a, '_> {
         (Shape::Record(fields), known.then_some(offset))
     }
 
-    /// Returns the type to which the data type refers as `ty`. A reference that makes the data type endless becomes raw
-    /// bytes.
+    /// Returns the type to which the reference `ty` of the data type refers. A circular or too deeply nested reference
+    /// becomes raw bytes.
     fn part(&mut self, ty: Option<&TypeRef<'a>>) -> Type {
         let Some(ty) = ty else { return Type::Opaque(None) };
         let resolved = self.application.resolve(self.reader, ty);
@@ -181,7 +181,7 @@ impl<'a> Application<'a> {
     }
 }
 
-/// Returns the basic type behind aliases, enumerations and scaled types.
+/// Returns the basic type on which an alias, an enumeration or a scaled type is based.
 pub(super) fn underlying(types: &[TypeDef], ty: Type) -> Type {
     let mut ty = ty;
     // Types of the application process have no cycles. The loop is limited because types that objects define may have

@@ -1,15 +1,15 @@
 //! Reader base of the XML formats ESI, XDD and GSDML.
 //!
-//! A front end reads a document with a [`Reader`]. Its [`Format`] contains the names and diagnostic codes of the
-//! standard, and the state of the front end. An element is read in three steps:
+//! A front end reads a document with a [`Reader`]. The [`Format`] of the reader contains the names and diagnostic codes
+//! of the standard, and the state of the front end. An element is read in three steps:
 //!
-//! - [`Reader::attributes`] reads its attributes.
-//! - A loop over [`Reader::child`] matches the names of its children.
-//! - [`Reader::unknown`] reads all other children.
+//! - [`Reader::attributes`] reads the attributes of the element.
+//! - A loop over [`Reader::child`] matches the names of the child elements.
+//! - [`Reader::unknown`] reads child elements with unknown names.
 //!
-//! Facts for which the IR has no field are pushed onto the stack [`Reader::extensions`]. If an element has extensions
-//! in the IR, it takes those that were pushed while it was read ([`Reader::extensions_since`]). All other facts go to
-//! the enclosing element.
+//! Facts for which the IR has no field are pushed onto the stack [`Reader::extensions`]. An element with extensions in
+//! the IR takes the extensions that were pushed while the element was read ([`Reader::extensions_since`]). All other
+//! extensions go to the enclosing element.
 //!
 //! | file | subject |
 //! |---|---|

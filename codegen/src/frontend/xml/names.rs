@@ -7,9 +7,9 @@ use super::Given;
 use crate::ir::{Documentation, LocalText, Texts};
 use crate::source::Span;
 
-/// Language of a text, as a format declares it.
+/// Language of a text, in the notation of a file format.
 pub trait Language {
-    /// Returns the priority of this language for the name of an element. The lowest rank has priority.
+    /// Returns the rank of the language. The text with the lowest rank becomes the name of the element.
     fn rank(&self) -> u8;
 
     /// Returns the BCP 47 tag of the language.
@@ -93,8 +93,8 @@ impl<'a, L: Language> Names<'a, L> {
         self.0.iter().map(|(_, given)| size_of::<LocalText>() + given.text.len()).sum()
     }
 
-    /// Returns whether `self` and `other` have a text in the same language. Also returns true if `self` has more texts
-    /// than there are languages.
+    /// Returns whether `self` and `other` have a text in the same language. Also returns true if `self` has more than
+    /// 255 texts.
     pub fn shares_language(&self, other: &Names<'_, L>) -> bool {
         let has = |language: &L| other.0.iter().any(|(other, _)| other.tag() == language.tag());
         self.0.len() > 255 || self.0.iter().any(|(language, _)| has(language))

@@ -1,4 +1,4 @@
-//! Reader of a file, and functions that read attributes and children of elements.
+//! Reader of an XML file, and functions that read attributes and children of elements.
 
 use compact_str::CompactString;
 
@@ -179,7 +179,7 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         self.attributes(tag, [name]).map(|[given]| given)
     }
 
-    /// Returns the value of the attribute `name` before the element itself is read.
+    /// Returns the value of the attribute `name`. The element can still be read afterwards.
     pub fn peek(&mut self, tag: &Tag<'a>, name: &str) -> Read<Given<'a>> {
         self.unread = None;
         Ok(tag.attribute(name)?.map_or_else(Given::default, |attribute| self.given(&attribute)))

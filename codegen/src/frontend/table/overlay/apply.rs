@@ -1,4 +1,4 @@
-//! Applies an overlay to its devices and modules.
+//! Applies an overlay to the devices and modules that it selects.
 
 use std::collections::{HashMap, HashSet};
 
@@ -113,7 +113,8 @@ impl<'o> Applied<'o> {
         let Module { groups, fixed_objects, types, extensions, .. } = module;
         let effect = self.apply_rows(reader, ObjectSet { groups, types, extensions, buses });
         let effect = effect.max(self.apply_rows(reader, ObjectSet { groups: fixed_objects, types, extensions, buses }));
-        // CiA 306 modules have `groups`, ETG.2000 modules `fixed_objects`. One list is empty, so the joined list is sorted.
+        // CiA 306 modules have `groups`, and ETG.2000 modules have `fixed_objects`. One of the two lists is empty, so the joined
+        // list is sorted.
         let count = groups.len();
         groups.append(fixed_objects);
         self.resolve(reader, groups, types);
@@ -255,8 +256,8 @@ impl<'o> Applied<'o> {
         if count > 0 {
             self.overlay_doubts(reader, &mut doubts);
         }
-        // A module cannot have ambiguities. The devices with the module get its ambiguities, or all devices if none has the
-        // module.
+        // In the IR, only devices have ambiguities. The selected devices that have the module get the ambiguities, or all
+        // selected devices if none has the module.
         let takes = |device: &Device| device.modules.iter().any(|usage| chosen(&wanted, usage.module.0 as usize));
         let any_takes = devices.iter().any(|device| is_for(device, applies) && takes(device));
         for device in devices.iter_mut().filter(|device| is_for(device, applies) && (takes(device) || !any_takes)) {
@@ -265,7 +266,7 @@ impl<'o> Applied<'o> {
         count
     }
 
-    /// Applies the rows to the groups of a device, module or submodule. Returns the maximum of their effects.
+    /// Applies the rows to the groups of a device, module or submodule. Returns the maximum effect of the rows.
     fn apply_rows(&mut self, reader: &mut Reader<'_, '_>, mut set: ObjectSet<'_>) -> RowEffect {
         let items = set.groups.iter().flat_map(|group| &group.items);
         self.names.extend(items.map(|item| item.name.clone()));

@@ -78,7 +78,7 @@ impl RowPatcher<'_> {
         }
     }
 
-    /// Returns the reason for the change in a row: the row's key `why`, or that of the overlay.
+    /// Returns the reason for the change in a row: the key `why` of the row, or the key `why` of the overlay.
     fn why<'r>(&'r self, row: &'r Row) -> &'r str {
         row.why.as_deref().or(self.overlay.head.value.why.as_deref()).unwrap_or_default()
     }
@@ -149,7 +149,7 @@ impl RowPatcher<'_> {
         self.item(reader, item, row, name, 0).into()
     }
 
-    /// Changes an item. Returns whether the row changed any of its facts.
+    /// Changes an item. Returns whether the row changed any fact of the item.
     fn item(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -166,7 +166,7 @@ impl RowPatcher<'_> {
         let ty = self.new_type(reader, named, patch, item.ty);
         self.further_addresses(reader, item, named, patch);
         self.rows.fill(reader, item, named, patch, ty);
-        // The item keeps its origin in the description. Only the spans of changed facts are in the overlay.
+        // The item keeps its origin in the description. Only the changed facts have spans in the overlay.
         item.origin = before.origin;
         item.at.name = patch.name.as_ref().map_or(before.at.name, |name| reader.span(name));
         if patch.doc.is_none() {
@@ -230,7 +230,7 @@ impl RowPatcher<'_> {
         same_type && moved == *before
     }
 
-    /// Removes the types after the first `length` types, which no item uses.
+    /// Removes all types except the first `length` types. No item uses the removed types.
     fn forget_types(&mut self, length: usize) {
         self.rows.definitions.types.truncate(length);
         self.rows.definitions.made.retain(|_, made| {
@@ -239,7 +239,7 @@ impl RowPatcher<'_> {
         });
     }
 
-    /// Changes an object as a whole, whose values are its sub-entries.
+    /// Changes the name, texts and object code of an object that has sub-entries.
     fn head(&mut self, reader: &mut Reader<'_, '_>, group: &mut Group, row: &PatchRow, number: u32) -> RowEffect {
         let patch = &row.row.value;
         if super::super::misplaced::of_value(patch).is_some() {
@@ -321,7 +321,7 @@ impl RowPatcher<'_> {
         if exists(set.groups, objects) {
             return RowEffect::NoChange;
         }
-        // The objects may already exist, and then get a further sub-entry.
+        // Existing objects are part of the dictionary, so that they can get a further sub-entry.
         let mut dictionary = BTreeMap::new();
         let wanted = objects.indices.0..=objects.indices.1;
         let is_meant = |group: &Group| group.index().is_some_and(|index| wanted.contains(&index));
@@ -391,7 +391,7 @@ fn remove_objects(groups: &mut Vec<Group>, objects: Objects) {
     });
 }
 
-/// Returns whether everything that a row would add already exists.
+/// Returns whether all objects or sub-entries that a row would add already exist.
 fn exists(groups: &[Group], objects: Objects) -> bool {
     (objects.indices.0..=objects.indices.1).all(|index| {
         let group = groups.binary_search_by_key(&Some(index), Group::index).ok().and_then(|at| groups.get(at));

@@ -56,11 +56,11 @@ struct PatchRow {
 enum Target {
     /// Objects, or sub-entries of objects.
     Objects(Objects),
-    /// Item with the name in the key of the row.
+    /// Item whose name is in the key of the row.
     Name,
 }
 
-/// Keys that overlays and profiles have besides their head.
+/// Keys that both overlays and profiles have, in addition to their head.
 const KEYS: [&str; 9] = ["lexibus", "manual", "units", "enums", "bits", "chapters", "codes", "machines", "doubts"];
 
 /// Keys that only overlays have.

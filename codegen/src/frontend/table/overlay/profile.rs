@@ -84,7 +84,7 @@ fn named(row: &PatchRow) -> Named<'_> {
     Named { name: "", key: &row.key, number: 0, end: row.row.end }
 }
 
-/// Returns the bit field or enumeration of a row over the integer type `ty`.
+/// Returns the bit field or enumeration of a row, with the underlying integer type `ty`.
 fn meaning(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Option<Type>) -> Option<TypeId> {
     let before = rows.definitions.types.len();
     let meaning = rows.meaning(reader, named(row), &row.row.value, ty?);
