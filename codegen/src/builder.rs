@@ -89,7 +89,7 @@ impl Builder {
         self
     }
 
-    /// Sets an option of a register table. Options are choices that the manual of the device leaves open.
+    /// Sets an option of a register table. An option stands for a choice that the manual of the device leaves open.
     pub fn option(mut self, name: impl Into<String>, choice: impl Into<String>) -> Self {
         self.options.choices.push((name.into(), choice.into()));
         self
@@ -97,7 +97,7 @@ impl Builder {
 
     /// Adds an overlay: a table that corrects and completes the description. Overlays are applied in the order of the calls.
     ///
-    /// A relative path starts at the folder of the crate, like that of the input.
+    /// A relative path starts at the folder of the crate, like the path of the input file.
     pub fn overlay(mut self, path: impl Into<PathBuf>) -> Self {
         self.overlays.push(path.into());
         self
@@ -111,7 +111,7 @@ impl Builder {
         self
     }
 
-    /// Sets the name of the generated device type. By default, it follows from the product name.
+    /// Sets the name of the generated device type. By default, the name is derived from the product name.
     pub fn device_name(mut self, name: impl Into<String>) -> Self {
         self.options.rust.device_name = Some(name.into());
         self
@@ -123,7 +123,8 @@ impl Builder {
         self
     }
 
-    /// Sets whether each entry has an accessor method. Generated code without accessors compiles in a third of the time.
+    /// Sets whether each entry has an accessor method. Generated code without accessors compiles in a third of the time that code
+    /// with accessors needs.
     pub fn accessors(mut self, accessors: bool) -> Self {
         self.options.rust.accessors = accessors;
         self
@@ -141,7 +142,7 @@ impl Builder {
         self
     }
 
-    /// Sets all options of the generated Rust.
+    /// Sets all options of the generated Rust code.
     pub fn rust_options(mut self, options: RustOptions) -> Self {
         self.options.rust = options;
         self
@@ -153,7 +154,7 @@ impl Builder {
         self
     }
 
-    /// Suppresses the output for cargo. Use it in programs that are not build scripts.
+    /// Suppresses the output for cargo. Use this method in programs that are not build scripts.
     pub fn quiet(mut self) -> Self {
         self.quiet = true;
         self
@@ -174,7 +175,7 @@ impl Builder {
     ///
     /// # Errors
     ///
-    /// Fails like [`Builder::compile`].
+    /// Fails in the same cases as [`Builder::compile`].
     pub fn compile_as(&self, input: impl AsRef<Path>, name: &str) -> Result<(), BuildError> {
         self.compile_to(input, Some(name))
     }
@@ -206,7 +207,7 @@ impl Builder {
         for other in compilation.sources.iter().skip(1) {
             self.tell_cargo(format_args!("cargo::rerun-if-changed={}", other.name()));
         }
-        // Cargo has to run the script again as soon as one of these files exists.
+        // Cargo has to run the build script again as soon as one of the missing files exists.
         for path in &compilation.missing {
             self.tell_cargo(format_args!("cargo::rerun-if-changed={}", path.display()));
         }
@@ -275,7 +276,7 @@ pub enum BuildError {
         /// Error of the operating system.
         error: std::io::Error,
     },
-    /// The input has errors. The text contains the rendered diagnostics.
+    /// The input file has errors. The text contains the rendered diagnostics.
     Input(String),
     /// A level is set for an unknown code.
     UnknownCode(UnknownCode),

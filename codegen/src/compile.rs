@@ -21,13 +21,13 @@ pub struct Options {
     pub node_id_aliases: Vec<String>,
     /// Names of register-table options, and the choice for each.
     pub choices: Vec<(String, String)>,
-    /// Filters for devices, modules and objects.
+    /// Filters that select devices, modules and objects.
     pub select: Selection,
     /// Overlays in the order in which they are applied.
     pub overlays: Vec<Source>,
     /// True if profiles are not applied.
     pub no_profiles: bool,
-    /// Options of the generated Rust.
+    /// Options of the generated Rust code.
     pub rust: RustOptions,
 }
 
@@ -36,7 +36,7 @@ pub struct Options {
 pub struct Compilation {
     /// Source files that were read. A span refers to a file by its position in this list.
     pub sources: Vec<Source>,
-    /// IR of the source files; `None` if they cannot be used.
+    /// IR of the source files; `None` if the source files cannot be used.
     pub catalog: Option<Catalog>,
     /// Diagnostics, sorted by position.
     pub diagnostics: Diagnostics,
@@ -82,7 +82,7 @@ impl Compilation {
     }
 }
 
-/// Parses the choice of an option as the entry points accept it: `NAME=CHOICE`.
+/// Parses the choice for an option of a register table in the form `NAME=CHOICE`, which all entry points accept.
 pub fn choice(text: &str) -> Option<(String, String)> {
     let (name, choice) = text.split_once('=')?;
     let (name, choice) = (name.trim(), choice.trim());
@@ -135,8 +135,8 @@ pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
         options.select.objects(catalog, &mut compilation.diagnostics);
         resolve::resolve_references(catalog);
     }
-    // A row of a table can describe several items, like a type or parameter in XML. The diagnostics of such a row are reported
-    // once.
+    // A row of a register table can describe several items, and so can a type or parameter in XML. The diagnostics about such a
+    // row or element are reported only once.
     let described_by = compilation.catalog.as_ref().and_then(|catalog| catalog.files.first());
     if described_by.is_some_and(|file| file.format.has_shared_descriptions()) {
         compilation.diagnostics.forget_repeated(0);

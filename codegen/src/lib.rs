@@ -32,16 +32,17 @@
 //!
 //! # Features
 //!
-//! Each format has a feature: `eds` (EDS and DCF), `xdd` (XDD and XDC), `esi`, `gsdml` (with code generation for PROFINET) and `table`
-//! (register tables and overlays). The feature `messages` is for command protocols in register tables. All of these are on by default.
-//! Profiles do not need a feature. A build script compiles faster with only the features that it needs:
+//! Each format has a feature: `eds` (EDS and DCF), `xdd` (XDD and XDC), `esi`, `gsdml` (with code generation for PROFINET) and
+//! `table` (register tables and overlays). The feature `messages` is for command protocols in register tables. All features
+//! mentioned so far are on by default. Profiles do not need a feature. A build script compiles faster with only the features that
+//! it needs:
 //!
 //! ```toml
 //! [build-dependencies]
 //! lexibus-codegen = { version = "0.1", default-features = false, features = ["eds"] }
 //! ```
 //!
-//! The feature `serde` implements the traits of that crate for [`ir`]. It is off by default.
+//! The feature `serde` implements the traits of that crate for [`ir`]. The feature `serde` is off by default.
 //!
 //! Programs can use each stage separately:
 //!

@@ -1,7 +1,7 @@
 //! Limits for the time and memory that a description can use.
 //!
-//! Time and memory are proportional to the length of the input. These limits apply to short lines that declare many
-//! elements. Real devices stay far below them.
+//! Time and memory are proportional to the length of the input. These limits apply to short lines that declare many elements.
+//! Descriptions of real devices stay far below these limits.
 
 pub use crate::source::{MAX_INPUT_BYTES, MAX_REFERENCES};
 
@@ -11,37 +11,40 @@ pub const MAX_SAME_DIAGNOSTICS: usize = 10_000;
 /// Maximum number of items that one row of a register table describes.
 pub const MAX_REPEAT: u32 = 0x1_0000;
 
-/// Maximum number of items in a file that have no separate line, but are derived from another one.
+/// Maximum number of items that a file declares without a separate line for each, so that they are derived from other elements.
 ///
 /// Such items come from CompactSubObj of an EDS, arrays and shared dictionaries of an ESI, and `count` of a register table. The
 /// limit includes copies of named values that types of GSDML need.
 pub const MAX_DERIVED_ITEMS: usize = 200_000;
 
-/// Maximum number of implicit PDOs (CompactPDO) in each direction. CiA 301 defines 512.
+/// Maximum number of implicit PDOs (CompactPDO) in each direction. CiA 301 defines 512 PDOs in each direction.
 pub const MAX_IMPLICIT_PDOS: u16 = 512;
 
-/// Maximum number of unknown keys of a section that are compared to find repeated keys.
+/// Maximum number of unknown keys in a section that are compared with each other to find repeated keys.
 pub const MAX_COMPARED_EXTENSIONS: usize = 64;
 
-/// Maximum number of messages of a register table. Each message is compared with all others.
+/// Maximum number of messages of a register table. The number is limited because each message is compared with all others.
 pub const MAX_MESSAGES: usize = 4_096;
 
 /// Maximum number of ignored unknown keys in one part of a register table, such as a row or a list of codes.
 pub const MAX_UNKNOWN_KEYS: usize = 100;
 
-/// Maximum number of states, commands, transitions, rows and notes of all state machines of a device. A transition from any state is
-/// generated for each state.
+/// Maximum number of states, commands, transitions, rows and notes of all state machines of a device. The number must be limited
+/// because a transition from any state is generated for each state.
 pub const MAX_MACHINE_ROWS: usize = 2_048;
 
-/// Length in bytes up to which copies of a register-table row are not counted, including inherited facts.
+/// Maximum length in bytes of a register-table row, including inherited facts, whose copies are not counted.
 pub const MAX_FREE_ROW_BYTES: usize = 4096;
 
-/// Number of bytes above [`MAX_FREE_ROW_BYTES`] that count as one of [`MAX_DERIVED_ITEMS`] for each copy.
+/// Each copy of a longer row counts as one of [`MAX_DERIVED_ITEMS`] for each of this number of bytes above
+/// [`MAX_FREE_ROW_BYTES`].
 pub const ROW_BYTES_PER_ITEM: usize = 1024;
 
-/// Maximum number of copied bytes for each byte of the file. Normally, only one object uses each type.
+/// Maximum number of copied bytes for each byte of the file. In usual files, only one object uses each type, so that little is
+/// copied.
 ///
-/// Copies are data types, flags, vendors and shared files (ESI), parameters (XDD), texts of CompactSubObj and section names (EDS).
+/// The copied elements are data types, flags, vendors and shared files (ESI), parameters (XDD), texts of CompactSubObj and
+/// section names (EDS).
 pub const MAX_COPIES_PER_BYTE: usize = 64;
 
 /// Maximum depth of nested XML elements.
@@ -50,10 +53,10 @@ pub const MAX_XML_DEPTH: usize = 128;
 /// Maximum number of modules that all slots of a description accept, in total.
 pub const MAX_MODULE_USES: usize = 200_000;
 
-/// Maximum number of pages of one kind to which each page of a documentation links.
+/// Maximum number of pages of one kind to which each page of a documentation site links.
 pub const MAX_LINKED_PAGES: usize = 200;
 
-/// Number of linked pages before and after a page, if there are more than [`MAX_LINKED_PAGES`].
+/// Number of pages before and after a page to which the page links, if there are more than [`MAX_LINKED_PAGES`] pages.
 pub const NEAR_LINKED_PAGES: usize = 20;
 
 /// Maximum number of bytes that references to the text list of a GSDML file copy, for each byte of the file.
@@ -68,10 +71,10 @@ pub const MAX_LISTED_VALUES: i128 = 1024;
 /// Maximum depth of folders in the search for descriptions.
 pub const MAX_FOLDER_DEPTH: usize = 32;
 
-/// Maximum number of names of a register table that the lint for names in texts searches for.
+/// Maximum number of names in a register table for which the lint for misspelled names in texts searches.
 pub const MAX_SEARCHED_NAMES: usize = 5_000;
 
-/// Maximum number of words in which the lint for names in texts searches.
+/// Maximum number of words in texts that the lint for misspelled names compares with names.
 pub const MAX_SEARCHED_WORDS: usize = 50_000;
 
 /// Maximum length in bits of a PDO entry that becomes a field of a struct.

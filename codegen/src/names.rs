@@ -4,9 +4,9 @@
 //! share the name of the object in the dictionary. The name in the PDO is used only if the dictionary does not contain the
 //! object.
 //!
-//! Identifiers are the names of the description, converted to the case that Rust uses. Elements with equal names get their
-//! address as a suffix. The order of elements therefore does not affect identifiers, and a new element does not change the
-//! identifiers of others unless it shares their name.
+//! Identifiers are the names of the description, converted to the case that Rust uses. If several elements have the same name,
+//! each gets its address as a suffix. The order of elements therefore does not affect identifiers, and a new element does not
+//! change the identifiers of others unless it shares their name.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -17,9 +17,9 @@ use crate::limits::MAX_IDENTIFIER;
 /// The case of the identifiers in a scope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Case {
-    /// `target_position`, for methods, fields and modules.
+    /// Snake case for methods, fields and modules: `target_position`.
     Snake,
-    /// `TargetPosition`, for types.
+    /// Pascal case for types: `TargetPosition`.
     Pascal,
 }
 
@@ -30,12 +30,13 @@ pub struct NameRequest<'a> {
     pub name: &'a str,
     /// Name to use if the description has no usable name, such as `object 6040`.
     pub fallback: String,
-    /// Suffix that distinguishes the element from others with the same name, such as `6040`. The suffix is unique in the scope.
+    /// Suffix that distinguishes the element from others with the same name, such as `6040`. No other element in the scope has
+    /// the same suffix.
     pub suffix: String,
 }
 
 impl<'a> NameRequest<'a> {
-    /// Creates the request of an element. The fallback name consists of `kind` and `suffix`.
+    /// Creates the name request of an element. The fallback name consists of `kind` and `suffix`.
     pub fn new(name: &'a str, kind: &str, suffix: impl ToString) -> Self {
         let suffix = suffix.to_string();
         NameRequest { name, fallback: format!("{kind} {suffix}"), suffix }
@@ -47,8 +48,8 @@ pub fn numbered<'a>(names: impl IntoIterator<Item = &'a str>, kind: &str) -> Vec
     names.into_iter().enumerate().map(|(position, name)| NameRequest::new(name, kind, position)).collect()
 }
 
-/// Returns the identifiers for `name_requests`, in the same order. None of them is in `reserved`. Longer names are cut at a
-/// word.
+/// Returns the identifiers for `name_requests`, in the same order. None of the identifiers is in `reserved`. Names with more than
+/// [`MAX_IDENTIFIER`] characters are cut at the end of a word.
 pub fn unique(name_requests: &[NameRequest<'_>], reserved: &[&str], case: Case) -> Vec<String> {
     unique_up_to(name_requests, reserved, case, MAX_IDENTIFIER)
 }
@@ -65,7 +66,7 @@ pub fn identifier(name_request: &NameRequest<'_>, case: Case) -> String {
 }
 
 /// Returns the identifier of an element outside of its owner: the owner's name followed by the element's name. A long identifier
-/// is cut at a word.
+/// is cut at the end of a word.
 pub fn joined(owner: &str, name: &str) -> String {
     let mut joined = prefixed(&format!("{owner}_"), name);
     cut(&mut joined, MAX_IDENTIFIER);
@@ -88,7 +89,7 @@ pub fn distinct<'s>(
     let mut used: HashSet<String> =
         plain.iter().filter(|name| count[name.as_str()] == 1 && !is_reserved(name)).cloned().collect();
     let mut names = Vec::with_capacity(plain.len());
-    // The last number that was appended to each name that two suffixes do not make unique.
+    // For each name that remains ambiguous with its suffix, the last number that was appended.
     let mut numbers: HashMap<String, u32> = HashMap::new();
     for (suffix, name) in suffixes.zip(plain) {
         if count[name.as_str()] == 1 && !is_reserved(name) {
@@ -121,7 +122,7 @@ pub fn distinct<'s>(
 
 fn plain(name_request: &NameRequest<'_>, case: Case, length: usize) -> String {
     let words = words(name_request.name);
-    // Parts of an address are not split into words. Only elements that need no name have a fallback without words.
+    // Parts of an address are not split into words. A fallback name without words is used only for elements that need no name.
     let parts = name_request.fallback.split(' ').filter(|part| !part.is_empty());
     let words = if words.is_empty() { parts.map(|part| address(part).to_ascii_lowercase()).collect() } else { words };
     let mut name = write(&words, case);
@@ -129,7 +130,7 @@ fn plain(name_request: &NameRequest<'_>, case: Case, length: usize) -> String {
     name
 }
 
-/// Cuts a name to `length` characters, at a word if one ends in the second half of the name.
+/// Cuts a name to `length` characters. If a word ends in the second half of this length, the name is cut there.
 fn cut(name: &mut String, length: usize) {
     if name.len() > length {
         let end = name[..length].rfind('_').filter(|&end| end > length / 2).unwrap_or(length);
@@ -137,7 +138,7 @@ fn cut(name: &mut String, length: usize) {
     }
 }
 
-/// Returns an address as a part of an identifier: unchanged if possible, otherwise its words. The result is never
+/// Returns an address as a part of an identifier: the unchanged address if it is valid, otherwise its words. The result is never
 /// empty.
 fn address(text: &str) -> Cow<'_, str> {
     let is_plain = text.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
@@ -157,7 +158,7 @@ fn join(name: &str, suffix: &str, case: Case) -> String {
         Case::Snake => format!("{}_{}", name.trim_end_matches('_'), suffix.to_ascii_lowercase()),
         Case::Pascal => {
             let is_digit = |letter: char| letter.is_ascii_digit();
-            // Only two adjacent digits need a separator in camel case.
+            // In camel case, a separator is needed only between two digits.
             let separator = if name.ends_with(is_digit) && suffix.starts_with(is_digit) { "_" } else { "" };
             format!("{name}{separator}{suffix}")
         }
@@ -175,7 +176,7 @@ fn write(words: &[String], case: Case) -> String {
                 name.push_str(word);
             }
             Case::Pascal => {
-                // Two adjacent numbers must not become one number.
+                // An underscore keeps two adjacent numbers from becoming one number.
                 let digits =
                     name.ends_with(|c: char| c.is_ascii_digit()) && word.starts_with(|c: char| c.is_ascii_digit());
                 if digits {
@@ -282,7 +283,8 @@ fn spell(sign: char, words: &mut Vec<String>) {
     words.push(word.to_owned());
 }
 
-/// Returns ASCII letters for a letter of a European language or the prefix of a unit; empty for any other character.
+/// Returns ASCII letters for a letter of a European language or for the prefix of a unit. Returns an empty text for any other
+/// character.
 fn transliteration(letter: char) -> &'static str {
     match letter {
         'ä' | 'Ä' | 'æ' | 'Æ' => "ae",
@@ -317,7 +319,7 @@ pub fn prefixed(prefix: &str, name: &str) -> String {
     format!("{prefix}{}", name.trim_start_matches("r#").trim_start_matches('_'))
 }
 
-/// Returns `name` as a valid identifier: raw if it is a keyword of any edition.
+/// Returns `name` as a valid identifier. A keyword of any Rust edition becomes a raw identifier.
 pub fn escaped(name: &str) -> String {
     const KEYWORDS: [&str; 48] = [
         "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn", "else", "enum",

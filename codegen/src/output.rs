@@ -5,7 +5,7 @@ use std::io::{Error, ErrorKind, Result, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Returns whether a path exists and is neither a file nor a folder, but a pipe, terminal or device.
+/// Returns whether a path exists and is a pipe, terminal or device, instead of a file or folder.
 pub fn is_no_regular_file(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir())
 }
@@ -13,8 +13,8 @@ pub fn is_no_regular_file(path: &Path) -> bool {
 /// Writes `text` to `path`, unless the file already has this content. Skipping the write avoids rebuilds of everything that
 /// depends on the file.
 ///
-/// Replaces a regular file atomically: if writing fails, the old file remains. Replaces the target of a symbolic link. Writes
-/// directly to a pipe or device.
+/// Replaces a regular file atomically: if writing fails, the old file remains. If `path` is a symbolic link, replaces the target
+/// of the link. If `path` is a pipe or device, writes to it directly.
 ///
 /// # Errors
 ///
@@ -28,7 +28,7 @@ pub fn write_if_changed(path: &Path, text: &str) -> Result<()> {
     }
     match fs::canonicalize(path) {
         Ok(target) => replace(&target, text),
-        // The target of the link does not exist yet.
+        // `path` is a symbolic link whose target does not exist yet.
         Err(_) if path.is_symlink() => fs::write(path, text),
         Err(error) if error.kind() == ErrorKind::NotFound => replace(path, text),
         Err(error) => Err(error),

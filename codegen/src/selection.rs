@@ -1,7 +1,7 @@
 //! Selection of devices, modules and objects.
 //!
-//! A vendor file can describe hundreds of devices. The compiler reads all devices and modules, but it only checks the
-//! selected ones and generates code for them.
+//! A vendor file can describe hundreds of devices. The compiler reads all devices and modules, but it checks and generates code
+//! for selected devices and modules only.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt;
@@ -23,10 +23,10 @@ pub struct Selection {
     pub objects: Vec<ObjectFilter>,
 }
 
-/// A filter for elements by name or number.
+/// A filter that selects elements by name or number.
 ///
-/// `0x2521` and `9505` are numbers (a product code, an ident number). Each other text is a name, an order code or an identifier.
-/// Upper and lower case are the same, and `*` matches any characters.
+/// `0x2521` and `9505` are numbers (a product code, an ident number). Any text that is not a number is a name, an order code or
+/// an identifier. Case is ignored, and `*` matches any characters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Filter {
     /// Text of the filter as the user typed it.
@@ -62,7 +62,7 @@ impl fmt::Display for Filter {
 
 /// A filter for devices by name or product code, and optionally by revision.
 ///
-/// `EL3004`, `0x0BBC3052`, `EL3004@0x00110000`, `EL3004@latest`.
+/// Examples are `EL3004`, `0x0BBC3052`, `EL3004@0x00110000` and `EL3004@latest`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DeviceFilter {
     device: Filter,
@@ -84,7 +84,7 @@ impl FromStr for DeviceFilter {
             Some((device, "latest")) => (device, Some(Revision::Latest)),
             Some((device, revision)) => match number(revision.trim()) {
                 Some(number) => (device, Some(Revision::Number(number))),
-                // A name can contain an at sign.
+                // A name can contain an at sign, so the text after `@` need not be a revision.
                 None => (text, None),
             },
         };
@@ -212,7 +212,7 @@ impl Selection {
             self.keep_modules(catalog, diagnostics);
         }
         let is_limited = !self.devices.is_empty() || !self.modules.is_empty();
-        // In a file without devices, nothing refers to the modules.
+        // In a file without devices, no device refers to modules, so unreferenced modules must be kept.
         if is_limited && !catalog.devices.is_empty() {
             drop_unreached(catalog);
         }
@@ -224,7 +224,8 @@ impl Selection {
 
     /// Removes the PDOs whose mapping objects are not selected.
     ///
-    /// Use it before an export to EDS, which writes the mapping object of each PDO. Generated code has all PDOs.
+    /// Use this method before an export to EDS, which writes the mapping object of each PDO. Generated code always contains all
+    /// PDOs.
     pub fn mapping_objects(&self, catalog: &mut Catalog) {
         for device in &mut catalog.devices {
             device.process_data.pdos.retain(|pdo| self.has_object(pdo.mapping_index));
@@ -290,7 +291,7 @@ impl Selection {
             device.submodules.retain(|used| !used.places.fixed.is_empty() || is(&wanted_submodules, used.submodule.0));
         }
         if catalog.devices.is_empty() {
-            // If the file has no devices, no device refers to the modules, so the unselected modules are removed directly.
+            // In a file without devices, no references are removed, so the unselected modules themselves are removed.
             let mut at = wanted_modules.into_iter();
             catalog.modules.retain(|_| at.next().unwrap_or(false));
         }
@@ -310,7 +311,7 @@ fn indices(catalog: &Catalog) -> BTreeSet<u16> {
     parts.flat_map(|(groups, data)| of_part((groups, data))).collect()
 }
 
-/// Returns help about the objects next to a range without objects.
+/// Returns the help text for a range without objects, which names the nearest existing objects.
 fn nearest(existing: &BTreeSet<u16>, filter: ObjectFilter) -> String {
     let below = existing.range(..filter.first).next_back().map(|&last| {
         let first = (0..=last).rev().take_while(|index| existing.contains(index)).last().unwrap_or(last);

@@ -1,9 +1,10 @@
-//! Shortens, sanitizes and compares texts for messages.
+//! Shortens, sanitizes and compares texts for diagnostics.
 
 use std::borrow::Cow;
 use std::fmt::Display;
 
-/// Returns the first 64 characters of a text, for messages and keys. Long names with deep nesting would take too much memory.
+/// Returns the first 64 characters of a text, for diagnostics and keys. Without this limit, long names in deeply nested elements
+/// would take too much memory.
 pub fn brief(text: &str) -> &str {
     const LETTERS: usize = 64;
     let end = text.char_indices().nth(LETTERS).map_or(text.len(), |(at, _)| at);
@@ -54,7 +55,7 @@ pub(crate) fn numbered(noun: &str, numbers: &[String]) -> String {
     format!("{noun}{} {}", if is_one { "" } else { "s" }, numbers.join(", "))
 }
 
-/// Returns the result of `text` for a number of further elements, or an empty text if the number is 0.
+/// Returns the result of the function `text` for `count`, the number of further elements. Returns an empty text if `count` is 0.
 pub(crate) fn more(count: usize, text: impl FnOnce(usize) -> String) -> String {
     match count {
         0 => String::new(),

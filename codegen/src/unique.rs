@@ -8,7 +8,7 @@ use crate::ir::CompactString;
 #[derive(Debug, Default)]
 pub struct Unique {
     used: HashSet<CompactString>,
-    /// Next number for each repeated name, so that the time for many equal names is linear.
+    /// Next number to try for each repeated name. Storing the number keeps the time linear if many names are equal.
     next: HashMap<CompactString, u32>,
 }
 

@@ -1,3 +1,3 @@
-//! Back ends of the compiler. They do not depend on a source format.
+//! Back ends of the compiler. No back end depends on the format of the description file.
 
 pub mod rust;

@@ -7,8 +7,8 @@ use crate::ir::{Item, Storage};
 use crate::source::Span;
 use crate::text::brief;
 
-/// Reports items whose access rights contradict their storage, PDO mapping or writable values. In 52 files of the corpus, read-only
-/// values can be mapped into RPDOs.
+/// Reports items whose access rights contradict their storage, PDO mapping or writable values. In 52 files of the test corpus,
+/// read-only items can be mapped into RPDOs.
 pub(super) fn conflicts(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         for (span, problem) in contradictions(item).into_iter().flatten() {
@@ -57,7 +57,8 @@ fn contradictions(item: &Item) -> [Option<(Span, &'static str)>; 3] {
     [saved, mapped, written]
 }
 
-/// Returns the minimum of a signed measured value if it is above zero. Signed measured values normally pass through zero.
+/// Returns the minimum of a signed measured value if this minimum is above zero. Signed measured values normally pass through
+/// zero.
 fn positive_limit_of_reading(owner: Owner<'_>, item: &Item) -> Option<i128> {
     let (low, high) = item.limits.integers();
     let is_measured = owner.basic(item.ty).is_signed() && !item.access.writable() && high != low;

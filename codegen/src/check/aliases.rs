@@ -1,4 +1,4 @@
-//! Items with the same value, and replacements of items.
+//! Items that are declared to have the same value, and items that replace other items.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,14 +25,15 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the location of the differing fact if an overlay states the fact. Otherwise returns the location of the row.
+/// Returns the location of the fact that differs, if an overlay states this fact. Otherwise, returns the location of the row.
 fn difference_span(item: &Item, alias: &ItemRef) -> Span {
     let row = item.origin.span;
     let facts = [alias.span, item.at.ty, item.at.low, item.at.high];
     facts.into_iter().find(|fact| !fact.is_empty() && fact.file != row.file).unwrap_or(row)
 }
 
-/// Reports a replacement whose access rights differ from those of its item. Access rights that a row inherits are not compared.
+/// Reports a replacement whose access rights differ from those of the item that it replaces. Access rights that a row inherits
+/// are not compared.
 fn replacement(device: &Device, item: &Item, diagnostics: &mut Diagnostics) {
     let reference = item.availability.as_ref().and_then(|availability| availability.replaced_by.as_ref());
     let Some(other) = reference.and_then(|reference| device.item(reference.id?.item()?)) else { return };

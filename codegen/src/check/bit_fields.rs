@@ -23,7 +23,7 @@ pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the name and bits of a field for messages.
+/// Returns the name and the bits of a field as text for diagnostics.
 pub(super) fn called(field: &BitFieldEntry) -> String {
     let bits = field.bit_range();
     match field.name.is_empty() {
@@ -68,7 +68,7 @@ fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Di
     }
 }
 
-/// Returns whether two meanings never apply together, or one is a special case of the other.
+/// Returns whether two meanings of bits never apply together, or one meaning is a special case of the other.
 pub(super) fn are_distinct(one: &BitFieldEntry, other: &BitFieldEntry) -> bool {
     let by_condition = match (&one.when, &other.when) {
         (None, None) => false,
@@ -78,7 +78,7 @@ pub(super) fn are_distinct(one: &BitFieldEntry, other: &BitFieldEntry) -> bool {
     by_condition || apart(one.availability.as_deref(), other.availability.as_deref())
 }
 
-/// Returns whether one value of the item can meet both conditions.
+/// Returns whether one value of the item to which two conditions refer can meet both conditions.
 fn both_hold(one: &Condition, other: &Condition) -> bool {
     let shared = one.mask.unwrap_or(u64::MAX) & other.mask.unwrap_or(u64::MAX);
     let agree = |left: &Value, right: &Value| match (left.as_int(), right.as_int()) {
@@ -107,7 +107,8 @@ fn unnamed(
     fields.iter().for_each(|field| unnamed_values(owner, definition, field, diagnostics));
 }
 
-/// Reports values without a name in an enumerated field. Wide fields have too many values for this check.
+/// Reports values without a name in an enumerated field. Wide fields are not checked, because not all of their values need a
+/// name.
 fn unnamed_values(owner: Owner<'_>, definition: &TypeDef, field: &BitFieldEntry, diagnostics: &mut Diagnostics) {
     let BitMeaning::Enumeration(id) = field.meaning else { return };
     let Some((values, _)) = owner.enumeration(Type::Named(id)).filter(|_| field.bits <= MAX_LISTED_BITS) else {

@@ -1,4 +1,4 @@
-//! Conditions: values that the compared item cannot have, and modes for which no bits are defined.
+//! Conditions: values that the item of a condition cannot have, and modes of operation for which no bits are defined.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -36,7 +36,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 }
 
 fn possible(context: &Context<'_>, condition: &Condition, span: Span, diagnostics: &mut Diagnostics) {
-    // The item's limits and names apply to the whole value, and not to some of its bits.
+    // The limits and value names of an item apply to its whole value, and not to the bits that a mask selects.
     let whole = context.device.referred(&condition.item).filter(|_| condition.mask.is_none());
     let Some(item) = whole else { return };
     let (low, high) = item.limits.integers();
@@ -60,7 +60,8 @@ fn possible(context: &Context<'_>, condition: &Condition, span: Span, diagnostic
     }
 }
 
-/// Reports values of an enumeration for which no bits are defined, although bits depend on the enumeration.
+/// Reports modes without bits: values of an enumeration for which a bit field defines no bits, although other values of
+/// the enumeration select bits.
 fn complete(context: &Context<'_>, definition: &TypeDef, conditions: &[&Condition], diagnostics: &mut Diagnostics) {
     if !diagnostics.wants(&codes::MODE_WITHOUT_BITS) {
         return;

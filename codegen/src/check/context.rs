@@ -1,4 +1,4 @@
-//! The input of lints: a device, or the PDOs of a device or module.
+//! The input of a lint: a device, or the PDOs of a device or module.
 
 use crate::ir::owner::Owner;
 use crate::ir::{Device, Format, Item, Module, PdoEntry, ProcessData};

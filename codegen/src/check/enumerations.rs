@@ -32,7 +32,7 @@ pub(super) fn code_tables(context: &Context<'_>, diagnostics: &mut Diagnostics) 
         let mut sorted: Vec<_> = table.rows.iter().collect();
         sorted.sort_by_key(|row| row.code);
         let range = |row: &CodeRow| (row.code, row.last.unwrap_or(row.code));
-        // A narrow range within a wide one is a special case.
+        // A narrow range within a wide range is a special case, and not an overlap.
         let is_within = |inner: (i128, i128), outer: (i128, i128)| outer.0 <= inner.0 && inner.1 <= outer.1;
         let narrower = |one: &CodeRow, other: &CodeRow| {
             let (one, other) = (range(one), range(other));

@@ -4,7 +4,8 @@ use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::resolve::IdentityNumber;
 
-/// Reports numbers of object 0x1018 that differ from the identity of the device, except 0, because tools fill unused fields with 0.
+/// Reports numbers in object 0x1018 that differ from the identity of the device. The number 0 is ignored, because tools fill
+/// unused fields with 0.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let device = context.device;
     for number in IdentityNumber::ALL {

@@ -41,12 +41,13 @@ fn bound(owner: Owner<'_>, item: &Item, binding: &Binding, diagnostics: &mut Dia
     }
 }
 
-/// Returns whether the length of an integer is not a whole number of bytes. A Boolean occupies a whole register.
+/// Returns whether the length of an integer is not a whole number of bytes. A Boolean is excluded, because it occupies
+/// a whole register.
 fn is_odd(owner: Owner<'_>, item: &Item, bits: u32) -> bool {
     matches!(owner.basic(item.ty), Type::Integer(_) | Type::Unsigned(_)) && bits > 1 && !bits.is_multiple_of(8)
 }
 
-/// Reports a default value that is longer than its type.
+/// Reports a default value that is longer than the type of its item.
 fn text(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     let (Type::VisibleString(Some(max)) | Type::OctetString(Some(max))) = owner.basic(item.ty) else { return };
     let given = match &item.default {

@@ -30,7 +30,8 @@ pub(super) fn one_given(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the help text for swapped limits that would be in order for an integer with the other signedness.
+/// Returns the help text for limits that are swapped for a signed integer but in order for an unsigned integer, or the
+/// reverse.
 fn with_other_sign(ty: Type, low: &Value, high: &Value) -> Option<String> {
     let (low, high) = (low.as_int()?, high.as_int()?);
     match ty {
@@ -79,7 +80,7 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the limit that a number violates, for messages.
+/// Returns the limit that a number violates, as text for diagnostics.
 pub(super) fn beyond(item: &Item, number: i128) -> Option<String> {
     let (low, high) = item.limits.integers();
     let low = low.filter(|&low| number < low).map(|low| format!("minimum is {low}"));

@@ -16,7 +16,8 @@ pub struct Lint {
     pub formats: &'static [Format],
     /// True if the lint also runs for other formats when the user sets the level of one of its codes.
     pub on_request: bool,
-    /// Condition that a device has to fulfill. The condition does not apply to modules and records.
+    /// Condition that a device has to fulfill for the lint to run. Modules and records do not have to fulfill this
+    /// condition.
     pub needs: Option<Need>,
     pub(super) run: Run,
 }

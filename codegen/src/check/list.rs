@@ -22,7 +22,7 @@ use crate::ir::Format;
 /// The format that the lints assume for a catalog without a file.
 pub(super) const WITHOUT_FILE: Format = Format::Eds;
 
-/// Creates a lint for all formats and devices.
+/// Creates a lint that runs for all formats and all devices.
 const fn lint(name: &'static str, codes: &'static [&'static Code], run: Run) -> Lint {
     Lint { name, codes, formats: Format::ALL, on_request: false, needs: None, run }
 }

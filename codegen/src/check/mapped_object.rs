@@ -55,7 +55,8 @@ impl Mapped {
         (index >= 0x20).then_some(Mapped { object: (index, sub_index), bits: word & 0xFF, direction, span })
     }
 
-    /// Compares the object with its item. `is_resolved` means that other lints report missing objects and wrong lengths.
+    /// Compares the mapped object with its item. `is_resolved` means that missing objects and wrong lengths are already reported
+    /// elsewhere.
     pub fn check(&self, described: &Described<'_>, is_resolved: bool, diagnostics: &mut Diagnostics) {
         let item = described.entries.get(self.object.0, self.object.1);
         let found = match item {
@@ -87,7 +88,7 @@ impl Mapped {
         let length = length.map(|bits| {
             (&codes::MAPPED_LENGTH, format!("is mapped with {}, but the object has {bits}", count_of(self.bits, "bit")))
         });
-        // If the source does not state the PDO mapping of the item, any mapping is accepted.
+        // If the source does not state whether PDOs can map the item, any mapping is accepted.
         let unmappable = !item.mappable.any() && !item.at.mappable.is_empty();
         let unmappable = unmappable.then(|| (&codes::NOT_MAPPABLE, "is mapped, but not mappable".to_owned()));
         let direction = wrong_direction(item, self.direction).map(|problem| (&codes::WRONG_DIRECTION, problem));
@@ -95,7 +96,8 @@ impl Mapped {
     }
 }
 
-/// Returns the reason why an item cannot be mapped into PDOs of a direction: its access rights, or its only mapping direction.
+/// Returns the reason why an item cannot be mapped into PDOs of a direction: its access rights, or a PDO mapping in the other
+/// direction only.
 pub(super) fn wrong_direction(item: &Item, direction: Direction) -> Option<String> {
     let (access, mappable, name) = (Mappable::by_access(item.access), item.mappable, pdo_name(direction));
     let (is_accessible, other) = match direction {
@@ -117,7 +119,7 @@ pub(super) fn pdo_name(direction: Direction) -> &'static str {
     }
 }
 
-/// Returns the indices of a device, including those of further axes. The set is empty if the device has no objects.
+/// Returns the indices of a device's objects, including those of further axes. The set is empty if the device has no objects.
 pub(super) fn indices(device: &Device) -> HashSet<u16> {
     let mut known: HashSet<u16> = device.items().filter_map(|item| Some(item.object()?.0)).collect();
     if known.is_empty() {

@@ -50,7 +50,7 @@ impl<'a> Frame<'a> {
         Frame { owner, fields, bytes, request: None }
     }
 
-    /// Returns the problems of the example's bytes. Bytes after a field with a variable length are not checked.
+    /// Returns the problems in the bytes of an example frame. Bytes after a field with a variable length are not checked.
     fn problems(&self) -> Vec<String> {
         let mut problems = Vec::new();
         let mut at = 0usize;
@@ -116,7 +116,7 @@ impl<'a> Frame<'a> {
         problem.into_iter().collect()
     }
 
-    /// Returns the problem of a field that copies bytes of the request.
+    /// Returns the problem with a field that copies bytes of the request.
     fn copy(&self, first: usize, range: Range<usize>) -> Option<String> {
         let sent = self.request?.1.get(first..)?;
         let found = self.bytes.get(range.start / 8..range.end / 8).filter(|_| range.start.is_multiple_of(8))?;
@@ -150,7 +150,7 @@ impl<'a> Frame<'a> {
         problems
     }
 
-    /// Returns the problems of a number: the names of the type's values and bits do not allow it.
+    /// Returns the problems with a number in an example: values or bits that are reserved or have no name.
     fn meaning(&self, ty: Type, name: &str, number: u64) -> Vec<String> {
         match self.owner.definition(ty).map(|definition| &definition.shape) {
             Some(Shape::Enumeration { values, .. }) => {
@@ -215,7 +215,7 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// Returns the name of a field. An echo has the name of the copied field.
+/// Returns the name of a field in a message. An echo has the name of the copied field.
 fn name(field: &MessageField) -> Option<&str> {
     match field {
         MessageField::Value(value) => Some(&value.item.name),
@@ -224,7 +224,8 @@ fn name(field: &MessageField) -> Option<&str> {
     }
 }
 
-/// Returns the number in a range of bits. Bit 0 is the most significant bit of the first byte. `order` is the byte order.
+/// Returns the number in a range of the frame's bits. Bit 0 is the most significant bit of the first byte. `order` is the byte
+/// order of the number on the wire.
 fn number(bytes: &[u8], range: Range<usize>, order: &[u8]) -> u64 {
     let bit = |at: usize| bytes.get(at / 8).map_or(0, |byte| u64::from(byte >> (7 - at % 8) & 1));
     if order.is_empty() || order.len() * 8 != range.len() {
@@ -237,7 +238,8 @@ fn number(bytes: &[u8], range: Range<usize>, order: &[u8]) -> u64 {
     })
 }
 
-/// Returns a number of the frame as a value of its item, which is negative if the type is signed and the sign bit is set.
+/// Returns a number in a frame as a value of its item. The value is negative if the type of the item is signed and the sign bit
+/// is set.
 fn signed(owner: Owner<'_>, item: &Item, number: u64) -> Option<i128> {
     let ty = owner.basic(item.ty);
     let bits = ty.bits().filter(|bits| (1..=64).contains(bits))?;

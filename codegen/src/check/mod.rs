@@ -1,7 +1,7 @@
 //! Lints on the resolved IR. Lints report wrong and suspicious facts, and do not change the IR.
 //!
-//! `list` declares each lint: name, codes, formats and needs. Each file has the lints of one subject. Lints that only concern
-//! register tables are in `table`.
+//! `list` declares each lint: name, codes, formats and needs. Each file contains the lints of one subject. Lints that only
+//! concern register tables are in `table`.
 
 mod access;
 mod aliases;

@@ -6,7 +6,7 @@ use crate::ir::{
 };
 use crate::text::count_of;
 
-/// A limit, and the position of the device that has this limit.
+/// A limit in bytes, and the position of the device that has this limit in the catalog.
 type Limit = Option<(u32, usize)>;
 
 /// The minimum of the limits of all devices that accept a module or submodule.

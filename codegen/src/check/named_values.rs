@@ -7,12 +7,12 @@ use crate::ir::{BitFieldEntry, BitMeaning, EnumValue, Item, Shape, Type, TypeDef
 use crate::source::Span;
 use crate::text::{brief, count_of, more};
 
-/// Maximum number of values that a message lists.
+/// Maximum number of values that the message of a diagnostic lists.
 const MAX_LISTED: usize = 6;
 
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     for item in owner.items() {
-        // A type from a profile has values that a single device does not support.
+        // A type from a profile is not checked, because a single device does not support all of its values.
         let is_described = |definition: &&TypeDef| !definition.origin.span.is_empty();
         let Some(definition) = owner.definition(item.ty).filter(is_described) else { continue };
         let mut check = Check { owner, item, definition, diagnostics };
@@ -31,7 +31,7 @@ struct Check<'a, 'd> {
     diagnostics: &'d mut Diagnostics,
 }
 
-/// A default value, limit or other integer of an item, with its name in messages.
+/// A default value, limit or other integer of an item, with the noun for it in diagnostics.
 #[derive(Clone, Copy)]
 struct Number {
     what: &'static str,
@@ -56,7 +56,7 @@ impl Check<'_, '_> {
         }));
     }
 
-    /// Returns the default value and the configured value.
+    /// Returns the default value and the configured value of an item.
     fn values(&self) -> Vec<Number> {
         let (default, at) = (self.item.default.as_ref(), &self.item.at);
         let default = match fixed(self.item) {
@@ -66,7 +66,7 @@ impl Check<'_, '_> {
         default.into_iter().chain(Number::of("configured value", self.item.configured_value(), at.configured)).collect()
     }
 
-    /// Returns the minimum and the maximum, if they differ.
+    /// Returns the minimum and the maximum of an item, if these limits differ.
     fn limits(&self) -> Vec<Number> {
         if fixed(self.item).is_some() {
             return Vec::new();
@@ -113,7 +113,7 @@ impl Check<'_, '_> {
         self.report(&codes::UNNAMED_VALUE, span, message);
     }
 
-    /// Reports a limit that excludes named values.
+    /// Reports a limit that excludes named values of the enumeration.
     fn within(&mut self, values: &[EnumValue], is_upper: bool, limit: Number) {
         let Number { what, value: limit, span } = limit;
         let extreme = |label: &EnumValue| if is_upper { label.range().1 } else { label.value };
@@ -147,7 +147,7 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Reports a value that sets reserved bits, or lacks reserved bits that are always set.
+    /// Reports a value that sets reserved bits, or clears reserved bits that must be 1.
     fn meaningless(&mut self, fields: &[BitFieldEntry], number: Number, bits: u64) {
         let Number { what, span, .. } = number;
         let is_limit = matches!(what, "minimum" | "maximum");
@@ -164,7 +164,7 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Reports a value that sets bits without a meaning, or fields to values without a name.
+    /// Reports a value that sets bits without a meaning, or that sets fields to values without a name.
     fn known(&mut self, fields: &[BitFieldEntry], number: Number, bits: u64) {
         let Number { what, span, .. } = number;
         let named = fields.iter().fold(0, |all, field| all | field.mask());

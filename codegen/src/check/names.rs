@@ -61,7 +61,7 @@ fn meanings(definition: &TypeDef, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the first two elements that share a name.
+/// Returns the first two elements of a list that share a name.
 fn repeated<'v, V>(
     list: impl Iterator<Item = &'v V>,
     name: impl Fn(&'v V) -> &'v str,

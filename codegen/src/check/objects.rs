@@ -1,4 +1,4 @@
-//! Objects of a dictionary on CANopen or EtherCAT: structure according to CiA 301 7.4.3.
+//! Objects in the object dictionary of a CANopen or EtherCAT device: their structure according to CiA 301 7.4.3.
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
@@ -102,7 +102,7 @@ fn is_counter(index: u16) -> bool {
     matches!(index, 0x1003 | 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C10..=0x1C2F)
 }
 
-/// Returns whether further axes use sub-indices of the object. Sub-index 0 counts the sub-indices of all axes.
+/// Returns whether further axes use sub-indices of the object. In such an object, sub-index 0 counts the sub-indices of all axes.
 fn has_entries_of_axes(device: &Device, index: u16) -> bool {
     let rules = device.axes.iter().flat_map(|axes| &axes.rules);
     let rule = rules.into_iter().find(|rule| (rule.indices.0..=rule.indices.1).contains(&index));
@@ -146,7 +146,7 @@ fn sub0_access(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
 fn element_types(group: &Group, index: u16, owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     let mut elements = described_items(group).filter(|item| !matches!(sub_of(item), 0 | 0xFF));
     let Some(first) = elements.next() else { return };
-    // Elements may differ in the names of bits and values, because the dictionary does not contain these names.
+    // Elements of an array may differ in the names of bits and values, because the object dictionary does not contain such names.
     if let Some(other) = elements.find(|item| owner.integer(item.ty) != owner.integer(first.ty)) {
         let message =
             format!("an element of the array 0x{index:04X} is {}, but the first element is {}", other.ty, first.ty);

@@ -9,9 +9,9 @@ use crate::resolve::address;
 use crate::source::Span;
 use crate::text::count_of;
 
-/// Reports PDOs that share an index, and entries whose length differs from that of their item.
+/// Reports PDOs that share an index, and PDO entries whose length differs from that of the mapped item.
 pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
-    // PDOs on different buses may share an index.
+    // Two PDOs may share an index if they are on different buses.
     let mut seen: HashMap<(u16, Option<bool>), Span> = HashMap::with_capacity(owner.data.pdos.len());
     for pdo in &owner.data.pdos {
         if pdo.mapping_index != 0 {

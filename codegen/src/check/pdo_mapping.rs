@@ -1,4 +1,4 @@
-//! PDO mapping objects of a CANopen dictionary: CiA 301 7.5.2.36 and 7.5.2.38, and mapped items.
+//! PDO mapping objects in a CANopen dictionary: rules of CiA 301 7.5.2.36 and 7.5.2.38, and comparison with the mapped items.
 
 use super::context::{Context, PdoOwner};
 use super::mapped_object::{pdo_name, wrong_direction, CAN_BITS};
@@ -23,8 +23,8 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports entries that are too long for a field of a generated struct. CANopen entries have at most 255 bits, and padding has no
-/// field.
+/// Reports entries that are too long for a field of a generated struct. Such entries cannot occur on CANopen, where an entry has
+/// at most 255 bits. Padding is not checked, because padding has no field.
 pub(super) fn lengths(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     for pdo in &owner.data.pdos {
         for entry in pdo.entries.iter().filter(|entry| entry.index != 0 && entry.bits > crate::limits::MAX_FIELD_BITS) {
@@ -110,7 +110,7 @@ impl Mapping<'_, '_> {
 
     fn count(&mut self, mapping: &Group, found: usize) {
         let Some(announced) = announced_count(mapping).filter(|&announced| announced > found as i128) else { return };
-        // A mapping in which no entry has a value is configured later.
+        // If no entry of a mapping object has a value, the mapping is configured at run time.
         if found == 0 {
             return;
         }
@@ -142,7 +142,7 @@ impl Mapping<'_, '_> {
 
     fn granularity(&mut self, bits: u32, span: Span) {
         let granularity = u32::from(self.canopen.granularity.unwrap_or(1).clamp(1, 64));
-        // Some tools write 1 for "the mapping can be changed".
+        // Granularity 1 is not checked, because some tools write 1 for "the mapping can be changed".
         if granularity > 1 && !bits.is_multiple_of(granularity) {
             let message = format!(
                 "the mapping entry has {}, but the granularity of the device is {granularity} bits",
@@ -177,7 +177,7 @@ impl Mapping<'_, '_> {
         if let Some(problem) = wrong_direction(item, self.direction) {
             self.mapped_report(item, &codes::WRONG_DIRECTION, span, format!("{object} {problem}"));
         }
-        // Bit fields and enumerations have the length of their integer type.
+        // The length of a bit field or an enumeration is that of its integer type.
         let is_of_device = self.items.of_device(index, sub_index).is_some();
         let ty = if is_of_device { self.context.owner.basic(item.object_type()) } else { item.ty };
         match ty.bits() {
@@ -201,7 +201,7 @@ impl Mapping<'_, '_> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Compares the number of PDOs with the file header and with object 0x1004.
+    /// Compares the number of described PDOs with the number in the file header, and this number with object 0x1004.
     fn counts(&mut self) {
         let device = self.context.device;
         let described = PdoObjects::numbers(device, self.direction).len();

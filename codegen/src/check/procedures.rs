@@ -36,7 +36,7 @@ pub(super) fn default_assignments(context: &Context<'_>, diagnostics: &mut Diagn
     }
 }
 
-/// Returns the problems of a step.
+/// Returns the problems in a step of a procedure.
 fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
     let read_only = |name: &ItemRef| {
         let item = device.referred(name).filter(|item| !item.access.writable())?;
@@ -83,7 +83,7 @@ fn shown(step: &Step) -> String {
 /// Returns the reason why an item cannot have a value.
 fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     let ty = owner.basic(item.ty);
-    // Manuals write negative numbers as bit patterns.
+    // Manuals print negative numbers as bit patterns, such as 0xFFFF for -1.
     let signed = ty.bits().filter(|&bits| ty.is_signed() && bits <= 64 && number >> (bits - 1) == 1);
     let number = signed.map_or(number, |bits| number - (1i128 << bits));
     if ty.integer_range().is_some_and(|(low, high)| number < low || number > high) {
@@ -106,7 +106,8 @@ fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     }
 }
 
-/// Reports PDOs that a procedure maps but does not assign, or assigns without a description. Also reports COB-IDs of other PDOs.
+/// Reports PDOs that a procedure maps but does not assign, or assigns without a description. Also reports COB-IDs that a
+/// procedure writes to a PDO although another PDO has them by default.
 fn assignments(device: &Device, procedure: &Procedure, diagnostics: &mut Diagnostics) {
     let (mut mapped, mut assigned_to) = (BTreeMap::new(), [BTreeSet::new(), BTreeSet::new()]);
     let name = brief(&procedure.name);
@@ -152,7 +153,7 @@ fn assigned(device: &Device, value: i128, span: Span, diagnostics: &mut Diagnost
     }
 }
 
-/// Returns the PDO that has this COB-ID by default, for any node-ID, unless the PDO at `index` can have it too.
+/// Returns the PDO that has this COB-ID by default, for any node-ID, unless the PDO at `index` can have this COB-ID too.
 fn owner_of_cob_id(device: &Device, index: u16, value: i128) -> Option<u16> {
     let is_of_some_node = |item: &Item| match item.default {
         Some(Value::NodeId(base)) => value.checked_sub(base).is_some_and(|node| (1..=127).contains(&node)),

@@ -40,7 +40,7 @@ fn sync_manager_exists(pdo: &Pdo, data: &ProcessData, diagnostics: &mut Diagnost
 }
 
 fn conflicts(by_default: &DefaultAssignment, diagnostics: &mut Diagnostics) {
-    // The lint `pdo-entries` reports PDOs that share an index.
+    // PDOs that share an index are left out here, because the lint `pdo-entries` reports them.
     for (pdo, other) in by_default.left_out.iter().filter(|(pdo, other)| other.mapping_index != pdo.mapping_index) {
         let (first, second) = (other.mapping_index, pdo.mapping_index);
         let message =
@@ -52,7 +52,7 @@ fn conflicts(by_default: &DefaultAssignment, diagnostics: &mut Diagnostics) {
 }
 
 fn lengths(by_default: &DefaultAssignment, sync_managers: &[SyncManager], diagnostics: &mut Diagnostics) {
-    // Number of PDOs, and sum of their bits, for each sync manager.
+    // For each sync manager, the number of assigned PDOs and the sum of their lengths in bits.
     let mut inside = [(0usize, 0u64); 256];
     for (pdo, number) in &by_default.assigned {
         let (count, bits) = &mut inside[usize::from(*number)];

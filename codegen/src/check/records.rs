@@ -44,7 +44,7 @@ fn overlaps(group: &Group, diagnostics: &mut Diagnostics) {
     let mut items: Vec<(u64, u64, &Item)> = Vec::with_capacity(group.items.len());
     items.extend(group.items.iter().filter_map(|item| bits_of(item).map(|(offset, bits)| (offset, bits, item))));
     items.sort_by_key(|&(offset, ..)| offset);
-    // The parameter with the highest end so far, and this end.
+    // The parameter that ends last among the parameters checked so far, and the bit offset of its end.
     let mut last: Option<(u64, &Item)> = None;
     for (offset, bits, item) in items {
         let end = offset + bits;

@@ -18,7 +18,7 @@ impl Lint {
         run(std::slice::from_ref(self), catalog, diagnostics);
     }
 
-    /// Returns whether the lint runs for a format, and whether one of its codes is enabled.
+    /// Returns whether the lint runs: it applies to the format or was requested, and at least one of its codes is enabled.
     fn is_active(&self, format: Format, diagnostics: &Diagnostics) -> bool {
         let is_requested = || self.on_request && self.codes.iter().any(|code| diagnostics.asks_for(code));
         (self.formats.contains(&format) || is_requested()) && self.codes.iter().any(|code| diagnostics.wants(code))
@@ -69,8 +69,8 @@ fn check_module(lints: &[&Lint], module: &Module, diagnostics: &mut Diagnostics)
     }
 }
 
-/// Runs the lints for parameter records of PROFINET. Other lints on items do not apply, because parameters of different types and
-/// limits share lists of values.
+/// Runs the lints for parameter records of PROFINET. Other lints on items are not run, because parameters with different types
+/// and limits share lists of named values.
 fn records(lints: &[&Lint], catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let of_submodules = catalog.submodules.iter().map(|submodule| submodule.records.as_slice());
     let settings = catalog.devices.iter().filter_map(|device| device.profinet.as_ref());

@@ -26,20 +26,21 @@ impl Class {
     }
 }
 
-/// A kind of diagnostic, with a stable identifier.
+/// The code of a kind of diagnostics, with a stable identifier.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub struct Code {
-    /// Stable identifier, such as `EDS020`.
+    /// Stable identifier of the code, such as `EDS020`.
     pub id: &'static str,
-    /// Stable name, such as `octal-number`.
+    /// Stable name of the code, such as `octal-number`.
     pub name: &'static str,
     /// Class of the code.
     pub class: Class,
-    /// Level of the code, unless the user sets another one.
+    /// Level of the code, unless the user sets another level.
     pub default: Level,
     /// Summary of the problem, in lower case and without a full stop.
     pub summary: &'static str,
-    /// Explanation that `lexibus explain` prints: meaning, consequence and remedy. A line feed ends a paragraph.
+    /// Explanation that `lexibus explain` prints: meaning, consequence and remedy. A line feed in the text ends a
+    /// paragraph.
     pub explanation: &'static str,
 }
 

@@ -86,7 +86,7 @@ impl Levels {
         self.by_code.get(code.id).is_some_and(|level| *level != Level::Allow)
     }
 
-    /// Returns the severity of a code, or `None` if it is not reported.
+    /// Returns the severity of a code, or `None` if the code is not reported.
     pub fn severity(&self, code: &'static Code) -> Option<Severity> {
         if code.class == Class::Error {
             return Some(Severity::Error);

@@ -52,7 +52,7 @@ pub struct Diagnostic {
     pub message: String,
     /// Span of the marked text. An empty span means the whole file.
     pub span: Span,
-    /// Label of the marked text: what the compiler did or expected. May be empty.
+    /// Label of the marked text: what the compiler did or expected. The label may be empty.
     pub label: String,
     /// Notes with further spans and facts.
     pub notes: Vec<Note>,
@@ -62,7 +62,7 @@ pub struct Diagnostic {
     pub fix: Option<String>,
 }
 
-/// A further span or fact of a diagnostic.
+/// A note of a diagnostic: a further span or fact.
 #[derive(Clone, Debug)]
 pub struct Note {
     /// Span of the note; `None` for a fact without a span.
@@ -133,18 +133,18 @@ pub struct Diagnostics {
     allowed: Allowed,
     /// Number of diagnostics in the list, by file and code.
     kept: HashMap<(FileId, &'static str), usize>,
-    /// Diagnostics above the limit of a code and file, which are only counted.
+    /// Diagnostics beyond the limit for their code and file, which are only counted.
     beyond: Vec<Beyond>,
     /// True if the list already has the closing diagnostics, which state the number of diagnostics in `beyond`.
     is_closed: bool,
 }
 
-/// A diagnostic that is only counted, because there are too many with its code in its file.
+/// A diagnostic that is only counted, because its file has too many diagnostics with its code.
 #[derive(Clone, Debug)]
 struct Beyond {
     code: &'static Code,
     span: Span,
-    /// Hash of the message.
+    /// Hash of the message, with which repeated diagnostics are found.
     message: u64,
 }
 
@@ -154,8 +154,8 @@ impl Diagnostics {
         Diagnostics { levels, ..Diagnostics::default() }
     }
 
-    /// Adds a diagnostic, unless its code is allowed. Keeps at most [`MAX_SAME_DIAGNOSTICS`] for each code and file, and only
-    /// counts further ones.
+    /// Adds a diagnostic, unless its code is allowed. Keeps at most [`MAX_SAME_DIAGNOSTICS`] diagnostics for each code and file,
+    /// and only counts further diagnostics.
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
         if self.allowed.contains(diagnostic.span, diagnostic.code) {
             return;
@@ -174,7 +174,8 @@ impl Diagnostics {
         }
     }
 
-    /// Removes and suppresses diagnostics with these codes within these spans, now and later. Codes of [`Class::Error`] are kept.
+    /// Removes and suppresses diagnostics with these codes within these spans, now and later. Diagnostics with codes of
+    /// [`Class::Error`] are kept.
     pub fn allow(&mut self, spans: impl IntoIterator<Item = (Span, &'static Code)>) {
         self.allowed.extend(spans.into_iter().filter(|(_, code)| code.class != Class::Error));
         let (allowed, kept) = (&self.allowed, &mut self.kept);
@@ -188,8 +189,8 @@ impl Diagnostics {
         self.beyond.retain(|diagnostic| !allowed.contains(diagnostic.span, diagnostic.code));
     }
 
-    /// Removes repeated diagnostics from index `first` on. A repeated diagnostic has the same code, span and message as an
-    /// earlier one.
+    /// Removes repeated diagnostics from the list, starting at index `first`. A repeated diagnostic has the same code, span and
+    /// message as an earlier one.
     pub(crate) fn forget_repeated(&mut self, first: usize) {
         let mut seen = std::collections::HashSet::new();
         let tail = self.list.split_off(first.min(self.list.len()));

@@ -2,10 +2,10 @@
 
 use compact_str::{format_compact, CompactString};
 
-/// Language of a text without an LcId.
+/// LCID of the language that a text without the attribute LcId has.
 pub const ENGLISH: u32 = 1033;
 
-/// LCIDs and BCP 47 tags. For a tag without a region, the first entry of the language applies.
+/// LCIDs and the corresponding BCP 47 tags. For a tag without a region, the first entry of the language applies.
 const LANGUAGES: [(u32, &str); 23] = [
     (1028, "zh-TW"),
     (1029, "cs-CZ"),
@@ -32,7 +32,8 @@ const LANGUAGES: [(u32, &str); 23] = [
     (2070, "pt-PT"),
 ];
 
-/// Returns the rank of a text as the main name. English (1033) comes first, then texts without a language, then other languages.
+/// Returns the rank of a text in the choice of an element's main name. English (1033) comes first, then texts without a language,
+/// then other languages.
 pub fn rank(lcid: Option<u32>) -> u8 {
     match lcid {
         Some(ENGLISH) => 0,

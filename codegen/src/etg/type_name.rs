@@ -16,9 +16,9 @@ pub enum Basic {
 /// The relation of a name to the tables of ETG.1000.6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spelling {
-    /// The standard name.
+    /// The name of the type in ETG.1000.6.
     Standard,
-    /// Another common name of the type (UINT16).
+    /// A common name of the type that ETG.1000.6 does not define (UINT16).
     Alias,
     /// A name that begins with the name of a type or with an alias (`UINT_hex`, `Uint16_hex`).
     Prefix,
@@ -104,7 +104,7 @@ fn with_parameter(name: &str) -> Option<Basic> {
     if let Some(length) = wide {
         return length_of(length).map(|length| Basic::Type(Type::UnicodeString(Some(length))));
     }
-    // The tables list 8, 16, 32 and 64 bits under other names, so only the other widths are read here.
+    // ETG.1000.6 has names without a number for 8, 16, 32 and 64 bits, so only the other widths are read here.
     if let Some(bits @ (24 | 40 | 48 | 56)) = name.strip_prefix("UINT").and_then(width) {
         return Some(Basic::Type(Type::Unsigned(bits)));
     }
@@ -119,7 +119,7 @@ fn width(digits: &str) -> Option<u8> {
     digits.parse().ok().filter(|bits| plain && (1..=64).contains(bits))
 }
 
-/// Returns the number of a text in parentheses, such as `(12)`.
+/// Returns the number in a text such as `(12)`.
 fn length_of(text: &str) -> Option<u32> {
     text.trim().strip_prefix('(')?.strip_suffix(')')?.trim().parse().ok()
 }
@@ -157,7 +157,8 @@ fn alias(name: &str) -> Option<Type> {
     })
 }
 
-/// Returns the basic type with this number. Numbers up to 0x1B are those of CiA 301; numbers from 0x20 differ.
+/// Returns the basic type with this number in ETG.1000.6. Numbers up to 0x1B have the same meaning in CiA 301; numbers
+/// from 0x20 have another meaning.
 pub fn by_code(code: u32) -> Option<Basic> {
     Some(match code {
         0x1D => Basic::Type(Type::OctetString(Some(16))),

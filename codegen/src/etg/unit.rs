@@ -86,7 +86,7 @@ fn prefixed(exponent: i8, symbol: &str) -> CompactString {
         9 => "G",
         _ => "·",
     };
-    // Kilograms already have a prefix, and millidegrees are unusual.
+    // Some units get a power of ten instead of a prefix: kilograms already have a prefix, and millidegrees are unusual.
     let plain = symbol.starts_with(|letter: char| letter.is_ascii_alphabetic() || letter == 'Ω');
     match prefix {
         "" => symbol.into(),

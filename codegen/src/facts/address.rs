@@ -7,13 +7,14 @@ use crate::ir::{Binding, Item, ModbusTable, ObjectBuses, RegisterBinding, Regist
 /// An address of an item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Address {
-    /// Name of the bus, or names of the buses.
+    /// Name of the bus on which the item has this address, or names of several buses.
     pub bus: &'static str,
     /// Short form of the address, as the source prints it.
     pub number: String,
-    /// Search terms: printed address and wire address. Empty if another address of the item has the same terms.
+    /// Search terms: printed address and wire address. The text is empty if another address of the item has the same
+    /// search terms.
     pub lookup: String,
-    /// Complete form of the address, with all its facts.
+    /// Complete form of the address, with all facts about the address.
     pub text: String,
 }
 
@@ -35,7 +36,8 @@ fn address(binding: &Binding, item: &Item, tables: &[ModbusTable]) -> Address {
         Binding::Image(image) => format!("{}, {}", image.image, bits_of(image.bit_offset, image.bits)),
         Binding::Object { .. } | Binding::Parameter { .. } | Binding::Ascii(_) => number(binding),
     };
-    // The number of an indirect access is that of a register or parameter, which is a search term already.
+    // An indirect access adds no search term, because its number is that of a register or parameter, which already is a
+    // search term.
     let lookup = if matches!(binding, Binding::Indirect(_)) { String::new() } else { text.clone() };
     Address { bus: bus(binding), number: text.clone(), lookup, text }
 }

@@ -6,21 +6,21 @@ use crate::ir::{Direction, Item, Value};
 const BIT_31: u32 = 1 << 31;
 const BIT_30: u32 = 1 << 30;
 
-/// Flag of a 29-bit identifier.
+/// Flag of a COB-ID with a 29-bit identifier.
 const EXTENDED: u32 = 1 << 29;
 
 /// The kind of object that a COB-ID belongs to. The kind of object determines the meaning of the flags.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CobId {
-    /// 0x1400 to 0x15FF.
+    /// COB-ID of an RPDO, in the objects 0x1400 to 0x15FF.
     Rpdo,
-    /// 0x1800 to 0x19FF.
+    /// COB-ID of a TPDO, in the objects 0x1800 to 0x19FF.
     Tpdo,
-    /// 0x1005.
+    /// COB-ID of SYNC, in the object 0x1005.
     Sync,
-    /// 0x1012.
+    /// COB-ID of TIME, in the object 0x1012.
     Time,
-    /// 0x1014, 0x1028 and 0x1200 to 0x12FF.
+    /// COB-ID of another service, in the objects 0x1014, 0x1028 and 0x1200 to 0x12FF.
     Service,
 }
 
@@ -66,7 +66,7 @@ pub fn text(value: &Value, kind: CobId) -> Option<String> {
     };
     let raw = u32::try_from(number).ok()?;
     let mask = if raw & EXTENDED != 0 { 0x1FFF_FFFF } else { 0x7FF };
-    // A COB-ID has no other bits.
+    // A value with any other bit is not a COB-ID.
     if raw & !(BIT_31 | BIT_30 | EXTENDED | mask) != 0 {
         return None;
     }

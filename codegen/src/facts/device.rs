@@ -3,7 +3,8 @@
 use super::number::hex32;
 use crate::ir::{Device, Fit};
 
-/// Returns the title of a device: its name, product name, order code or identifier. The text is empty if the device has none of these.
+/// Returns the title of a device: its name, product name, order code or identifier. The text is empty if the description contains
+/// none of these texts.
 pub fn title(device: &Device) -> &str {
     let names = [&device.name, &device.identity.product_name, &device.identity.order_code, &device.id];
     names.into_iter().find(|name| !name.trim().is_empty()).map_or("", |name| name.as_str())

@@ -5,7 +5,7 @@ use super::types;
 use super::words::PLAIN;
 use crate::ir::{Item, Limits, Mappable, Quantity, Scale, Type, TypeDef, Value};
 
-/// Returns a value of an item, physical value first. `types`: the types of the owner of the item.
+/// Returns a value of an item as text, physical value first. `types` are the types of the device or module that has the item.
 pub fn value(item: &Item, value: &Value, types: &[TypeDef]) -> String {
     let basic = types::basic(types, item.ty);
     PLAIN.of_item(item, value, &|value| raw(item, value, basic))
@@ -16,8 +16,8 @@ pub fn default(item: &Item, types: &[TypeDef]) -> String {
     item.default.as_ref().map(|default| value(item, default, types)).unwrap_or_default()
 }
 
-/// Returns the range: `0 … 5`, `1, 3 to 7`, `-20.0 … 200.0 °C (raw -200 … 2000)`. The text is empty if there are no
-/// limits. It contains at most `shown` values of a list.
+/// Returns the range: `0 … 5`, `1, 3 to 7`, `-20.0 … 200.0 °C (raw -200 … 2000)`. The text is empty if the item has no limits.
+/// The text contains at most `shown` values of a list.
 pub fn range(item: &Item, limits: &Limits, types: &[TypeDef], shown: usize) -> String {
     let physical = Physical::of(item.quantity.as_deref());
     let basic = types::basic(types, item.ty);
@@ -88,7 +88,7 @@ fn raw(item: &Item, value: &Value, ty: Type) -> String {
     }
 }
 
-/// Returns a value for a table. Large unsigned numbers are hexadecimal.
+/// Formats a value for the cell of a table. Large unsigned numbers are hexadecimal.
 fn number(value: &Value, ty: Type) -> String {
     match value {
         Value::Int(number) => integer(*number, matches!(ty, Type::Unsigned(_))),
@@ -96,7 +96,7 @@ fn number(value: &Value, ty: Type) -> String {
     }
 }
 
-/// Returns a number. Large unsigned numbers are hexadecimal, because most of them are bit patterns, addresses and signatures.
+/// Formats a number. Large unsigned numbers are hexadecimal, because most of them are bit patterns, addresses and signatures.
 pub fn integer(number: i128, is_unsigned: bool) -> String {
     match number {
         0x1_0000.. if is_unsigned => format!("0x{number:X}"),

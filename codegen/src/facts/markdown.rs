@@ -15,7 +15,7 @@ pub fn escape(text: &str, keep: fn(char) -> bool) -> String {
                 escaped.push('\\');
                 escaped.push(letter);
             }
-            // `1.` and `1)` start a list, `http://` starts a link.
+            // In Markdown, `1.` and `1)` start a list, and `http://` starts a link.
             '.' | ')' if escaped.bytes().all(|byte| byte.is_ascii_digit()) && !escaped.is_empty() => {
                 escaped.push('\\');
                 escaped.push(letter);

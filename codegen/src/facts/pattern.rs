@@ -2,8 +2,8 @@
 
 use crate::ir::Pattern;
 
-/// Returns the number of bits of patterns. This is the width of their item. Without an item, it is the smallest of 8, 16 and 32 bits that
-/// fits all patterns.
+/// Returns the number of bits with which patterns are printed: the width of their item. Without an item, returns the smallest of
+/// 8, 16 and 32 bits that fits all patterns.
 pub fn width(of_item: Option<u32>, patterns: &[Pattern]) -> u32 {
     of_item.unwrap_or_else(|| {
         let used = patterns.iter().fold(0, |used, pattern| used | pattern.mask);

@@ -11,8 +11,8 @@ pub fn buses(device: &Device) -> ObjectBuses {
     ObjectBuses { canopen: device.canopen.is_some() || !is_ethercat, coe: is_ethercat }
 }
 
-/// Returns the name of a PDO: `RPDO 1` on CANopen, `RxPDO 0x1701` on EtherCAT, `RPDO 1 / RxPDO 0x1600` on both. Numbers count from 1
-/// (CiA 301, 7.5.2.35).
+/// Returns the name of a PDO: `RPDO 1` on CANopen, `RxPDO 0x1701` on EtherCAT, `RPDO 1 / RxPDO 0x1600` on both. The numbers of
+/// PDOs are counted from 1 (CiA 301, 7.5.2.35).
 pub fn title(pdo: &Pdo, buses: ObjectBuses) -> String {
     let buses = pdo.buses.unwrap_or(buses);
     let (canopen, coe) = match pdo.direction {
@@ -30,8 +30,8 @@ pub fn title(pdo: &Pdo, buses: ObjectBuses) -> String {
     }
 }
 
-/// Returns the objects that PDOs map, with the directions of these PDOs. These objects can be mapped even if the description does not
-/// state it.
+/// Returns the objects that PDOs map, with the directions of these PDOs. Objects in this map can be mapped, even if the
+/// description does not state that they are mappable.
 pub fn mapped_objects(pdos: &[Pdo]) -> HashMap<(u16, u8), Mappable> {
     let mut mapped: HashMap<(u16, u8), Mappable> = HashMap::new();
     for pdo in pdos {

@@ -34,7 +34,8 @@ impl<'q> Physical<'q> {
         }
     }
 
-    /// Formats a value: `25.0 °C (raw 250)`, or `raw 250` if the physical value is unknown. `raw` formats raw values, `unit` units.
+    /// Formats a value: `25.0 °C (raw 250)`, or `raw 250` if the physical value is unknown. `raw` formats raw values, and `unit`
+    /// formats units.
     pub fn value(&self, value: &Value, raw: &dyn Fn(&Value) -> String, unit: &dyn Fn(&str) -> String) -> String {
         match self.number(value) {
             Some(number) => format!("{} (raw {})", self.with_unit(&number, unit), raw(value)),
@@ -76,14 +77,14 @@ impl<'q> Physical<'q> {
         }
     }
 
-    /// Returns whether the conversion has a pole between two raw values.
+    /// Returns whether the conversion has a pole (division by zero) between two raw values.
     fn has_pole_in(&self, low: Option<&Value>, high: Option<&Value>) -> bool {
         let is_above = |value: Option<&Value>| value.and_then(Value::as_real).is_some_and(|value| value > 0.0);
         let is_below = |value: Option<&Value>| value.and_then(Value::as_real).is_some_and(|value| value < 0.0);
         matches!(self.scale, Scale::Reciprocal { .. }) && !is_above(low) && !is_below(high)
     }
 
-    /// Returns whether the physical value falls if the raw value rises.
+    /// Returns whether the physical value decreases when the raw value increases.
     fn is_falling(&self) -> bool {
         match *self.scale {
             Scale::Linear { factor, .. } => factor < 0.0,
@@ -111,7 +112,7 @@ impl<'q> Physical<'q> {
     }
 }
 
-/// Returns the unit that outputs show. A ratio has no unit.
+/// Returns the unit that documentation shows for a quantity. A ratio is shown without a unit.
 pub fn shown_unit(quantity: &Quantity) -> &str {
     if quantity.unit == "1" {
         ""

@@ -3,7 +3,7 @@
 use crate::ir::{Bus, Item, ModbusTable, RegisterBinding, RegisterSpace};
 
 impl RegisterSpace {
-    /// Returns the name of the table.
+    /// Returns the name of the Modbus table.
     pub fn title(self) -> &'static str {
         match self {
             RegisterSpace::Holding => "holding",
@@ -24,8 +24,7 @@ impl RegisterSpace {
     }
 }
 
-/// Returns the printed addresses: `40102–40103`, `R01`. If the source prints no addresses, these are the wire
-/// addresses.
+/// Returns the printed addresses: `40102–40103`, `R01`. If the source prints no addresses, returns the wire addresses.
 pub fn printed(register: &RegisterBinding) -> String {
     match register.printed.as_str() {
         "" => wire(register),
@@ -82,7 +81,7 @@ pub fn functions(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]
     let accepted = table.map_or(&[][..], |table| &table.functions);
     let is_accepted = |function: &&u8| accepted.is_empty() || accepted.contains(function);
     let (reads, one, several) = register.space.functions();
-    // A device with longer registers may accept one of them in a function for a single register.
+    // A device whose registers are longer than 16 bits may accept a function for a single register.
     let is_one = register.count == 1 || register.words_per_address > 1 && !accepted.is_empty();
     let is_split = table.is_some_and(|table| table.split);
     let is_part = register.bit_offset.is_some() && register.count == 1;

@@ -3,7 +3,7 @@
 use crate::ir::owner::Owner;
 use crate::ir::{Type, TypeDef, TypeId};
 
-/// Returns the basic type of a type. Arrays and records are opaque.
+/// Returns the basic type of a type. The basic type of an array or record is an opaque type.
 pub fn basic(types: &[TypeDef], ty: Type) -> Type {
     match Owner::of_types(types).basic(ty) {
         Type::Named(_) => Type::Opaque(None),
@@ -32,7 +32,8 @@ pub fn numbers(first: i128, last: Option<i128>) -> String {
     }
 }
 
-/// Formats a number. Large numbers have both decimal and hexadecimal notation, because they are often bit patterns.
+/// Formats a number. A large number has both decimal and hexadecimal notation, because large numbers are often bit
+/// patterns.
 fn number(number: i128) -> String {
     match number {
         0..=255 => number.to_string(),

@@ -17,10 +17,10 @@ pub struct Words<'w> {
     pub link: &'w dyn Fn(ElementId, &str) -> Option<String>,
 }
 
-/// Function for an output without links.
+/// Link function for an output without links. The function returns `None` for all elements.
 pub const NO_LINK: &dyn Fn(ElementId, &str) -> Option<String> = &|_, _| None;
 
-/// Sentences as plain text.
+/// Builder of sentences as plain text.
 pub const PLAIN: Words<'static> = Words { escape: one_line, link: NO_LINK };
 
 /// Returns a text as one line.
@@ -33,8 +33,8 @@ pub fn manual(device: &Device) -> Manual {
     device.manual.as_deref().cloned().unwrap_or_default()
 }
 
-/// Returns the name of an item's row in the manual: the name in an ASCII protocol, or of a register or parameter. The text is
-/// empty for objects, because manuals may not print their names.
+/// Returns the name under which the manual lists an item: its name in an ASCII protocol, or the name of a register or parameter.
+/// The text is empty for objects, because some manuals do not print the names of objects.
 pub fn row_of(item: &Item) -> &str {
     let ascii = item.bindings.iter().find_map(|binding| match binding {
         Binding::Ascii(name) => Some(name.as_str()),
@@ -202,20 +202,21 @@ impl Words<'_> {
         lines.map(|line| self.escaped(line)).filter(|line| !line.is_empty()).map(|line| sentence(&line)).collect()
     }
 
-    /// Returns the access rights as words; assumed ones are marked.
+    /// Returns the access rights in words. Assumed access rights are marked with `(assumed)`.
     pub fn access_rights(&self, item: &Item) -> String {
         let assumed = if item.is_access_assumed() { " (assumed)" } else { "" };
         format!("{}{assumed}", access_name(item.access))
     }
 
-    /// Returns a sentence if the access rights are an assumption.
+    /// Returns a sentence which states that the access rights are an assumption. Returns `None` if the source states the access
+    /// rights.
     pub fn access(&self, item: &Item) -> Option<String> {
         let assumed = if item.access.writable() { "read-write" } else { "read-only" };
         item.is_access_assumed()
             .then(|| format!("The access rights ({assumed}) are an assumption, because the manual states none."))
     }
 
-    /// Returns sentences about storage, side effects and conditions of writing.
+    /// Returns sentences about the storage of a value, the side effects of writing it, and the conditions for writing it.
     pub fn behaviour(&self, behaviour: &Behaviour) -> Vec<String> {
         let mut sentences = Vec::new();
         sentences.extend(self.storage(&behaviour.storage).map(|storage| sentence(&capital(&storage))));
@@ -247,7 +248,8 @@ impl Words<'_> {
         sentences
     }
 
-    /// Returns the storage: `volatile`, `non-volatile: stored on the command Save`. Returns `None` if the source does not state it.
+    /// Returns the storage: `volatile`, `non-volatile: stored on the command Save`. Returns `None` if the source does not state
+    /// how the device stores the value.
     pub fn storage(&self, storage: &Storage) -> Option<String> {
         match storage {
             Storage::Unknown => None,
@@ -279,7 +281,8 @@ impl Words<'_> {
         }
     }
 
-    /// Formats a value in a step. Large values are hexadecimal, because most of them are codes, indices and mappings.
+    /// Formats a value in a step of a procedure. Large values are hexadecimal, because most of them are codes, indices and
+    /// mappings.
     fn step_value(&self, value: &Value) -> String {
         match value.as_int() {
             Some(0x100..) => self.bits(value),
@@ -318,7 +321,7 @@ impl Words<'_> {
         }
     }
 
-    /// Formats a value. Long strings and byte sequences are shortened.
+    /// Formats a value for a sentence. Long strings and byte sequences are shortened.
     pub fn value(&self, value: &Value) -> String {
         const SHOWN: usize = 60;
         let text = value.to_string();
@@ -356,7 +359,8 @@ impl Words<'_> {
         }
     }
 
-    /// Returns the limits: `range 0 to 5`, `one of 1, 3 to 7`, `range -20.0 … 200.0 °C (raw -200 … 2000)`. Returns `None` without limits.
+    /// Returns the limits: `range 0 to 5`, `one of 1, 3 to 7`, `range -20.0 … 200.0 °C (raw -200 … 2000)`. Returns `None` if the
+    /// item has no limits.
     pub fn limits(&self, limits: &Limits, physical: Option<&Physical<'_>>) -> Option<String> {
         if !limits.allowed.is_empty() {
             return Some(format!("one of {}", self.allowed(limits, physical, &|value| self.value(value))));
@@ -372,7 +376,8 @@ impl Words<'_> {
         Some(if depends_on_node(limits) { text + " (not checked)" } else { text })
     }
 
-    /// Returns the range: `0 … 5`, `-20.0 … 200.0 °C (raw -200 … 2000)`. It is empty without limits. `raw` formats raw values.
+    /// Returns the range: `0 … 5`, `-20.0 … 200.0 °C (raw -200 … 2000)`. The text is empty if the item has no limits. `raw`
+    /// formats raw values.
     pub fn range(&self, limits: &Limits, physical: Option<&Physical<'_>>, raw: &dyn Fn(&Value) -> String) -> String {
         let (low, high) = (limits.low.as_ref(), limits.high.as_ref());
         match physical.filter(|_| low.is_some() || high.is_some()) {
@@ -381,7 +386,7 @@ impl Words<'_> {
         }
     }
 
-    /// Returns the allowed values and ranges: `1, 3 to 7`. A long list is shortened.
+    /// Returns the allowed values and ranges: `1, 3 to 7`. A list of more than [`ALLOWED_SHOWN`] values is shortened.
     pub fn allowed(&self, limits: &Limits, physical: Option<&Physical<'_>>, raw: &dyn Fn(&Value) -> String) -> String {
         self.first_allowed(limits, physical, raw, ALLOWED_SHOWN)
     }
@@ -408,7 +413,8 @@ impl Words<'_> {
         list.join(", ")
     }
 
-    /// Returns sentences about models, firmware versions, buses and options that have an element. The text is empty if all have it.
+    /// Returns sentences about the models, firmware versions, buses and options with which an element exists. The text is empty
+    /// if the element always exists.
     pub fn availability(&self, availability: &Availability) -> String {
         let mut sentences = Vec::new();
         if !availability.models.is_empty() {
@@ -488,7 +494,8 @@ impl Words<'_> {
         (!sentences.is_empty()).then(|| sentences.join(" "))
     }
 
-    /// Returns the origin of the bits or values of a type, unless it is the description: `Bits from CiA 402, 10.3.1.`
+    /// Returns the origin of the bits or values of a type, unless the description itself is the origin: `Bits from CiA 402,
+    /// 10.3.1.`
     pub fn meaning_from(&self, definition: Option<&TypeDef>) -> Option<String> {
         let definition = definition?;
         let origin = definition.documentation.as_deref()?.text_from.as_deref()?;
@@ -556,8 +563,9 @@ impl Words<'_> {
         notes
     }
 
-    /// Returns the origins of facts of an item that do not come from its description: `Unit from CiA 402, 17.3.7.` Other sentences state
-    /// assumed access rights, reserved entries, and bits and values of a standard.
+    /// Returns the origins of those facts of an item that do not come from its description: `Unit from CiA 402, 17.3.7.` Assumed
+    /// access rights, reserved entries, and bits and values of a standard are left out, because other methods return sentences
+    /// about them.
     pub fn origins(&self, item: &Item) -> Vec<String> {
         let mut groups: Vec<(&FactOrigin, Vec<&str>)> = Vec::new();
         for fact in Fact::ALL {
@@ -595,7 +603,7 @@ impl Words<'_> {
         format!("steps of {step}")
     }
 
-    /// Returns sentences about the differences on some models or buses.
+    /// Returns sentences about the facts of an item that differ on some models or buses.
     pub fn variants(&self, item: &Item, manual: &Manual) -> Vec<String> {
         let is_by_model = item.variants.iter().any(|variant| !variant.models.is_empty());
         let others =
@@ -609,7 +617,7 @@ impl Words<'_> {
         others.into_iter().chain(item.variants.iter().map(sentences)).collect()
     }
 
-    /// Returns sentences about the differences of an item on some models or buses.
+    /// Returns the sentence about one variant: the facts of an item that differ on some models or buses.
     fn variant(&self, variant: &ItemVariant, item: &Item) -> String {
         let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
         let scaled = variant.scale.as_ref().map(|scale| Physical::scaled(scale, unit));

@@ -121,7 +121,7 @@ pub enum Binding {
     },
     /// Bits of a fixed process image.
     Image(Box<ImageBinding>),
-    /// A parameter of a parameter space. Messages transfer the parameter's value.
+    /// A parameter of a parameter space. Messages transfer the value of the parameter.
     Parameter {
         /// Name of the parameter space.
         space: CompactString,
@@ -194,10 +194,11 @@ pub struct RegisterBinding {
     pub bytes_swapped: bool,
     /// Bit offset of the item in its register; `None` if the item is not a part of a register.
     pub bit_offset: Option<u8>,
-    /// Number of 16-bit registers at one address: 2 if a device has 32-bit registers.
+    /// Number of 16-bit words at one register address; 2 if the device has 32-bit registers.
     #[cfg_attr(feature = "serde", serde(default = "one", skip_serializing_if = "is_one"))]
     pub words_per_address: u8,
-    /// True if a value that is shorter than its registers is extended: with its sign if it is signed, otherwise with zeros.
+    /// True if a value that is shorter than its registers is extended to their length: a signed value with its sign, an unsigned
+    /// value with zeros.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_false"))]
     pub extended: bool,
 }
@@ -259,9 +260,9 @@ pub struct ImageBinding {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IndirectBinding {
-    /// Name of the space in the register table to which the number belongs.
+    /// Name of the parameter space in the register table. The number identifies a parameter of this space.
     pub space: CompactString,
-    /// Zero-based position of the window in the space.
+    /// Zero-based position of the window in the list of windows of the parameter space.
     pub window: u8,
     /// Buses on which the window exists.
     pub buses: Buses,
@@ -285,7 +286,7 @@ pub struct WindowSide {
     pub number_first: Option<bool>,
     /// True if the device sets the number to 0 after the access; `None` if the source does not state it.
     pub clears: Option<bool>,
-    /// Duration of the access in milliseconds.
+    /// Time in milliseconds that the access takes.
     pub wait: Option<u32>,
     /// Timeout in milliseconds until the device sets the number to 0.
     pub timeout: Option<u32>,
@@ -337,7 +338,7 @@ pub struct Conversion {
     pub at: Span,
 }
 
-/// A unit of the driven machine. A value in this unit is the physical value, multiplied and divided by machine constants
+/// A unit of the driven machine. A value in the machine unit is the physical value, multiplied and divided by machine constants
 /// ([`GivenNumber`]).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -374,7 +375,7 @@ pub struct GivenNumber {
 pub struct Behaviour {
     /// Storage of the value: volatile or non-volatile.
     pub storage: Storage,
-    /// Text that states when a written value takes effect, if not immediately.
+    /// Text that states when a written value takes effect, if it does not take effect immediately.
     pub effective: Option<CompactString>,
     /// Conditions on other items under which a client can write the item.
     pub write_when: Vec<Condition>,
@@ -395,7 +396,7 @@ pub struct Behaviour {
     /// Mapping into a safety-relevant data object of CANopen, if allowed (SRDOMapping of CiA 306-1).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub srdo: Option<Srdo>,
-    /// True if tools hide the item (Visible of GSDML).
+    /// True if engineering tools hide the item (Visible of GSDML).
     pub hidden: bool,
     /// Access rights of the slave application (PDI) to ESC memory (ETG.1000.4).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
@@ -430,7 +431,7 @@ pub enum Storage {
     OnCommand(ElementRef),
 }
 
-/// Models, firmware versions, options and buses on which an element exists.
+/// Models, firmware versions, options and buses with which an element exists.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Availability {
@@ -438,10 +439,10 @@ pub struct Availability {
     pub models: Vec<CompactString>,
     /// First firmware version that has the element.
     pub since: Option<CompactString>,
-    /// First firmware version that no longer has the element.
+    /// First later firmware version that no longer has the element.
     pub until: Option<CompactString>,
-    /// Replacement for the element: an item or message. The replacement for a bit or value is another bit or value, and has no
-    /// id.
+    /// Replacement for the element: an item or message. The replacement for a bit or value is another bit or value. The reference
+    /// to it has no id.
     pub replaced_by: Option<ElementRef>,
     /// Hardware options that the element requires.
     pub options: Vec<CompactString>,

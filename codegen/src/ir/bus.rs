@@ -1,4 +1,4 @@
-//! Buses, and sets of them.
+//! Buses, and sets of buses.
 
 use std::fmt;
 

@@ -22,7 +22,7 @@ pub struct Catalog {
     pub submodules: Vec<Submodule>,
     /// Types of the submodules' items. Each device and module has a separate list of types.
     pub types: Vec<TypeDef>,
-    /// Code tables of all devices: channel diagnosis, log book.
+    /// Code tables that apply to all devices: channel diagnosis and log book entries.
     pub code_tables: Vec<CodeTable>,
     /// Layouts of vendor-specific PROFINET diagnosis (user structures).
     pub unit_diagnoses: Vec<UnitDiagnosis>,
@@ -99,7 +99,7 @@ pub struct Doubt {
     pub says: String,
     /// The assumption that was made.
     pub chosen: String,
-    /// Reason for the assumption.
+    /// Reason why the assumption was chosen.
     pub why: String,
     /// Location of the ambiguity in the source.
     pub origin: Origin,
@@ -130,7 +130,7 @@ pub struct Subject {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum SubjectKind {
-    /// A type definition: bits or values.
+    /// A type definition: a bit field or an enumeration.
     Type,
     /// A code table.
     Codes,
@@ -155,7 +155,7 @@ impl Doubt {
     }
 }
 
-/// The consequence of a wrong assumption. The worst consequence comes first.
+/// The consequence of a wrong assumption. The variants are sorted from the worst consequence to the least.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -186,7 +186,7 @@ impl Severity {
 pub struct Manual {
     /// Title of the manual.
     pub title: CompactString,
-    /// Edition of the manual.
+    /// Edition of the manual, as printed.
     pub edition: CompactString,
     /// Language of the manual (BCP 47), if it differs from the language of the description.
     pub language: CompactString,

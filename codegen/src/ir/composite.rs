@@ -15,7 +15,8 @@ pub struct Composite {
     pub parts: Vec<ItemRef>,
     /// Base of the number system. Each digit is less than the base.
     pub base: u16,
-    /// Item with the sign, and the value of this item for negative numbers. The item is 0 for other numbers.
+    /// Item with the sign, and the value of this item for negative numbers. For positive numbers and 0, the value of
+    /// the item is 0.
     pub sign: Option<(ItemRef, u16)>,
     /// Unit of the number.
     pub unit: CompactString,

@@ -17,7 +17,7 @@ pub struct Device {
     pub names: Texts,
     /// Identifier of the device in the source, if any (ID of a device access point).
     pub id: CompactString,
-    /// True if the description is a dictionary that devices refer to, and not a device (EtherCATDict of ETG.2000).
+    /// True if the description is not a device, but a dictionary to which devices refer (EtherCATDict of ETG.2000).
     pub dictionary_only: bool,
     /// Identity: vendor, product and revision.
     pub identity: Identity,
@@ -29,7 +29,7 @@ pub struct Device {
     pub ethercat: Option<Box<EtherCatSettings>>,
     /// Settings of the device on PROFINET.
     pub profinet: Option<Box<ProfinetSettings>>,
-    /// Requests that each Modbus table accepts, if the source states them.
+    /// Requests that the device accepts for each Modbus table, if the source states the requests.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub modbus: Vec<ModbusTable>,
     /// Example Modbus frames in the source: node address, function code and data, with or without CRC.
@@ -40,7 +40,7 @@ pub struct Device {
     pub node_ids: Option<(u8, u8)>,
     /// Numbers of the device profiles that the device follows (402 = drives, 5001 = modular device).
     pub profiles: Vec<u32>,
-    /// Network settings of this single device (DCF, XDC).
+    /// Network settings, if the file configures a single device (DCF, XDC).
     pub commissioning: Option<Box<Commissioning>>,
     /// Types that the device defines.
     pub types: Vec<TypeDef>,
@@ -140,19 +140,19 @@ pub struct Identity {
     pub others: Vec<(CompactString, u32)>,
 }
 
-/// The requests that a Modbus table accepts.
+/// The requests that a device accepts for one Modbus table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModbusTable {
     /// The Modbus table.
     pub space: RegisterSpace,
-    /// Function codes that the table accepts; empty = not given.
+    /// Function codes that the device accepts for the table; empty = not given.
     pub functions: Vec<u8>,
     /// Maximum number of registers, coils or discrete inputs that one request reads.
     pub max_read: Option<u16>,
     /// Maximum number of registers or coils that one request writes.
     pub max_write: Option<u16>,
-    /// True if several requests can read or write a value that is too long for one request.
+    /// True if a value that is too long for one request can be read or written with several requests.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub split: bool,
 }
@@ -183,7 +183,7 @@ pub struct Header {
     pub modification_date: CompactString,
     /// Author of the last modification.
     pub modified_by: CompactString,
-    /// EDS that the DCF is based on (LastEDS).
+    /// File name of the EDS that the DCF is based on (LastEDS).
     pub last_eds: CompactString,
     /// Lines of the section `[Comments]`.
     pub comments: Vec<CompactString>,
@@ -207,13 +207,13 @@ pub struct CanOpenSettings {
     pub dynamic_channels_supported: u32,
     /// True if the device supports multiplexed PDOs.
     pub group_messaging: bool,
-    /// Number of RPDOs according to the file (NrOfRXPDO).
+    /// Number of RPDOs that the file states (NrOfRXPDO).
     pub rx_pdos: Option<u16>,
-    /// Number of TPDOs according to the file (NrOfTXPDO).
+    /// Number of TPDOs that the file states (NrOfTXPDO).
     pub tx_pdos: Option<u16>,
     /// True if the device supports layer setting services (LSS).
     pub lss: bool,
-    /// Communication sub-indices of implicit PDOs (CompactPDO); bit 0 is sub-index 1.
+    /// Mask of the sub-indices that communication objects of implicit PDOs have (CompactPDO); bit 0 is sub-index 1.
     pub compact_pdo: u8,
     /// Data types that are allowed as dummy entries in a PDO mapping.
     pub dummies: Vec<u8>,
@@ -271,7 +271,7 @@ pub struct Commissioning {
     pub manager: bool,
     /// Serial number for layer setting services (LSS).
     pub lss_serial_number: Option<u32>,
-    /// Connected modules by their number in the device description (`[ConnectedModules]`).
+    /// Connected modules, as numbers of modules in the device description (`[ConnectedModules]`).
     pub connected_modules: Vec<u16>,
 }
 
@@ -309,19 +309,19 @@ pub struct AxisRule {
 pub struct AxisRange {
     /// First and last index of the range.
     pub indices: (u16, u16),
-    /// Step from one axis to the next.
+    /// Difference between the addresses of one axis and of the next axis.
     pub step: AxisStep,
 }
 
-/// The step from one axis to the next.
+/// The difference between the address of an object on one axis and on the next axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum AxisStep {
-    /// The index increases by this number from axis to axis.
+    /// From axis to axis, the index increases by this number.
     Index(u16),
     /// The sub-index is the number of the axis.
     SubIndex,
-    /// The sub-index increases by this number from axis to axis.
+    /// From axis to axis, the sub-index increases by this number.
     SubIndexStride(u8),
 }

@@ -11,9 +11,9 @@ pub struct EtherCatSettings {
     pub physics: CompactString,
     /// Name of the device family (`GroupType`).
     pub group: CompactString,
-    /// Product code and revision of each device that tools hide because of this description (`HideType`).
+    /// Product code and revision of each device that engineering tools hide because of this description (`HideType`).
     pub hides: Vec<(Option<u32>, Option<u32>)>,
-    /// True if tools hide the device itself (`Invisible`).
+    /// True if engineering tools hide the device itself (`Invisible`).
     pub invisible: bool,
     /// FMMUs in the order of the slave controller.
     pub fmmus: Vec<Fmmu>,
@@ -59,7 +59,7 @@ pub struct SyncUnit {
     pub separate_frame: bool,
     /// True if the data of the sync unit depend on the input state.
     pub depends_on_input_state: bool,
-    /// True if frames may be repeated.
+    /// True if a master may repeat the frames of the sync unit.
     pub frame_repeat: bool,
 }
 
@@ -137,9 +137,9 @@ pub struct InitCommand {
     pub depends_on_slot_group: bool,
     /// True if the command uses complete access.
     pub complete_access: bool,
-    /// True if users cannot change the command.
+    /// True if users of the engineering tool cannot change the command.
     pub fixed: bool,
-    /// True if a master adapts the data (`AdaptAutomatically`).
+    /// True if a master adapts the data of the command automatically (`AdaptAutomatically`).
     pub adapt: bool,
     /// True if a module can replace the command.
     pub overwritten_by_module: bool,
@@ -169,13 +169,13 @@ pub struct ClockMode {
     pub description: CompactString,
     /// Value of register 0x0980 (`AssignActivate`).
     pub assign_activate: u32,
-    /// Cycle time of SYNC0.
+    /// Cycle time of the signal SYNC0.
     pub cycle_sync0: ClockTime,
-    /// Shift time of SYNC0.
+    /// Shift time of the signal SYNC0.
     pub shift_sync0: ClockTime,
-    /// Cycle time of SYNC1.
+    /// Cycle time of the signal SYNC1.
     pub cycle_sync1: ClockTime,
-    /// Shift time of SYNC1.
+    /// Shift time of the signal SYNC1.
     pub shift_sync1: ClockTime,
     /// Settings of sync managers in this mode.
     pub sync_managers: Vec<ClockSyncManager>,
@@ -185,9 +185,10 @@ pub struct ClockMode {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClockTime {
-    /// Time in nanoseconds; 0 if it follows from the cycle time.
+    /// Time in nanoseconds; 0 if the time follows from the cycle time.
     pub nanoseconds: i32,
-    /// Factor of the cycle time (for SYNC1: of the cycle time of SYNC0); a negative number is a divisor.
+    /// Factor by which the cycle time is multiplied (for SYNC1, the cycle time of SYNC0); a negative number is a
+    /// divisor.
     pub factor: Option<i32>,
     /// True if the shift is relative to the inputs.
     pub input: bool,
@@ -201,7 +202,7 @@ pub struct ClockSyncManager {
     pub number: u8,
     /// Synchronization type as in object 0x1C32:01, if given.
     pub sync_type: Option<u16>,
-    /// Indices of PDOs, and the oversampling factor of each.
+    /// Indices of PDOs, and the oversampling factor of each PDO.
     pub pdos: Vec<(u16, Option<u16>)>,
 }
 
@@ -231,7 +232,7 @@ pub struct SlotRules {
     pub pdo_groups: Vec<ModulePdoGroup>,
     /// Numbers and names of slot groups.
     pub groups: Vec<(u16, CompactString)>,
-    /// Names of module arrangements, and the ident numbers of the modules in each.
+    /// Names of module arrangements, and the ident numbers of the modules in each arrangement.
     pub selections: Vec<(CompactString, Vec<u32>)>,
 }
 
@@ -239,7 +240,7 @@ pub struct SlotRules {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModulePdoGroup {
-    /// Alignment of the data of each module in bytes; 0 and 1 = none.
+    /// Alignment of the data of each module in bytes; 0 and 1 = no alignment.
     pub alignment: u16,
     /// Index of the RPDO of the device before the RPDOs of the modules, if given.
     pub rx_pdo: Option<u16>,

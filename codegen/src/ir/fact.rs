@@ -91,9 +91,10 @@ impl Fact {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum FactOrigin {
-    /// The description itself. This origin is recorded only if the description states that the item lacks the fact.
+    /// The description itself. This origin is recorded only for a fact that, according to the description, the item does not
+    /// have.
     Stated,
-    /// The printed name in the manual, which the description writes out in full.
+    /// The name that the manual prints. The text of the description only spells out this name.
     PrintedName,
     /// An overlay of the user.
     Overlay {
@@ -115,11 +116,11 @@ pub enum FactOrigin {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Rule {
-    /// Missing access rights are read-write, and read-only for Modbus inputs.
+    /// Items without stated access rights are read-write, except Modbus inputs, which are read-only.
     UnstatedAccess,
-    /// Reserved sub-indices are read-only if they inherit read-write access.
+    /// A reserved sub-index is read-only if it only inherits read-write access.
     ReservedEntry,
-    /// Objects of PDOs that the description counts but does not describe have the facts of CiA 301.
+    /// Objects of implicit PDOs, which the description counts but does not describe, have the facts of CiA 301.
     AnnouncedPdo,
     /// An object that only PDO entries describe can be written if an RPDO maps it.
     MappedObject,
@@ -136,8 +137,8 @@ impl FactOrigin {
         }
     }
 
-    /// Returns whether a fact of this origin replaces a fact of the origin `present`. The later of two overlays takes precedence,
-    /// and the first of two standards.
+    /// Returns whether a fact of this origin replaces a fact of the origin `present`. Of two overlays, the later takes
+    /// precedence; of two standards, the first.
     pub(crate) fn takes_precedence_over(&self, present: Option<&FactOrigin>) -> bool {
         let Some(present) = present else { return true };
         self.rank() > present.rank() || matches!(self, FactOrigin::Overlay { .. })

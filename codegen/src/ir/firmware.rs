@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use super::{Availability, CompactString};
 use crate::text::glob;
 
-/// Returns the numbers of a version without trailing zeros: `6.27` is later than `6.3`, and `6` is `6.0`. Returns `None` for
-/// other notations.
+/// Returns the numbers of a version without trailing zeros: `6.27` is later than `6.3`, and `6` is `6.0`. Returns `None` if the
+/// version is not a sequence of numbers.
 pub(crate) fn version(text: &str) -> Option<Vec<u32>> {
     let mut numbers = text.split('.').map(|part| part.parse().ok()).collect::<Option<Vec<u32>>>()?;
     while numbers.len() > 1 && numbers.last() == Some(&0) {
@@ -20,7 +20,7 @@ pub(crate) fn compare(one: Option<&str>, other: Option<&str>) -> Option<Ordering
     Some(version(one?)?.cmp(&version(other?)?))
 }
 
-/// Returns whether no model and firmware version has both elements.
+/// Returns whether two elements never exist together, on any model and firmware version.
 pub(crate) fn apart(one: Option<&Availability>, other: Option<&Availability>) -> bool {
     let (Some(one), Some(other)) = (one, other) else { return false };
     let before = |first: &Availability, second: &Availability| {

@@ -27,7 +27,7 @@ impl Format {
     /// Formats of vendor files: all except register tables.
     pub const OF_VENDORS: &'static [Format] = &[Format::Eds, Format::Dcf, Format::Xdd, Format::Esi, Format::Gsdml];
 
-    /// The list of only the register table format.
+    /// A list that contains only the format of register tables.
     pub const TABLES: &'static [Format] = &[Format::Table];
 
     /// Returns the name of the format that `lexibus info` prints.
@@ -52,7 +52,7 @@ impl Format {
         }
     }
 
-    /// Returns two texts for the diagnostic about an object without sub-indices: the missing element, and the help.
+    /// Returns two texts for the diagnostic about an object without sub-indices: the name of the missing element, and the help.
     pub(crate) fn missing_subs(self) -> (&'static str, &'static str) {
         match self {
             Format::Eds | Format::Dcf => (

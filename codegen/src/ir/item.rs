@@ -107,12 +107,12 @@ impl Item {
         })
     }
 
-    /// Returns whether the source does not state the access rights, so that `access` is an assumption.
+    /// Returns whether `access` is an assumption of the compiler, because the source does not state the access rights.
     pub fn is_access_assumed(&self) -> bool {
         self.origins.get(Fact::Access) == Some(&FactOrigin::Rule(Rule::UnstatedAccess))
     }
 
-    /// Returns the access rights for documentation. Assumed access rights have a question mark: `rw?`.
+    /// Returns the name of the access rights for documentation. Assumed access rights have a question mark: `rw?`.
     pub fn access_name(&self) -> &'static str {
         match self.is_access_assumed() {
             true if self.access == Access::ReadOnly => "ro?",
@@ -131,7 +131,7 @@ impl Item {
         self.variants_on(bus).find_map(|variant| variant.ty).unwrap_or(self.ty)
     }
 
-    /// Returns the type of the object on CANopen, or on EtherCAT if it does not exist on CANopen.
+    /// Returns the type of the object on CANopen, or its type on EtherCAT if the object does not exist on CANopen.
     pub fn object_type(&self) -> Type {
         let is_on_canopen = |binding: &Binding| matches!(binding, Binding::Object { buses, .. } if buses.canopen);
         self.type_on(if self.bindings.iter().any(is_on_canopen) { Bus::CanOpen } else { Bus::EtherCat })
@@ -178,7 +178,7 @@ pub struct RelatedItems {
     /// Item with the upper half of the value.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub upper_half: Option<ItemRef>,
-    /// Item with the number of valid elements.
+    /// Item that contains the number of valid elements of this item.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub valid_count: Option<ItemRef>,
 }
@@ -235,7 +235,7 @@ pub struct Configured {
     pub download_file: Option<CompactString>,
 }
 
-/// Items that belong together in the source.
+/// A group of items that belong together in the source.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Group {
@@ -353,11 +353,11 @@ pub struct Record {
     pub index: u16,
     /// Length of the record in bytes.
     pub length: u32,
-    /// Position of the record in the order of transfer at start-up; 0 = any.
+    /// Position of the record in the order of transfer at start-up; 0 = any position.
     pub transfer_sequence: u16,
-    /// True if a change during operation disturbs the device (`ChangeableWithBump`); `None` if the source does not state it.
+    /// True if a change of the record during operation disturbs the device (`ChangeableWithBump`); `None` = not given.
     pub changeable_with_bump: Option<bool>,
-    /// Fixed bytes with their byte offsets. Bytes without a constant or an item are 0.
+    /// Fixed bytes of the record, with their byte offsets. Bytes of the record that have neither a constant nor an item are 0.
     pub constants: Vec<(u32, Vec<u8>)>,
 }
 

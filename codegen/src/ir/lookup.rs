@@ -21,7 +21,8 @@ impl<'a> Entries<'a> {
         Entries { groups, registers: OnceCell::new() }
     }
 
-    /// Returns the item at an index and sub-index. Registers are ignored if there is an object with this index.
+    /// Returns the item at an index and sub-index. Registers with an object address are ignored if the device has an object with
+    /// this index.
     pub fn get(&self, index: u16, sub_index: u8) -> Option<&'a Item> {
         self.find(index, sub_index)?.of(self.groups)
     }
@@ -37,7 +38,7 @@ impl<'a> Entries<'a> {
         }
     }
 
-    /// Returns whether the device or module has neither objects nor chapters.
+    /// Returns whether the device or module has neither objects nor chapters of registers.
     pub fn is_empty(&self) -> bool {
         self.groups.is_empty()
     }
@@ -93,7 +94,7 @@ impl<'a> ItemNames<'a> {
 #[derive(Clone, Debug, Default)]
 pub struct ItemPaths<'a> {
     chapters: HashMap<&'a str, HashMap<&'a str, (ItemId, &'a Item)>>,
-    /// Numbers of slashes that occur in chapter names.
+    /// The different numbers of slashes that chapter names contain.
     slashes: BTreeSet<usize>,
 }
 

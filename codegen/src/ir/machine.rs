@@ -13,17 +13,17 @@ pub struct StateMachine {
     pub name: CompactString,
     /// Item that contains the state, or `Message.field` for a field of a reply.
     pub status_item: ItemRef,
-    /// Item that takes the commands.
+    /// Item to which the commands are written.
     pub control_item: ItemRef,
     /// Enumeration of the states, if the source has one.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub state_type: Option<TypeRef>,
-    /// States as patterns of the status item. If there is a `state_type`, each value of that type is a state.
+    /// States as bit patterns of the status item. If the machine has a `state_type`, each value of that type is a state.
     pub states: SharedList<Pattern>,
     /// State after power-on.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub initial: Option<CompactString>,
-    /// Commands as patterns of the control item.
+    /// Commands as bit patterns of the control item.
     pub commands: SharedList<Pattern>,
     /// Transitions between states.
     pub transitions: SharedList<Transition>,
@@ -73,7 +73,7 @@ pub enum Outcome {
     Unchanged,
     /// The device rejects the command.
     Refused,
-    /// The device changes to the first of these states, and from each state automatically to the next.
+    /// The device changes to the first state of the list, and automatically from each state of the list to the next.
     States(Vec<CompactString>),
 }
 
@@ -103,8 +103,8 @@ pub struct Transition {
     pub from: Option<CompactString>,
     /// State after the transition.
     pub to: CompactString,
-    /// Command or message that causes the transition; `None` = the device itself causes it. The reference has an id only if it
-    /// names a message.
+    /// Command or message that causes the transition; `None` = the device itself causes it. A reference to a message has an id,
+    /// and a reference to a command has none.
     pub command: Option<MessageRef>,
     /// Description of the transition from the source.
     pub documentation: Option<Box<Documentation>>,

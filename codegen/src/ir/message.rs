@@ -16,14 +16,15 @@ pub struct Message {
     pub request: Vec<MessageField>,
     /// Fields of the reply, in order; empty if the device sends no reply.
     pub reply: Vec<MessageField>,
-    /// Event that completes the command.
+    /// The event with which the command is complete.
     pub completion: Completion,
     /// Approximate reply time in milliseconds, if the source states that the reply is delayed.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub reply_time: Option<u32>,
-    /// The earlier message that selects this reply, if the meaning of the reply depends on an earlier request.
+    /// The earlier message whose request determines the meaning of this reply, if the meaning depends on an earlier request.
     pub after: Option<MessageRef>,
-    /// True if the device also sends this reply after power-on, before it has received one of the messages in `after`.
+    /// True if the reply also has this meaning after power-on, before the device has received a request that determines the
+    /// meaning.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub by_default: bool,
     /// The message that the device sends instead of the reply if it rejects the request.
@@ -82,7 +83,7 @@ pub struct MessageExample {
     pub reply_at: Span,
 }
 
-/// The event that completes a command.
+/// The event with which a command is complete.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -94,8 +95,8 @@ pub enum Completion {
     Reply,
     /// The command is complete when an item, or a field of a reply, has a value.
     Polled {
-        /// Name of the item or field, optionally followed by a dot and the name of a bit. The reference has an id only if it
-        /// names an item.
+        /// Name of the item or field, optionally followed by a dot and the name of a bit. A reference to an item has an id, and a
+        /// reference to a field has none.
         item: ItemRef,
         /// Mask of the bits to compare; `None` = all bits.
         mask: Option<u64>,
@@ -136,9 +137,9 @@ pub enum MessageField {
     /// A copy of bytes of the request, regardless of their meaning. The first data byte has the number 0. If the request is
     /// shorter, the missing bytes are unknown.
     Copy {
-        /// Number of the first copied byte.
+        /// Number of the first copied byte in the request.
         first: u16,
-        /// Number of the last copied byte.
+        /// Number of the last copied byte in the request.
         last: u16,
     },
     /// The code of an item in a parameter space. In a reply, the field is the first code of the request.
@@ -158,7 +159,7 @@ pub enum MessageField {
         /// Name of the parameter space.
         space: CompactString,
     },
-    /// Unused bytes. The number is their count.
+    /// This number of unused bytes.
     Padding(u8),
     /// Fields that are repeated.
     Repeat {
@@ -166,7 +167,7 @@ pub enum MessageField {
         count: Option<CompactString>,
         /// Maximum number of repetitions.
         max: Option<u16>,
-        /// Fields of one repetition.
+        /// Fields of a single repetition.
         fields: Vec<MessageField>,
     },
     /// All remaining bytes of the frame.
@@ -267,7 +268,7 @@ pub struct CodeRow {
     /// The code or range as printed (`0x8700`, `F125`, `0xFF13 to 0xFF15`); empty if the source prints decimal numbers.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub printed: CompactString,
-    /// Cells of the further columns as printed. The text is empty for each cell that is not a hexadecimal number.
+    /// Cells of the further columns as printed. For a cell that is not a hexadecimal number, the text is empty.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub printed_cells: Vec<CompactString>,
     /// Code, or first code of a range.
@@ -283,7 +284,7 @@ pub struct CodeRow {
     pub availability: Option<Box<Availability>>,
     /// Description of cause and remedy.
     pub documentation: Option<Box<Documentation>>,
-    /// Values of the further columns.
+    /// Values of the cells in the further columns.
     pub cells: Vec<Value>,
 }
 

@@ -17,7 +17,8 @@
 //! Every element has an [`Origin`](crate::source::Origin). A [`Doubt`] describes an ambiguity in the source and the
 //! assumption that was made. Facts without a field in the IR are kept as [`Extension`]s.
 //!
-//! The IR can hold contradictory descriptions, because it holds what the source states. The lints of `check` report them.
+//! The IR can hold contradictory descriptions, because it holds what the source states. The lints of the module `check` report
+//! contradictions.
 
 mod behaviour;
 mod bus;

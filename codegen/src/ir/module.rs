@@ -6,7 +6,7 @@ use super::{
 };
 use crate::source::Origin;
 
-/// A slot for modules, or several equal slots.
+/// A slot for modules, or several consecutive slots with the same properties.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Slot {
@@ -14,7 +14,7 @@ pub struct Slot {
     pub number: u16,
     /// Name of the slot.
     pub name: CompactString,
-    /// Minimum and maximum number of modules.
+    /// Minimum and maximum number of modules in the slot or slots.
     pub instances: (u16, u16),
     /// Name of the slot in other languages.
     pub names: Texts,
@@ -88,9 +88,9 @@ pub struct Module {
     pub documentation: Option<Box<Documentation>>,
     /// Types of the module's objects.
     pub types: Vec<TypeDef>,
-    /// Objects that exist once for any number of these modules.
+    /// Objects that exist only once, regardless of how many modules of this kind are connected.
     pub fixed_objects: Vec<Group>,
-    /// Sub-indices that each of these modules adds to objects of the device.
+    /// Sub-indices that each connected module of this kind adds to objects of the device.
     pub sub_extensions: Vec<SubExtension>,
     /// Objects of the module, relative to its slot (ETG.2000).
     pub groups: Vec<Group>,
@@ -122,9 +122,10 @@ pub struct SubExtension {
     pub index: u16,
     /// Number of sub-indices that the module adds.
     pub count: u16,
-    /// Number of modules that share one set of sub-indices, with bit-wise packing; `None` = each module adds the sub-indices.
+    /// Number of modules that together add one set of sub-indices and share it bit by bit; `None` = each module adds its own
+    /// sub-indices.
     pub per: Option<u16>,
-    /// True if the object at the next index continues a full object (ObjExtend).
+    /// True if the object at the next index contains the sub-indices that no longer fit into the object (ObjExtend).
     pub extends_object: bool,
     /// Template of each added sub-index. The template itself has sub-index 1.
     pub template: Item,

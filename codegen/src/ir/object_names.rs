@@ -3,7 +3,8 @@
 use super::owner::object;
 use super::{CompactString, Condition, Group, Item, ItemRef, Shape, TypeDef};
 
-/// Returns the objects with these indices. Groups have to be sorted as for [`Device::object`](super::Device::object).
+/// Returns the objects whose indices are between `first` and `last`. Groups have to be sorted as for
+/// [`Device::object`](super::Device::object).
 pub(crate) fn in_range(groups: &mut [Group], first: u16, last: u16) -> &mut [Group] {
     let start = groups.partition_point(|group| group.index() < Some(first));
     let end = groups.partition_point(|group| group.index() <= Some(last));
@@ -17,7 +18,7 @@ pub(crate) fn item_at<'g>(groups: &'g [Group], name: &str) -> Option<&'g Item> {
     groups.get(position)?.sub(sub_index)
 }
 
-/// Returns the reference with the name of its item instead of an index and sub-index, if the item has a name.
+/// If the item of a reference has a name, returns the reference with this name instead of index and sub-index.
 pub(crate) fn item_name(groups: &[Group], reference: &ItemRef) -> ItemRef {
     match item_at(groups, reference) {
         Some(item) if !item.name.is_empty() => ItemRef { name: item.name.clone(), ..reference.clone() },

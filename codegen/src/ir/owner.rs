@@ -55,7 +55,7 @@ impl<'a> Owner<'a> {
         None
     }
 
-    /// Returns the length of a type in bits, if it is fixed.
+    /// Returns the length of a type in bits, if the type has a fixed length.
     pub fn fixed_bits(self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(TypeId(id)) => self.types.get(id as usize)?.bits,
@@ -79,7 +79,7 @@ impl<'a> Owner<'a> {
         ty
     }
 
-    /// Returns the integer type of an enumeration or bit field, and each other type unchanged.
+    /// Returns the integer type of an enumeration or bit field. Other types are returned unchanged.
     pub(crate) fn integer(self, ty: Type) -> Type {
         let Type::Named(TypeId(id)) = ty else { return ty };
         match self.types.get(id as usize).map(|definition| &definition.shape) {
@@ -97,7 +97,7 @@ impl<'a> Owner<'a> {
     }
 }
 
-/// First use of each type. The map is built at the first call, because it is only needed for diagnostics.
+/// First use of each type. The map is built when it is first used, because only diagnostics need the map.
 pub(crate) struct TypeUses<'a> {
     uses: OnceCell<HashMap<TypeId, Span>>,
     owner: Owner<'a>,
@@ -151,8 +151,8 @@ impl<'a> Index<'a> {
         (0..).zip(self.groups()).flat_map(ids)
     }
 
-    /// Returns the first item of each name. The name of an object with a single value also refers to that value. Names of records and
-    /// chapters do not refer to items.
+    /// Returns a map from each name to the first item with this name. The name of an object with a single value also refers to
+    /// that value. Names of records and chapters do not refer to items.
     fn names(&self) -> &HashMap<&'a str, ItemId> {
         self.names.get_or_init(|| {
             let items = self.items().map(|(_, id, item)| (item.name.as_str(), id));
@@ -189,7 +189,8 @@ pub(crate) fn object(text: &str) -> Option<(u16, u8)> {
     Some((number(index)?, u8::try_from(number(sub_index)?).ok()?))
 }
 
-/// Returns whether a value is reserved, or `None` if it is not listed. A named value in a reserved zone is not reserved.
+/// Returns whether a value of an enumeration is reserved, or `None` if the enumeration does not list the value. A named value in
+/// a reserved range is not reserved.
 pub(crate) fn reserved(labels: &[EnumValue], value: i128) -> Option<bool> {
     let matches = |label: &&EnumValue| (label.value..=label.last.unwrap_or(label.value)).contains(&value);
     let mut zones = labels.iter().filter(matches).map(|label| label.zone == Some(Zone::Reserved));
@@ -197,7 +198,7 @@ pub(crate) fn reserved(labels: &[EnumValue], value: i128) -> Option<bool> {
     Some(first && zones.all(|is_reserved| is_reserved))
 }
 
-/// Returns the value of an item whose minimum and maximum are the same.
+/// Returns the only value that an item can have, if its minimum and maximum are equal.
 pub(crate) fn fixed(item: &Item) -> Option<i128> {
     let low = item.limits.low.as_ref().and_then(Value::as_int)?;
     (item.limits.high.as_ref().and_then(Value::as_int) == Some(low)).then_some(low)

@@ -23,7 +23,7 @@ pub const MAX_PDO_SUBS: usize = 254;
 impl ProcessData {
     /// Returns the PDOs that are assigned by default, with their sync managers: outputs, then inputs, in the order of the source.
     ///
-    /// Of PDOs that exclude each other or share an index, the first is assigned (ETG.2000, Sm of RxPdo and TxPdo).
+    /// If PDOs exclude each other or share an index, only the first of these PDOs is assigned (ETG.2000, Sm of RxPdo and TxPdo).
     pub fn assigned_by_default(&self) -> Vec<(&Pdo, u8)> {
         self.default_assignment().assigned
     }
@@ -43,7 +43,7 @@ impl ProcessData {
         all
     }
 
-    /// Returns whether there is a sync manager with this number, or the description has no list of sync managers.
+    /// Returns whether a sync manager with this number exists. Also returns true if the description has no list of sync managers.
     pub fn has_sync_manager(&self, number: u8) -> bool {
         self.sync_managers.is_empty() || self.sync_managers.iter().any(|manager| manager.number == number)
     }
@@ -133,7 +133,7 @@ pub struct Pdo {
     pub oversampling: Option<Box<Oversampling>>,
     /// Name of the PDO in other languages.
     pub names: Texts,
-    /// Maximum length in bytes, if the source states it for this PDO instead of its sync manager.
+    /// Maximum length in bytes, if the source states a maximum for this PDO instead of for its sync manager.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub max_bytes: Option<u16>,
     /// Description of the PDO from the source.
@@ -190,7 +190,7 @@ impl Pdo {
         }
     }
 
-    /// Returns whether the mapping can be written to the device, because each entry is padding or has an index.
+    /// Returns whether the index of each entry is known, except padding. Only then can a client write the mapping to the device.
     pub fn is_mapping_known(&self) -> bool {
         self.entries.iter().all(|entry| entry.kind != PdoEntryKind::Unnumbered)
     }
@@ -253,8 +253,8 @@ pub struct PdoEntry {
     pub bits: u32,
     /// Kind of the entry.
     pub kind: PdoEntryKind,
-    /// Id of the mapped item, set by `resolve`; `None` for an object of another module. In a module, the fixed objects count
-    /// first.
+    /// Id of the mapped item, set by `resolve`; `None` for an object of another module. In a module, positions of groups count
+    /// the fixed objects first and then the other groups.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub item: Option<ItemId>,
     /// Name of the mapped item, or the name in the mapping.
@@ -294,7 +294,7 @@ impl PdoEntry {
     }
 }
 
-/// Oversampling: several samples of a PDO in one cycle (OSFac, OSMin, OSMax, OSIndexInc of ETG.2000).
+/// Oversampling: a PDO contains several samples in one cycle (OSFac, OSMin, OSMax, OSIndexInc of ETG.2000).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Oversampling {
@@ -319,7 +319,7 @@ pub enum PdoEntryKind {
     Unknown,
     /// An object without a known index, as raw bits with a name. The index of the entry is 0.
     Unnumbered,
-    /// Unused bits: a dummy entry (CANopen) or padding (EtherCAT).
+    /// Unused bits: a dummy entry, which maps a data type (CANopen), or padding (EtherCAT).
     Padding,
 }
 
@@ -392,6 +392,6 @@ pub struct ProcessImage {
     pub overhead: u32,
     /// True if numbers are big-endian.
     pub big_endian: bool,
-    /// Fields of the process image. Their `index` and `sub_index` are 0 if the bus has no object dictionary.
+    /// Fields of the process image. On a bus without an object dictionary, `index` and `sub_index` of the fields are 0.
     pub fields: Vec<PdoEntry>,
 }

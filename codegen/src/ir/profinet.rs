@@ -26,7 +26,7 @@ pub struct ProfinetSettings {
     pub dns_name: CompactString,
     /// Minimum interval between two frames in units of 31.25 µs (`MinDeviceInterval`).
     pub min_device_interval: Option<u16>,
-    /// Maximum length of a record in bytes; 4068 unless the source states it.
+    /// Maximum length of a record in bytes; 4068 if the source states no maximum.
     pub max_record_size: u32,
     /// Maximum number of application relations.
     pub relations: u16,
@@ -82,7 +82,7 @@ pub struct IoLengths {
     pub input: Option<u16>,
     /// Maximum length of the controller's outputs.
     pub output: Option<u16>,
-    /// Maximum sum of both lengths, if limited.
+    /// Maximum sum of the lengths of inputs and outputs, if limited.
     pub data: Option<u16>,
 }
 
@@ -150,9 +150,10 @@ pub enum SubmoduleKind {
 pub struct IoData {
     /// Layout of the data; `overhead` counts the bytes of an F message trailer.
     pub image: ProcessImage,
-    /// True if all items are transferred consistently.
+    /// True if all data items are transferred as one consistent block.
     pub consistent: bool,
-    /// Data items with no field or several fields of the image, in order. Each other field is one data item.
+    /// Data items that have several fields or no field in the image, in order. Each field outside of these data items
+    /// is one data item.
     pub items: Vec<IoItem>,
     /// Channels, sorted by number (GSDML V2.45).
     pub channels: Vec<IoChannel>,
@@ -206,7 +207,7 @@ pub struct FParameters {
     pub transfer_sequence: u16,
     /// Checksum over the description of the F-parameters (`F_ParamDescCRC`).
     pub description_crc: Option<u16>,
-    /// Parameters in the order of the record.
+    /// F-parameters in the order of the record.
     pub parameters: Vec<FParameter>,
     /// Location of the record in the source.
     pub origin: Origin,
@@ -216,7 +217,7 @@ pub struct FParameters {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FParameter {
-    /// Name (`F_Check_iPar`, `F_SIL`, `F_Source_Add`, …).
+    /// Name of the parameter (`F_Check_iPar`, `F_SIL`, `F_Source_Add`, …).
     pub name: CompactString,
     /// Default value as a number.
     pub default: i128,
@@ -226,9 +227,9 @@ pub struct FParameter {
     pub allowed: Vec<(i128, i128)>,
     /// Names of the allowed values, if values have names.
     pub allowed_labels: Vec<CompactString>,
-    /// True if a user can change the parameter.
+    /// True if users can change the parameter in the engineering tool.
     pub changeable: bool,
-    /// True if a tool shows the parameter.
+    /// True if engineering tools show the parameter.
     pub visible: bool,
 }
 
@@ -266,7 +267,7 @@ pub struct Graphic {
     pub file: CompactString,
 }
 
-/// Layout of vendor-specific diagnosis (`UnitDiagTypeItem`): the fields after a user structure identifier.
+/// Layout of vendor-specific diagnosis data (`UnitDiagTypeItem`): the fields after the user structure identifier.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UnitDiagnosis {

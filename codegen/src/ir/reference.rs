@@ -1,4 +1,4 @@
-//! References between elements: a name with its location, and an id after `resolve`.
+//! References between elements. A reference consists of a name with its location and, after the stage `resolve`, an id.
 
 use std::fmt;
 use std::hash::{Hash, Hasher};
@@ -88,18 +88,18 @@ impl Device {
 
 /// A reference to another element of the same device.
 ///
-/// A reference dereferences to its name. References with the same name are equal. The serialized form is the name, because adding
-/// or removing an element changes ids.
+/// A reference dereferences to its name. Two references with the same name are equal. The serialized form is the name, because
+/// adding or removing an element changes ids.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(from = "CompactString", into = "CompactString", bound = "Id: Clone"))]
 #[derive(Clone, Debug)]
 pub struct Reference<Id> {
-    /// The name as the source spells it. An item is named by `Item`, `Chapter/Item`, the name of its object, or index and sub-index
-    /// (`0x6040`, `0x1018:1`).
+    /// The name as the source spells it. A reference to an item uses one of the forms `Item` and `Chapter/Item`, the name of its
+    /// object, or index and sub-index (`0x6040`, `0x1018:1`).
     pub name: CompactString,
     /// Location of the name in the source.
     pub span: Span,
-    /// Id of the target; `None` if the reference is not resolved, or no element has this name.
+    /// Id of the target; `None` if the reference is not resolved, or if no element has this name.
     pub id: Option<Id>,
 }
 

@@ -111,12 +111,12 @@ impl Numbers {
         self.0.iter().any(|&(first, last)| (first..=last).contains(&number))
     }
 
-    /// Returns each number of each range.
+    /// Returns an iterator over the numbers of all ranges.
     pub fn iter(&self) -> impl Iterator<Item = u16> + '_ {
         self.0.iter().flat_map(|&(first, last)| first..=last)
     }
 
-    /// Returns how many numbers the ranges contain. A number in several ranges counts once for each range.
+    /// Returns how many numbers the ranges contain. A number that is in several ranges counts once for each of these ranges.
     pub fn count(&self) -> usize {
         self.0.iter().map(|&(first, last)| usize::from(last.saturating_sub(first)) + 1).sum()
     }

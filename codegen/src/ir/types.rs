@@ -5,7 +5,7 @@ use std::fmt;
 use super::{Access, Availability, CompactString, Documentation, ItemRef, Mark, Texts, Value};
 use crate::source::Origin;
 
-/// The type of an item: basic, or a reference to a [`TypeDef`] of its device.
+/// The type of an item: a basic type, or a reference to a [`TypeDef`] of the item's device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -297,7 +297,7 @@ pub struct BitFieldEntry {
     pub meaning: BitMeaning,
     /// Condition on another item under which the bits have this meaning, such as the mode of operation.
     pub when: Option<Condition>,
-    /// Event at which the bits take effect, if not while they are set.
+    /// Event at which the bits take effect, if they do not take effect as long as they are set.
     pub trigger: Option<Trigger>,
     /// Access rights of the bits, if they differ from those of the item.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
@@ -312,7 +312,7 @@ pub struct BitFieldEntry {
 }
 
 impl BitFieldEntry {
-    /// Creates a field with the given facts only.
+    /// Creates a field that has the given facts and no others.
     pub fn new(name: CompactString, offset: u8, bits: u8, meaning: BitMeaning) -> Self {
         BitFieldEntry {
             name,
@@ -339,7 +339,7 @@ impl BitFieldEntry {
         u32::from(self.offset) + u32::from(self.bits)
     }
 
-    /// Returns the bits for messages: `bit 3`, `bits 7-4`.
+    /// Returns the bits as text for diagnostics: `bit 3`, `bits 7-4`.
     pub(crate) fn bit_range(&self) -> String {
         match self.bits {
             1 => format!("bit {}", self.offset),
@@ -359,9 +359,9 @@ impl BitFieldEntry {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum BitMeaning {
-    /// A single bit that is on or off.
+    /// A single bit that states whether something is active.
     Flag {
-        /// True if 0 means active.
+        /// True if the bit is 0 when the flag is active.
         inverted: bool,
     },
     /// An unsigned number of several bits.
@@ -400,7 +400,7 @@ pub struct EnumValue {
     pub value: i128,
     /// Last value of a range.
     pub last: Option<i128>,
-    /// Zone, if the value or range is reserved or vendor-specific.
+    /// Kind of the range, if its values are reserved or vendor-specific.
     pub zone: Option<Zone>,
     /// Name of the value in other languages.
     pub names: Texts,
@@ -417,7 +417,7 @@ pub struct EnumValue {
 }
 
 impl EnumValue {
-    /// Creates a value with the given name and number only.
+    /// Creates a value that has a name and a number and no other facts.
     pub fn new(name: CompactString, value: i128) -> Self {
         EnumValue {
             name,
@@ -437,12 +437,12 @@ impl EnumValue {
         (self.value, self.last.unwrap_or(self.value))
     }
 
-    /// Returns whether this is a named value, and not a zone.
+    /// Returns whether the value has a name, instead of being reserved or vendor-specific.
     pub fn is_named(&self) -> bool {
         self.zone.is_none()
     }
 
-    /// Returns the value or range for messages: `3`, `4 to 7`.
+    /// Returns the value or range as text for diagnostics: `3`, `4 to 7`.
     pub(crate) fn numbers(&self) -> String {
         match self.last {
             Some(last) => format!("{} to {last}", self.value),
@@ -524,7 +524,7 @@ pub struct Condition {
     pub item: ItemRef,
     /// Values that meet the condition.
     pub values: Vec<Value>,
-    /// Names of all values, if a profile states the condition and names them; otherwise empty.
+    /// Names of all values in `values`, if the condition comes from a profile that names the values; otherwise empty.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub names: Vec<CompactString>,
     /// Mask of the bits that are compared with the values; `None` = all bits.

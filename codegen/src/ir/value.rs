@@ -53,7 +53,7 @@ impl Value {
         }
     }
 
-    /// Compares two numbers. Returns `None` if one of the values is not a number.
+    /// Compares two numbers. Returns `None` if at least one of the two values is not a number.
     pub fn compare(&self, other: &Value) -> Option<Ordering> {
         match (self.as_int(), other.as_int()) {
             (Some(one), Some(other)) => Some(one.cmp(&other)),
@@ -101,7 +101,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Returns whether both minimum and maximum are missing.
+    /// Returns whether the limits contain neither a minimum nor a maximum.
     pub fn is_empty(&self) -> bool {
         self.low.is_none() && self.high.is_none()
     }
@@ -140,7 +140,8 @@ impl fmt::Display for Excluded<'_> {
     }
 }
 
-/// Returns why limits exclude a value. Values that are not numbers are never excluded.
+/// Returns the reason why limits exclude a value, or `None` if the limits allow the value. Values that are not numbers are never
+/// excluded.
 pub(crate) fn excluded<'l>(limits: &'l Limits, value: &Value) -> Option<Excluded<'l>> {
     let is = |limit: &&Value, order| value.compare(limit) == Some(order);
     let below = || limits.low.as_ref().filter(|low| is(low, Ordering::Less)).map(Excluded::Below);
@@ -149,7 +150,7 @@ pub(crate) fn excluded<'l>(limits: &'l Limits, value: &Value) -> Option<Excluded
     below().or_else(above).or_else(not_allowed)
 }
 
-/// Returns whether a number is in one of the ranges, or there are no ranges.
+/// Returns whether a number is in one of the allowed ranges. Also returns true if the list of ranges is empty.
 fn is_allowed(value: &Value, allowed: &[(Value, Value)]) -> bool {
     let within = |(first, last): &(Value, Value)| {
         first.compare(value).is_none_or(|order| order != Ordering::Greater)

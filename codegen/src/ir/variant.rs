@@ -3,11 +3,13 @@
 use super::{Access, Buses, CompactString, Documentation, Limits, Scale, Type, Value};
 use crate::source::Span;
 
-/// Facts of an item that differ on some models or buses. A missing fact does not differ.
+/// Facts of an item that differ on some models or buses. If a fact is missing here, it does not differ on these models
+/// and buses.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ItemVariant {
-    /// Models to which the facts apply; `*` matches any characters; empty = all.
+    /// Patterns for the names of the models to which the facts apply. In a pattern, `*` matches any characters. An
+    /// empty list means all models.
     pub models: Vec<CompactString>,
     /// Buses on which the facts apply; empty = all.
     pub buses: Buses,
@@ -17,7 +19,7 @@ pub struct ItemVariant {
     /// Access rights, if they are restricted on some buses.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub access: Option<Access>,
-    /// Default value on these models and buses.
+    /// Default value of the item on these models and buses.
     pub default: Option<Value>,
     /// Minimum and maximum on these models and buses.
     pub limits: Limits,

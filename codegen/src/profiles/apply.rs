@@ -16,7 +16,7 @@ pub(super) const STORED: [&str; 4] = [
     include_str!("stored/profidrive.txt"),
 ];
 
-/// Number of the profile of modular devices (ETG.5001). Their modules follow other profiles.
+/// Number of the profile of modular devices (ETG.5001). The modules of such devices follow other profiles.
 const MODULAR: u32 = 5001;
 
 /// Returns all profiles. The profiles are parsed at the first call.
@@ -28,7 +28,7 @@ fn all() -> &'static [Profile] {
 /// Completes all devices and modules of `catalog`.
 pub(crate) fn apply(catalog: &mut Catalog) {
     let Catalog { files, devices, modules, submodules, types, .. } = catalog;
-    // A file that is not in the list of the catalog is an overlay.
+    // A file that is not in the catalog's list of files is an overlay.
     let is_table = |FileId(id): FileId| files.get(id as usize).is_none_or(|file| file.format.is_of_manual());
     for profile in all() {
         let mut completion = Completion::new(profile);

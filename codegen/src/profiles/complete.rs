@@ -1,7 +1,7 @@
 //! Adds the facts of a profile that a description lacks.
 //!
 //! Facts of the description do not change: names, types of bits and values, units, descriptions. A profile adds nothing to an
-//! object of another width, or to a missing object. Such a difference is not reported.
+//! object whose width differs from that in the profile, or to a missing object. Such differences are not reported.
 
 use std::collections::HashMap;
 
@@ -14,7 +14,7 @@ use crate::ir::{
 };
 use crate::source::{FileId, Origin};
 
-/// Indices of the first axis. Further axes have the same objects at other indices.
+/// Indices of the objects of the first axis. Further axes have the same objects at other indices.
 const AXIS: std::ops::RangeInclusive<u16> = 0x6000..=0x67FF;
 
 /// Maximum number of axes (CiA 402: 0x6000 to 0x9FFF).
@@ -25,7 +25,7 @@ pub(crate) struct Completion<'p> {
     profile: &'p Profile,
     /// Types of the device, followed by types that the profile adds.
     types: Vec<TypeDef>,
-    /// Types that were added, by the type of the profile and the underlying integer.
+    /// Types that were added to the device, by the type in the profile and the underlying integer.
     added: HashMap<(TypeId, Type), TypeId>,
 }
 
@@ -37,11 +37,12 @@ impl<'p> Completion<'p> {
         Completion { profile, types: Vec::new(), added: HashMap::new() }
     }
 
-    /// Completes a device. `is_table` returns whether a file is a register table or overlay.
+    /// Completes the objects, code tables and state machines of a device. `is_table` returns whether a file is a register table
+    /// or overlay.
     pub(crate) fn device(&mut self, device: &mut Device, is_table: &dyn Fn(FileId) -> bool) {
         self.objects(&mut device.groups, &mut device.types, &mut device.process_data.pdos);
-        // The codes of a manual may contradict those of the profile. Diagnosis texts of an ESI are different codes, so they do
-        // not conflict.
+        // The codes of the profile are left out if the manual lists codes, because both lists may contradict each other.
+        // Diagnosis texts of an ESI are different codes, so they do not conflict.
         let of_manual = |table: &CodeTable| is_table(table.origin.span.file) && !is_from_profile(table);
         let has_codes = device.code_tables.iter().any(of_manual);
         for (table, doubts) in self.profile.codes.iter().filter(|_| !has_codes) {
@@ -63,8 +64,8 @@ impl<'p> Completion<'p> {
         }
     }
 
-    /// Returns a reference to the device's enumeration of states, if it equals that of the profile. Otherwise, the states get a
-    /// separate type.
+    /// Returns a reference to the device's enumeration of states, if this enumeration equals that of the profile. Otherwise, a
+    /// separate type is generated for the states.
     fn state_type(&self, machine: &StateMachine, types: &[TypeDef]) -> Option<TypeRef> {
         let name = machine.state_type.as_ref()?;
         let named = |types: &'_ [TypeDef]| {
@@ -129,7 +130,7 @@ impl<'p> Completion<'p> {
         }
     }
 
-    /// Adds missing facts to an item. Returns its old and new type if the type has changed.
+    /// Adds missing facts to an item. If the type of the item has changed, returns its old type and its new type.
     fn item(&mut self, item: &mut Item, described: &Described) -> Option<(Type, Type)> {
         let (old, base) = (item.ty, self.underlying(item.ty));
         if !self.profile.is_alike(base, described.ty, described.meaning) || !is_on_bus(item, described) {
@@ -166,7 +167,7 @@ impl<'p> Completion<'p> {
         let mut definition = self.profile.definition(id)?.clone();
         let base_of_profile = match &mut definition.shape {
             Shape::BitField { base, fields } => {
-                // Types of bit-field entries come first, in the order of the profile.
+                // The types of the bit field's entries are added first, in the order of the profile.
                 let mut of_fields: Vec<_> = fields.iter_mut().filter_map(named_values).collect();
                 of_fields.sort_by_key(|(id, _)| **id);
                 for (id, base) in of_fields {
@@ -190,7 +191,7 @@ impl<'p> Completion<'p> {
     /// Returns the basic type of a bit field, an enumeration or an alias.
     fn underlying(&self, ty: Type) -> Type {
         let mut ty = ty;
-        // The loop ends, because definitions only refer to earlier ones.
+        // The loop ends, because a definition refers only to earlier definitions.
         while let Type::Named(TypeId(id)) = ty {
             match self.types.get(id as usize).map(|definition| &definition.shape) {
                 Some(Shape::Alias(base) | Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => ty = *base,
@@ -201,7 +202,7 @@ impl<'p> Completion<'p> {
         ty
     }
 
-    /// Returns whether a type has names for neither bits nor values.
+    /// Returns whether a type names neither bits nor values.
     fn is_plain(&self, ty: Type) -> bool {
         let mut ty = ty;
         loop {
@@ -215,13 +216,13 @@ impl<'p> Completion<'p> {
         }
     }
 
-    /// Takes the types of a device, to add types to them.
+    /// Moves the types of a device into this struct, so that types can be added.
     fn start(&mut self, types: &mut Vec<TypeDef>) {
         self.types = std::mem::take(types);
         self.added.clear();
     }
 
-    /// Moves the types back to the device. Renames a new type if a type of the device has the same name.
+    /// Moves the types from this struct back to the device. Renames a new type if a type of the device has the same name.
     fn finish(&mut self, types: &mut Vec<TypeDef>, before: usize) {
         *types = std::mem::take(&mut self.types);
         let before = before.min(types.len());
@@ -251,7 +252,8 @@ impl<'p> Completion<'p> {
         self.finish(types, before);
     }
 
-    /// Completes the fields of a submodule by their names. In a telegram of the profile, offsets identify fields too.
+    /// Completes the fields of a submodule, which are found by their names. In a telegram of the profile, fields are also found
+    /// by their offsets.
     fn submodule(&mut self, submodule: &mut Submodule) {
         let data = [(Direction::Receive, &mut submodule.output), (Direction::Transmit, &mut submodule.input)];
         for (direction, data) in data {

@@ -1,8 +1,8 @@
 //! Profiles: facts of standards about the objects of all devices that follow them.
 //!
-//! A profile is a table with `[profile]`, written like an overlay (`dictionaries/README.md`). The compiler contains it in a
-//! compact form, so that profiles do not need the front end of register tables. Profiles are applied after overlays and checks.
-//! Profiles do not change facts of a device or its overlays.
+//! A profile is a table with `[profile]`, written like an overlay (`dictionaries/README.md`). The compiler contains each profile
+//! in a compact form, so that profiles do not need the front end of register tables. Profiles are applied after overlays and
+//! checks. Profiles do not change facts of a device or its overlays.
 //!
 //! | file | subject |
 //! |---|---|

@@ -6,7 +6,7 @@ use crate::ir::{
     Quantity, Shape, StateMachine, Type, TypeDef, TypeId, Value,
 };
 
-/// Facts of a standard about the objects of all devices that follow it.
+/// Facts of a standard about the objects of all devices that follow this standard.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Profile {
     /// Name of the standard.
@@ -22,11 +22,11 @@ pub(crate) struct Profile {
     pub on_ethercat: bool,
     /// Index offset from axis to axis for the objects 0x6000 to 0x67FF.
     pub axis_index: Option<u16>,
-    /// Facts about objects.
+    /// Facts about the objects of devices that follow the profile.
     pub objects: Vec<Described>,
     /// Signals in telegrams of submodules.
     pub signals: Vec<Signal>,
-    /// Telegrams of submodules, in one direction each.
+    /// Telegrams of submodules, each in one direction.
     pub telegrams: Vec<Telegram>,
     /// Types with the names of bits and values that objects and signals have.
     pub types: Vec<TypeDef>,
@@ -83,7 +83,7 @@ impl Profile {
             return false;
         };
         let described = self.objects.iter().find(|described| described.indices == (index, index));
-        // A named type is accepted, because its definition is not available.
+        // An item with a named type is accepted, because the definition of the type is not available here.
         let is_alike = |ty: Type| {
             matches!(ty, Type::Named(_)) || described.is_none_or(|known| self.is_alike(ty, known.ty, known.meaning))
         };
@@ -95,7 +95,7 @@ impl Profile {
         self.types.get(id.0 as usize)
     }
 
-    /// Returns the names of the values in a condition, if the profile names all of them.
+    /// Returns the names of the values in a condition, if the profile names all values of the condition.
     pub fn value_names(&self, when: &Condition) -> Option<Vec<CompactString>> {
         let (index, sub_index) = object(&when.item)?;
         let is_described = |described: &&Described| {
@@ -110,8 +110,8 @@ impl Profile {
         when.values.iter().map(name_of).collect()
     }
 
-    /// Returns whether a type has the kind and length that the profile expects. Named values may differ in signedness. A signed type never
-    /// matches a bit field.
+    /// Returns whether a type has the kind and length that the profile expects. The signedness of integers may differ, but a
+    /// signed type never matches a bit field.
     pub fn is_alike(&self, ty: Type, expected: Option<Type>, meaning: Option<TypeId>) -> bool {
         let Some(expected) = expected else { return true };
         let shape = meaning.and_then(|id| self.definition(id)).map(|definition| &definition.shape);

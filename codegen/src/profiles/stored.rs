@@ -14,7 +14,7 @@ use crate::ir::{
 /// The remaining fields of a stored profile.
 type Fields<'t> = std::str::Split<'t, char>;
 
-/// Reads a stored profile. Returns `None` for any other text.
+/// Reads a stored profile. Returns `None` if the text is not a stored profile.
 pub(super) fn read(text: &str) -> Option<Profile> {
     Stored::read(&mut text.split('\t'))
 }
@@ -82,7 +82,7 @@ wrapped! {
     TypeRef: CompactString, TypeRef::from, |reference| &reference.name;
 }
 
-/// Implements `Stored` for structures. Fields after the bar are not stored, because profiles do not use them.
+/// Implements `Stored` for structures. The fields after `|` are not stored, because profiles do not use these fields.
 macro_rules! structures {
     ($($name:ident { $($field:ident),* $(| $($default:ident),*)? })*) => {$(
         impl Stored for $name {
@@ -303,7 +303,7 @@ mod tests {
             let found = diagnostics(&text);
             let messages: Vec<&String> = found.iter().map(|diagnostic| &diagnostic.message).collect();
             assert!(found.is_empty(), "{name}: {messages:?}");
-            // A device can follow two profiles, so their definitions must have different names.
+            // A device can follow two profiles, so definitions in different profiles must have different names.
             for line in text.lines() {
                 let head = line.strip_prefix("[bits.").or(line.strip_prefix("[enums.")).unwrap_or_default();
                 if let Some(definition) = head.strip_suffix(".at]").or(head.strip_suffix(".values]")) {

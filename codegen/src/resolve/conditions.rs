@@ -1,4 +1,4 @@
-//! Signs of values in conditions: a bit pattern becomes a negative number if the other item is signed.
+//! Signs of values in conditions: a bit pattern becomes a negative number if the item of the condition is signed.
 
 use std::collections::HashMap;
 
@@ -8,7 +8,7 @@ use crate::ir::{Condition, Device, ItemId, Value};
 
 /// Corrects the signs in the conditions of a device. The references of the device must be resolved.
 pub(super) fn run(device: &mut Device) {
-    // Values of masked bits have no sign.
+    // The values of a condition with a mask have no sign.
     let can_be_negative = |condition: &Condition| {
         condition.mask.is_none() && condition.values.iter().any(|value| value.as_int() > Some(0))
     };

@@ -15,7 +15,7 @@ pub(super) fn run(device: &mut Device) {
     }
 }
 
-/// A number of the identity object.
+/// A number in the identity object 0x1018.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum IdentityNumber {
     /// Vendor ID (sub-index 1).
@@ -31,7 +31,7 @@ impl IdentityNumber {
     pub(crate) const ALL: [IdentityNumber; 3] =
         [IdentityNumber::Vendor, IdentityNumber::Product, IdentityNumber::Revision];
 
-    /// Returns the name of the identity number for messages.
+    /// Returns the name of the identity number for diagnostics.
     pub(crate) fn name(self) -> &'static str {
         match self {
             IdentityNumber::Vendor => "vendor ID",

@@ -1,7 +1,7 @@
 //! Objects of implicit PDOs, which a device counts but does not describe (CiA 306, CompactPDO).
 //!
-//! For example, a device with CompactPDO, NrOfRXPDO = 4 and two described RPDOs has two implicit RPDOs. The line number of
-//! their objects is 0, because the file does not contain them.
+//! For example, a device with CompactPDO, NrOfRXPDO = 4 and two described RPDOs has two implicit RPDOs. The objects of implicit
+//! PDOs have the line number 0, because the file does not contain these objects.
 
 use crate::ir::{
     Access, Binding, CompactString, Device, Fact, FactOrigins, Group, Item, ObjectCode, Rule, Type, Value,
@@ -81,8 +81,8 @@ fn communication(index: u16, number: u16, mask: u8, receive: bool) -> Group {
     group
 }
 
-/// Returns the default COB-ID of a PDO. The first four PDOs have identifiers of the pre-defined connection set. The other PDOs
-/// are disabled (bit 31) until they are configured (CiA 301 7.3.5).
+/// Returns the default COB-ID of a PDO. The first four PDOs of a direction have the CAN identifiers of the pre-defined connection
+/// set. The other PDOs are disabled (bit 31) until they are configured (CiA 301 7.3.5).
 fn default_cob_id(number: u16, receive: bool) -> Value {
     let first = if receive { 0x200 } else { 0x180 };
     match number {

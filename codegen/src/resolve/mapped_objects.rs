@@ -1,8 +1,8 @@
 //! Mapped objects of EtherCAT slaves and modules that the dictionary does not describe.
 //!
-//! If a PDO maps an object, the device has that object. If the dictionary lacks it, the compiler adds it with the name,
-//! type and length of the PDO entry.
-//! The line number of these objects is 0, because the file does not contain them as objects.
+//! If a PDO maps an object, the device has that object. If the dictionary does not describe the mapped object, the compiler adds
+//! the object with the name, type and length of the PDO entry. The line number of an added object is 0, because the file contains
+//! only the PDO entry.
 
 use std::collections::BTreeMap;
 
@@ -11,8 +11,8 @@ use crate::ir::{
 };
 use crate::source::Origin;
 
-/// Adds the undescribed mapped objects to a device. Entries whose index depends on the slot are skipped, because they map objects
-/// of a module.
+/// Adds the undescribed mapped objects to a device. PDO entries whose index depends on the slot are skipped, because they map
+/// objects of a module.
 pub(super) fn device(device: &mut Device) {
     complete(&mut device.groups, &mut device.process_data.pdos, false);
 }

@@ -1,4 +1,4 @@
-//! Derives facts from a description. After front ends and overlays, only this stage changes the IR.
+//! Derives facts from a description. After front ends and overlays have run, only this stage changes the IR.
 //!
 //! | file | subject |
 //! |---|---|

@@ -37,7 +37,8 @@ fn pdos(pdos: &mut [Pdo], dictionary: &Dictionary<'_>, diagnostics: &mut Diagnos
 
 fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut Diagnostics) {
     let Some(item) = dictionary.items.get(entry.index, entry.sub_index) else {
-        // Objects that depend on the slot belong to a module. Without a dictionary, no object is missing.
+        // Objects whose index depends on the slot belong to a module, and a device without a dictionary describes no objects. In
+        // both cases, the object is not reported as missing.
         if !entry.depends_on_slot && !dictionary.items.is_empty() && diagnostics.wants(&codes::MAPPED_OBJECT_MISSING) {
             let message = format!("{} is mapped, but not in the object dictionary", address(entry));
             let found = codes::MAPPED_OBJECT_MISSING.at(entry.origin.span, message);
@@ -49,7 +50,8 @@ fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut 
     if entry.name.is_empty() {
         (entry.name, entry.names) = (entry_name(item), item.names.clone());
     }
-    // The entry determines the length of a type without a fixed length. The entry keeps its type unless that type is opaque.
+    // The entry gets the type of the item if the lengths are equal. If the item's type has no fixed length, the entry gets this
+    // type only if the type of the entry is opaque.
     let fits = match Owner::of_types(dictionary.types).fixed_bits(item.ty) {
         Some(bits) => bits == entry.bits,
         None => matches!(entry.ty, Type::Opaque(_)),
@@ -59,7 +61,8 @@ fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut 
     }
 }
 
-/// Returns the name of an item for an unnamed entry. Long names are shortened, because many entries can map the same item.
+/// Returns the name of an item for a PDO entry without a name. Long names are shortened, because many entries can map the same
+/// item.
 pub(super) fn entry_name(item: &Item) -> CompactString {
     const LONG: usize = 512;
     if item.name.len() > LONG {
@@ -69,7 +72,7 @@ pub(super) fn entry_name(item: &Item) -> CompactString {
     }
 }
 
-/// Returns the index and sub-index of an entry for messages.
+/// Returns the index and sub-index of an entry as text for diagnostics.
 pub(crate) fn address(entry: &PdoEntry) -> String {
     format!("0x{:04X} sub-index {:#x}", entry.index, entry.sub_index)
 }

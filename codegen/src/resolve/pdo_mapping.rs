@@ -49,7 +49,8 @@ impl<'a> PdoObjects<'a> {
         PdoObjects { direction, index, number: number + 1, communication, mapping }
     }
 
-    /// Returns the numbers of the PDOs with this direction that have an object, counted from 0.
+    /// Returns the numbers, counted from 0, of the PDOs with this direction for which the dictionary describes an
+    /// object.
     pub(crate) fn numbers(device: &Device, direction: Direction) -> Vec<u16> {
         let first = first_index(direction);
         let indices = device.groups.iter().filter_map(Group::index);
@@ -114,7 +115,7 @@ impl<'a> MappableItems<'a> {
 
 /// A value of a mapping object at a sub-index above 0.
 pub(crate) struct MappingValue<'a> {
-    /// Item that contains the value.
+    /// Item of the mapping object that contains the value.
     pub item: &'a Item,
     /// Location of the value in the source.
     pub span: Span,
@@ -127,18 +128,19 @@ pub(crate) struct MappingValue<'a> {
 pub(crate) enum MappingWord<'a> {
     /// A mapped object: index, sub-index, length in bits.
     Object(u16, u8, u32),
-    /// An empty entry.
+    /// An empty entry, whose value is 0 or missing.
     Empty,
     /// A value that is not a 32-bit number.
     Unreadable(&'a Value),
 }
 
-/// Returns the number of mapped objects in sub-index 0. 254 and 255 mean a multiplexed PDO.
+/// Returns the number of mapped objects in sub-index 0 of a mapping object. The values 254 and 255 mean a multiplexed
+/// PDO.
 pub(crate) fn announced_count(mapping: &Group) -> Option<i128> {
     mapping.sub(0).and_then(Item::initial).and_then(Value::as_int)
 }
 
-/// Returns whether a number of mapped objects means a multiplexed PDO.
+/// Returns whether the value of sub-index 0 means a multiplexed PDO.
 pub(crate) fn is_multiplexed(count: Option<i128>) -> bool {
     matches!(count, Some(254 | 255))
 }
@@ -173,7 +175,7 @@ fn pdo(device: &Device, items: &MappableItems<'_>, objects: &PdoObjects<'_>) -> 
         origin: mapping.origin,
         ..Pdo::new(objects.direction, objects.mapping_index())
     };
-    // If the source declares the mapping on EtherCAT, the mapping objects apply to CANopen only.
+    // If the source separately declares the mapping of the PDO on EtherCAT, the mapping object applies to CANopen only.
     let declared = |other: &Pdo| other.mapping_index == pdo.mapping_index && other.buses == Some(ObjectBuses::COE);
     if device.process_data.pdos.iter().any(declared) {
         pdo.buses = Some(ObjectBuses::CANOPEN);
@@ -201,7 +203,7 @@ fn entry(items: &MappableItems<'_>, value: &MappingValue<'_>, bit_offset: u32) -
     Some(entry)
 }
 
-/// Returns whether a mapped index is a dummy entry: a data type (CiA 301 7.4.7).
+/// Returns whether a mapped index is that of a data type, so that the entry is a dummy entry (CiA 301 7.4.7).
 pub(crate) fn is_dummy(index: u16) -> bool {
     index < 0x20
 }

@@ -26,7 +26,8 @@ pub(super) fn device(device: &mut Device) -> bool {
     true
 }
 
-/// Resolves the references of a module. In ids, the fixed objects of the module count first.
+/// Resolves the references of a module. In the ids of a module, positions of groups count the fixed objects first and
+/// then the other groups.
 pub(super) fn module(module: &mut Module) {
     let mut names = HashMap::new();
     let Module { fixed_objects, groups, types, process_data, .. } = module;
@@ -42,7 +43,7 @@ pub(super) fn module(module: &mut Module) {
     }
 }
 
-/// The first position of each name.
+/// The position of the first element with each name.
 struct Positions(HashMap<CompactString, u32>);
 
 impl Positions {
@@ -67,7 +68,7 @@ impl Positions {
     }
 }
 
-/// A reference that can refer to an item.
+/// A reference to an item, or to an item or message.
 enum Mention<'r> {
     Item(&'r mut ItemRef),
     Element(&'r mut ElementRef),
@@ -152,7 +153,7 @@ fn state_types(device: &mut Device) {
     }
 }
 
-/// Returns the read access and write access of an indirect binding.
+/// Returns the window sides for reading and for writing of an indirect binding.
 fn window_sides(binding: &mut Binding) -> impl Iterator<Item = &mut WindowSide> {
     let window = match binding {
         Binding::Indirect(window) => Some(window),
@@ -161,7 +162,7 @@ fn window_sides(binding: &mut Binding) -> impl Iterator<Item = &mut WindowSide> 
     window.into_iter().flat_map(|window| [&mut window.read, &mut window.write]).flatten()
 }
 
-/// Sets the ids of mapped items. `first` is the number of groups that precede `groups`.
+/// Sets the ids of the items that PDO entries map. `first` is the number of groups that precede `groups`.
 fn mapped_items(pdos: &mut [Pdo], groups: &[Group], first: u32) {
     let items = Entries::new(groups);
     for entry in pdos.iter_mut().flat_map(|pdo| &mut pdo.entries).filter(|entry| entry.kind == PdoEntryKind::Item) {

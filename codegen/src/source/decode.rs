@@ -7,7 +7,7 @@ use encoding_rs::{CoderResult, Encoding as Charset, UTF_16BE, UTF_16LE, UTF_8, W
 /// The byte order mark of UTF-8.
 const MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Number of bytes that any single character needs at most.
+/// Number of bytes of free space that is enough for any character.
 const ROOM: usize = 16;
 
 /// The encoding from which a file's bytes were decoded.
@@ -49,7 +49,7 @@ impl Encoding {
 pub(super) struct Decoded {
     pub text: String,
     pub encoding: Encoding,
-    /// The bytes as read, if [`encode`] does not reproduce them.
+    /// The bytes as read, if [`encode`] does not reproduce these bytes from the text.
     pub original: Option<Vec<u8>>,
     /// True if some bytes are invalid in the encoding.
     pub has_lost: bool,
@@ -79,7 +79,7 @@ pub(super) fn decode(mut bytes: Vec<u8>) -> Decoded {
             return decoded(text, Encoding::Utf16, bytes);
         }
     }
-    // UTF-16 without a byte order mark starts with these two characters of XML (XML 1.0, appendix F).
+    // An XML file in UTF-16 without a byte order mark starts with the characters `<?` (XML 1.0, appendix F).
     for (start, charset) in [(b"<\0?\0", UTF_16LE), (b"\0<\0?", UTF_16BE)] {
         if bytes.starts_with(start) {
             return decoded(with(charset, &bytes), Encoding::Utf16, bytes);
@@ -124,7 +124,7 @@ pub(super) fn declared(bytes: &[u8]) -> Option<&str> {
     rest[1..].split_once(quote).map(|(label, _)| label.trim())
 }
 
-/// Returns the encoding with this label, by its name in the WHATWG Encoding Standard.
+/// Returns the name in the WHATWG Encoding Standard of the encoding with this label.
 pub(super) fn charset(label: &str) -> Option<&'static str> {
     Charset::for_label(label.as_bytes()).map(Charset::name)
 }
@@ -132,7 +132,8 @@ pub(super) fn charset(label: &str) -> Option<&'static str> {
 /// Returns the decoded text, and whether some bytes are invalid in the encoding.
 fn with(charset: &'static Charset, bytes: &[u8]) -> (String, bool) {
     let mut decoder = charset.new_decoder_without_bom_handling();
-    // Most characters are as long as in UTF-8. In the worst case the text is three times as long as the input.
+    // Most characters have the same number of bytes in the input and in UTF-8. In the worst case, the text has three
+    // times as many bytes as the input.
     let mut text = String::with_capacity(bytes.len() + bytes.len() / 32 + ROOM);
     let (mut rest, mut has_lost) = (bytes, false);
     loop {
@@ -152,7 +153,7 @@ mod tests {
 
     fn decode(bytes: Vec<u8>) -> (String, Encoding, Option<Vec<u8>>) {
         let Decoded { text, encoding, original, .. } = super::decode(bytes.clone());
-        // The bytes are either kept or can be reproduced from the text.
+        // The decoded file either keeps the original bytes or can reproduce them from the text.
         assert_eq!(original.as_deref().unwrap_or(&encode(&text, encoding)), bytes);
         (text, encoding, original)
     }

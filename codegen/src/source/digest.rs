@@ -1,4 +1,4 @@
-//! The SHA-256 of a file, computed on first use. Only generated code contains the digest.
+//! The SHA-256 of a file, computed on first use. The digest is needed only for generated code.
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};

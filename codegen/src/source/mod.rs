@@ -35,7 +35,7 @@ pub struct Source {
 /// Number of bytes between two entries of the list of character counts.
 const STRIDE: usize = 1024;
 
-/// Maximum size of an input in bytes. Spans are 32-bit offsets.
+/// Maximum size of an input in bytes. The size is limited because spans contain 32-bit offsets.
 pub const MAX_INPUT_BYTES: usize = u32::MAX as usize / 4;
 
 fn too_large() -> std::io::Error {
@@ -75,7 +75,8 @@ impl Source {
             return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is not a regular file"));
         }
         let file = std::fs::File::open(location)?;
-        // Reserves memory for the whole file. A file with an unknown or wrong length is still read completely.
+        // Memory for the whole file is reserved at once. If the reported length of the file is wrong or unknown, the file is
+        // still read completely.
         let length = file.metadata().map_or(0, |metadata| metadata.len());
         if length > MAX_INPUT_BYTES as u64 {
             return Err(too_large());
@@ -89,13 +90,13 @@ impl Source {
         Ok(Source::new(path.to_string_lossy(), bytes).in_folder(folder))
     }
 
-    /// Sets the folder of the files that the source refers to. [`Source::read`] sets it to the folder of the file.
+    /// Sets the folder of the files that the source refers to. [`Source::read`] sets this folder to that of the file.
     pub fn in_folder(mut self, folder: impl Into<PathBuf>) -> Self {
         self.folder = Some(folder.into());
         self
     }
 
-    /// Returns the folder of the files that the source refers to, if it is known.
+    /// Returns the folder of the files that the source refers to, if this folder is known.
     pub fn folder(&self) -> Option<&Path> {
         self.folder.as_deref()
     }
@@ -105,8 +106,8 @@ impl Source {
         decode::declared(self.text().as_bytes())
     }
 
-    /// Returns the encoding of the XML declaration by its name in the WHATWG Encoding Standard (`UTF-8`,
-    /// `windows-1252`). Returns `None` if the declaration names no encoding or an unsupported one.
+    /// Returns the encoding of the XML declaration by its name in the WHATWG Encoding Standard (`UTF-8`, `windows-1252`). Returns
+    /// `None` if the declaration names no encoding or an unsupported encoding.
     pub fn declared_charset(&self) -> Option<&'static str> {
         self.declared_encoding().and_then(decode::charset)
     }
@@ -126,7 +127,7 @@ impl Source {
         self.content.decoded.encoding
     }
 
-    /// Returns whether some bytes were invalid in the encoding. U+FFFD replaces them in the text.
+    /// Returns whether some bytes were invalid in the encoding. In the text, U+FFFD replaces invalid bytes.
     pub fn has_lost_bytes(&self) -> bool {
         self.content.decoded.has_lost
     }

@@ -17,11 +17,11 @@ pub struct References<'a> {
 /// The reason why a file is not read.
 #[derive(Debug)]
 pub enum Refusal {
-    /// The description was read from memory, not from a folder.
+    /// The description was not read from a file, so no folder is known.
     NoFolder,
-    /// The name leads outside the folder of the description, or to another computer.
+    /// The file name leads to a file outside of the description's folder, or on another computer.
     Outside,
-    /// The name belongs to a folder, a pipe or a device.
+    /// The file name is that of a folder, a pipe or a device.
     NoFile,
     /// The description refers to too many files.
     TooMany,

@@ -1,4 +1,4 @@
-//! Positions in a source file.
+//! Spans and positions in a source file.
 
 use std::ops::Range;
 
@@ -35,7 +35,7 @@ impl Span {
         self.start >= self.end
     }
 
-    /// Returns this span, or `other` if this span is empty.
+    /// Returns this span if it is not empty, and otherwise `other`.
     pub fn or(self, other: Span) -> Span {
         if self.is_empty() {
             other
@@ -45,7 +45,7 @@ impl Span {
     }
 }
 
-/// Position of an element of the IR in its file.
+/// Position in a file at which an element of the IR is declared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Origin {

@@ -1,9 +1,8 @@
 //! The lexer for EDS and DCF files.
 //!
-//! A [`Document`] holds the list of sections, the comments above the first section, and the violations of the
-//! grammar. All parts are spans into the text. The lines of a section are split on request, without an allocation per
-//! line. Lines that violate the grammar are recorded as an [`Oddity`] and still read. The front end handles case,
-//! numbers and meaning.
+//! A [`Document`] holds the list of sections, the comments above the first section, and the violations of the grammar. All parts
+//! of the document are spans of the text. The lines of a section are split on request, without an allocation per line. Lines that
+//! violate the grammar are recorded as an [`Oddity`] and still read. The front end handles case, numbers and meaning.
 
 use std::cell::{Cell, RefCell};
 
@@ -21,7 +20,7 @@ pub struct Document<'a> {
     preamble: Vec<Entry>,
     /// Violations of the grammar found so far.
     oddities: RefCell<Vec<(Oddity, Span)>>,
-    /// For each section, true if the violations in the section were recorded.
+    /// For each section, true if the violations of the grammar in this section were recorded.
     noted: Vec<Cell<bool>>,
 }
 
@@ -250,7 +249,7 @@ impl<'a> Document<'a> {
         });
     }
 
-    /// Returns the comments above the first header. Records entries above the first header as violations.
+    /// Returns the comments above the first section header. Records entries above the first header as violations.
     fn above(&self) -> Vec<Entry> {
         let end = self.sections.first().map_or(self.end, |section| {
             let bracket = memchr::memrchr(b'[', &self.text.as_bytes()[..section.name.0 as usize]).unwrap_or(0);
@@ -339,8 +338,8 @@ pub struct Entries<'d> {
     lines: Lines,
     comment: u32,
     number: Option<u32>,
-    /// Violations in the section. The violations are recorded after the last line was read, so that each violation is recorded
-    /// once.
+    /// Violations of the grammar in the section. The violations are added to the document after the last line was read, so that
+    /// each violation is recorded only once.
     odd: Vec<(Oddity, usize, usize)>,
 }
 
@@ -422,7 +421,7 @@ fn is_long(line: &str) -> bool {
     line.len() > MAX_LINE && line.chars().count() > MAX_LINE
 }
 
-/// Counts the line ends in `bytes`: CR LF, LF, and single CR if the text has any CR.
+/// Counts the line ends in `bytes`: CR LF, LF and single CR. `has_returns` states whether the text contains any CR.
 fn line_ends(bytes: &[u8], has_returns: bool) -> u32 {
     let feeds = || memchr::memchr_iter(b'\n', bytes);
     if !has_returns {

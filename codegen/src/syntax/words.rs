@@ -1,4 +1,4 @@
-//! Compares eight bytes at once. For short texts, this method is faster than a vectorized search.
+//! Functions that compare eight bytes at once. For short texts, this method is faster than a vectorized search.
 
 const ONES: u64 = u64::from_le_bytes([1; 8]);
 const HIGHS: u64 = ONES << 7;
@@ -9,22 +9,23 @@ pub(super) fn word(bytes: &[u8]) -> u64 {
     u64::from_le_bytes(bytes.try_into().unwrap_or_default())
 }
 
-/// Returns a mask with the high bit of each byte of `word` that equals `byte`. The bits of bytes after the first match can be
-/// wrong.
+/// Returns a mask in which the high bit of each byte is set if the byte at this position in `word` equals `byte`. The result can
+/// be wrong for bytes after the first match.
 #[inline]
 pub(super) fn equal(word: u64, byte: u8) -> u64 {
     let zeros = word ^ (ONES * u64::from(byte));
     zeros.wrapping_sub(ONES) & !zeros & HIGHS
 }
 
-/// Returns a mask with the high bit of each byte of `word` that is less than `byte`. `byte` is at most 0x80.
+/// Returns a mask in which the high bit of each byte is set if the byte at this position in `word` is less than `byte`. `byte`
+/// must be at most 0x80.
 #[inline]
 #[cfg_attr(not(feature = "xml"), allow(dead_code))]
 pub(super) fn less(word: u64, byte: u8) -> u64 {
     word.wrapping_sub(ONES * u64::from(byte)) & !word & HIGHS
 }
 
-/// Returns the position of the first byte whose bit is set in a mask.
+/// Returns the position of the first byte of a mask whose high bit is set.
 #[inline]
 pub(super) fn first(marks: u64) -> usize {
     marks.trailing_zeros() as usize / 8

@@ -4,9 +4,10 @@ use super::code::{Data, Doc};
 use super::docs;
 use crate::ir::{AxisRange, AxisRule, AxisStep, Device};
 
-/// The axes of a device, ready to be printed.
+/// The axes of a multi-axis device, ready to be printed.
 pub(super) struct AxesModel {
-    /// Models that have the axes, as part of a sentence. The text is empty if all models have these axes.
+    /// Names of the device models with several axes, as part of a sentence. The text is empty if all models of the
+    /// device have several axes.
     pub models: String,
     /// Value of the constant `AXES`.
     pub constant: Doc,

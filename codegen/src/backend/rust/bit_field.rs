@@ -21,9 +21,9 @@ pub(super) struct BitFieldModel {
     pub name: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
-    /// The `Debug` implementation, if the options request it.
+    /// The `Debug` implementation, if the options request an implementation.
     pub debug: Option<DebugModel>,
-    /// Path of the base type in the runtime.
+    /// Rust path of the base type, such as `u8` or `rt::Uint<3>`.
     pub base: &'static str,
     /// Primitive integer that holds the raw value.
     pub native: &'static str,
@@ -31,7 +31,7 @@ pub(super) struct BitFieldModel {
     pub initial: String,
     /// Expression that clears the bits of `raw` beyond the width of the bit field.
     pub cut: String,
-    /// Expression of the value to write. `None` if there are no reserved bits that must be 0 or 1.
+    /// Expression that returns the value to write to the device. `None` if no reserved bits must be 0 or 1.
     pub written: Option<String>,
     pub allow: Option<String>,
     pub fields: Vec<FieldModel>,
@@ -44,7 +44,7 @@ impl BitFieldModel {
         std::iter::once(&self.name).chain(self.views.iter().map(|view| &view.name)).map(String::as_str).collect()
     }
 
-    /// Returns the types of all fields.
+    /// Returns the Rust types of all fields.
     pub(super) fn type_names(&self) -> impl Iterator<Item = &str> {
         self.fields.iter().chain(self.views.iter().flat_map(|view| &view.fields)).map(|field| field.ty.as_str())
     }
@@ -52,13 +52,13 @@ impl BitFieldModel {
 
 /// The `Debug` implementation of a bit field.
 pub(super) struct DebugModel {
-    /// The `cfg` attribute of the implementation if it is conditional.
+    /// The `cfg` attribute of the `Debug` implementation. `None` if the implementation is unconditional.
     pub gate: Option<String>,
     pub raw: String,
-    /// Names and masks of the fields, in the format that the runtime's `debug_bits` requires. The name of the type
-    /// comes first.
+    /// Names and masks of the fields, in the format that the runtime's `debug_bits` requires. The list starts with the
+    /// name of the type.
     pub layout: String,
-    /// Values of fields that print like their type.
+    /// Values of the fields that `Debug` prints in the format of the field's type.
     pub values: Vec<Doc>,
 }
 
@@ -66,13 +66,13 @@ pub(super) struct DebugModel {
 pub(super) struct FieldModel {
     pub docs: String,
     pub getter: String,
-    /// Link to the getter, for the table.
+    /// Link to the getter, for the documentation table of the bit field.
     pub title: String,
     pub setter: String,
     pub ty: String,
     /// Expression that reads the field from `self.0`.
     pub get: Doc,
-    /// Expression of the bit field after `value` is stored in the field.
+    /// Expression that returns the bit field after `value` was stored in this field.
     pub set: Doc,
     /// Name and mask of the field for the `Debug` layout.
     debug: String,
@@ -133,7 +133,7 @@ fn title(context: &Context<'_>, condition: &Condition) -> String {
     format!("while {item} is {} ({numbers})", docs::escape(&names.join(" or ")))
 }
 
-/// Returns the model of the bit field at this position.
+/// Returns the model of the bit field at `position` in the list of types.
 pub(super) fn model(
     context: &Context<'_>,
     position: u32,
@@ -206,7 +206,7 @@ fn view_methods(views: &[View], reserved: &[&str]) -> Vec<String> {
     names::unique(&name_requests, reserved, Case::Snake)
 }
 
-/// Returns the lines of the table with all bits.
+/// Returns the lines of the documentation table that lists all bits of a bit field.
 fn table<'f>(entries: &[&BitFieldEntry], fields: impl Iterator<Item = &'f FieldModel>) -> Vec<String> {
     let reserved = |entry: &&BitFieldEntry| {
         let BitMeaning::Reserved { write } = entry.meaning else { return None };
@@ -230,7 +230,7 @@ fn span(entry: &BitFieldEntry) -> String {
     }
 }
 
-/// Returns sentences about inverted flags and about the edge that triggers a field's action.
+/// Returns sentences that state whether a flag is inverted and which edge of the bit triggers an action.
 fn marks(entry: &BitFieldEntry) -> impl Iterator<Item = String> {
     let is_inverted = matches!(entry.meaning, BitMeaning::Flag { inverted: true });
     let trigger = entry.trigger.map(|trigger| match trigger {
@@ -324,8 +324,8 @@ impl Fields<'_, '_> {
             !matches!(entry.meaning, BitMeaning::Reserved { .. }) && entry.when.as_ref() == condition
         };
         let entries: Vec<&BitFieldEntry> = all.iter().filter(is_field).copied().collect();
-        // A bit can have the same name but different meanings in two firmware versions. A suffix makes the names of its
-        // fields unique.
+        // One bit can have two fields with the same name and different meanings, one for each of two firmware versions.
+        // A suffix with the position makes the names of these fields unique.
         let mut seen = HashSet::new();
         let name_requests: Vec<NameRequest<'_>> = entries
             .iter()
@@ -408,7 +408,7 @@ impl Fields<'_, '_> {
         }
     }
 
-    /// Returns a call of the runtime function for integers of this type.
+    /// Returns a call of the runtime function `function` for the primitive integer of the bit field.
     fn call(&self, function: &str, mask: &str, value: Option<&str>) -> Doc {
         let path = seq!["rt::bits", self.native_bits(), "::", function];
         match value {

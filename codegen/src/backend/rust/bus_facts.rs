@@ -11,7 +11,7 @@ pub(super) struct FactModel {
     pub code: Doc,
 }
 
-/// Names of the bus constants in lowercase.
+/// Names of the bus constants in lower case. Other constants of the module must not have these names.
 pub(super) const RESERVED: [&str; 2] = ["node_ids", "modbus"];
 
 pub(super) fn models(device: &Device) -> Vec<FactModel> {
@@ -26,8 +26,8 @@ pub(super) fn models(device: &Device) -> Vec<FactModel> {
     facts
 }
 
-/// For each Modbus table: the field and the constant in the runtime, and the maximum number of values per Modbus read
-/// and write.
+/// For each Modbus table: the field and the constant in the runtime, and the maximum number of values in a read request
+/// and in a write request.
 const TABLES: [(RegisterSpace, &str, &str, u16, u16); 4] = [
     (RegisterSpace::Holding, "holding", "rt::modbus::TableLimits::HOLDING", 125, 123),
     (RegisterSpace::Input, "input", "rt::modbus::TableLimits::INPUT", 125, 0),
@@ -73,8 +73,8 @@ fn limits(stated: Option<&ModbusTable>, max_read: u16, max_write: u16, spans: Ve
     )
 }
 
-/// Returns the address ranges of a table that can be read together. Registers that are longer than one Modbus request
-/// are excluded.
+/// Returns the address ranges of a Modbus table in which adjacent registers can be read with one request. Values that
+/// are too long for one Modbus request are excluded.
 fn spans(device: &Device, space: RegisterSpace, longest: u16) -> Vec<Doc> {
     let mut addresses: BTreeMap<u16, Option<u8>> = BTreeMap::new();
     let all = items(device).flat_map(|item| registers(item).map(move |register| (item, register)));

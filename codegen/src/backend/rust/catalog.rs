@@ -12,7 +12,7 @@ use super::{docs, header, print};
 use crate::ir::{Catalog, Device, FileInfo, Module, ModuleId};
 use crate::names::{self, Case, NameRequest};
 
-/// Names that a device's module must not have, because its content uses them.
+/// Names that the Rust module of a device must not have, because the content of the module uses these names.
 const RESERVED: [&str; 18] = [
     "self",
     "super",
@@ -135,7 +135,8 @@ fn paths(modules: &[(ModuleId, &Module)], names: &[String], outer: &str) -> Modu
     modules.iter().zip(names).map(|((id, _), name)| (*id, format!("{outer}::{name}::MODULE"))).collect()
 }
 
-/// Returns the name of a device or module in the description. If the description has no name, returns the Rust name.
+/// Returns the name of a device or module in the description. If the description contains no name for the device or
+/// module, returns its Rust name.
 fn title(original: &str, name: &str) -> String {
     let title = docs::escape(original);
     docs::sentence(if title.is_empty() { name } else { &title })

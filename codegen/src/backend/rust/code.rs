@@ -1,5 +1,5 @@
-//! Rust code as documents, which are texts with marked positions for line breaks. The writer breaks lines like
-//! `prettyplease`.
+//! Rust code as documents, which are texts with marked positions for line breaks. The writer breaks lines as
+//! `prettyplease` does.
 
 mod doc;
 mod layout;

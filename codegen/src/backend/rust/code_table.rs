@@ -64,7 +64,8 @@ fn model(
     }
     let rows = table.rows.iter().filter_map(|code_row| row(code_row, table.columns.len())).collect();
     let ty = code_type::model(table, manual, options).map(|model| CodeTypeModel { name: type_name, ..model });
-    // A one-letter table and its type have the same name, so the link must state the kind.
+    // If the name of a code table is a single letter, its constant and its enumeration have the same name. The link
+    // must therefore state which of the two it means.
     let link = |name: &str, kind: &str, other: &str| match name == other || is_derive(name) {
         true => format!("[`{name}`]({kind}@{name})"),
         false => format!("[`{name}`]"),
@@ -77,7 +78,7 @@ fn model(
     CodeTableModel { name, link: static_link, docs, rows, has_real, ty }
 }
 
-/// Returns the expression of a row. Returns `None` if the code does not fit in 64 bits.
+/// Returns the expression for a row of a code table. Returns `None` if the code does not fit in 64 bits.
 fn row(row: &CodeRow, columns: usize) -> Option<Doc> {
     let (first, last) = (i64::try_from(row.code).ok()?, i64::try_from(row.last.unwrap_or(row.code)).ok()?);
     let mut text = row.documentation.as_ref().map_or_else(String::new, |documentation| documentation.text.clone());

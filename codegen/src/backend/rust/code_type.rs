@@ -1,4 +1,4 @@
-//! Enumerations for the codes of code tables. Programs use them to match alarms by name.
+//! Enumerations for the codes of code tables. With these enumerations, programs match alarms by name.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -21,7 +21,7 @@ pub(super) struct CodeTypeModel {
     pub variants: Vec<CodeVariant>,
     /// Arms of the match that converts a code to its variant: pattern and variant.
     pub arms: Vec<(String, String)>,
-    /// True if the rows cover all numbers of the integer.
+    /// True if the rows of the code table cover all numbers of the integer type.
     pub complete: bool,
 }
 
@@ -36,7 +36,8 @@ pub(super) struct CodeVariant {
 /// Names that variants must not have, because the generated code uses them.
 const RESERVED: [&str; 2] = ["Self", "Unknown"];
 
-/// Integer types of codes. The smallest type has 16 bits, like the emergency error codes of CANopen (CiA 301 7.2.7).
+/// Integer types of codes. The smallest type has 16 bits, because emergency error codes of CANopen have 16 bits (CiA
+/// 301 7.2.7).
 const NATIVES: [(&str, i64, i64); 4] = [
     ("u16", 0, u16::MAX as i64),
     ("u32", 0, u32::MAX as i64),
@@ -49,7 +50,7 @@ type Span = (i64, i64);
 /// Returns the enumeration for `table`, without its name. Returns `None` if no row has a code that fits in 64 bits.
 pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOptions) -> Option<CodeTypeModel> {
     let mut seen = HashSet::new();
-    // If several rows describe the same code for different models, the first row determines its name.
+    // If several rows describe the same code for different models, the first row determines the name of the variant.
     let first_of_its_span = |row: &'a CodeRow| Some((span(row).filter(|row_span| seen.insert(*row_span))?, row));
     let rows: Vec<(Span, &CodeRow)> = table.rows.iter().filter_map(first_of_its_span).collect();
     let low = rows.iter().map(|(span, _)| span.0).min()?;
@@ -86,17 +87,18 @@ fn span(row: &CodeRow) -> Option<Span> {
 }
 
 /// Returns for each span the part that no narrower span covers, in ascending order. If overlapping spans have the same
-/// length, the first one gets the overlap.
+/// length, the overlap belongs to the first of these spans.
 fn disjoint(spans: &[Span]) -> Vec<(usize, Span)> {
     let mut order: Vec<usize> = (0..spans.len()).collect();
     order.sort_by_key(|at| spans[*at].0.abs_diff(spans[*at].1));
     // The codes covered so far, as a map from the first to the last code of each covered span. A new span absorbs the
-    // spans that it meets, so each span is visited once.
+    // covered spans that it overlaps, so each span is visited only once.
     let mut covered: BTreeMap<i64, i64> = BTreeMap::new();
     let mut pieces = Vec::new();
     for at in order {
         let (mut first, mut last) = spans[at];
-        // The last code of the remaining part. Nothing remains if it is below `first`.
+        // The last code of the part of the span that no covered span contains. If this code is below `first`, nothing
+        // of the span remains.
         let mut end = Some(last);
         while let Some((low, high)) = last_meeting(&covered, spans[at]) {
             covered.remove(&low);
@@ -126,7 +128,7 @@ fn pattern(span: Span) -> String {
     }
 }
 
-/// Returns a code as a literal. Codes from 10 are hexadecimal.
+/// Returns a code as a literal. Codes of 10 and above are hexadecimal.
 pub(super) fn number(code: i64) -> String {
     if code > 9 {
         format!("{code:#X}").replacen("0X", "0x", 1)

@@ -47,8 +47,8 @@ impl<'i> Arguments<'i> {
         }
     }
 
-    /// Returns the shortest constructor call, and whether it names the runtime. Each additional argument increases the
-    /// time that `rustc` needs for a handle by a tenth.
+    /// Returns the shortest constructor call, and whether the call contains a path into the runtime crate. Each
+    /// additional argument increases the time that `rustc` needs for a handle by a tenth.
     pub fn constructor(&self, addresses: &ItemAddresses<'_>, location: impl FnOnce() -> Doc) -> (Doc, bool) {
         if let Some(call) = self.of_object(addresses) {
             return (call, self.flags != NO_FLAGS);
@@ -86,7 +86,7 @@ impl<'i> Arguments<'i> {
         }
     }
 
-    /// Returns the constructor call of a register. The register may also be an object.
+    /// Returns the constructor call of a register. The register may have an object address too.
     fn of_register(&self, addresses: &ItemAddresses<'_>) -> Option<Doc> {
         let address = addresses.with_register().filter(|_| self.initial.text() == UNKNOWN)?;
         let Arguments { name, range, flags, .. } = self;
@@ -102,7 +102,7 @@ impl<'i> Arguments<'i> {
     }
 }
 
-/// Returns the PDO flags of an item: the PDOs into which it can be mapped.
+/// Returns the PDO flags of an item, which state whether RPDOs, TPDOs or both can map the item.
 pub(super) fn flags(item: &Item) -> &'static str {
     match (item.mappable.rpdo, item.mappable.tpdo) {
         (true, true) => "rt::Flags::PDO",

@@ -1,4 +1,4 @@
-//! Input of the lowering: the elements of a device or module with their addresses, names and links.
+//! Input of the stage that lowers a device or module to plain data: its elements with their addresses, names and links.
 
 use std::ops::Deref;
 
@@ -40,7 +40,7 @@ impl Context<'_> {
         self.link_to(reference.id?.into(), &reference.name, doc_module)
     }
 
-    /// Returns a link from `doc_module` to an element, if the element has a path. `name` is the text of the link.
+    /// Returns a link from `doc_module` to an element, if the element has a path. The text of the link is `name`.
     pub fn link_to(&self, id: ElementId, name: &str, doc_module: DocModule<'_>) -> Option<String> {
         Some(doc_module.text(&words::escape(name), self.links.path(id)?))
     }

@@ -13,18 +13,18 @@ use super::objects::ObjectModel;
 use super::print;
 use super::reexport::{Reexport, Section};
 
-/// The definitions of all devices so far.
+/// The definitions of all devices that were processed so far.
 pub(super) struct Definitions {
     runtime: String,
-    /// Numbers of definitions, by their code and the numbers of the definitions that the code refers to. Equal code can
-    /// refer to different types.
+    /// Numbers of definitions, by their code and the numbers of the definitions that the code refers to. The code alone
+    /// is not enough, because two definitions with equal code can refer to different types.
     numbers: HashMap<(String, Vec<usize>), usize>,
     /// For each definition number, the module of the device that contains the definition.
     homes: Vec<String>,
 }
 
 impl Definitions {
-    /// Creates an empty set. `runtime` is the path of the runtime in the definitions' code.
+    /// Creates an empty set of definitions. `runtime` is the path of the runtime crate in the code of the definitions.
     pub fn new(runtime: &str) -> Self {
         Definitions { runtime: runtime.to_owned(), numbers: HashMap::new(), homes: Vec::new() }
     }
@@ -42,7 +42,7 @@ impl Definitions {
     }
 }
 
-/// The definitions of one device.
+/// The definitions of the device that is being processed.
 struct Device<'d> {
     all: &'d mut Definitions,
     module: &'d str,
@@ -52,8 +52,8 @@ struct Device<'d> {
 }
 
 impl Device<'_> {
-    /// Adds a definition with these names. `used` contains names in its code that may refer to other definitions.
-    /// Returns whether no earlier device contains the definition.
+    /// Adds a definition with these names. `used` contains the names in the definition's code that may refer to other
+    /// definitions. Returns whether no earlier device contains the definition.
     fn is_new<'n>(
         &mut self,
         sections: &[Section],
@@ -144,7 +144,8 @@ impl Device<'_> {
                 print::objects::object(code, model, object);
             };
             let used = in_types(object.items.iter().filter_map(|item| item.type_name.as_deref()));
-            // A name without letters can be both a constant and a module. A re-export would include both.
+            // If a name contains no letters, a constant and a module can have the same name. A re-export of the name
+            // would include both of them.
             is_cased(&object.name) && !self.is_new(&[Section::Objects], &[name], used, &write)
         };
         let reexported: Vec<bool> = model.objects.iter().map(is_reexported).collect();

@@ -4,8 +4,8 @@ use super::literal;
 use crate::ir::{Device, FileInfo};
 use crate::names::{self, Case, NameRequest};
 
-/// Names that the type must not have. The generated module uses them, or has a function of this name that clippy would
-/// mistake for a constructor.
+/// Names that the type of a device must not have. Either the generated module uses the name, or clippy would mistake a
+/// function with this name for a constructor.
 const RESERVED: [&str; 8] = ["Self", "C", "S", "X", "Option", "Result", "New", "On"];
 
 /// Names that the module of a file must not have.
@@ -28,7 +28,8 @@ pub(super) fn title(device: &Device) -> String {
     }
 }
 
-/// Returns the name of the device's type. This is the chosen name, or a name derived from the product or file name.
+/// Returns the name of the device's type: the chosen name, or otherwise a name derived from the product name or file
+/// name.
 pub(super) fn device_name(device: &Device, file: &FileInfo, chosen: Option<&str>) -> String {
     name_of(device, file, chosen, Case::Pascal)
 }
@@ -50,7 +51,7 @@ fn name_of(device: &Device, file: &FileInfo, chosen: Option<&str>, case: Case) -
     names::escaped(&name)
 }
 
-/// Returns the module name for a file with this stem.
+/// Returns the module name for a file whose name without extension is `stem`.
 pub(super) fn stem_name(stem: &str) -> Option<String> {
     let name_request = NameRequest { name: stem, fallback: String::new(), suffix: "device".into() };
     let name = names::unique(&[name_request], &RESERVED_FOR_FILE, Case::Snake).remove(0);

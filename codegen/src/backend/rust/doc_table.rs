@@ -21,8 +21,8 @@ pub(super) fn table<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Ve
     }
 }
 
-/// Returns the lines of a table of any length. Used for content that is not documented elsewhere. Columns without text
-/// are omitted.
+/// Returns the lines of a table of any length. The function is used for content that is documented only in the table.
+/// Columns without text are omitted.
 pub(super) fn whole<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Vec<String> {
     if rows.is_empty() {
         return Vec::new();
@@ -41,8 +41,8 @@ pub(super) fn whole<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Ve
     lines
 }
 
-/// Returns a link from a struct to its field. If a method has the same name, returns only the name, because the link
-/// would lead to the method.
+/// Returns a link from a struct to its field. If a method has the same name as the field, returns only the name,
+/// because a link would lead to the method.
 pub(super) fn field_link(name: &str, methods: &[&str]) -> String {
     match methods.contains(&name) {
         true => format!("`{name}`"),
@@ -73,7 +73,7 @@ fn is_same(name: &str, rust: &str) -> bool {
     name.chars().all(is_plain) && letters(name) == letters(rust)
 }
 
-/// Returns the start of a text on one line.
+/// Returns the start of a text. Line breaks in the text become spaces.
 fn start(text: &str) -> String {
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     match text.char_indices().nth(MAX_LETTERS) {

@@ -18,8 +18,8 @@ pub(super) fn linked(link: &dyn Fn(ElementId, &str) -> Option<String>) -> Words<
     Words { escape, link }
 }
 
-/// Returns a function that links to other elements from the documentation of an item. The item's replacement may have
-/// the same name as the item.
+/// Returns a function that links to other elements from the documentation of an item. The function compares ids instead of names,
+/// because the replacement of an item may have the same name as the item.
 fn links_from<'c>(
     entry: &'c NamedItem<'_>,
     context: &'c Context<'_>,
@@ -28,8 +28,8 @@ fn links_from<'c>(
     move |id, name| (id != entry.id.into()).then(|| context.link_to(id, name, doc_module))?
 }
 
-/// Returns the documentation of an item's constant. The name is followed by the address, the type, the access rights and
-/// the values. Related elements and other facts follow. Links are relative to `doc_module`.
+/// Returns the documentation of an item's constant. The name is followed by the address, the type, the access rights and the
+/// values. Links to related elements and other facts come last. Links are relative to `doc_module`.
 pub(super) fn item(
     entry: &NamedItem<'_>,
     name: &str,
@@ -141,7 +141,7 @@ pub(super) fn holds(condition: &Condition, context: &Context<'_>, doc_module: Do
     linked(&|id, name| context.link_to(id, name, doc_module)).holds(condition)
 }
 
-/// Adds the sentences of a description to the list.
+/// Adds the sentences of an element's documentation to `sentences`.
 pub(super) fn words(documentation: Option<&Documentation>, sentences: &mut Vec<String>) {
     sentences.extend(WORDS.description(documentation));
 }
@@ -156,14 +156,14 @@ pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual, 
     }
 }
 
-/// Returns sentences about ambiguities. The most severe ambiguity comes first.
+/// Returns sentences about ambiguities in the manual. The most severe ambiguity comes first.
 fn doubts<'d>(list: impl Iterator<Item = &'d Doubt>, manual: &Manual) -> Vec<String> {
     let mut list: Vec<&Doubt> = list.collect();
     list.sort_by_key(|doubt| doubt.severity);
     list.into_iter().map(|doubt| WORDS.doubt(manual, doubt)).collect()
 }
 
-/// Adds a device's ambiguities about one element as paragraphs.
+/// Adds the ambiguities in the manual that concern one element, each as a paragraph.
 pub(super) fn doubts_about(context: &Context<'_>, kind: SubjectKind, name: &str, lines: &mut Vec<String>) {
     let all = context.device.into_iter().flat_map(|device| &device.doubts);
     for doubt in doubts(all.filter(|doubt| doubt.is_about(kind, name)), &context.manual) {
@@ -171,7 +171,8 @@ pub(super) fn doubts_about(context: &Context<'_>, kind: SubjectKind, name: &str,
     }
 }
 
-/// Returns the first lines about the type at this position: its name, its documentation, and the items that use it.
+/// Returns the first lines of the documentation of the type at `position`: its name, its description, and the items that use the
+/// type.
 pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
     let Some(definition) = context.types.get(position as usize) else { return Vec::new() };
     let mut lines = vec![sentence(&escape(&definition.name))];
@@ -200,7 +201,7 @@ fn facts(item: &Item, context: &Context<'_>, words: &Words<'_>) -> String {
     format!("{}.", capital(&parts.join(", ")))
 }
 
-/// Returns a value of this type as text.
+/// Returns a value of the type `ty` as text.
 pub(super) fn typed(shown: &Value, ty: Type) -> String {
     match shown {
         Value::Int(number) => facts::item::integer(*number, matches!(ty, Type::Unsigned(_))),

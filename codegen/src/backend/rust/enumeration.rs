@@ -18,7 +18,7 @@ pub(super) struct EnumerationModel {
     pub name: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
-    /// Path of the base type in the runtime, such as `u8` or `rt::Uint<3>`.
+    /// Rust path of the base type, such as `u8` or `rt::Uint<3>`.
     pub base: &'static str,
     /// Primitive integer that holds the raw value, such as `u8`.
     pub native: &'static str,
@@ -34,15 +34,16 @@ pub(super) struct VariantModel {
     pub value: String,
 }
 
-/// Maximum number of bits of an enumeration whose names can cover all numbers.
+/// Maximum number of bits of an enumeration for which the compiler checks whether all numbers have a name.
 const COMPLETE: u32 = 6;
 
 /// Names that variants must not have, because the generated code uses them.
 const RESERVED: [&str; 2] = ["Self", "Unknown"];
 
-/// Returns the model of the enumeration at this position.
+/// Returns the model of the enumeration at `position` in the list of types.
 ///
-/// If an enumeration in a bit field names all numbers of the field, it has no variant for other numbers.
+/// If an enumeration of a field in a bit field names all numbers of that field, the enumeration has no variant
+/// `Unknown`.
 pub(super) fn model(
     context: &Context<'_>,
     position: u32,
@@ -75,8 +76,8 @@ pub(super) fn model(
     }
 }
 
-/// Returns the table of all values. The table contains the ranges and, unless there are too many, the variants. The
-/// values of ranges are `Unknown`.
+/// Returns the documentation table of all values. The table contains the ranges and, unless there are too many, the
+/// variants. The table shows the variant `Unknown` for each range.
 fn table(all: &[EnumValue], values: &[&EnumValue], variants: &[VariantModel]) -> Vec<String> {
     let mut rows: Vec<(i128, [String; 3])> = Vec::new();
     if variants.len() <= doc_table::MAX_ROWS {
@@ -119,7 +120,8 @@ fn variants(values: &[&EnumValue], context: &Context<'_>) -> Vec<VariantModel> {
     values.iter().zip(names).map(variant).collect()
 }
 
-/// Returns additional sentences about a value.
+/// Returns the sentences that follow the name of a value: reserved or vendor-specific, description, condition,
+/// availability and citation.
 fn further_facts(value: &EnumValue, context: &Context<'_>) -> Vec<String> {
     let mut sentences = Vec::new();
     sentences.extend(zone(value).map(str::to_owned));

@@ -13,7 +13,7 @@ pub(super) enum FieldType {
     Bool,
     /// A primitive integer.
     Native(&'static str),
-    /// An integer with another width: whether it is signed, and the number of bits.
+    /// An integer with a width that no primitive integer has: whether the integer is signed, and its number of bits.
     Odd(bool, u32),
     Real(u32),
     Time(&'static str),
@@ -48,7 +48,8 @@ impl FieldType {
                 None => format!("{value}.raw() as u64"),
             },
             FieldType::Native("u64") => value.to_owned(),
-            // First reduce a signed number to its width. Otherwise, its sign would extend over the whole word.
+            // A signed number must first be cast to the unsigned integer of its width. Otherwise, the sign would extend
+            // over the whole word.
             FieldType::Native(signed) if signed.starts_with('i') && bits < WORD => {
                 format!("{value} as u{bits} as u64")
             }
@@ -60,8 +61,8 @@ impl FieldType {
         }
     }
 
-    /// Returns an expression that converts bits to a value. For a Boolean, only the lowest bit matters. `path` is the
-    /// path of the type.
+    /// Returns an expression that converts bits to a value. For a Boolean, the expression reads only the lowest bit.
+    /// `path` is the path of the Rust type.
     pub fn decode(&self, path: &str, bits: &Doc) -> Doc {
         match self {
             FieldType::Named(_, "u64") | FieldType::Time(_) => call!(seq![path, "::from_raw"], bits),
@@ -77,8 +78,8 @@ impl FieldType {
         }
     }
 
-    /// Returns whether decoding embeds the bits in a larger expression. If so, operators in the expression of the bits
-    /// need parentheses.
+    /// Returns whether decoding embeds the bits in a larger expression. In a larger expression, operators in the
+    /// expression of the bits need parentheses.
     pub fn is_cast(&self) -> bool {
         match self {
             FieldType::Native(native) | FieldType::Named(_, native) => *native != "u64",
@@ -87,8 +88,8 @@ impl FieldType {
         }
     }
 
-    /// Returns a mask of the field's bits. Returns `None` if no mask is necessary: the Rust type has no more bits, or
-    /// its conversions remove them.
+    /// Returns a mask of the field's bits. Returns `None` if no mask is necessary, because the Rust type has no further
+    /// bits or its conversions remove the further bits.
     pub fn cut(&self, bits: u32) -> Option<String> {
         match self {
             FieldType::Named(_, native) if native_bits(native) > bits => {
@@ -99,14 +100,15 @@ impl FieldType {
     }
 }
 
-/// Returns `value as ty`. A line break is possible before `as`.
+/// Returns `value as ty`. The line can be broken before `as`.
 fn cast(value: &Doc, ty: &str) -> Doc {
     seq![value, Break, " as ", ty]
 }
 
 /// Returns the Rust type for `bits` bits with the IR type `ty`.
 pub(super) fn field_type(context: &Context<'_>, ty: Type, bits: u32) -> FieldType {
-    // The sign bit must be the most significant bit of a primitive integer.
+    // A field with a signed enumeration must have the width of a primitive integer, because only then the sign bit is
+    // the most significant bit of this integer.
     let is_whole = |named: &NamedType| !named.is_signed() || native_bits(named.native) == bits;
     if let Some(named) = context.enumeration(ty).filter(|named| named.bits == bits && is_whole(named)) {
         return FieldType::Named(named.name.clone(), named.native);

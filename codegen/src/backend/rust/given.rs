@@ -14,7 +14,7 @@ pub(super) struct GivenModel {
     pub units: Vec<UnitModel>,
 }
 
-/// A property of the machine.
+/// A property of the machine, which becomes a field of the struct.
 pub(super) struct NumberModel {
     pub name: String,
     pub docs: Vec<String>,
@@ -32,7 +32,7 @@ pub(super) fn name_request(name: &str) -> NameRequest<'_> {
     NameRequest { name, fallback: "number".to_owned(), suffix: "other".to_owned() }
 }
 
-/// Returns the model. Returns `None` if the device declares no properties of the machine.
+/// Returns the model of the struct. Returns `None` if the device declares no properties of the machine.
 pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOptions) -> Option<GivenModel> {
     let name_requests: Vec<NameRequest<'_>> = device.given.iter().map(|number| name_request(&number.name)).collect();
     let names = names::unique(&name_requests, &["self", "super", "crate"], Case::Snake);
@@ -54,7 +54,7 @@ pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOption
     (!numbers.is_empty()).then(|| GivenModel { derives: options.derives(true), numbers, units })
 }
 
-/// Returns the machine's units without repetitions, in the order of the items that use them.
+/// Returns the units of the machine without repetitions, in the order of the items that use these units.
 fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitModel> {
     let mut found: Vec<(&str, &MachineUnit)> = Vec::new();
     let items = device.groups.iter().flat_map(|group| &group.items);

@@ -35,19 +35,19 @@ pub(super) struct ItemModel {
     pub alias: String,
     /// Constructor call of the handle, without the type.
     pub constructor: Doc,
-    /// True if the handle names the runtime.
+    /// True if the code of the handle contains a path into the runtime crate.
     pub names_runtime: bool,
-    /// True if a literal may be close to a mathematical constant. Clippy reports such literals.
+    /// True if a literal in the handle's code may be close to a mathematical constant. Clippy reports such literals.
     pub real: bool,
-    /// Object address on the bus of the PDOs.
+    /// Address of the item's object, preferably on the bus on which the device's objects are addressed.
     pub object: Option<(u16, u8)>,
     /// Arguments of the type that describes the item's mapping into PDOs.
     pub mappable: Option<[String; 3]>,
 }
 
 impl ItemModel {
-    /// Returns the name with which `lexibus::pdo!` refers to the item. This is the name of the accessor, with a suffix
-    /// if it would hide a primitive type.
+    /// Returns the name with which `lexibus::pdo!` refers to the item. The name is that of the accessor, with a suffix
+    /// if the name would hide a primitive type.
     pub(super) fn mappable_name(&self) -> String {
         const PRIMITIVES: [&str; 15] = [
             "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "f32", "f64",

@@ -31,7 +31,7 @@ pub(super) struct ItemAddresses<'i> {
     bits: u32,
     /// True if the value is a sequence of bytes.
     is_bytes: bool,
-    /// True if the value is a text with 16-bit characters. Each register contains the number of one character.
+    /// True if the value is a text with 16-bit characters. Each register contains the code of one character.
     is_wide: bool,
     /// True if the value is a signed number.
     is_signed: bool,
@@ -66,7 +66,8 @@ impl<'i> ItemAddresses<'i> {
         }
     }
 
-    /// Adds an address. If there are several addresses on a bus, the first one is used.
+    /// Adds the address that a binding contains. If an item has several addresses on a bus, only the first address is
+    /// used.
     fn add(&mut self, scope: &Scope<'_>, base: Type, binding: &'i Binding) {
         match binding {
             Binding::Object { buses, index, sub_index } => {
@@ -98,7 +99,8 @@ impl<'i> ItemAddresses<'i> {
         Buses::of(&self.routes)
     }
 
-    /// Returns the item's object on this bus. If there is none, returns its object on the other bus that has objects.
+    /// Returns the address of the item's object on `bus`. If the item has no object on this bus, returns the address on
+    /// the other bus with an object dictionary.
     pub fn object_on(&self, bus: ObjectBus) -> Option<(u16, u8)> {
         match bus {
             ObjectBus::CanOpen => self.canopen.or(self.coe),
@@ -106,7 +108,8 @@ impl<'i> ItemAddresses<'i> {
         }
     }
 
-    /// Returns the object in the dictionary. If the object on EtherCAT differs, also returns that one.
+    /// Returns the address of the item's object: on CANopen, or otherwise on EtherCAT. If the address on EtherCAT
+    /// differs from that on CANopen, returns both.
     pub fn objects(&self) -> [Option<(u16, u8)>; 2] {
         [self.canopen.or(self.coe), self.coe.filter(|coe| self.canopen.is_some_and(|canopen| canopen != *coe))]
     }

@@ -19,7 +19,8 @@ impl<'s> ItemType<'s> {
     pub fn of(context: &'s Context<'_>, item: &Item) -> Self {
         let named = context.enumeration(item.ty);
         ItemType {
-            // The raw value of an enumeration may be a Boolean. Its code represents the Boolean as one bit.
+            // The raw value of an enumeration may be a Boolean. The generated code represents this Boolean as an
+            // integer of one bit.
             basic: named.map_or_else(|| context.value_type(item.ty), |named| ValueType::of(named.ty)),
             named: named.map(|named| named.name.as_str()),
             quantity: if named.is_none() { quantity::of(context, item) } else { None },
@@ -35,7 +36,7 @@ impl<'s> ItemType<'s> {
         }
     }
 
-    /// Returns whether the path names the runtime.
+    /// Returns whether the path of the type leads into the runtime crate.
     pub fn names_runtime(&self) -> bool {
         self.named.is_none() && (self.quantity.is_some() || !matches!(self.basic, ValueType::Native { .. }))
     }
@@ -43,8 +44,8 @@ impl<'s> ItemType<'s> {
     /// Returns the name of the type for use in other names.
     pub fn word(&self) -> String {
         match (self.named, &self.quantity) {
-            // A camel-case name has no underscore inside. A name that starts with a digit has a leading `_`, which must
-            // be removed.
+            // A camel-case name must not contain an underscore. A name that starts with a digit has a leading `_`,
+            // which must be removed.
             (Some(name), _) => names::prefixed("Named", name),
             (None, Some(quantity)) => quantity.word.clone(),
             (None, None) => self.basic.word(),

@@ -13,7 +13,7 @@ use super::options::RustOptions;
 use super::scope::Scope;
 use crate::ir::{Device, ElementId, ItemId, MessageId, PdoEntryKind, Type};
 
-/// The module that contains a doc comment. Links in the comment are relative to it.
+/// The module that contains a doc comment. Links in the comment are relative to this module.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DocModule<'h> {
     /// Path from this module to the device's module: `super::`.
@@ -23,7 +23,7 @@ pub(super) struct DocModule<'h> {
 }
 
 impl<'h> DocModule<'h> {
-    /// The device's module.
+    /// The module of the device itself.
     pub const TOP: DocModule<'static> = DocModule::new("", "");
     pub const OBJECTS: DocModule<'static> = DocModule::new("super::", "objects::");
     pub const TYPES: DocModule<'static> = DocModule::new("super::", "types::");
@@ -31,14 +31,14 @@ impl<'h> DocModule<'h> {
     pub const PDO: DocModule<'static> = DocModule::new("super::", "pdo::");
     #[cfg(feature = "messages")]
     pub const MESSAGES: DocModule<'static> = DocModule::new("super::", "messages::");
-    /// Any other module in the device's module. No link leads to this module.
+    /// A module in the device's module. No link leads to such a module.
     pub const OTHER: DocModule<'static> = DocModule::new("super::", "::");
 
     pub const fn new(outer: &'h str, module: &'h str) -> Self {
         DocModule { outer, module }
     }
 
-    /// Returns whether this is the device's module.
+    /// Returns whether this module is that of the device itself.
     pub fn is_top(self) -> bool {
         self.outer.is_empty()
     }
@@ -103,7 +103,8 @@ pub(super) fn sibling(name: &str) -> String {
     }
 }
 
-/// Returns whether a type has the name of a derive macro in the prelude. If so, links must state that it is a type.
+/// Returns whether a type has the name of a derive macro in the prelude. Links to such a type must state that they mean
+/// the type.
 pub(super) fn is_derive(name: &str) -> bool {
     const DERIVES: [&str; 9] = ["Clone", "Copy", "Debug", "Default", "Eq", "Hash", "Ord", "PartialEq", "PartialOrd"];
     DERIVES.contains(&name)
@@ -131,10 +132,10 @@ pub(super) struct Links {
     handles: HashMap<ItemId, Handle>,
     /// For each object, the names of the PDO structs that contain it by default.
     carriers: HashMap<(u16, u8), Vec<String>>,
-    /// For each type position, the items with this type.
+    /// The items with each type, by the position of the type in the list of types.
     users: HashMap<u32, Vec<ItemId>>,
-    /// Paths of message types. The path is that of the request; if only the device sends the message, it is that of the
-    /// reply.
+    /// Paths of message types. The path leads to the type of the request, or to the type of the reply if only the
+    /// device sends the message.
     messages: HashMap<MessageId, String>,
     /// For each item, the names of the constants of composite numbers that contain it.
     wholes: HashMap<ItemId, Vec<String>>,
@@ -166,7 +167,7 @@ impl Links {
         links
     }
 
-    /// Adds the paths of messages. Returns whether there are requests.
+    /// Adds the paths of messages. Returns whether any message has a request.
     #[cfg(feature = "messages")]
     fn add_messages(&mut self, names: &Names<'_>) -> bool {
         self.messages = names.messages.paths().map(|message| (message.id, message.path)).collect();
@@ -192,7 +193,7 @@ impl Links {
 
     fn add_handle(&mut self, scope: &Scope<'_>, entry: &NamedItem<'_>, device: Option<&str>) {
         let name = &entry.name;
-        // The link must state the kind because a module may have the same name.
+        // The link must state that it means the constant, because a module may have the same name.
         let kind = if is_cased(name) { "" } else { "const@" };
         let constant = format!("{kind}objects::{}", name.to_ascii_uppercase());
         self.add(scope, entry, Handle { constant, method: device.map(|device| format!("{device}::{name}")) });
@@ -223,8 +224,8 @@ impl Links {
         }
     }
 
-    /// Returns a sentence about the items that use the type at this position. The sentence is empty if no item has a
-    /// handle.
+    /// Returns a sentence about the items that use the type at `position` in the list of types. The sentence is empty
+    /// if no item has a handle.
     pub fn users(&self, position: u32, doc_module: DocModule<'_>) -> String {
         let users = self.users.get(&position).map_or(&[][..], Vec::as_slice);
         let paths = users.iter().filter_map(|id| Some(self.handles.get(id)?.constant.as_str()));
@@ -264,8 +265,8 @@ fn values(ty: Option<&str>, doc_module: DocModule<'_>) -> Option<String> {
     Some(format!("Type of the value: {}.", doc_module.code(&format!("types::{}", ty?))))
 }
 
-/// Returns whether a client can access the objects. If a slave has no CoE, its objects are derived from PDOs and
-/// accessible only through them.
+/// Returns whether a client can access the objects. If a slave has no CoE, its objects are derived from PDOs, and a
+/// client can access them only as process data.
 fn has_object_access(device: &Device) -> bool {
     let Some(ethercat) = &device.ethercat else { return true };
     let coe = ethercat.mailbox.as_ref().is_some_and(|mailbox| mailbox.coe.is_some());
@@ -277,7 +278,8 @@ fn sentence(start: &str, paths: &[&str], doc_module: DocModule<'_>) -> String {
     if paths.is_empty() {
         return String::new();
     }
-    // Keep the path of objects' constants because they may share names. Omit the names of top-level modules.
+    // Constants in the modules of different objects may have the same name, so the module of the object is kept. The
+    // names of top-level modules are omitted.
     let name = |path: &str| {
         let path = path.split_once('@').map_or(path, |(_, path)| path);
         path.split_once("::").map_or(path, |(_, name)| name).to_owned()

@@ -13,11 +13,11 @@ pub(super) struct Located<'a> {
     scope: Scope<'a>,
     /// Windows through which some items are accessed.
     pub windows: Vec<Window>,
-    /// Items of chapters and images that a client can access.
+    /// Items of register chapters and of process images that a client can access.
     pub registers: Vec<Register<'a>>,
 }
 
-/// An item of a chapter or image, and the title of the chapter.
+/// An item of a register chapter or process image, and the title of the chapter.
 #[derive(Clone, Copy)]
 pub(super) struct Register<'a> {
     pub chapter: &'a str,
@@ -52,10 +52,10 @@ impl<'a> Deref for Located<'a> {
     }
 }
 
-/// Returns the items of chapters and images that a client can access.
+/// Returns the items of register chapters and of process images that a client can access.
 fn registers<'a>(located: &Located<'a>) -> Vec<Register<'a>> {
     let registers = |(position, group): (u32, &'a Group)| {
-        // Images need no title, because the addresses of their fields contain the image's name.
+        // A process image needs no title, because the addresses of its fields contain the name of the image.
         let chapter = if group.kind == GroupKind::Chapter { group.name.as_str() } else { "" };
         group.items_at(position).map(move |(id, item)| Register { chapter, id, item })
     };

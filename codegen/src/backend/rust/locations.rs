@@ -7,10 +7,10 @@ use super::context::Context;
 use super::item_addresses::{Buses, ItemAddresses};
 use super::reachable::addressable;
 
-/// Path from the module of the handles to the windows.
+/// Rust path from the module of the handles to the module of the windows.
 const WINDOWS: &str = "super::windows::";
 
-/// Returns the name of the function that creates locations. `at` is its position.
+/// Returns the name of the generated function at position `at` that creates locations.
 fn maker(at: usize) -> String {
     format!("location_{}", at + 1)
 }
@@ -19,7 +19,7 @@ fn maker(at: usize) -> String {
 pub(super) struct Locations {
     /// The default location type. Handles with the default type do not state their type.
     pub usual: Buses,
-    /// True if some items have another location type.
+    /// True if the location type of some items differs from the default.
     pub several: bool,
     /// All location types of items, without repetitions.
     each: BTreeSet<Buses>,
@@ -87,7 +87,7 @@ impl Locations {
         unnamed.map(|buses| (buses.word(), docs(buses), buses.fields())).collect()
     }
 
-    /// Returns the type argument for the location. Returns `None` if it is the default.
+    /// Returns the type argument for the location. Returns `None` if the location has the default type.
     pub fn argument(&self, buses: Buses, outer: &str) -> Option<String> {
         if buses == self.usual {
             return None;
@@ -103,7 +103,7 @@ fn path_to_handles(outer: &str) -> &str {
 }
 
 /// Returns the default location type. The default is the union of all location types if all of them are direct and some
-/// item has this union. Otherwise, it is the most frequent location type.
+/// item has this union. Otherwise, the default is the most frequent location type.
 fn usual(each: &BTreeMap<Buses, usize>) -> Buses {
     match each.keys().all(|buses| buses.is_direct()) {
         true => each.keys().fold(Buses::default(), |all, buses| all.union(*buses)),

@@ -20,7 +20,7 @@ use crate::names::{self, Case};
 pub(super) struct MachineModel {
     pub states: Option<PatternsModel>,
     pub commands: Option<PatternsModel>,
-    /// Transitions that commands cause. `None` if no command causes a transition.
+    /// Constant with the transitions that commands cause. `None` if no command causes a transition.
     pub transitions: Option<Doc>,
 }
 
@@ -53,7 +53,7 @@ pub(super) struct PatternsModel {
     /// Primitive integer that holds the bits.
     pub native: &'static str,
     pub patterns: Vec<PatternModel>,
-    /// Name of the bit field that contains the bits, and name of the bit field's method.
+    /// Name of the bit field that contains the bits, and name of its method that reads the state or writes the command.
     pub bits: Option<(String, String)>,
 }
 
@@ -67,12 +67,12 @@ impl PatternsModel {
 /// A state or command, which is a bit pattern.
 pub(super) struct PatternModel {
     pub name: String,
-    /// Name in the description.
+    /// Name of the state or command in the description.
     original: String,
     pub docs: String,
     /// Meaning of the state or command, for a table cell.
     meaning: String,
-    /// Bit pattern, such as `xxxx xxxx x1xx 0000`.
+    /// Bit pattern of the state or command, such as `xxxx xxxx x1xx 0000`.
     pub bits: String,
     pub mask: String,
     pub value: String,
@@ -215,8 +215,8 @@ impl Named<'_, '_> {
     }
 }
 
-/// Returns the transitions that a program can trigger or wait for. Automatic transitions from any state are left out
-/// because they are errors.
+/// Returns the transitions that a program can trigger or wait for. Automatic transitions from any state are left out,
+/// because they are reactions of the device to errors.
 fn steps(transitions: &[Transition], states: &PatternsModel, commands: &PatternsModel) -> Option<Doc> {
     let named = |list: &PatternsModel, name: &str| {
         list.patterns.iter().find(|pattern| pattern.original == name).map(|pattern| pattern.name.clone())

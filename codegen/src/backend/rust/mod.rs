@@ -76,8 +76,8 @@ pub const INTERFACE_VERSION: u32 = 1;
 
 /// Returns the Rust module for `catalog`. Returns `None` if the catalog has no element for which code can be generated.
 ///
-/// The content of a single device is at the top level. If there are several devices, each has its own module. Modules
-/// of modular devices are next to the modules of the devices.
+/// The content of a single device is at the top level. If the catalog has several devices, each device has its own Rust
+/// module. The Rust modules for plug-in modules are next to those for devices.
 pub fn emit_catalog(catalog: &Catalog, options: &RustOptions) -> Option<String> {
     let file = catalog.files.first()?;
     #[cfg(feature = "gsdml")]
@@ -89,7 +89,7 @@ pub fn emit_catalog(catalog: &Catalog, options: &RustOptions) -> Option<String> 
 
 /// Returns the Rust module for `device`, which `file` describes.
 ///
-/// The text is the content of a module. It can be a separate file or be included in `mod name { … }`.
+/// The text is the content of a module. The text can be a separate file or be included in `mod name { … }`.
 pub fn emit(device: &Device, file: &FileInfo, options: &RustOptions) -> String {
     let mut code = Code::new(header(file), &options.runtime);
     print::model(&mut code, &Model::new(device, file, options, &ModulePaths::default()));
@@ -112,7 +112,7 @@ pub fn calls(device: &Device) -> HashMap<ItemId, Vec<String>> {
     objects::calls(&context).map(|(entry, path)| (entry.id, calls_of(&context, entry.item, &path))).collect()
 }
 
-/// Returns calls that use the item's unit, followed by calls that use the raw value.
+/// Returns the calls that read and write an item: first in its physical unit, then as raw value.
 fn calls_of(context: &Context<'_>, item: &Item, path: &str) -> Vec<String> {
     let (suffix, other) = match item.quantity.as_ref().and_then(|quantity| quantity.scale.as_ref()) {
         Some(Scale::ByItem { .. } | Scale::Fraction { .. } | Scale::Exponent { .. }) => ("_by", "other"),
@@ -130,7 +130,7 @@ fn calls_of(context: &Context<'_>, item: &Item, path: &str) -> Vec<String> {
     calls.into_iter().filter(|(exists, _)| *exists).map(line).collect()
 }
 
-/// Returns the default name of the device's type. The generated file has the same name.
+/// Returns the default name of the device's type. By default, the name of the generated file has the same words.
 pub fn device_name(device: &Device, file: &FileInfo) -> String {
     device_names::device_name(device, file, None)
 }
@@ -140,8 +140,8 @@ pub fn module_name(device: &Device, file: &FileInfo) -> String {
     device_names::module_name(device, file)
 }
 
-/// Returns the file name for an input with this stem: the words of the stem in snake case. Returns `None` if the stem
-/// has no words.
+/// Returns the name of the generated file for an input file: the words of `stem` in snake case. `stem` is the name of
+/// the input file without its extension. Returns `None` if `stem` has no words.
 pub fn file_name(stem: &str) -> Option<String> {
     device_names::stem_name(stem)
 }

@@ -52,7 +52,7 @@ pub(super) struct Model {
     pub identity: Option<IdentityModel>,
     /// True if the device's type has accessor methods.
     pub has_accessors: bool,
-    /// Location type of the handles. If there are several types, this one covers all buses.
+    /// Location type of the handles. If the handles have several location types, this type covers all buses.
     pub location: String,
     /// True if the handles have several location types.
     pub has_locations: bool,
@@ -87,7 +87,7 @@ pub(super) struct Model {
     /// Private aliases of handle types: name, access and arguments.
     pub handle_types: Vec<(String, &'static str, Vec<Doc>)>,
     pub pdos: Vec<PdoModel>,
-    /// PDOs with a changeable mapping.
+    /// PDOs whose mapping a program can change.
     pub remappable: Vec<RemappableModel>,
     /// True if PDOs have views within a process image.
     pub has_views: bool,
@@ -96,7 +96,7 @@ pub(super) struct Model {
     pub module: Option<Doc>,
     pub table: Option<Vec<EntryModel>>,
     pub table_feature: Option<String>,
-    /// True if the file has other devices or modules. Other devices and modules may re-export definitions of this one.
+    /// True if the file has several devices or modules, which may re-export definitions from each other.
     pub is_one_of_several: bool,
     /// Definitions that earlier devices or modules of the file already contain.
     pub reexports: Vec<Reexport>,
@@ -137,7 +137,7 @@ impl Model {
         model
     }
 
-    /// Creates the part of a model that devices and modules share.
+    /// Creates the parts of a model that both devices and modules have.
     fn of_context(context: &Context<'_>, options: &RustOptions) -> Self {
         let locations = Locations::of(context);
         let mut objects = objects::models(context, &locations);

@@ -10,9 +10,9 @@ use super::options::RustOptions;
 /// The enumerations, bit fields and state machines of a device or module, ready to be printed.
 #[derive(Default)]
 pub(super) struct Types {
-    /// Enumerations with the positions of their definitions.
+    /// Enumerations, each with the position of its definition in the list of types.
     pub enumerations: Vec<(u32, EnumerationModel)>,
-    /// Bit fields with the positions of their definitions.
+    /// Bit fields, each with the position of its definition in the list of types.
     pub bit_fields: Vec<(u32, BitFieldModel)>,
     pub machines: Vec<MachineModel>,
     /// True if the device has bit fields. Bit fields that an earlier device defines are included.
@@ -40,7 +40,8 @@ impl Types {
         self.enumerations.is_empty() && self.bit_fields.is_empty() && self.machines.is_empty()
     }
 
-    /// Returns whether the code of the types names the runtime. The code of states and commands does not.
+    /// Returns whether the code of the types contains a path into the runtime crate. The code of states and commands
+    /// never does.
     pub(super) fn names_runtime(&self) -> bool {
         let has_values = !self.enumerations.is_empty() || !self.bit_fields.is_empty();
         has_values || self.machines.iter().any(MachineModel::has_transitions)

@@ -11,12 +11,13 @@ use super::naming::handles::{self, HandleNames, NamedItem, NamedObject, NamedReg
 use crate::ir::ObjectCode;
 use crate::names;
 
-/// An object, ready to be printed. The object has one value, or is a module with several values.
+/// An object, ready to be printed. An object with one value becomes a handle, and an object with several values becomes
+/// a module.
 pub(super) struct ObjectModel {
     pub name: String,
     pub docs: Vec<String>,
     pub heading: String,
-    /// Link to the module of the object's constants. Empty if the object has one value.
+    /// Link to the module of the object's constants. The text is empty if the object has one value.
     pub constants: String,
     pub items: Vec<ItemModel>,
     pub is_module: bool,
@@ -31,7 +32,7 @@ impl ObjectModel {
         self.items.iter().any(|item| item.mappable.is_some())
     }
 
-    /// Returns whether the code of the items names the runtime.
+    /// Returns whether the code of the items contains a path into the runtime crate.
     pub(super) fn names_runtime(&self) -> bool {
         self.items.iter().any(|item| item.names_runtime)
     }
@@ -79,7 +80,7 @@ fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>)
     ObjectModel {
         docs: vec![docs::sentence(&title), String::new(), format!("{code} {address}.")],
         heading: item::heading(&group.name, &address),
-        // The link must state the kind because a constant may have the same name.
+        // The link must state that it means the module, because a constant may have the same name.
         constants: DocModule::TOP
             .whole(&format!("{}objects::{name}", if handles::is_cased(name) { "" } else { "mod@" })),
         method_allow: method_allow(items.iter().map(|item| item.method.as_str())),

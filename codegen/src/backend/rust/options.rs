@@ -3,36 +3,37 @@
 /// Specifies whether a part of the output is generated.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Presence {
-    /// The part is generated.
+    /// The part is generated unconditionally.
     Always,
     /// The part is not generated.
     #[default]
     Never,
-    /// The part is compiled if the crate that contains the output has this feature.
+    /// The part is compiled only if this feature of the crate that contains the generated code is enabled.
     Feature(String),
 }
 
 /// Options of the generated Rust code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RustOptions {
-    /// Name of the device's type. If it is `None`, the name is derived from the product name.
+    /// Name of the device's type. `None` means that the name is derived from the product name.
     pub device_name: Option<String>,
-    /// Path of the runtime crate.
+    /// Path of the runtime crate in the generated code.
     pub runtime: String,
     /// True to generate a device type with an accessor method for every entry.
     pub accessors: bool,
     /// True to generate a struct for every PDO.
     pub pdos: bool,
-    /// Static table of all entries, for tools.
+    /// Specifies whether the output contains a static table of all entries, for tools.
     pub table: Presence,
-    /// `Debug` on generated types.
+    /// Specifies whether generated types implement `Debug`.
     pub debug: Presence,
-    /// `PartialEq` on generated types.
+    /// Specifies whether generated types implement `PartialEq`.
     pub partial_eq: Presence,
-    /// `defmt::Format` on generated types. The compiling crate needs `defmt`, and the feature `defmt` of `lexibus`.
+    /// Specifies whether generated types implement `defmt::Format`. The compiling crate needs `defmt`, and the feature
+    /// `defmt` of `lexibus`.
     pub defmt: Presence,
-    /// `serde::Serialize` and `Deserialize` on generated types. The compiling crate needs `serde`, and the feature
-    /// `serde` of `lexibus`.
+    /// Specifies whether generated types implement `serde::Serialize` and `serde::Deserialize`. The compiling crate
+    /// needs `serde`, and the feature `serde` of `lexibus`.
     pub serde: Presence,
 }
 
@@ -72,7 +73,7 @@ impl RustOptions {
         }
     }
 
-    /// Returns the attribute lines of a generated type.
+    /// Returns the lines with the attributes of a generated type.
     pub(super) fn derives(&self, plain_data: bool) -> Vec<String> {
         let mut always = if plain_data { vec!["Clone", "Copy"] } else { Vec::new() };
         let mut gated = Vec::new();

@@ -21,7 +21,7 @@ use crate::ir::{Group, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKin
 use crate::names;
 use crate::source::Span;
 
-/// Maximum length of a field's name in an expression that packs the field. A limit keeps the line short.
+/// Maximum length of a field's name in an expression that packs the field. The limit keeps the generated line short.
 const MAX_FIELD_NAME: usize = 30;
 
 /// Number of bits in a word.
@@ -35,7 +35,7 @@ pub(super) struct PdoModel {
     pub view_docs: Vec<String>,
     pub derives: Vec<String>,
     pub mapping_index: u16,
-    /// Line number of the declaration in the source.
+    /// Line number of the PDO's declaration in the source.
     line: u32,
     declared: Span,
     pub bits: u32,
@@ -66,17 +66,17 @@ pub(super) struct FieldModel {
     /// Name of the view's method that writes the field.
     pub setter: String,
     pub docs: Vec<String>,
-    /// Attribute that derived traits require.
+    /// Attribute of the field that derived traits require.
     pub attribute: Option<String>,
     pub ty: String,
     kind: FieldType,
-    /// Mask of the field's bits. `None` if no mask is necessary: the Rust type has no more bits, or its conversions
-    /// remove them.
+    /// Mask of the field's bits. `None` if no mask is necessary, because the Rust type has no further bits or its
+    /// conversions remove the further bits.
     cut: Option<String>,
     pub offset: u32,
     pub bits: u32,
-    /// True if the field is longer than a word. Such a field is copied as bytes. The unused bits of its last byte are
-    /// 0.
+    /// True if the field is longer than a word. Such a long field is copied as bytes, and the unused bits of the last
+    /// byte are 0.
     pub long: bool,
 }
 
@@ -145,10 +145,11 @@ fn view_docs(context: &Context<'_>, pdo: &Pdo, name: &str) -> Vec<String> {
     vec![title(context, pdo), String::new(), format!("The view has the fields of [`pdo::{name}`](super::pdo::{name}).")]
 }
 
-/// Methods of the struct. A field may have the same name as a method.
+/// Names of the struct's methods. A field may have the same name as a method, and a link to the field would then lead
+/// to the method.
 const METHODS: [&str; 4] = ["pack", "unpack", "configuration", "configuration_as"];
 
-/// Returns the lines of the table with all entries.
+/// Returns the lines of the documentation table that lists all entries of a PDO.
 fn table(pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
     let mut fields = fields.iter();
     let row = |entry: &PdoEntry| {
@@ -191,7 +192,8 @@ pub(super) fn title(context: &Context<'_>, pdo: &Pdo) -> String {
     docs::sentence(&format!("{title}{name}"))
 }
 
-/// Returns a mask of the bits that unpacking and packing preserve. The four reserved bits of a time are not preserved.
+/// Returns a mask of the bits that unpacking and packing preserve. The four reserved bits of a TIME_OF_DAY or
+/// TIME_DIFFERENCE value are not preserved.
 fn covered(fields: &[FieldModel]) -> String {
     const TIME: u64 = 0xFFFF_0FFF_FFFF;
     let mut covered: u64 = 0;
@@ -237,7 +239,7 @@ fn fields(context: &Context<'_>, named: &[NamedField<'_>], options: &RustOptions
         let is_reserved = RESERVED.contains(&name.as_str());
         FieldModel {
             getter: if is_reserved { format!("{name}_") } else { field.name.clone() },
-            // If the name starts with a digit, it already has a leading underscore.
+            // A name that would start with a digit already has a leading underscore.
             setter: unused_name(|name| names.contains(name), names::prefixed("set_", name)),
             ..field
         }
@@ -295,12 +297,13 @@ pub(super) struct PdoModels<'a>(HashMap<Declared, &'a PdoModel>);
 
 impl<'a> PdoModels<'a> {
     pub(super) fn new(models: &'a [PdoModel]) -> Self {
-        // The map keeps the last of equal keys. Reverse the order so that it keeps the first one.
+        // If several PDOs have the same key, the map keeps the last PDO. The order is reversed so that the map keeps
+        // the first PDO of the description.
         let keyed = models.iter().rev().map(|model| ((model.mapping_index, model.declared, model.line), model));
         PdoModels(keyed.collect())
     }
 
-    /// Returns the model of `pdo`. Returns `None` if it has no struct.
+    /// Returns the model of `pdo`. Returns `None` if no struct is generated for `pdo`.
     pub(super) fn of(&self, pdo: &Pdo) -> Option<&'a PdoModel> {
         self.0.get(&(pdo.mapping_index, pdo.origin.span, pdo.origin.line)).copied()
     }
@@ -320,8 +323,9 @@ impl PdoModel {
         method_allow(self.fields.iter().map(|field| field.getter.as_str()))
     }
 
-    /// Returns statements that pack a PDO of more than one word. If all fields fill whole bytes, they are stored byte
-    /// by byte, which is fastest. Otherwise, shifts fill words, which are converted to bytes at the end.
+    /// Returns statements that pack a PDO of more than one word. If all fields fill whole bytes, the statements store
+    /// the bytes one by one, which is fastest. Otherwise, the statements shift the fields into words and finally
+    /// convert the words to bytes.
     pub(super) fn pack_long(&self) -> Vec<Doc> {
         let is_stored = |field: &&FieldModel| field.long || self.fields.iter().all(FieldModel::is_whole);
         let (stored, shifted): (Vec<_>, Vec<_>) = self.fields.iter().partition(is_stored);
@@ -352,7 +356,8 @@ impl PdoModel {
 }
 
 impl FieldModel {
-    /// Returns statements that calculate `bits`, the bits of the field. Bits beyond the field's width are 0.
+    /// Returns statements that calculate `bits`, the bits of the field. In the result, bits beyond the width of the
+    /// field are 0.
     pub(super) fn packed(&self) -> Vec<String> {
         let field = format!("self.{}", self.name);
         let is_long = self.name.len() > MAX_FIELD_NAME;
@@ -386,7 +391,7 @@ impl FieldModel {
             (offset, None) => format!("word >> {offset}"),
             (offset, Some(mask)) => format!("(word >> {offset}) & {mask}"),
         };
-        // Parentheses clarify the precedence of `&` and `==`.
+        // Parentheses around the expression clarify the precedence of `&` and `==`.
         let is_plain = match self.kind {
             FieldType::Bool => false,
             _ => shifted == "word" || !self.kind.is_cast(),
@@ -395,7 +400,7 @@ impl FieldModel {
         self.kind.decode(&self.ty, &bits)
     }
 
-    /// Returns an expression that reads the field from `data`. Used for PDOs of several words.
+    /// Returns an expression that reads the field from `data`. The expression is used for PDOs of several words.
     fn unpack_data(&self) -> Doc {
         if self.long {
             return self.get_bytes("data", &self.offset.to_string());
@@ -403,7 +408,7 @@ impl FieldModel {
         self.decode(&call!("rt::bits::get", "data", self.offset, self.bits))
     }
 
-    /// Returns an expression that decodes bits. The bits beyond the field's width must be 0.
+    /// Returns an expression that decodes the bits of a field. The bits beyond the field's width must be 0.
     fn decode(&self, bits: &Doc) -> Doc {
         match self.kind {
             FieldType::Bool => seq![bits, Break, " != 0"],
@@ -454,7 +459,7 @@ impl FieldModel {
         seq![set, ";"]
     }
 
-    /// Returns statements that write the field to `data`. Used for PDOs of several words.
+    /// Returns statements that write the field to `data`. The statements are used for PDOs of several words.
     fn pack_data(&self) -> Vec<Doc> {
         let (offset, bits, field) = (self.offset, self.bits, seq!["&self.", self.name]);
         let put = match self.odd_bits().filter(|_| self.long) {
@@ -477,8 +482,8 @@ pub(super) fn cob_id(pdo: &Pdo) -> Option<String> {
     }
 }
 
-/// Returns the SDO writes that configure the PDO as described: disable, clear, map, count, type, enable (CiA 301
-/// 7.5.2.36). Read-only parameters are left out.
+/// Returns the SDO writes that configure a PDO as the description states: disable, clear, map, count, type, enable (CiA
+/// 301 7.5.2.36). Writes to read-only communication parameters are left out.
 fn configuration(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     let Some(communication) = &pdo.communication else { return Vec::new() };
     let cob_id_writable = communication.writable.contains(&1);

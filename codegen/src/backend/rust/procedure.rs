@@ -14,7 +14,7 @@ use crate::names::{self, Case};
 pub(super) struct ProcedureModel {
     pub name: String,
     pub docs: Vec<String>,
-    /// Constructor calls of the writes.
+    /// Code of the writes, as constructor calls.
     pub writes: Vec<String>,
 }
 
@@ -72,7 +72,7 @@ fn write(context: &Context<'_>, step: &Step) -> Option<String> {
     };
     let mask = (1i128 << bits) - 1;
     let number = value & mask;
-    // Do not truncate a number that does not fit in its item. The compiler reports such numbers.
+    // Do not truncate a number that does not fit in its item. A lint of the compiler reports numbers that do not fit.
     if *value != number && *value != number - mask - 1 {
         return None;
     }

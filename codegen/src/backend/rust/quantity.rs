@@ -4,9 +4,9 @@ use super::code::{generic, list, Doc};
 use super::context::Context;
 use crate::ir::{Item, Quantity, Scale};
 
-/// The type of a quantity.
+/// The Rust type of a quantity.
 pub(super) struct QuantityType {
-    /// Path of the type in the runtime.
+    /// Path of the type in the runtime crate, with its generic arguments.
     pub path: Doc,
     /// Name of the type for use in other names.
     pub word: String,

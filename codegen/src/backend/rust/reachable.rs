@@ -3,7 +3,8 @@
 use super::scope::Scope;
 use crate::ir::{Group, ObjectCode};
 
-/// Returns the objects that have values, with their positions. Type definitions have no values.
+/// Returns the objects that have values, with the positions of the objects in the list of groups. Type definitions have
+/// no values.
 pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = (u32, &'a Group)> + use<'a> {
     scope.positioned_groups().filter(|(_, group)| {
         let is_type =

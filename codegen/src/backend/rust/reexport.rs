@@ -1,6 +1,6 @@
 //! Definitions that a device re-exports from an earlier device of the same file.
 
-/// A module of a device for one kind of definitions.
+/// A Rust module in a device's module that contains one kind of definitions.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Section {
     Types,
@@ -12,7 +12,7 @@ pub(super) enum Section {
 }
 
 impl Section {
-    /// Returns the name of the module.
+    /// Returns the name of the Rust module.
     pub const fn name(self) -> &'static str {
         match self {
             Section::Types => "types",

@@ -14,10 +14,10 @@ use super::scope::ObjectBus;
 use crate::facts::pdo::mapped_objects;
 use crate::ir::{Device, Direction, Item, Mappable, Pdo, Type, MAX_PDO_SUBS};
 
-/// Maximum length in bits of a mapped entry. The mapping has 8 bits for the length.
+/// Maximum length in bits of a mapped entry. A mapping value has 8 bits for the length of the entry.
 const MAX_ENTRY: u32 = 0xFF;
 
-/// Maximum length of a sync manager in bytes. The length register has 16 bits (ETG.1000.4 6.7.2).
+/// Maximum length of a sync manager in bytes. The length register of a sync manager has 16 bits (ETG.1000.4 6.7.2).
 const MAX_SYNC_MANAGER: u16 = u16::MAX;
 
 /// A PDO with a changeable mapping, ready to be printed.
@@ -25,13 +25,13 @@ pub(super) struct RemappableModel {
     pub name: String,
     pub title: String,
     pub direction: &'static str,
-    /// Type of the COB-ID.
+    /// Rust type of the PDO's COB-ID.
     pub cob_id: &'static str,
     /// Constants of the PDO, each with its type and value.
     pub constants: Vec<Doc>,
 }
 
-/// Returns the PDOs with a changeable mapping. If there are any, adds the mapping of each item to `objects`.
+/// Returns the PDOs with a changeable mapping. If such PDOs exist, adds to `objects` how each item can be mapped.
 pub(super) fn models(context: &Context<'_>, objects: &mut [ObjectModel]) -> Vec<RemappableModel> {
     let Some(device) = context.device else { return Vec::new() };
     let models = context.names.pdos.iter().filter_map(|named| model(context, device, named.pdo, named.name.clone()));
@@ -91,7 +91,8 @@ fn writable_entries(context: &Context<'_>, pdo: &Pdo) -> Option<usize> {
     (writable(&0) && entries > 0).then_some(entries)
 }
 
-/// Adds the constants for CANopen. Returns the type of the COB-ID. Returns `None` if the mapping is fixed.
+/// Adds the constants that a CANopen PDO needs. Returns the Rust type of the COB-ID, or `None` if the mapping of the
+/// PDO is fixed.
 fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
     let communication = pdo.communication.as_ref()?;
     let settings = device.canopen.as_deref();
@@ -123,7 +124,7 @@ fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'
     }
 }
 
-/// Adds the constants for EtherCAT. Returns the type that is used instead of a COB-ID.
+/// Adds the constants that an EtherCAT PDO needs. Returns the type that is used instead of a COB-ID.
 fn on_ethercat(context: &Context<'_>, device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
     if context.bus != ObjectBus::CoE || device.dictionary_only {
         return None;
@@ -142,12 +143,12 @@ fn configures(device: &Device) -> bool {
     mailbox.and_then(|mailbox| mailbox.coe.as_ref()).is_some_and(|coe| coe.pdo_config)
 }
 
-/// Returns the value of an entry in the mapping object.
+/// Returns the code of an entry's value in the mapping object.
 fn word(index: u16, sub_index: u8, bits: u32) -> String {
     format!("0x{index:04X}_{sub_index:02X}{:02X}", bits & MAX_ENTRY)
 }
 
-/// Adds the mapping to each item that can be mapped. Returns whether there are such items.
+/// Adds the mapping to each item that can be mapped. Returns whether at least one item can be mapped.
 fn set_mappable(context: &Context<'_>, objects: &mut [ObjectModel]) -> bool {
     let items = context.groups.iter().flat_map(|group| &group.items);
     let items: HashMap<(u16, u8), &Item> = items.filter_map(|item| Some((item.object()?, item))).collect();
@@ -191,7 +192,7 @@ fn arguments(
     Some([field, direction.to_owned(), word(index, sub_index, bits)])
 }
 
-/// Returns the length of a type in bits. Texts with a known length are included.
+/// Returns the length of a type in bits. A text with a known length has a fixed number of bits too.
 fn bits(ty: Type) -> Option<u32> {
     match ty {
         Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),

@@ -19,7 +19,7 @@ impl RouteBus {
     pub const ALL: [RouteBus; 6] =
         [RouteBus::CanOpen, RouteBus::CoE, RouteBus::Modbus, RouteBus::Serial, RouteBus::Image, RouteBus::Esc];
 
-    /// Returns the bus in the terms of the IR.
+    /// Returns the corresponding bus of the IR.
     pub fn of_items(self) -> Bus {
         match self {
             RouteBus::CanOpen => Bus::CanOpen,
@@ -118,7 +118,7 @@ impl PathKind {
 pub(super) enum RouteKind {
     #[default]
     Absent,
-    /// The same path for reading and writing, as far as the item allows them.
+    /// The same path for reading and writing, or a path for the only access that the item allows.
     One(PathKind),
     Reads(PathKind),
     Writes(PathKind),
@@ -126,7 +126,7 @@ pub(super) enum RouteKind {
 }
 
 impl RouteKind {
-    /// Returns the type of the route. Returns `None` if there is no route.
+    /// Returns the type of the route. Returns `None` if the item has no route on the bus.
     pub fn ty(self, bus: RouteBus) -> Option<Doc> {
         Some(match self {
             RouteKind::Absent => return None,
@@ -160,7 +160,7 @@ pub(super) struct AccessPath<'i> {
     pub resized: Option<u8>,
     /// Allowed values on the bus, and whether the item is signed.
     pub limited: Option<(&'i Limits, bool)>,
-    /// True if the narrower one of the item's number and the number on the bus is signed.
+    /// True if the conversion is signed: of the item's integer and the integer on the bus, the narrower one is signed.
     pub is_signed: bool,
 }
 
@@ -212,7 +212,7 @@ fn ranges(limits: &Limits) -> Vec<String> {
 pub(super) struct Route<'i> {
     pub read: Option<AccessPath<'i>>,
     pub write: Option<AccessPath<'i>>,
-    /// True if the item is readable and writable. This bus may allow only reading or only writing.
+    /// True if the item is readable and writable, although a bus may allow only reading or only writing.
     pub is_partial: bool,
 }
 
@@ -222,7 +222,7 @@ impl Route<'_> {
             (None, None) => RouteKind::Absent,
             (Some(read), Some(write)) if read == write => RouteKind::One(read.kind()),
             (Some(read), Some(write)) => RouteKind::Both(read.kind(), write.kind()),
-            // The type of a window states whether it is for reading or writing.
+            // A route through a window has a type that states whether the window is for reading or for writing.
             (Some(access_path), None) if self.is_partial || access_path.window.is_some() => {
                 RouteKind::Reads(access_path.kind())
             }
@@ -238,8 +238,9 @@ impl Route<'_> {
         self.read.iter().chain(&self.write)
     }
 
-    /// Returns the code that creates the route if there is one. `address` is the code of the address, `window` returns
-    /// the name of a window, and `number` replaces the number that selects the item in the window.
+    /// Returns the code that creates the route. Returns `None` if the item has no route on the bus. `address` is the
+    /// code of the address, `window` returns the name of a window, and `number` replaces the number that selects the
+    /// item in the window.
     pub fn code(&self, address: &str, window: impl Fn(usize) -> String, number: Option<&str>) -> Option<Doc> {
         let code_of = |access_path: &AccessPath<'_>| match access_path.window {
             Some((at, _)) => access_path.code(&window(at), number),

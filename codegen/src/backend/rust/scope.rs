@@ -23,7 +23,7 @@ pub(super) struct Scope<'a> {
     pub pdos: &'a [Pdo],
     /// The device. `None` if the scope is a module.
     pub device: Option<&'a Device>,
-    /// The manual that the description was transcribed from.
+    /// The manual from which the description was transcribed.
     pub manual: Manual,
 }
 
@@ -65,10 +65,10 @@ impl<'a> Scope<'a> {
         self.device?.process_data.images.iter().find(|image| image.name == name)
     }
 
-    /// Resolves aliases of a type. Returns the basic type. If the type has a shape, also returns its position and
-    /// definition.
+    /// Resolves aliases of a type. Returns the basic type. If the type has a definition other than an alias, also
+    /// returns the position and content of the definition.
     pub fn resolve(&self, ty: Type) -> (Type, Option<(u32, &'a TypeDef)>) {
-        /// Maximum length of a chain of aliases. Longer chains are treated as cycles.
+        /// Maximum length of a chain of type aliases. A longer chain is treated as a cycle.
         const DEPTH: usize = 16;
         let mut ty = ty;
         for _ in 0..DEPTH {

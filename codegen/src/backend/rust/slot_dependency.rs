@@ -1,6 +1,6 @@
 //! How indices depend on the slot of a modular device.
 
-/// Dependency of an index that is the same in all slots.
+/// Rust path of the dependency for an index that is the same in all slots.
 pub(super) const NOTHING: &str = "rt::ethercat::DependsOn::Nothing";
 
 /// Returns the dependency of an index on the slot and on the slot group.

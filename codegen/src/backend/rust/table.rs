@@ -25,8 +25,8 @@ pub(super) struct EntryModel {
     pub unit: String,
 }
 
-/// Returns the rows of the table. Registers that are not objects come first, sorted by address. Objects follow, sorted
-/// by index and sub-index.
+/// Returns the rows of the static table. Registers that are not objects come first, sorted by address. Then come the
+/// objects, sorted by index and sub-index.
 pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
     let mut rows = Vec::new();
     for (_, group) in addressable(context) {
@@ -45,8 +45,8 @@ pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
 /// Sort key of a row. The runtime sorts objects and registers in the same way.
 type Key = (Option<ObjectAddress>, Option<(u8, u16, Option<u8>)>);
 
-/// Adds the rows of an item. An item has two rows if its objects on CANopen and EtherCAT differ. An item has no row if
-/// it is only a parameter of a serial protocol.
+/// Adds the rows of an item. An item has two rows if its object addresses on CANopen and EtherCAT differ. An item has
+/// no row if it is only a parameter of a serial protocol.
 fn entries(context: &Context<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
     let addresses = ItemAddresses::of(context, item);
     let [object, other] = addresses.objects();

@@ -15,7 +15,7 @@ pub(super) enum ValueType {
     Text(&'static str),
     /// A byte sequence type, whose values are byte string literals.
     Bytes(&'static str),
-    /// A time type of the runtime.
+    /// A type of the runtime for a time of day or a duration.
     Time(&'static str),
 }
 
@@ -122,8 +122,8 @@ impl ValueType {
         }
     }
 
-    /// Returns the offset that a formula adds to the node-ID. Returns `None` for other values, and for offsets that do
-    /// not fit in the type.
+    /// Returns the offset that a formula with `$NODEID` adds to the node-ID. Returns `None` for values that are no
+    /// formulas, and for offsets that do not fit in the type.
     pub(super) fn formula(self, value: &Value) -> Option<i128> {
         let (low, high) = self.integers()?;
         match value {
@@ -135,7 +135,8 @@ impl ValueType {
     /// Returns the expression of an `Initial`. `wrap` converts literals to values.
     pub(super) fn initial_as(self, value: Option<&Value>, wrap: &dyn Fn(String) -> Doc) -> Doc {
         if let Some(offset) = value.and_then(|value| self.formula(value)) {
-            // A negative number would be formatted as its two's complement in hexadecimal.
+            // Rust formats a negative number in hexadecimal as its two's complement, so a negative offset is written in
+            // decimal.
             let offset = if offset < 0 { offset.to_string() } else { format!("{offset:#x}") };
             return call!("rt::Initial::NodeId", wrap(offset));
         }
@@ -146,7 +147,8 @@ impl ValueType {
         }
     }
 
-    /// Returns the expression of a `Range`. Limits beyond the type are clamped; contradictory limits are not checked.
+    /// Returns the expression of a `Range`. Limits beyond the range of the type are clamped. Contradictory limits
+    /// become `Range::Full`.
     pub(super) fn range_as(self, limits: &Limits, wrap: &dyn Fn(String) -> Doc) -> Doc {
         const FULL: &str = "rt::Range::Full";
         if let Some(list) = self.only(limits, wrap) {

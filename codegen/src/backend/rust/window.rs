@@ -1,4 +1,5 @@
-//! Windows. A window is a pair of items: the first selects a value by number, and the second contains the value.
+//! Windows. A window is a pair of items: the first item selects a value by its number, and the second item contains the
+//! selected value.
 
 use super::item_addresses;
 use super::route::RouteBus;
@@ -6,7 +7,8 @@ use super::scope::Scope;
 use crate::ir::{Binding, Device, IndirectBinding, Item, ItemId, ItemRef, Procedure, Step, WindowSide};
 use crate::names::{self, Case, NameRequest};
 
-/// Maximum number of polls until the device clears the number, if the description states no timeout in milliseconds.
+/// Maximum number of polls until the device clears the number. This value applies if the description states no timeout
+/// in milliseconds.
 const POLLS: u32 = 100;
 
 /// A window for reading or writing on one bus.
@@ -85,7 +87,8 @@ fn title(window: &Window) -> String {
     format!("{space} {} {}", if *is_write { "write" } else { "read" }, bus.word().to_lowercase())
 }
 
-/// Returns the window. Returns `None` if the bus does not provide both items.
+/// Returns the window for one side of a binding on one bus. Returns `None` if the number or the value has no usable
+/// address on this bus.
 fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u8, RouteBus, bool)) -> Option<Window> {
     let (_, _, bus, is_write) = key;
     let (number, value) = (scope.referred(&side.number)?, scope.referred(&side.value)?);
@@ -108,7 +111,8 @@ fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u
         number_bits: bits(number_type)?,
         value: (bits(value_type)?, value_type.is_signed()),
         addresses,
-        // If the device clears the number, writing it starts the transfer. The number is therefore written last.
+        // If the device clears the number after a transfer, writing the number starts the transfer. The number is
+        // therefore written last.
         number_first: side.number_first.or(implied.number_first).unwrap_or(!clears),
         handshake,
         side: side.clone(),

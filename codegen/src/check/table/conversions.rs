@@ -1,4 +1,5 @@
-//! Checks example conversions that the manual prints: the physical value differs by at most 1 LSB from that of the raw value.
+//! Checks example conversions that the manual prints: the printed physical value and that of the raw value may differ by at most
+//! 1 LSB.
 
 use super::physical;
 use crate::check::context::Context;
@@ -23,7 +24,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the problem of a conversion: the values differ by more than 1 LSB, or cannot be computed.
+/// Returns the problem in an example conversion: the physical values differ by more than 1 LSB, or cannot be computed.
 fn problem(device: &Device, item: &Item, quantity: &Quantity, conversion: &Conversion) -> Option<String> {
     let (raw, value) = (conversion.raw? as f64, conversion.value?);
     let name = brief(&item.name);

@@ -5,7 +5,8 @@ use crate::check::mapped_object::{direction_of, Described, Mapped, CAN_BITS};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Device, Group, Item, Pdo, PdoEntryKind};
 
-/// Reports mapped objects that contradict the mapping. Other checks cover CANopen mapping objects and EtherCAT.
+/// Reports mapped objects whose facts contradict the PDO mapping. Other checks cover CANopen mapping objects and
+/// EtherCAT.
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let device = context.device;
     let described = Described::new(device);
@@ -34,7 +35,7 @@ fn length(device: &Device, pdo: &Pdo, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Checks the default entries of a mapping object.
+/// Checks the default values of the entries in a mapping object.
 fn defaults(described: &Described<'_>, group: &Group, diagnostics: &mut Diagnostics) {
     let Some(direction) = group.index().and_then(direction_of) else { return };
     let count = group.sub(0).and_then(Item::default_integer).unwrap_or(i128::MAX);

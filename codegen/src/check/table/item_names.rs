@@ -8,10 +8,12 @@ use crate::ir::{texts, Device};
 use crate::limits;
 use crate::text::{brief, edit_distance};
 
-/// The lengths of names and words that are compared. Shorter words are too similar to each other.
+/// Lengths in characters of the names and words that are compared. Words below the minimum are not compared, because short words
+/// are too similar to each other.
 const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
 
-/// The minimum number of names with a common prefix. Nine tenths of all names must have this prefix.
+/// Minimum number of item names with the same first letter, from which on the letter counts as a prefix. In addition, nine tenths
+/// of all item names must begin with this letter.
 const CONVENTION: usize = 4;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -47,7 +49,7 @@ impl<'a> Names<'a> {
     fn new(device: &'a Device) -> Self {
         let items = device.items().map(|item| item.name.as_str());
         let of_items = || items.clone().chain(device.groups.iter().map(|group| group.name.as_str()));
-        // Names of types, procedures and messages have the same form as item names, so they are not misspellings.
+        // Words that are names of types, procedures or messages are not reported as misspelled item names.
         let others = device.types.iter().map(|definition| definition.name.as_str());
         let others = others.chain(device.procedures.iter().map(|procedure| procedure.name.as_str()));
         let all = of_items().chain(others.chain(device.messages.iter().map(|message| message.name.as_str())));
@@ -81,7 +83,7 @@ impl<'a> Names<'a> {
     }
 }
 
-/// Returns the capital letter with which most names begin, if a lower-case letter follows it.
+/// Returns the capital letter that is the prefix of most item names, with a lower-case letter after it.
 fn prefix<'n>(names: impl Iterator<Item = &'n str>) -> Option<char> {
     let (mut count, mut by_letter) = (0, BTreeMap::new());
     for name in names {
@@ -99,7 +101,7 @@ fn has_prefix(name: &str, prefix: char) -> bool {
     letters.next() == Some(prefix) && letters.next().is_some_and(char::is_lowercase)
 }
 
-/// Returns whether a name is composed: `target_speed`, `targetSpeed`, but not `Speed`.
+/// Returns whether a name consists of several words: `target_speed` or `targetSpeed`, but not `Speed`.
 fn is_composed(name: &str) -> bool {
     let pairs = name.chars().zip(name.chars().skip(1));
     name.trim_matches('_').contains('_') || pairs.clone().any(|(one, next)| one.is_lowercase() && next.is_uppercase())

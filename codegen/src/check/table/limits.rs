@@ -1,4 +1,5 @@
-//! Reports rows whose only limit equals that of their type: the cell of the other limit is probably empty by mistake.
+//! Reports rows whose only limit is the minimum or maximum of the type: the cell of the other limit is probably empty
+//! by mistake.
 
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};

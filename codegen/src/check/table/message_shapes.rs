@@ -85,7 +85,7 @@ fn parameters(context: &Context<'_>, shapes: &[Shaped<'_>], diagnostics: &mut Di
             continue;
         }
         for (code, item) in numbered(context.device, &space.name) {
-            // The length of an item with an unknown type cannot be checked.
+            // The length of an item cannot be checked if its type is unknown.
             let basic = context.owner.basic(item.ty);
             if !matches!(basic, Type::Opaque(None)) && basic.bits().is_none_or(|bits| bits > LONGEST) {
                 let name = brief(&item.name);

@@ -9,7 +9,8 @@ use crate::ir::{CommandOutcomes, Device, Message, Outcome};
 use crate::resolve::messages::Frame;
 use crate::text::brief;
 
-/// Minimum number of requests with the same first constant. The only request with another constant is then probably a misprint.
+/// Minimum number of requests with the same first constant. If so many requests have the same first constant, a single request
+/// with another first constant is probably a misprint.
 const ALIKE: usize = 8;
 
 /// A message, with the frames of its request and reply.
@@ -42,7 +43,7 @@ fn report(framed: &Framed<'_>, code: &'static Code, message: String) -> Diagnost
     code.at(framed.message.origin.span, message)
 }
 
-/// Creates a diagnostic about two messages.
+/// Creates a diagnostic that marks two messages.
 fn both(framed: &Framed<'_>, other: &Framed<'_>, code: &'static Code, message: String) -> Diagnostic {
     report(framed, code, message).note_at(other.message.origin.span, "the other message")
 }
@@ -68,7 +69,8 @@ fn length(framed: &Framed<'_>, max: Option<usize>, diagnostics: &mut Diagnostics
     }
 }
 
-/// Reports replies whose first constant is not in their request, but in the request of another message with this constant.
+/// Reports a reply whose first constant is not in its own request, but in the request of another message whose reply begins with
+/// the same constant.
 fn replies_of_others(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let first =
         |framed: &Framed<'_>| framed.reply.constants.first_key_value().map(|(position, byte)| (*position, *byte));
@@ -108,8 +110,8 @@ fn like_their_errors(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports requests that a device cannot distinguish, unless an earlier message decides. After the requests are sorted by their
-/// first constants, requests that can be equal are adjacent.
+/// Reports requests that a device cannot distinguish, unless an earlier message decides which request is meant. The requests are
+/// sorted by their first constants, so that requests with possibly equal bytes are adjacent.
 fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let runs = all.iter().enumerate().filter(|(_, framed)| !framed.message.request.is_empty());
     let mut runs: Vec<(Option<usize>, Vec<u8>, usize, &Framed<'_>)> = runs
@@ -142,7 +144,8 @@ fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports the only request with a different first constant, among requests that begin with several constants.
+/// Compares the requests that begin with several constants. Reports a single request whose first constant differs from that of
+/// all others.
 fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let mut groups: BTreeMap<(usize, u8), Vec<&Framed<'_>>> = BTreeMap::new();
     for framed in all.iter().filter(|framed| framed.request.first_run().len() > 1) {

@@ -33,12 +33,12 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The common fields of all requests for registers.
+/// The fields that all requests for registers have in common.
 struct Request {
     node: u8,
     function: u8,
     start: u16,
-    /// The number of registers: 1 for a request that writes one register.
+    /// Number of registers; 1 for a request that writes a single register.
     quantity: u16,
 }
 
@@ -54,7 +54,7 @@ impl Request {
         Some(Request { node, function, start: word(0)?, quantity })
     }
 
-    /// Returns the number of bytes of node, function and data.
+    /// Returns the number of bytes of node address, function code and data.
     fn length(&self, bytes: &[u8]) -> usize {
         match self.function {
             16 => 7 + usize::from(bytes.get(6).copied().unwrap_or(0)),
@@ -99,7 +99,7 @@ impl Request {
     }
 }
 
-/// Returns the problems of a reply frame.
+/// Returns the problems in a reply frame.
 fn reply(request: Option<&Request>, bytes: &[u8]) -> Vec<String> {
     let (Some(request), [node, function, ..]) = (request, bytes) else { return Vec::new() };
     let mut problems = Vec::new();
@@ -129,7 +129,8 @@ fn reply(request: Option<&Request>, bytes: &[u8]) -> Vec<String> {
     problems
 }
 
-/// Returns the problem at the end of a frame. `length` is the length of node, function and data, which a CRC can follow.
+/// Returns the problem at the end of a frame. `length` is the length of node address, function code and data. A CRC can follow
+/// the data.
 fn ending(bytes: &[u8], length: usize) -> Option<String> {
     match bytes.len().checked_sub(length) {
         Some(0) => None,
@@ -156,7 +157,7 @@ mod tests {
 
     #[test]
     fn crc_of_the_standard() {
-        // Node 2, function 7: the CRC is 0x1241, and the low byte is sent first.
+        // Frame with node address 2 and function code 7: the CRC is 0x1241, and its low byte is sent first.
         assert_eq!(crc(&[0x02, 0x07]), 0x1241);
     }
 }

@@ -1,4 +1,4 @@
-//! Checks that row names exist, are not broken by a column, and differ in more than upper and lower case.
+//! Checks that row names exist, are not hyphenated at the edge of a table column, and differ in more than upper and lower case.
 
 use std::collections::HashMap;
 
@@ -12,13 +12,13 @@ use crate::text::brief;
 /// The maximum number of words in a register name, if other names are single words. A longer name is a description.
 const NAME_WORDS: usize = 6;
 
-/// Reports names that are missing, broken by a column, or descriptions.
+/// Reports names that are missing, that are hyphenated at the edge of a table column, or that are descriptions.
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let are_words = are_words(context.device);
     context.device.groups.iter().for_each(|group| whole(group, are_words, diagnostics));
 }
 
-/// Checks that all names exist and are not broken.
+/// Checks that all names exist and are not hyphenated at the edge of a table column.
 fn whole(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
     match group.kind {
         GroupKind::Object { .. } => {
@@ -34,7 +34,8 @@ fn whole(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports registers whose names differ only in upper and lower case. Equal names were already reported.
+/// Reports registers whose names differ only in upper and lower case. Equal names are skipped, because they were already
+/// reported.
 fn case_only<'g>(names: &mut HashMap<CompactString, &'g Item>, item: &'g Item, diagnostics: &mut Diagnostics) {
     let first = *names.entry(item.name.to_lowercase()).or_insert(item);
     if first.name != item.name {
@@ -63,7 +64,7 @@ fn registers(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns whether at least three of four registers have single words as names. Descriptions do not count.
+/// Returns whether the names of at least three in four registers are single words. Names that are descriptions do not count.
 fn are_words(device: &Device) -> bool {
     let chapters = device.groups.iter().filter(|group| matches!(group.kind, GroupKind::Chapter));
     let words = chapters.flat_map(|group| &group.items).map(|item| item.name.split_whitespace().count());
@@ -85,8 +86,8 @@ fn description(name: &str, are_words: bool) -> Option<&'static str> {
     }
 }
 
-/// Reports a name that a column breaks with a hyphen, such as `Rcamstspc-trl` for `Rcamstspctrl`. Words in lower case (`low-pass`)
-/// and names that begin with an abbreviation (`CO-alarm`) are not reported.
+/// Reports a name with a hyphen from a line break in a narrow table column, such as `Rcamstspc-trl` for `Rcamstspctrl`. Words in
+/// lower case (`low-pass`) and names that begin with an abbreviation (`CO-alarm`) are not reported.
 fn syllables(name: &str, at: Span, diagnostics: &mut Diagnostics) {
     let letters = || name.chars().zip(name.chars().skip(1)).zip(name.chars().skip(2));
     let is_broken = letters().any(|((before, mark), after)| {
@@ -97,8 +98,8 @@ fn syllables(name: &str, at: Span, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports a name that a column breaks with a hyphen and a space, such as `Rtouchpro- befunc` for `Rtouchprobefunc`. Returns
-/// whether the name is broken.
+/// Reports a name with a hyphen and a space from a line break in a narrow table column, such as `Rtouchpro- befunc` for
+/// `Rtouchprobefunc`. Returns whether the name contains such a hyphen.
 fn unbroken(name: &str, at: Span, diagnostics: &mut Diagnostics) -> bool {
     let is_broken = name.split_once("- ").is_some_and(|(head, tail)| {
         head.ends_with(char::is_alphanumeric) && tail.trim_start().starts_with(char::is_alphanumeric)

@@ -1,4 +1,4 @@
-//! Reports parameter numbers that are missing between other numbers.
+//! Reports parameter numbers that are missing between the numbers of other parameters.
 
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};

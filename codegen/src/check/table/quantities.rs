@@ -11,7 +11,7 @@ use crate::text::{brief, glob};
 /// The relative difference that two defaults may have because they were rounded to different raw values.
 const TOLERANCE: f64 = 0.001;
 
-/// The number of digits after the first significant digit. Five digits show a difference of a thousandth.
+/// The number of digits after the first significant digit. The resulting five digits make a difference of one thousandth visible.
 const DIGITS: f64 = 4.0;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -59,7 +59,7 @@ fn differences(device: &Device, one: &Item, other: &Item) -> Vec<String> {
     found
 }
 
-/// A default as a physical value, and as a value in the machine unit if there is one.
+/// A default value as physical value, and as value in the machine unit if the quantity has a machine unit.
 struct Physical {
     number: f64,
     unit: CompactString,
@@ -88,8 +88,8 @@ impl Physical {
     }
 }
 
-/// Returns the ratio of a value in the machine unit to the physical value. Unknown constants count as 1, because both items
-/// depend on them.
+/// Returns the ratio of a value in the machine unit to the physical value. An unknown machine constant counts as 1, because it
+/// changes the values of both items by the same factor.
 fn machine(device: &Device, unit: &MachineUnit, model: Option<&Variant>) -> f64 {
     let model = model.map(|model| model.name.as_str());
     let number = |name: &CompactString| Ok::<_, Infallible>(physical::given(device, model, name).unwrap_or(1.0));

@@ -1,4 +1,5 @@
-//! Checks that item numbers fit their windows, and that windows can transfer the values of items without another address.
+//! Checks that the numbers of items fit into the windows, and that windows can transfer the values of items that have no other
+//! address.
 
 use std::collections::HashSet;
 
@@ -28,7 +29,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Creates the diagnostic for an item of a window that is not an integer.
+/// Creates the diagnostic for the number or value item of a window, if this item is not an integer.
 fn no_integer(part: &Item, what: &str) -> Diagnostic {
     let message = format!("`{}` holds {what} of a window, but is not an integer of up to 64 bits", brief(&part.name));
     codes::TABLE_VALUE.at(part.at.ty.or(part.at.name), message)
@@ -43,7 +44,7 @@ fn integer(owner: Owner<'_>, item: &Item) -> Option<u32> {
     }
 }
 
-/// Checks that the number of an item fits the item that receives it.
+/// Checks that the number of an item fits into the item of the window that receives this number.
 fn number(owner: Owner<'_>, item: &Item, number: u32, receiver: Option<&Item>, diagnostics: &mut Diagnostics) {
     let Some((receiver, bits)) = receiver.and_then(|receiver| Some((receiver, integer(owner, receiver)?))) else {
         return;
@@ -57,7 +58,7 @@ fn number(owner: Owner<'_>, item: &Item, number: u32, receiver: Option<&Item>, d
     diagnostics.push(found.help("limit the window to valid numbers with `numbers`"));
 }
 
-/// Checks that a window can transfer the value of an item without another address.
+/// Checks that a window can transfer the value of an item, if the item has no other address.
 fn value(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     let is_only = item.bindings.iter().all(|binding| matches!(binding, Binding::Indirect(_)));
     let is_number = integer(owner, item).is_some() || matches!(owner.basic(item.ty), Type::Real32 | Type::Real64);

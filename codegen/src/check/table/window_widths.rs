@@ -29,7 +29,7 @@ fn width<'d>(
 ) {
     let bits_of = |item: &Item| context.owner.basic(item.ty).bits();
     let Some(bits) = bits_of(item).map(|bits| bits.min(needed(context.owner, item))) else { return };
-    // Only the widest window of each bus is compared with the item.
+    // The item is compared with the widest window on each bus.
     let mut widest: BTreeMap<(&str, Bus), (u32, &CompactString)> = BTreeMap::new();
     for window in windows(item) {
         let sides = [("read", &window.read), ("written", &window.write)];

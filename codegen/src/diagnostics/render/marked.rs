@@ -7,7 +7,7 @@ use crate::source::{Position, Source, Span};
 /// Maximum number of characters of a displayed line. Longer lines are shortened.
 pub const MAX_CHARS: usize = 200;
 
-/// Number of characters that a shortened line keeps before the mark.
+/// Number of characters before the mark that a shortened line keeps.
 const CHARS_BEFORE: usize = 60;
 
 /// A source file with its marked part.

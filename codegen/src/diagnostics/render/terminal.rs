@@ -9,7 +9,7 @@ use super::marked::{self, Mark, MarkedSource};
 use crate::source::Source;
 use crate::text::steers;
 
-/// Maximum number of lines that a mark spans. Only the first line of a longer mark is marked.
+/// Maximum number of marked lines. If a span has more lines, only its first line is marked.
 const MAX_LINES: u32 = 6;
 
 /// Maximum number of characters of a message, label or replacement. Longer texts are shortened.
@@ -18,7 +18,8 @@ const MAX_TEXT: usize = 2000;
 /// Width of the rendered text. The width exceeds any terminal window, so that the renderer does not shorten lines a second time.
 const WIDTH: usize = 10 * marked::MAX_CHARS;
 
-/// Character after `file:line:column`. The character is a noncharacter, which [`visible`] removes from the text of a file.
+/// Character that ends the text `file:line:column`. The character is a noncharacter, which [`visible`] removes from the text of a
+/// file.
 const END_OF_ORIGIN: char = '\u{fdd0}';
 
 /// Renders a diagnostic with its marked lines, notes, help and fix, without a line feed at the end.
@@ -92,7 +93,8 @@ fn quote(location: MarkedSource, label: &str) -> Element<'static> {
     Snippet::source(window.text).line_start(window.first_line).path(origin).annotation(annotation).into()
 }
 
-/// Removes the line and column that the renderer adds after those of the file. The renderer counts both in the window.
+/// Removes the line and column that the renderer appends to the file name, line and column. The appended numbers refer to the
+/// window instead of the file.
 fn without_counted_origins(rendered: &str) -> String {
     let mut parts = rendered.split(END_OF_ORIGIN);
     let mut text = parts.next().unwrap_or_default().to_owned();
@@ -102,12 +104,12 @@ fn without_counted_origins(rendered: &str) -> String {
     text
 }
 
-/// The marked lines of a file, prepared for the renderer. The renderer gets no other part of the file.
+/// The marked lines of a file, prepared for the renderer, which does not see other parts of the file.
 struct Window {
-    /// Lines, shortened, with visible control characters, separated by line feeds.
+    /// Marked lines, separated by line feeds. Long lines are shortened, and control characters are visible.
     text: String,
     first_line: usize,
-    /// Range of the mark in `text`.
+    /// Range of the marked part in `text`.
     mark: Range<usize>,
     /// Last marked line, if it is not in the window.
     goes_on_to: Option<u32>,
@@ -117,7 +119,7 @@ struct Window {
 
 impl Window {
     fn new(source: &Source, mark: Mark) -> Self {
-        // A line end at the end of the mark would extend it into the next line.
+        // The mark must not include a final line end, which would extend the mark into the next line.
         let end = mark.start + source.text()[mark.start..mark.end].trim_end_matches(['\r', '\n']).len();
         let first = mark.from.line;
         let last = if end == mark.end { mark.to.line } else { source.position(end as u32).line };
@@ -135,7 +137,7 @@ impl Window {
         window
     }
 
-    /// Appends a line, and adjusts the mark to the part of `marked`, a range of the file, on that line.
+    /// Appends a line. Extends the mark by the part of `marked`, a range of the file, that is on this line.
     fn push_line(&mut self, source: &Source, number: u32, marked: Range<usize>) {
         let (line, offset) = marked::line(source, number);
         let in_line = |at: usize| at.saturating_sub(offset).min(line.len());
@@ -280,7 +282,7 @@ mod tests {
         3 | SubNumber=0x012
           |           ++
         ");
-        // Without marked text, the replacement is not shown.
+        // Without marked text, the renderer does not show the replacement.
         insta::assert_snapshot!(plain(&at(0, 0).fix("a\u{1b}b").help("correct it"), &file(OCTAL)), @r"
         warning[EDS020]: `012` is octal
         --> drive.eds
@@ -452,7 +454,7 @@ mod tests {
         3 | | SubNumber=012
           | |_____________^ read as 10
         ");
-        // The line end in the mark is not drawn.
+        // A line end in the marked text is not drawn.
         insta::assert_snapshot!(plain(&on(OCTAL, "[1018]\n"), &file(OCTAL)), @r"
         warning[EDS020]: `012` is octal
          --> drive.eds:1:1
@@ -529,7 +531,7 @@ mod tests {
         let pieces: Vec<&str> = pieces.split('|').collect();
         let mut state = 1u32;
         let mut random = |below: usize| {
-            // xorshift32, so that every run has the same texts.
+            // The pseudorandom generator xorshift32 produces the same texts in every run.
             state ^= state << 13;
             state ^= state >> 17;
             state ^= state << 5;

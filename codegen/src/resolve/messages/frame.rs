@@ -1,4 +1,4 @@
-//! Fixed parts of frames: constants at their byte offsets, and lengths of the data.
+//! Fixed parts of frames: constants with their byte offsets, and the lengths of the data.
 
 use std::collections::BTreeMap;
 
@@ -12,11 +12,12 @@ pub(crate) struct Frame {
     pub constants: BTreeMap<usize, u8>,
     /// Minimum length of the data in bits.
     pub min_bits: usize,
-    /// Length in bits if all repetitions with a declared maximum occur as often as possible.
+    /// Length in bits if fields that are repeated up to a declared maximum occur as often as possible.
     pub max_bits: usize,
     /// True if the frame can be longer than `min_bits`.
     pub is_open: bool,
-    /// Bit offset of the first field of whole bytes, or of the end of the data, that is not at a byte boundary.
+    /// Bit offset of the first field of whole bytes that does not start at a byte boundary, or of the end of the data
+    /// if the end is not at a byte boundary.
     pub broken: Option<usize>,
 }
 
@@ -33,7 +34,7 @@ impl Frame {
         frame
     }
 
-    /// Returns whether the same bytes can be an instance of both frames.
+    /// Returns whether the same bytes can be valid data of both frames.
     pub fn overlaps(&self, other: &Frame) -> bool {
         let shared = self.constants.iter().filter_map(|(offset, byte)| Some((byte, other.constants.get(offset)?)));
         let mut shared = shared.peekable();
@@ -58,7 +59,7 @@ struct Reader<'d, 'f> {
     owner: Owner<'d>,
     request: &'d [MessageField],
     frame: &'f mut Frame,
-    /// Maximum number of occurrences of the current field.
+    /// Maximum number of times that the current field occurs in the frame.
     times: usize,
 }
 
@@ -105,7 +106,7 @@ impl Reader<'_, '_> {
                 self.times = outer.saturating_mul(max.map_or(1, usize::from));
                 self.frame.is_open = true;
                 self.fields(fields);
-                // The minimum number of repetitions is 0.
+                // Repeated fields may also be absent, so they do not count toward the minimum length.
                 self.frame.min_bits = before;
                 self.times = outer;
             }

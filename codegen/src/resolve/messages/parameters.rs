@@ -33,7 +33,7 @@ pub(crate) fn carriers<'d>(device: &'d Device, shapes: &[Shaped<'_>]) -> Vec<Car
     all.filter(|carriers| carriers.read.is_some() || carriers.write.is_some()).collect()
 }
 
-/// Returns the position of the message `name`, or the reason why the message is not suitable. Returns `None` without a name.
+/// Returns the position of the message `name`, or the reason why the message is not suitable. Returns `None` if `name` is `None`.
 fn carrier(
     shapes: &[Shaped<'_>],
     name: &Option<MessageRef>,
@@ -108,8 +108,8 @@ pub(crate) fn numbered<'d>(device: &'d Device, space: &str) -> BTreeMap<u32, &'d
     all
 }
 
-/// Returns the problems of messages that should transfer the parameters of a space: `reads` or `writes`, the message, and the
-/// reason.
+/// Returns the messages that should transfer the parameters of a space but cannot. For each message, returns `reads` or `writes`,
+/// the name of the message, and the reason.
 pub(crate) fn carrier_problems<'d>(
     space: &'d ParameterSpace,
     shapes: &[Shaped<'_>],

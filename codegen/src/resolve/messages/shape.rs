@@ -1,4 +1,4 @@
-//! Messages for which code is generated, and reasons why other messages have none.
+//! Messages for which code is generated, and the reasons why no code is generated for other messages.
 
 use std::collections::HashMap;
 
@@ -6,7 +6,7 @@ use super::frame::Frame;
 use super::shaper::{self, Side};
 use crate::ir::{Device, Message, MessageId};
 
-/// The reason why a message has no code.
+/// The reason why no code is generated for a message.
 pub(crate) type Problem = &'static str;
 
 /// A message with the steps of its request and reply.
@@ -28,7 +28,7 @@ impl<'a> Shaped<'a> {
         self.message.name == name
     }
 
-    /// Returns whether the reply of a later message can depend on this message.
+    /// Returns whether the meaning of a later reply can depend on this message.
     fn can_select(&self) -> bool {
         !self.message.request.is_empty() && !self.request.borrows()
     }
@@ -48,7 +48,7 @@ pub(crate) fn shapes(device: &Device) -> Vec<Shaped<'_>> {
     all.into_iter().zip(lost).filter(|(_, is_lost)| !is_lost).map(|(shaped, _)| shaped).collect()
 }
 
-/// Returns which messages depend on a message that cannot select a reply, directly or indirectly.
+/// Returns which messages depend, directly or indirectly, on a message that cannot determine the meaning of a reply.
 fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
     let mut selectors: HashMap<&str, usize> = HashMap::new();
     let mut dependents: HashMap<&str, Vec<usize>> = HashMap::new();
@@ -80,7 +80,8 @@ fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
     lost
 }
 
-/// Returns the position of the message that the device sends if it rejects `message`. Returns `None` if no such message has code.
+/// Returns the position of the message that the device sends if it rejects `message`. Returns `None` if no code is generated for
+/// such a message.
 pub(crate) fn refusal(shapes: &[Shaped<'_>], message: &Message) -> Option<usize> {
     let name = message.error.as_deref()?;
     shapes

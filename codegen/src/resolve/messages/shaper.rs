@@ -94,8 +94,8 @@ impl<'a> Shaper<'a, '_> {
         Ok(side)
     }
 
-    /// Adds a step at the bit offset `offset`, and returns the bit offset of the next step. Both are `None` after a step with a
-    /// variable length.
+    /// Adds a step at the bit offset `offset`, and returns the bit offset of the next step. Both offsets are `None` after a step
+    /// with a variable length.
     fn append(
         &self,
         side: &mut Side<'a>,
@@ -178,7 +178,7 @@ impl<'a> Shaper<'a, '_> {
             return if fits { Ok(Step::Length { bits, order, from: 0, counts }) } else { Err(LENGTH) };
         }
         match fixed(&value.item).filter(|_| bits <= 64) {
-            // A fixed value is sent as the low bits of its two's complement.
+            // The frame contains the low bits of the two's complement of a fixed value.
             Some(only) => Ok(Step::Fixed { bits, order, value: only as u64 & (u64::MAX >> (64 - bits)) }),
             None => Ok(Step::Value { bits, value }),
         }
@@ -197,14 +197,14 @@ impl<'a> Shaper<'a, '_> {
         (is_whole && is_within).then_some(Step::Echo { first: at / 8 + first, count: last - first + 1 }).ok_or(ECHO)
     }
 
-    /// Returns the byte offset of the parameter number in the request, if the number has this length in bits.
+    /// Returns the byte offset of the parameter number in the request, if this number has a length of `bits` bits.
     fn requested_code(&self, bits: u32) -> Option<u32> {
         let (at, length) = self.request?.code?;
         (length == bits && at.is_multiple_of(8) && bits.is_multiple_of(8)).then_some(at / 8)
     }
 
-    /// Returns the step of a parameter number and its value, and the number of further fields that the step includes. In a reply
-    /// without the value, the parameter number is a copy of that in the request.
+    /// Returns the step of a parameter number and its value, and the number of further fields that the step includes. If a reply
+    /// contains no value, its parameter number is a copy of that in the request.
     fn code(&self, space: &'a str, bits: u32, rest: &[MessageField]) -> (Step<'a>, usize) {
         match (rest.first(), self.requested_code(bits)) {
             (Some(MessageField::ItemValue { space: other }), _) if other == space => (Step::Setting { bits, space }, 1),
@@ -236,7 +236,8 @@ impl<'a> Shaper<'a, '_> {
     }
 }
 
-/// Checks that at most one step has a variable length, and that a counted list comes after its count and before that step.
+/// Checks that at most one step has a variable length, and that a counted list comes after its count and before the step with a
+/// variable length.
 fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
     let list = steps.iter().position(Step::is_counted_list);
     let open = steps.iter().position(Step::is_open);

@@ -9,7 +9,7 @@ pub(crate) enum Step<'a> {
     Bytes(Vec<u8>),
     /// Bits with a fixed value.
     Bits { bits: u32, value: u64 },
-    /// Unused bytes. The number is their count.
+    /// This number of unused bytes.
     Padding(u32),
     /// A field with the device address.
     Station { bits: u32, value: &'a MessageValue },
@@ -23,11 +23,11 @@ pub(crate) enum Step<'a> {
     Count { bits: u32, max: Option<u16> },
     /// A copy of these bytes of the request.
     Echo { first: u32, count: u32 },
-    /// A copy of these bytes of the request, as far as the request has them.
+    /// A copy of these bytes of the request. If the request is shorter, the copy contains only the existing bytes.
     Copy { first: u32, count: u32 },
-    /// Condition on the following parameter number: it has to be the same as these bytes of the request.
+    /// Check of the following parameter number, which has to equal these bytes of the request.
     Same { first: u32, count: u32 },
-    /// A parameter number.
+    /// A parameter number, without the value of the parameter.
     Code { bits: u32, space: &'a str },
     /// A parameter number with its value.
     Setting { bits: u32, space: &'a str },
@@ -35,7 +35,7 @@ pub(crate) enum Step<'a> {
     Blank { bits: u32, space: &'a str },
     /// A list of parameter numbers with their values.
     Settings { bits: u32, space: &'a str, max: Option<u16> },
-    /// A parameter value whose number is in the request. The number has `bits` bits.
+    /// A parameter value whose parameter number is in the request. The parameter number has `bits` bits.
     ValueOnly { bits: u32, space: &'a str },
     /// A list of repeated fields.
     List { steps: Vec<Step<'a>>, length: u32, is_counted: bool, max: Option<u16> },
@@ -93,7 +93,7 @@ impl Step<'_> {
     }
 }
 
-/// Returns the number of bytes after the step with a variable length.
+/// Returns the total number of bytes in the steps after the step with a variable length.
 pub(crate) fn tail(steps: &[Step<'_>]) -> u32 {
     steps.iter().filter_map(Step::bits).sum::<u32>() / 8
 }

@@ -100,7 +100,7 @@ impl<'a> Iterator for Attributes<'a> {
         let Some(name) = Name::of(self.rest).filter(|_| blanks > 0) else { return self.no_name(blanks) };
         let (full, name_span) = (&self.rest[..name.length], self.span(name.length));
         self.advance(name.length);
-        // Blanks before or after the equals sign are rare.
+        // The usual case without blanks around the equals sign is handled first.
         if self.rest.starts_with("=\"") {
             self.advance(2);
             return self.value(full, name, name_span, b'"');

@@ -115,8 +115,8 @@ impl<'a> Cursor<'a> {
         Ok(None)
     }
 
-    /// Reads the innermost open element to its end and returns its text, if it contains exactly one piece of text.
-    /// Returns `None` without reading anything if the element contains no text or anything else.
+    /// Reads the innermost open element to its end and returns its text, if it contains exactly one piece of text. If the content
+    /// of the element is anything else, reads nothing and returns `None`.
     pub fn only_text(&mut self) -> Option<Text<'a>> {
         let open = self.open.last().filter(|_| !self.empty)?;
         let rest = &self.text.as_bytes()[self.at..];
@@ -153,7 +153,7 @@ impl<'a> Cursor<'a> {
         self.open.iter().map(|full| full.split_once(':').map_or(*full, |(_, name)| name))
     }
 
-    /// Returns the names of the two innermost open elements as `parent/child`. Shortens very long names.
+    /// Returns the names of the two innermost open elements as `parent/child`. Very long names are shortened.
     pub fn innermost(&self) -> CompactString {
         let mut path = self.path().rev();
         let child = path.next().map_or("", brief);
@@ -168,14 +168,15 @@ impl<'a> Cursor<'a> {
         Origin { span: tag.span, line: self.line(tag.span.start) }
     }
 
-    /// Returns the line of a byte of the document, counted from 1. The function is fast if offsets increase from call to call.
+    /// Returns the line of a byte of the document, counted from 1. The function is fast if each call has a higher offset than the
+    /// call before.
     pub fn line(&mut self, offset: u32) -> u32 {
         let offset = (offset as usize).min(self.text.len());
         let (from, to) = (self.line_at.min(offset), self.line_at.max(offset));
         let bytes = self.text.as_bytes();
         let passed = &bytes[from..to];
         let mut ends = memchr_iter(b'\n', passed).count() as u32;
-        // CR LF is one line end.
+        // The two characters CR LF count as one line end.
         if memchr(b'\r', passed).is_some() {
             ends += memchr_iter(b'\r', passed).filter(|at| bytes.get(from + at + 1) != Some(&b'\n')).count() as u32;
         }
@@ -262,7 +263,7 @@ impl<'a> Cursor<'a> {
         Ok(())
     }
 
-    /// Returns the text of a CDATA section. Skips a document type declaration.
+    /// Returns the text of a CDATA section. A document type declaration is skipped.
     fn declaration(&mut self, start: usize) -> Result<Option<Text<'a>>, Error> {
         const CDATA: &str = "<![CDATA[";
         if self.text[start..].starts_with(CDATA) {

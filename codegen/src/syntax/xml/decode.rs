@@ -7,7 +7,7 @@ use memchr::{memchr, memchr2};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::source::Span;
 
-/// The normalization of blanks.
+/// The rule by which blanks and line ends are normalized.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Blanks {
     /// In text, line ends become LF.

@@ -20,7 +20,7 @@ impl Error {
         Error(Box::new(self.0.note_at(span, message)))
     }
 
-    /// Returns the diagnostic to report.
+    /// Returns the diagnostic that describes the error.
     pub fn into_diagnostic(self) -> Diagnostic {
         *self.0
     }
@@ -67,7 +67,7 @@ impl<'a> Tag<'a> {
         Attributes::new(self.attributes, self.attributes_at, self.span.file)
     }
 
-    /// Returns whether the tag has any text after its name.
+    /// Returns whether the tag contains any text after its name, such as attributes.
     pub fn has_attributes(&self) -> bool {
         !self.attributes.is_empty()
     }

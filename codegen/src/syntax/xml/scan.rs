@@ -47,7 +47,8 @@ pub(super) fn after_blanks(bytes: &[u8], at: usize) -> usize {
     at + rest.iter().position(|&byte| !is_blank(byte)).unwrap_or(rest.len())
 }
 
-/// Returns the position of the first `byte`. The byte is usually so near that a loop is faster than a vectorized search.
+/// Returns the position of the first occurrence of `byte`. Usually, this position is so near that a loop is faster than a
+/// vectorized search.
 pub(super) fn find_near(byte: u8, bytes: &[u8]) -> Option<usize> {
     const NEAR: usize = 16;
     let near = &bytes[..bytes.len().min(NEAR)];

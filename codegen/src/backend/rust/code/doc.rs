@@ -9,26 +9,27 @@ use compact_str::CompactString;
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Doc {
     text: String,
-    /// Marks with their byte offsets in the text.
+    /// Marks, each with its byte offset in the text.
     marks: Vec<(usize, Mark)>,
 }
 
 /// The meaning of a position in a document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum Mark {
-    /// Begins a list.
+    /// Begins a list of members.
     Open,
     /// Begins the fields of a struct literal. `is_long` means that each field has its own line.
     OpenStruct { is_long: bool },
     /// Begins a list of numbers or names. If the list is broken, each line has as many members as fit.
     OpenNumbers,
-    /// Separates two members.
+    /// Separates two members of a list.
     Next,
     /// Ends a list, struct literal or list of numbers.
     Close,
-    /// A break position at which the line is never broken. The look-ahead for the previous list ends here.
+    /// A position at which the line is never broken. The text after this position does not count when the writer
+    /// decides whether the previous list fits on the line.
     Stop,
-    /// A position where the line is broken if the following text does not fit. A break removes the space at this
+    /// A position where the line is broken if the following text does not fit. A line break replaces the space at this
     /// position.
     Soft,
 }
@@ -131,7 +132,7 @@ impl Doc {
         doc
     }
 
-    /// Returns the text, on one line.
+    /// Returns the text of the document, on one line.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -140,7 +141,7 @@ impl Doc {
         &self.marks
     }
 
-    /// Removes all content.
+    /// Removes all text and all marks from the document.
     pub(super) fn clear(&mut self) {
         self.text.clear();
         self.marks.clear();
@@ -171,7 +172,7 @@ impl Doc {
         Doc::list(&Doc::of(start), &mut members.iter().copied(), end)
     }
 
-    /// Adds a separator after a member.
+    /// Adds a separator after a member of a list.
     fn next(&mut self) {
         self.mark(Mark::Next);
         self.text.push_str(", ");
@@ -183,7 +184,8 @@ impl Doc {
     }
 }
 
-/// Creates a list of members between `start` and `end`. Each member has its own line if they do not fit on one line.
+/// Creates a list of members between `start` and `end`. If the members do not fit on one line, each member has its own
+/// line.
 pub fn list<P: Piece>(start: &str, members: impl IntoIterator<Item = P>, end: &str) -> Doc {
     let members: Vec<P> = members.into_iter().collect();
     Doc::list(&start, &mut members.iter().map(|member| member as &dyn Piece), end)
@@ -234,10 +236,10 @@ impl Data {
         Doc::from(format!("0x{value:04X}"))
     }
 
-    /// Creates `path { name: value, … }`. The literal is on one line only if it is short. If there are no fields,
-    /// creates `path`.
+    /// Creates `path { name: value, … }`. The literal is on one line only if it is short. Without fields, creates only
+    /// `path`.
     pub fn fields<N: AsRef<str>>(path: &str, fields: impl IntoIterator<Item = (N, Doc)>) -> Doc {
-        /// Maximum length of a struct literal on one line, up to the space before its closing brace.
+        /// Maximum length of a struct literal on one line, counted up to the space before its closing brace.
         const SHORT: usize = 34;
         let mut fields = fields.into_iter().peekable();
         let mut doc = Doc::from(path);
@@ -266,7 +268,7 @@ impl Data {
         doc
     }
 
-    /// Creates `&[…]`. If all members are numbers, each line contains as many as fit.
+    /// Creates `&[…]`. If all members are numbers, each line contains as many numbers as fit.
     pub fn slice(members: impl IntoIterator<Item = Doc>) -> Doc {
         let members: Vec<Doc> = members.into_iter().collect();
         let is_number =

@@ -2,7 +2,7 @@
 
 use super::doc::{Doc, Mark};
 
-/// Maximum width of a line in bytes. `prettyplease` also counts bytes.
+/// Maximum width of a line in bytes. Like `prettyplease`, the writer counts bytes and not characters.
 const MARGIN: usize = 89;
 
 /// Number of spaces per indentation level.
@@ -31,7 +31,7 @@ pub(super) fn newline(out: &mut String, indent: usize) {
     out.extend(std::iter::repeat_n(' ', indent));
 }
 
-/// A list whose end has not been written.
+/// A list whose end has not been written yet.
 #[derive(Clone, Copy)]
 struct List {
     kind: Mark,
@@ -41,7 +41,7 @@ struct List {
 struct Printer<'d, 'o> {
     doc: &'d Doc,
     out: &'o mut String,
-    /// Offset of the remaining text.
+    /// Byte offset of the text that has not been written yet.
     at: usize,
     column: usize,
     indent: usize,
@@ -120,8 +120,8 @@ impl Printer<'_, '_> {
         self.column = self.indent;
     }
 
-    /// Returns the width that a construct would have on one line. The width includes the following text up to the next
-    /// break position that is not in a later list. Returns the maximum if a struct in the construct needs several
+    /// Returns the width that a construct would have on one line. The text after the construct is included up to the
+    /// next break position outside of later lists. Returns `usize::MAX` if a struct in the construct needs several
     /// lines.
     fn width(&self, position: usize) -> usize {
         let (mut depth, mut is_inside) = (0_usize, true);

@@ -13,7 +13,7 @@ pub struct Code {
 }
 
 impl Code {
-    /// Creates code that begins with the text `start`. `runtime` is the path of the runtime.
+    /// Creates code that begins with the text `start`. `runtime` is the path of the runtime crate.
     pub fn new(start: String, runtime: &str) -> Self {
         Code { out: start, indent: 0, line: Doc::default(), runtime: runtime.to_owned() }
     }
@@ -24,7 +24,7 @@ impl Code {
         self.out
     }
 
-    /// Reserves memory for additional bytes.
+    /// Reserves memory for additional bytes of code.
     pub fn reserve(&mut self, bytes: usize) {
         self.out.reserve(bytes);
     }
@@ -64,7 +64,7 @@ impl Code {
         }
     }
 
-    /// Writes a line of a doc comment.
+    /// Writes a doc comment of one line.
     pub fn doc(&mut self, text: &str) {
         newline(&mut self.out, self.indent);
         self.out.extend(["///", if text.is_empty() { "" } else { " " }, text]);
@@ -99,7 +99,7 @@ impl Code {
         self.close("}");
     }
 
-    /// Writes the import of the runtime as `rt`.
+    /// Writes the `use` item that imports the runtime crate as `rt`.
     pub fn use_runtime(&mut self) {
         let runtime = std::mem::take(&mut self.runtime);
         self.line(&[&"use ", &runtime, &" as rt;"]);

@@ -88,9 +88,9 @@ fn sync_manager(manager: &SyncManager) -> Doc {
     )
 }
 
-/// Returns the PDOs. Outputs come first, as the runtime expects.
+/// Returns the code of the PDO list. Output PDOs come first, as the runtime expects.
 fn pdo_list(pdos: &[Pdo], models: &PdoModels<'_>) -> Doc {
-    // Exclude CANopen PDOs, because they may have the same indices.
+    // CANopen PDOs are excluded, because they may have the same indices as EtherCAT PDOs.
     let is_on_ethercat = |pdo: &&Pdo| !pdo.is_virtual && pdo.buses.is_none_or(|buses| buses.coe);
     let of = |direction| pdos.iter().filter(move |pdo| pdo.direction == direction).filter(is_on_ethercat);
     let all = of(Direction::Receive).chain(of(Direction::Transmit));
@@ -187,7 +187,8 @@ fn transitions(names: Vec<&str>) -> Doc {
     Data::call("rt::ethercat::Transitions::of", vec![Data::slice(list)])
 }
 
-/// Returns the transition at which the master downloads the list of modules. The default is PS.
+/// Returns the state transition at which the master writes the list of modules to the device. The default transition is
+/// PS.
 fn download(rules: &SlotRules) -> Doc {
     if !rules.download_idents {
         return Doc::from("rt::ethercat::Transitions::NONE");

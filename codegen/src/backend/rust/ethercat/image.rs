@@ -1,4 +1,5 @@
-//! The default process image. For each sync manager, it contains the PDOs that are assigned by default, in order.
+//! The default process image. For each sync manager, the image contains the PDOs that are assigned by default, in the
+//! order of the assignment.
 
 use std::collections::HashSet;
 
@@ -33,7 +34,7 @@ pub(in super::super) struct ImageField {
 }
 
 impl ImageModel {
-    /// Returns the name of the view.
+    /// Returns the name of the type that views the process image.
     pub(in super::super) fn view_name(&self) -> String {
         format!("{}View", self.name)
     }
@@ -43,7 +44,7 @@ impl ImageModel {
         method_allow(self.fields.iter().map(|field| field.name.as_str()))
     }
 
-    /// Returns the attribute that suppresses lints about names of the view's mutable methods.
+    /// Returns the attribute that suppresses lints about names of the methods that return mutable views.
     pub(in super::super) fn view_mut_allow(&self) -> Option<String> {
         method_allow(self.fields.iter().map(|field| field.name_mut.as_str()))
     }
@@ -95,11 +96,11 @@ fn model(kind: &str, sync_manager: u8, inside: &[&Assigned<'_>], pdos: &PdoModel
     })
 }
 
-/// Names that field methods of a view must not have. These are the view's other methods, and methods of traits that any
-/// type may implement.
+/// Names that field methods of a view must not have: keywords, the other methods of the view, and methods of traits
+/// that any type may implement.
 const RESERVED: [&str; 7] = ["new", "clone", "into", "try_into", "self", "super", "crate"];
 
-/// Maximum length of a field's name. A limit keeps the lines that unpack the field short.
+/// Maximum length of a field's name. The limit keeps the generated lines that unpack the field short.
 const MAX_NAME: usize = 30;
 
 fn fields(placed: &[(&PdoModel, u32)]) -> Vec<ImageField> {

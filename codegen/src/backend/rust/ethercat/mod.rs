@@ -23,7 +23,7 @@ pub(super) struct EtherCatModel {
     pub clock_modes: Option<Doc>,
     /// Value of the constant `STARTUP`.
     pub startup: Option<Doc>,
-    /// Byte constants: name, documentation and value.
+    /// Constants with byte sequences: name, documentation and value of each constant.
     pub bytes: Vec<(&'static str, &'static str, String)>,
     /// Default process images.
     pub images: Vec<ImageModel>,

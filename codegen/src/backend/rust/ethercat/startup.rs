@@ -10,7 +10,7 @@ const ASSIGN: u16 = 0x1C10;
 
 pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &[Assigned<'_>]) -> Vec<Doc> {
     let Some(coe) = settings.mailbox.as_ref().and_then(|mailbox| mailbox.coe.as_ref()) else { return Vec::new() };
-    // The PDO assignment of a modular device depends on the modules in its slots.
+    // The PDO assignment of a modular device depends on the modules in its slots, so the constant cannot contain it.
     if assigned.is_empty() || settings.slots.is_some() {
         return Vec::new();
     }
@@ -20,7 +20,7 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
             .filter(move |assignment| assignment.sync_manager == number)
             .map(|assignment| assignment.pdo.mapping_index)
     };
-    // The object has not enough sub-indices for an assignment with more PDOs.
+    // An assignment with more PDOs does not fit into the sub-indices of the assignment object.
     if device.process_data.sync_managers.iter().any(|manager| of(manager.number).count() > MAX_PDO_SUBS) {
         return Vec::new();
     }

@@ -1,4 +1,4 @@
-//! The buses of a location. The buses determine the location's Rust type.
+//! The buses on which an item has an address. These buses determine the Rust type of the item's location.
 
 use crate::backend::rust::code::{seq, Doc};
 use crate::backend::rust::route::{PathKind, Route, RouteBus, RouteKind};
@@ -12,7 +12,7 @@ impl Buses {
         Buses(std::array::from_fn(|at| routes[at].kind()))
     }
 
-    /// Returns whether the location has no bus.
+    /// Returns whether the item of the location has no address on any bus.
     pub fn is_empty(self) -> bool {
         self == Buses::default()
     }
@@ -22,7 +22,7 @@ impl Buses {
         self.0.iter().all(|kind| matches!(kind, RouteKind::Absent | RouteKind::One(PathKind::Direct)))
     }
 
-    /// Combines the buses of both locations.
+    /// Returns the buses that at least one of two locations has.
     pub fn union(self, other: Buses) -> Buses {
         Buses(std::array::from_fn(|at| self.0[at].max(other.0[at])))
     }

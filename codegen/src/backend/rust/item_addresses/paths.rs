@@ -84,7 +84,8 @@ fn through<'i>(located: &Located<'_>, item: &Item, bus: RouteBus, writes: bool) 
     })
 }
 
-/// Returns whether an item has only simple addresses and is the same on all buses.
+/// Returns whether an item has no variants and its addresses are neither indirect, in a process image nor in the memory
+/// of a slave controller.
 fn is_plain(item: &Item) -> bool {
     let is_address =
         |binding: &Binding| !matches!(binding, Binding::Indirect(_) | Binding::Image(_) | Binding::EscMemory { .. });

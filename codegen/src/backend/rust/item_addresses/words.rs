@@ -30,7 +30,7 @@ impl ItemAddresses<'_> {
         facts.join(", ")
     }
 
-    /// Returns the main addresses in short form.
+    /// Returns the main addresses of an item in short form.
     pub fn heading(&self) -> String {
         let object = self.canopen.or(self.coe).map(|(index, sub)| address::object(index, sub));
         let register = self.modbus.map(|register_binding| match register_binding.bit_offset {

@@ -1,4 +1,4 @@
-//! Completion of commands: when a command is completed, and which reply field indicates this.
+//! Completion of commands: when a command is completed, and which field of a reply indicates the completion.
 
 use std::collections::HashMap;
 
@@ -27,8 +27,9 @@ pub(super) fn sentence(context: &Context<'_>, message: &Message, doc_module: Doc
     })
 }
 
-/// Returns the expression of a reply's `is_complete`. The expression uses the first polling condition that can be
-/// evaluated from fields of the reply. Returns `None` if the fields may still refer to the previous command.
+/// Returns the body of the method `is_complete` of a reply. The expression uses the first polling condition that can be
+/// evaluated from fields of the reply. Returns `None` if the fields of the reply may still refer to the previous
+/// command.
 pub(super) fn expression(
     context: &Context<'_>,
     conditions: &Conditions<'_>,
@@ -92,7 +93,7 @@ fn compare(
         Some(bit) => bits(context, value.item.ty, bit)?,
         None => (0, mask.unwrap_or(u64::MAX)),
     };
-    // The condition is never true if the type or the mask excludes the expected bits.
+    // The polling condition is never true if the type of the field or the mask excludes the expected bits.
     if mask == 0 || expected.is_some_and(|expected| expected & !mask != 0) {
         return None;
     }

@@ -11,29 +11,29 @@ use crate::ir::Message;
 use crate::names::{self, Case};
 use crate::resolve::messages::Shaped;
 
-/// Maximum number of arguments of a method. Clippy warns about more arguments.
+/// Maximum number of arguments of a method. Clippy warns about methods with more arguments.
 const MAX_ARGUMENTS: usize = 6;
 
 /// A method that sends a message, ready to be printed.
 pub(in crate::backend::rust) struct CallModel {
     pub method: String,
     pub docs: Vec<String>,
-    /// The type of the message with its lifetime argument.
+    /// The Rust type of the message, with its lifetime argument if it has one.
     pub ty: String,
     pub arguments: Vec<String>,
     /// Expression that creates the message.
     pub build: Doc,
-    /// True if the arguments have a lifetime.
+    /// True if the type of at least one argument has a lifetime.
     pub borrows: bool,
     pub deprecated: Option<String>,
     pub is_selector: bool,
-    /// Type of the message that must be sent before this one.
+    /// Type of the message that must be sent before this message.
     pub after: Option<String>,
 }
 
 /// The state of the driver after power-on.
 pub(in crate::backend::rust) struct DefaultModel {
-    /// Type of the message that would also select this state.
+    /// Type of the message whose sending would also bring the driver into the state after power-on.
     pub selector: String,
 }
 
@@ -80,8 +80,8 @@ pub(super) fn calls(
     calls
 }
 
-/// Returns the names of a method's arguments: the names of the fields. A name that consists only of digits is replaced
-/// because clippy rejects it.
+/// Returns the names of a method's arguments: the names of the fields. A name that consists only of digits is replaced,
+/// because clippy rejects such names.
 fn arguments(fields: &[Field]) -> Vec<String> {
     let mut names: Vec<String> = fields.iter().map(|field| field.name.clone()).collect();
     for at in 0..names.len() {
@@ -98,8 +98,8 @@ fn docs(model: &MessageModel, request: &DataModel) -> Vec<String> {
     model.call_docs.iter().cloned().chain([String::new(), sends]).collect()
 }
 
-/// Returns the state after power-on. Returns `None` if the description does not state it, or if no message selects this
-/// state.
+/// Returns the state of the driver after power-on. Returns `None` if the description states no such state, or if no
+/// message selects it.
 pub(super) fn by_default(
     shaped: &[Shaped<'_>],
     messages: &[MessageModel],

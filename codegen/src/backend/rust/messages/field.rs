@@ -14,7 +14,7 @@ use crate::ir::{Item, MessageValue, Type};
 use crate::names::{self, Case};
 use crate::resolve::messages::Step;
 
-/// Maximum length of a field's name. A limit keeps the lines that write the field short.
+/// Maximum length of a field's name. The limit keeps the generated lines that write the field short.
 const MAX_NAME: usize = 24;
 
 /// A field, ready to be printed.
@@ -22,7 +22,7 @@ pub(in crate::backend::rust) struct Field {
     pub name: String,
     pub docs: Vec<String>,
     pub ty: String,
-    /// The type, as written in the device's module.
+    /// The Rust type of the field, as written in the device's module.
     ty_at_top: String,
     /// Attribute that controls how `serde` handles the field.
     pub attribute: Option<String>,
@@ -44,7 +44,7 @@ enum FieldKind {
     Bytes,
 }
 
-/// A range check: the type that checks the value, the value, and its range.
+/// A range check: the Rust type, the expression of the value, and the allowed range.
 type Check = (String, String, Doc);
 
 /// Returns the fields for these steps. `entry` is the name of the type of list entries.
@@ -120,7 +120,7 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
     let base = context.base(item.ty);
     let (ty, kind) = match field_type {
         FieldType::Bytes(length) => (format!("[u8; {length}]"), FieldKind::Text { length }),
-        // A number with an unusual width is stored in a primitive integer with a range check.
+        // A number with a width that no primitive integer has is stored in a primitive integer and needs a range check.
         FieldType::Odd(signed, _) => {
             let native = native(signed, bits);
             let width: u32 = native[1..].parse().unwrap_or(64);
@@ -147,7 +147,8 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
                 _ => base,
             };
             let check = match &other {
-                // Check the raw value, because the allowed values are a constant, which cannot contain calls.
+                // The check uses the raw value, because the allowed values are in a constant, and constants cannot
+                // contain the calls that create variants.
                 FieldType::Named(_, native)
                     if other.cut(bits).is_some() || !variant::widest(item).allowed.is_empty() =>
                 {
@@ -168,12 +169,12 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
     Field { docs: documentation(context, item, base), ty, ty_at_top, attribute: None, scale, position, kind, name }
 }
 
-/// Returns the name of the variable for the value that was read for the field at this position.
+/// Returns the name of the variable for the value that was read for the field at `position`.
 fn local(position: usize) -> String {
     format!("value_{position}")
 }
 
-/// Returns the range check of a value. Returns `None` if all numbers of the type are allowed.
+/// Returns the range check of a field's value. Returns `None` if all numbers of the type are allowed.
 fn range(item: &Item, base: Type, name: &str, named: Option<&str>) -> Option<Check> {
     let ty = ValueType::of(base);
     let wrap = |literal: String| match named {
@@ -195,7 +196,7 @@ fn narrow(item: &Item, base: Type, native: &str, value: String) -> Option<Check>
 fn constant(field: &str) -> String {
     let name = field.trim_start_matches("r#").to_ascii_uppercase();
     match name.as_str() {
-        // Messages already have constants with these names.
+        // The types of messages already have constants with these names.
         "NAME" | "COMPLETION" | "OUTCOMES" => name + "_SCALE",
         _ => name,
     }
@@ -244,7 +245,7 @@ impl Field {
         }
     }
 
-    /// Returns whether limits of the field may be close to a mathematical constant. Clippy reports such literals.
+    /// Returns whether a limit of the field may be close to a mathematical constant. Clippy reports such literals.
     pub(super) fn has_real_limits(&self) -> bool {
         matches!(&self.kind, FieldKind::Value { check: Some((ty, ..)), .. } if ty.starts_with('f'))
     }

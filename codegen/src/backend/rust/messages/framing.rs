@@ -9,8 +9,8 @@ use crate::resolve::messages::{Shaped, Step};
 /// Size of the buffer for data without a maximum length.
 const UNBOUNDED_LENGTH: u32 = 256;
 
-/// Returns the expression of the framing. Returns `None` if frames have no end byte, or the runtime does not support
-/// their checksum.
+/// Returns the expression of the framing constant. Returns `None` if frames have no end byte, or if the runtime does
+/// not support the checksum algorithm.
 pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> {
     let byte = |byte: u8| Doc::from(format!("0x{byte:02X}"));
     let max = framing.max_data.map_or_else(|| "usize::MAX".to_owned(), |max| max.to_string());
@@ -32,7 +32,7 @@ pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> 
     Some(Data::fields("rt::framing::Delimited", fields))
 }
 
-/// Returns the documentation of the framing.
+/// Returns the documentation of the framing constant.
 pub(super) fn documentation(framing: &Framing, context: &Context<'_>) -> Vec<String> {
     let mut lines = vec!["Framing of messages: delimiters, escape bytes and checksum.".to_owned()];
     docs::described(framing.documentation.as_deref(), &context.manual, &mut lines);

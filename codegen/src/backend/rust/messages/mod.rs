@@ -54,9 +54,9 @@ pub(super) struct MessageModel {
     pub call_docs: Vec<String>,
     /// The request. `None` if only the device sends the message.
     pub request: Option<DataModel>,
-    /// The reply. `None` if the description does not contain the reply.
+    /// The reply. `None` if the description contains no reply to the request.
     pub reply: Option<DataModel>,
-    /// Type of the reply that refuses the request.
+    /// Type of the reply with which the device refuses the request.
     pub refusal: String,
     pub completion: Doc,
     /// True if this request determines the meaning of other requests.
@@ -139,7 +139,7 @@ impl ProtocolModel {
         })
     }
 
-    /// Returns whether limits are real numbers.
+    /// Returns whether a limit of any field is a real number.
     pub(super) fn has_real_limits(&self) -> bool {
         let sides = self.messages.iter().flat_map(|message| message.request.iter().chain(&message.reply));
         let mut fields =
@@ -152,7 +152,7 @@ impl ProtocolModel {
         self.messages.iter().any(|message| message.is_selector)
     }
 
-    /// Returns whether some methods are available in all states.
+    /// Returns whether some methods are available regardless of which selecting request was sent last.
     pub(super) fn has_free(&self) -> bool {
         self.calls.iter().any(|call| call.after.is_none() && !call.is_selector)
     }
@@ -167,7 +167,7 @@ impl ProtocolModel {
 struct Maker<'m, 'a> {
     context: &'m Context<'a>,
     options: &'m RustOptions,
-    /// Polling conditions that indicate completion.
+    /// Polling conditions that indicate that a command is completed.
     polled: completion::Conditions<'m>,
     /// Names of messages that determine the meaning of other messages.
     selectors: HashSet<&'m str>,
@@ -263,7 +263,8 @@ impl Maker<'_, '_> {
         (fields, borrows)
     }
 
-    /// Returns the derives of a struct. Structs that borrow, for example lists, support neither `serde` nor `defmt`.
+    /// Returns the `derive` attributes of a struct. Structs that borrow, for example lists, support neither `serde` nor
+    /// `defmt`.
     fn derives(&self, borrows: bool) -> Vec<String> {
         if !borrows {
             return self.options.derives(true);
@@ -330,8 +331,8 @@ fn completion(completion: &Completion) -> Doc {
     seq!["rt::message::Completion::", name]
 }
 
-/// Returns the requests that can be distinguished by their bytes. If several requests have the same form, only the
-/// first one is returned.
+/// Returns the requests that can be distinguished by their bytes. If the bytes of several requests have the same form,
+/// only the first of these requests is returned.
 fn requests(messages: &[MessageModel]) -> Vec<(String, bool)> {
     let mut seen = HashSet::new();
     let requests = messages.iter().filter_map(|message| message.request.as_ref());

@@ -14,7 +14,7 @@ use crate::names::{self, Case, NameRequest};
 
 /// The effects of a message in each state, ready to be printed.
 pub(in crate::backend::rust) struct OutcomesModel {
-    /// The name of the constant.
+    /// The name of the constant with the effects.
     pub name: String,
     pub docs: Vec<String>,
     /// The type of the states.
@@ -110,7 +110,7 @@ fn documentation(
         docs::words(cell.documentation.as_deref(), &mut words);
         [cell.outcomes.iter().map(one).collect::<Vec<_>>().join(" or "), words.join(" ")]
     };
-    // States with the same effect share a row.
+    // States in which the message has the same effect share a row of the documentation table.
     let mut rows: Vec<[String; 3]> = Vec::new();
     for state_outcome in &row.cells {
         let [outcome, note] = cell(state_outcome);

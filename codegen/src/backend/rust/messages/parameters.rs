@@ -17,7 +17,7 @@ pub(in crate::backend::rust) struct ParametersModel {
 pub(in crate::backend::rust) struct Arm {
     /// Name of the constant with the space's parameter numbers and lengths.
     pub rule: String,
-    /// Type of the message.
+    /// Rust type of the message.
     pub message: String,
     /// Names and values of the message's fields.
     pub build: Vec<(String, Doc)>,
@@ -25,7 +25,7 @@ pub(in crate::backend::rust) struct Arm {
     pub value: String,
 }
 
-/// Returns the implementation. Returns `None` if there are no messages for single parameters.
+/// Returns the implementation of the trait. Returns `None` if no message transfers a single parameter.
 pub(super) fn model(
     device: &Device,
     shapes: &[Shaped<'_>],

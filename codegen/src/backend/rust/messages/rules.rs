@@ -7,7 +7,7 @@ use crate::ir::{Device, ParameterSpace, Type};
 use crate::names::{self, Case, NameRequest};
 use crate::resolve::messages::{numbered, Step};
 
-/// Maximum length of a constant's name. A limit keeps the lines that use the name short.
+/// Maximum length of a constant's name. The limit keeps the generated lines that use the constant short.
 const MAX_NAME: usize = 24;
 
 /// A constant with an encoding rule, ready to be printed.
@@ -54,8 +54,8 @@ impl Rules {
             suffix: bits.to_string(),
         };
         let name_requests: Vec<NameRequest<'_>> = used.iter().map(name_request).collect();
-        // Type names of one letter, and of one letter followed by digits, look like constants, so these names are
-        // reserved.
+        // A type name of one letter, with or without digits after the letter, could also be the name of a constant.
+        // Such type names are therefore reserved.
         let upper_case = types.iter().filter(|name| name.to_ascii_uppercase() == **name);
         let types: Vec<String> = upper_case.map(|name| name.to_ascii_lowercase()).collect();
         let mut reserved = vec!["framing", "max_data"];

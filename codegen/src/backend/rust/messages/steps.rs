@@ -21,7 +21,7 @@ pub(in crate::backend::rust) struct Statements {
     pub uses_station: bool,
 }
 
-/// Maximum number of fixed bytes per line.
+/// Maximum number of fixed bytes in one line of generated code.
 const LINE: usize = 8;
 
 /// Returns the statements for these steps. `fields` contains the steps' fields in order.
@@ -141,7 +141,7 @@ fn reading(bits: u32, order: &[u8]) -> String {
     }
 }
 
-/// Returns a check of the station number. Returns `None` if all numbers are allowed.
+/// Returns a check of the station number. Returns `None` if all station numbers are allowed.
 fn station(bits: u32, limits: &Limits) -> Option<Doc> {
     let number =
         |limit: &Option<Value>| limit.as_ref().and_then(Value::as_int).and_then(|number| u32::try_from(number).ok());

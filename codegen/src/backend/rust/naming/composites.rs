@@ -4,7 +4,7 @@ use crate::backend::rust::bus_facts;
 use crate::ir::{Composite, Device};
 use crate::names::{self, Case};
 
-/// Names of other elements in the same module.
+/// Names that constants of composite numbers must not have, because other elements of the same module have them.
 const RESERVED: [&str; 6] = ["device", "axes", "module", "entries", "identity", "node_id"];
 
 /// A composite number and the name of its constant.

@@ -10,7 +10,8 @@ use crate::ir::{Group, Item, ItemId, ObjectCode};
 use crate::names::{self, Case, NameRequest};
 
 /// Names that are reserved in the module of an object. Clippy would mistake a method `new` for a constructor. Methods
-/// that all types have would hide `into` and `try_into`. Constants cannot conflict with them.
+/// that all types have would hide `into` and `try_into`. Constants have upper-case names and cannot conflict with the
+/// reserved names.
 const RESERVED_IN_OBJECT: [&str; 7] = ["self", "super", "crate", "rt", "new", "into", "try_into"];
 
 /// An item with the name of its handle. The name is not escaped.
@@ -20,18 +21,19 @@ pub(in crate::backend::rust) struct NamedItem<'a> {
     pub name: String,
 }
 
-/// An item of a chapter or image, and the title of the chapter.
+/// An item of a register chapter or process image, and the title of the chapter.
 pub(in crate::backend::rust) struct NamedRegister<'a> {
     pub chapter: &'a str,
     pub entry: NamedItem<'a>,
 }
 
-/// An object with values and its name.
+/// An object with its name and the items that have values.
 pub(in crate::backend::rust) struct NamedObject<'a> {
     pub group: &'a Group,
     position: u32,
     pub name: String,
-    /// True if the object is a module with several values. If not, its only value has the object's name.
+    /// True if the object becomes a Rust module with several values. Otherwise, the only value has the name of the
+    /// object.
     pub is_module: bool,
     pub entries: Vec<NamedItem<'a>>,
 }
@@ -64,7 +66,7 @@ impl<'a> HandleNames<'a> {
         HandleNames { registers, objects: objects.collect() }
     }
 
-    /// Returns whether there are no handles.
+    /// Returns whether the device or module has no handles.
     pub(in crate::backend::rust) fn is_empty(&self) -> bool {
         self.registers.is_empty() && self.objects.is_empty()
     }
@@ -91,7 +93,7 @@ impl<'a> HandleNames<'a> {
         })
     }
 
-    /// Returns an item. If its object has several values, also returns the object.
+    /// Returns the item with this ID. If the item belongs to an object with several values, also returns the object.
     fn find(&self, id: ItemId) -> Option<(Option<&NamedObject<'a>>, &NamedItem<'a>)> {
         if let Ok(at) = self.registers.binary_search_by_key(&id, |register| register.entry.id) {
             return Some((None, &self.registers[at].entry));

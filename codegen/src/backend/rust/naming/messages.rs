@@ -4,7 +4,7 @@ use crate::ir::{Device, Message, MessageId};
 use crate::names::{self, Case, NameRequest};
 use crate::resolve::messages::{self, Shaped};
 
-/// Names that are used in the generated code of messages.
+/// Names that types of messages must not have, because the generated code of messages uses them.
 const RESERVED: [&str; 10] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "Protocol", "Request", "E"];
 
 /// Names of a message's types: request, reply, list entry of the request, and list entry of the reply.
@@ -31,16 +31,16 @@ fn base_names(message: &Message) -> MessageNames {
 /// The path of a message, relative to the device's module.
 pub(in crate::backend::rust) struct MessagePath {
     pub id: MessageId,
-    /// True if the message is a request. If not, only the device sends the message.
+    /// True if the message has a request. Otherwise, only the device sends the message.
     pub is_request: bool,
     pub path: String,
 }
 
-/// The messages of a device that have a shape, with the names of their types.
+/// The messages of a device for which code is generated, with the names of their types.
 #[derive(Default)]
 pub(in crate::backend::rust) struct NamedMessages<'a> {
     pub shapes: Vec<Shaped<'a>>,
-    /// Names of types, by the position of the message's shape.
+    /// Names of the types of each message, in the order of `shapes`.
     pub names: Vec<MessageNames>,
 }
 

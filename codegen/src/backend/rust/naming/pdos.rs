@@ -13,7 +13,7 @@ use crate::names::{self, Case, NameRequest};
 pub(in crate::backend::rust) struct NamedPdo<'a> {
     pub pdo: &'a Pdo,
     pub name: String,
-    /// Fields of the PDO. Empty if the PDO has no struct.
+    /// Fields of the PDO. The list is empty if no struct is generated for the PDO.
     pub fields: Vec<NamedField<'a>>,
 }
 
@@ -31,7 +31,7 @@ pub(super) fn names<'a>(scope: &Scope<'a>, handles: &HandleNames<'_>) -> Vec<Nam
 
 /// Returns the fields of a PDO. A field has the name of its item's accessor. The names of the object and the entry are
 /// combined for array elements, unnamed entries, and entries with ambiguous names. The name in the PDO is used only if
-/// the dictionary does not contain the item.
+/// the object dictionary does not contain the item.
 fn fields<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>, pdo: &'a Pdo) -> Vec<NamedField<'a>> {
     if !is_generated(pdo) {
         return Vec::new();
@@ -67,8 +67,8 @@ fn fields<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>, pdo: &'a Pdo) -> Vec
     entries.into_iter().zip(names).map(|(entry, name)| NamedField { entry, name }).collect()
 }
 
-/// Returns the description's name of a mapped entry. The result is the name in the PDO, or the name of the object. If
-/// the object has several values, the name of the entry is appended.
+/// Returns the name of a mapped entry in the description: the name in the PDO, or the name of the object. If the object
+/// has several values, the name of the entry is appended.
 pub(in crate::backend::rust) fn title(scope: &Scope<'_>, entry: &PdoEntry) -> String {
     if scope.bus == ObjectBus::CoE && !entry.name.is_empty() {
         return entry.name.to_string();
@@ -77,15 +77,17 @@ pub(in crate::backend::rust) fn title(scope: &Scope<'_>, entry: &PdoEntry) -> St
     if !is_module(group) {
         return group.name.to_string();
     }
-    // Entries of compact objects already contain the object's name.
+    // If the file describes the entries of an object in compact form, the names of the entries already start with the
+    // name of the object.
     match entry.name.starts_with(group.name.as_str()) {
         true => entry.name.to_string(),
         false => format!("{} {}", group.name, entry.name),
     }
 }
 
-/// Returns the names of the PDO structs. The names of CANopen PDOs contain their number. This also applies to EtherCAT
-/// PDOs if the device supports both buses. Other EtherCAT PDOs have the names of the description.
+/// Returns the names of the PDO structs. The name of a CANopen PDO contains the number of the PDO. If all PDOs of the
+/// device have communication parameters, the names of EtherCAT PDOs contain the number too. Other EtherCAT PDOs have
+/// the names of the description.
 fn struct_names(scope: &Scope<'_>) -> Vec<String> {
     let all_numbered = scope.pdos.iter().all(|pdo| pdo.communication.is_some());
     let by_number = |pdo: &Pdo| all_numbered || scope.bus_of(pdo) == ObjectBus::CanOpen;
@@ -96,8 +98,8 @@ fn struct_names(scope: &Scope<'_>) -> Vec<String> {
     scope.pdos.iter().filter_map(name).collect()
 }
 
-/// Returns names such as `RxPdo1`. If several PDOs have the same number, the next names are `RxPdo1_2`, and so on. This
-/// happens if both a table and the dictionary describe a PDO.
+/// Returns names such as `RxPdo1`. If several PDOs have the same number, the next names are `RxPdo1_2`, and so on. Two
+/// PDOs have the same number if both a register table and the object dictionary describe the PDO.
 fn numbered<'p>(pdos: impl Iterator<Item = &'p Pdo>) -> Vec<String> {
     let mut seen: HashMap<String, usize> = HashMap::new();
     let name = |pdo: &Pdo| {
@@ -121,7 +123,8 @@ fn names_by_source(scope: &Scope<'_>, is_named: impl Fn(&Pdo) -> bool, numbers: 
         .iter()
         .filter(|pdo| is_named(pdo))
         .map(|pdo| {
-            // The index is repeated if the description wrongly uses one PDO index for two sync managers.
+            // Two PDOs have the same index if the description wrongly uses one index for the PDOs of two sync managers.
+            // The line number then makes the suffix unique.
             let twice = if seen.insert(pdo.mapping_index) { String::new() } else { format!("_{}", pdo.origin.line) };
             NameRequest::new(&pdo.name, prefix(pdo.direction), format!("{:04X}{twice}", pdo.mapping_index))
         })
@@ -142,7 +145,7 @@ fn prefix(direction: Direction) -> &'static str {
     }
 }
 
-/// Returns whether a PDO gets a struct.
+/// Returns whether a struct is generated for a PDO.
 pub(in crate::backend::rust) fn is_generated(pdo: &Pdo) -> bool {
     let mut mapped = pdo.entries.iter().filter(|entry| is_field(entry)).peekable();
     mapped.peek().is_some() && mapped.all(|entry| entry.bits <= crate::limits::MAX_FIELD_BITS)

@@ -14,18 +14,19 @@ use crate::names::{self, Case, NameRequest};
 #[derive(Clone, Debug)]
 pub(in crate::backend::rust) struct NamedType {
     pub name: String,
-    /// Path of the base type in the runtime, such as `u8` or `rt::Uint<3>`.
+    /// Rust path of the base type, such as `u8` or `rt::Uint<3>`.
     pub base: &'static str,
     /// Primitive integer that holds the raw value, such as `u8`.
     pub native: &'static str,
-    /// Integer type of the raw value.
+    /// Integer type of the raw value in the IR.
     pub ty: Type,
     /// Length in bits.
     pub bits: u32,
 }
 
 impl NamedType {
-    /// Creates a type with this base and without a name. Returns `None` if Rust has no such integer.
+    /// Creates a type with the base type `ty` and without a name. Returns `None` if neither Rust nor the runtime has an
+    /// integer like `ty`.
     fn with_base(ty: Type) -> Option<Self> {
         let (base, native) = ValueType::of(ty).number()?;
         Some(NamedType { name: String::new(), base, native, ty, bits: ty.bits()? })
@@ -78,7 +79,7 @@ impl<'a> TypeNames<'a> {
         types
     }
 
-    /// Returns the enumeration or bit field at this position.
+    /// Returns the enumeration or bit field at `position` in the list of types.
     pub fn get(&self, position: u32) -> Option<&NamedType> {
         let bit_field = || {
             let at = self.bit_fields.binary_search_by_key(&position, |(other, ..)| *other).ok()?;
@@ -87,7 +88,7 @@ impl<'a> TypeNames<'a> {
         self.enumeration(position).or_else(bit_field)
     }
 
-    /// Returns the enumeration at this position.
+    /// Returns the enumeration at `position` in the list of types.
     pub fn enumeration(&self, position: u32) -> Option<&NamedType> {
         let at = self.enumerations.binary_search_by_key(&position, |(other, _)| *other).ok()?;
         self.enumerations.get(at).map(|(_, named)| named)
@@ -156,7 +157,7 @@ impl<'a> NameCounts<'a> {
     }
 
     /// Returns the suffix of a type whose name is ambiguous. The suffix is the base type if this makes the name unique.
-    /// Otherwise, it is the position.
+    /// Otherwise, the suffix is the position of the type in the list of types.
     fn suffix(&self, scope: &Scope<'_>, definition: &TypeDef, position: u32) -> String {
         let base = base_type(scope, definition);
         let name = definition.name.as_str();
@@ -175,7 +176,7 @@ fn base_type(scope: &Scope<'_>, definition: &TypeDef) -> Type {
     }
 }
 
-/// Returns the types that generated code uses. The names are still empty.
+/// Returns the types that generated code uses. At this stage, the names of the types are still empty.
 fn used<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>) -> TypeNames<'a> {
     let items = scope.groups.iter().flat_map(|group| &group.items).map(|item| item.ty);
     let entries = scope.pdos.iter().flat_map(|pdo| &pdo.entries).map(|entry| entry.ty);
@@ -217,7 +218,8 @@ fn is_named(fields: &[BitFieldEntry]) -> bool {
     })
 }
 
-/// Returns the enumeration at this position. Returns `None` if none of its values fits its integer type.
+/// Returns the enumeration at `position` in the list of types. Returns `None` if none of its values fits its integer
+/// type.
 fn enumeration(scope: &Scope<'_>, position: u32) -> Option<NamedType> {
     let Shape::Enumeration { base, values, .. } = &scope.types.get(position as usize)?.shape else { return None };
     // If a Boolean has named values, its base type is a one-bit integer.
@@ -230,13 +232,14 @@ fn enumeration(scope: &Scope<'_>, position: u32) -> Option<NamedType> {
     NamedType::with_base(base).filter(|_| has_value)
 }
 
-/// Returns the bit field at this position. Bit fields are always unsigned.
+/// Returns the bit field at `position` in the list of types. Bit fields are always unsigned.
 fn bit_field(scope: &Scope<'_>, position: u32) -> Option<NamedType> {
     let Shape::BitField { base, .. } = &scope.types.get(position as usize)?.shape else { return None };
     NamedType::with_base(Type::Unsigned(u8::try_from(scope.base(*base).bits()?).ok()?))
 }
 
-/// Returns the conditions under which bits of the type at this position have a meaning.
+/// Returns the views of the bit field at `position`: one view for each condition under which some of its bits have a
+/// meaning.
 fn views(scope: &Scope<'_>, handles: &HandleNames<'_>, position: u32) -> Vec<View> {
     let Shape::BitField { fields, .. } = &scope.types[position as usize].shape else { return Vec::new() };
     let mut views: Vec<View> = Vec::new();

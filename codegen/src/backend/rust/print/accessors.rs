@@ -1,4 +1,4 @@
-//! Prints the type of a device. The type has a method for each value and each request.
+//! Prints the Rust type of a device, which has a method for each value and each request.
 
 use super::objects::access;
 use crate::backend::rust::code::{call, generic, line, open, seq, Code};
@@ -17,8 +17,8 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     methods(code, model);
 }
 
-/// Returns the type parameter after the client. The parameter exists if the device's type tracks which selecting
-/// request was sent last.
+/// Returns the second type parameter of the device type, after that of the client. The parameter exists if the device's
+/// type tracks which selecting request was sent last.
 pub(super) fn selected(model: &Model) -> &'static str {
     if model.selects() {
         ", S"

@@ -58,7 +58,7 @@ fn unpack(code: &mut Code, image: &ImageModel) {
     for (left, field) in (0..image.fields.len()).rev().zip(&image.fields) {
         let bytes = call!(seq!["&rt::bits::get_bytes::<", field.length, ">"], "data", field.bit);
         let value = call!(seq!["super::pdo::", field.pdo, "::unpack"], bytes);
-        // The last comma may exceed the maximum line width.
+        // In the last line of the struct literal, the comma may exceed the maximum line width.
         let end = (left == 0).then_some(Stop);
         line!(code, field.name, ": ", value, "?", end, ",");
     }

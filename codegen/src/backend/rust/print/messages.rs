@@ -145,7 +145,7 @@ fn received(arm: &Arm) -> Doc {
     call!(generic!("rt::message::read::", arm.message, "E"), "request", "reply")
 }
 
-/// Returns the lifetime argument of a type that borrows from the data.
+/// Returns the lifetime argument of a message type that borrows from the data, or an empty text.
 fn lifetime(data: &DataModel) -> &'static str {
     if data.borrows {
         "<'a>"

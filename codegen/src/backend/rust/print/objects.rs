@@ -106,8 +106,8 @@ pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &
     if model.has_accessors {
         code.doc(&format!("Accessors of the entries of {}", object.heading));
         open!(code, "pub struct Accessors<'c, C> {");
-        // Methods of the device call the constructor. If the file has several devices, methods of any device may call
-        // the constructor.
+        // Methods of the device create the accessors, so the field must be visible in the device's module. If the file
+        // has several devices, methods of any device may create the accessors.
         let users = if model.is_one_of_several { "super::super::super" } else { "super::super" };
         line!(code, "pub(in ", users, ") client: &'c mut C,");
         code.close("}");

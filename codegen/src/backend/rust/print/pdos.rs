@@ -108,7 +108,7 @@ fn configuration(code: &mut Code, pdo: &PdoModel) {
     code.close("}");
 }
 
-/// Writes a constant that fails to compile unless unpacking and packing return the same bits.
+/// Writes a constant that fails to compile unless packing an unpacked PDO returns the original bits.
 fn proof(code: &mut Code, pdo: &PdoModel) {
     open!(code, "const _: () = {");
     line!(code, "let word = ", pdo.covered, ";");

@@ -1,4 +1,4 @@
-//! Prints PROFINET devices.
+//! Prints the code for PROFINET devices.
 
 mod diagnosis;
 mod image;

@@ -1,14 +1,14 @@
-//! Prints the modules that contain definitions.
+//! Prints the Rust modules that contain the definitions of a device.
 
 use crate::backend::rust::code::{line, Code, Data};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::reexport::{Reexport, Section};
 
 /// Writes a section of a device: re-exports of definitions in earlier devices, and new definitions. Writes nothing if
-/// there are no definitions.
+/// the section has neither re-exports nor definitions.
 ///
-/// `names_runtime` states whether the code of new definitions names the runtime. The value is `None` if there are no
-/// new definitions.
+/// `names_runtime` states whether the code of new definitions contains a path into the runtime crate. The value is
+/// `None` if the section has no new definitions.
 pub(super) fn write(
     code: &mut Code,
     model: &Model,

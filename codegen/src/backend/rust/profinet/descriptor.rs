@@ -143,7 +143,7 @@ pub(super) fn module<'s>(scope: &'s Scope<'_>, module: &'s Module, name: &'s str
 pub(in crate::backend::rust) struct DapModel<'a> {
     pub name: &'a str,
     pub docs: Vec<String>,
-    /// Heading of the device access point in comments.
+    /// Heading of the device access point in generated comments.
     pub heading: String,
     pub vendor_id: u16,
     pub device_id: u16,

@@ -22,7 +22,8 @@ const EXTENDED: &str = "extended_channel_diagnosis";
 /// Key of a channel error: the application process (API) whose profile defines it, and the error type.
 type Key = (u32, u16);
 
-/// Returns the channel errors in the description as elements of a table. Each error is listed once.
+/// Returns the channel errors in the description as elements of a table. The list contains each channel error only
+/// once.
 pub(super) fn channel_errors(catalog: &Catalog) -> Vec<Doc> {
     let rows = |name: &'static str| {
         catalog.code_tables.iter().filter(move |table| table.name == name).flat_map(|table| &table.rows)
@@ -39,7 +40,7 @@ pub(super) fn channel_errors(catalog: &Catalog) -> Vec<Doc> {
             errors.entry((api, parent)).or_default().1.entry(code).or_insert(row);
         }
     }
-    // The extended errors of a profile can belong to an error that only the standard API defines.
+    // Extended errors of a profile can extend a channel error that only the standard API (API 0) defines.
     let of_all = |code: u16| errors.get(&(0, code)).and_then(|(row, _)| *row);
     errors.iter().map(|(key, (row, extended))| error(*key, row.or(of_all(key.1)), extended)).collect()
 }

@@ -35,7 +35,7 @@ pub(super) fn bytes(count: u32) -> String {
     format!("{count} byte{}", if count == 1 { "" } else { "s" })
 }
 
-/// Returns a value as text.
+/// Returns a value as text for documentation.
 pub(super) fn value(value: &Value) -> String {
     const SHOWN: usize = 60;
     let text = value.to_string();

@@ -30,8 +30,8 @@ const PARAMETERS: [(&str, &str, &str); 12] = [
     ("F_iPar_CRC", "i_par_crc", "IParCrc"),
 ];
 
-/// GSDML labels of values, with their numbers in the record. The only label of the seed means that its bit is cleared.
-/// The checksums of vendors over their defaults confirm this.
+/// GSDML labels of values, with their numbers in the record. `CRC-Seed24/32` is the only label of F_CRC_Seed and means
+/// that its bit is 0. The checksums over the default values in vendor files confirm this value.
 const LABELS: [(&str, u32); 12] = [
     ("NoCheck", 0),
     ("Check", 1),
@@ -94,7 +94,7 @@ fn literal(field: &str, value: u32) -> String {
     }
 }
 
-/// Returns the allowed values of a parameter. Returns `None` if all values are allowed.
+/// Returns the allowed values of an F-parameter. Returns `None` if all values are allowed.
 fn limit(parameter: &FParameter, variant: &str) -> Option<Doc> {
     let default = number(parameter);
     let mut list: Vec<(u32, u32)> = parameter

@@ -6,11 +6,11 @@ use crate::backend::rust::code::{call, seq, Doc};
 use crate::backend::rust::value_type::native;
 use crate::ir::{TimeFormat, Type, TypeDef};
 
-/// Number of bits in a word. Only byte strings may be longer.
+/// Number of bits in a word. Only byte strings may be longer than a word.
 const WORD: u32 = 64;
 
-/// Position of a field's bits. If a field is in several bytes without filling them, it is a part of the big-endian
-/// number in these bytes.
+/// Position of a field's bits. If a field extends over several bytes without filling them, the field is a part of the
+/// big-endian number in these bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct FieldPosition {
     pub byte: u32,
@@ -20,7 +20,7 @@ pub(super) struct FieldPosition {
 }
 
 impl FieldPosition {
-    /// Returns the position of `bits` bits at bit offset `offset`. Returns `None` if they exceed `length` bytes.
+    /// Returns the position of `bits` bits at bit offset `offset`. Returns `None` if the bits end after `length` bytes.
     pub(super) fn within(length: u32, offset: u32, bits: u32) -> Option<Self> {
         let position = FieldPosition { byte: offset / 8, bit: offset % 8, bits };
         let last_bit = (position.bit + 8).checked_add(bits)?;
@@ -60,12 +60,13 @@ enum FieldKind {
     Native {
         signed: bool,
     },
-    /// Any other integer of up to 64 bits.
+    /// An integer of up to 64 bits that has no primitive type or does not fill whole bytes.
     Number {
         signed: bool,
     },
     Real,
-    /// A runtime type that consists of six bytes. The text is the name of its conversion functions.
+    /// A time type of the runtime that consists of six bytes. The text is the name of the functions that convert the
+    /// type.
     Time(&'static str),
     Bytes,
 }
@@ -73,9 +74,11 @@ enum FieldKind {
 /// Purpose of the struct that contains a field. The purpose determines the Rust types of integers with unusual widths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Use {
-    /// In an image, which is written without checks. The types can only hold valid values.
+    /// The struct is an image of cyclic data, which is written without checks. The types of fields can hold only valid
+    /// values.
     Image,
-    /// In a record, which is checked before it is written. The types are primitive integers.
+    /// The struct is a record, whose values are checked before the record is written. Integer fields have primitive
+    /// types.
     Record,
 }
 
@@ -136,7 +139,7 @@ impl<'v> Field<'v> {
         }
     }
 
-    /// Returns the primitive integer that holds the value. For an enumeration, it holds the raw value.
+    /// Returns the primitive integer that holds the value of the field, or the raw value of an enumeration.
     pub(super) fn native(&self) -> &'static str {
         match self.enumeration {
             Some(enumeration) => enumeration.native,

@@ -9,10 +9,10 @@ use crate::backend::rust::doc_table;
 use crate::ir::{Direction, IoData, PdoEntry, PdoEntryKind, Submodule};
 use crate::names::{self, Case, NameRequest};
 
-/// Maximum length of a field's name. A limit keeps the lines that read and write the field short.
+/// Maximum length of a field's name. The limit keeps the generated lines that read and write the field short.
 const MAX_FIELD_NAME: usize = 30;
 
-/// Names that fields must not have.
+/// Names that fields must not have: keywords, and methods of the struct or of all types.
 const RESERVED: [&str; 8] = ["self", "super", "crate", "new", "view", "clone", "into", "try_into"];
 
 /// The cyclic data of a submodule in one direction, ready to be printed.
@@ -30,7 +30,7 @@ pub(in crate::backend::rust) struct ImageModel {
     pub fields: Vec<FieldModel>,
 }
 
-/// A field of a struct.
+/// A field of a struct for cyclic data or a record.
 pub(in crate::backend::rust) struct FieldModel {
     pub name: String,
     pub docs: Vec<String>,
@@ -40,7 +40,7 @@ pub(in crate::backend::rust) struct FieldModel {
     pub ty: String,
     /// True if the type is an enumeration.
     pub is_enumeration: bool,
-    /// Attribute of the field.
+    /// Attribute of the field that derived traits require.
     pub attribute: Option<String>,
     /// Expression that reads the field in a view.
     pub get: Doc,
@@ -54,7 +54,7 @@ pub(in crate::backend::rust) struct FieldModel {
     pub constant: &'static str,
 }
 
-/// Returns the inputs or outputs of `submodule`. Returns `None` if they have no fields.
+/// Returns the inputs or outputs of `submodule`. Returns `None` if the inputs or outputs have no fields.
 pub(super) fn model(
     submodule: &Submodule,
     direction: Direction,
@@ -161,7 +161,7 @@ impl FieldModel {
         }
     }
 
-    /// Returns the name of the setter.
+    /// Returns the name of the method that sets the field.
     pub(in crate::backend::rust) fn setter(&self) -> String {
         names::prefixed("set_", &self.name)
     }

@@ -1,4 +1,5 @@
-//! PROFINET devices: submodules, parameter records, diagnosis, and constants with which a program plans slots.
+//! PROFINET devices: submodules, parameter records, diagnosis, and constants with which a program plans the modules in
+//! slots.
 //!
 //! The device access points of a file share modules and submodules. No code is generated for modules and submodules
 //! that fit none of the device access points.
@@ -29,7 +30,8 @@ pub(super) use values::Enumeration;
 /// All device access points of a file, ready to be printed.
 pub(super) struct FileModel<'a> {
     pub access_points: Vec<DapModel<'a>>,
-    /// True if the file has a single device access point. If so, its content is at the top level of the output.
+    /// True if the file has a single device access point. The content of a single device access point is at the top
+    /// level of the output.
     pub is_single: bool,
     pub modules: Vec<ModuleModel<'a>>,
     pub submodules: Vec<SubmoduleModel<'a>>,
@@ -40,7 +42,8 @@ pub(super) struct FileModel<'a> {
     pub units: Vec<UnitModel>,
 }
 
-/// Returns the Rust module for all device access points of `catalog`. Returns `None` if there are none.
+/// Returns the Rust module for all device access points of `catalog`. Returns `None` if `catalog` has no device access
+/// point.
 pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) -> Option<String> {
     let scope = Scope::new(catalog, options);
     if scope.access_points.is_empty() {

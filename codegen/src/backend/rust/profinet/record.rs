@@ -16,13 +16,14 @@ use crate::names::{self, Case, NameRequest};
 use bytes::{default_bytes, value_of};
 use check::{check, ranges};
 
-/// Maximum length of a record's name. A limit keeps the lines that name the record's type short.
+/// Maximum length of a record's name. The limit keeps the generated lines that contain the record's type short.
 const MAX_NAME: usize = 32;
 
 /// Maximum length of a field's name.
 const MAX_FIELD_NAME: usize = 30;
 
-/// Names of constants that all records have.
+/// Names that further constants of a record must not have: keywords, and the constants and methods that all records
+/// have.
 const RESERVED_CONSTANTS: [&str; 8] =
     ["self", "super", "crate", "index", "len", "transfer_sequence", "default", "default_bytes"];
 
@@ -41,7 +42,7 @@ pub(in crate::backend::rust) struct RecordModel {
     pub fields: Vec<FieldModel>,
     /// Default values of the changeable fields.
     pub defaults: Vec<Doc>,
-    /// Fields that cannot be changed.
+    /// Fields that users cannot change, and which become constants.
     pub constants: Vec<ConstantModel>,
     /// Statements that check the values of the fields.
     pub checks: Vec<Doc>,

@@ -42,7 +42,8 @@ impl<'a> Scope<'a> {
         Scope { catalog, options, access_points, modules, submodules, values }
     }
 
-    /// Returns whether the file has a single device access point. If so, its content is at the top level of the output.
+    /// Returns whether the file has a single device access point. The content of a single device access point is at the
+    /// top level of the output.
     pub(super) fn is_single(&self) -> bool {
         self.access_points.len() == 1
     }
@@ -109,7 +110,7 @@ fn submodules<'a>(
 }
 
 /// Returns the suffix that distinguishes elements with the same name. The suffix consists of the letters and digits of
-/// the description's ID, or is the ident number.
+/// the element's ID in the description, or is the ident number.
 fn identifier(id: &str, ident: u32, position: usize) -> String {
     let words = id.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let words: Vec<&str> = words.collect();

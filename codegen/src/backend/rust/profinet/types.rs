@@ -3,7 +3,7 @@
 use super::docs;
 use crate::ir::{Scale, Shape, TimeFormat, Type, TypeDef};
 
-/// Maximum length of a chain of type names. Longer chains are treated as cycles.
+/// Maximum number of type names in a chain of definitions. A longer chain is treated as a cycle.
 const DEPTH: usize = 16;
 
 /// Returns the basic type of `ty`. If `ty` is an enumeration, also returns its position.

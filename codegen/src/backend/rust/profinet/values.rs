@@ -11,11 +11,11 @@ use crate::backend::rust::value_type::native;
 use crate::ir::{EnumValue, Shape, Type, TypeDef};
 use crate::names::{self, Case, NameRequest};
 
-/// Names that variants must not have: `Self`, and the variant for unlisted values.
+/// Names that variants must not have: the keyword `Self`, and `Unknown`, the variant for unlisted values.
 const RESERVED_VARIANTS: [&str; 2] = ["Self", "Unknown"];
 
-/// Names that enumerations must not have. These are prelude names in generated code, and a name that would make clippy
-/// mistake a method for a constructor.
+/// Names that enumerations must not have. The generated code uses these names of the prelude, or clippy would mistake a
+/// method for a constructor.
 const RESERVED_TYPES: [&str; 8] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "FromRaw"];
 
 /// The enumerations of a catalog that generated code uses.
@@ -85,8 +85,8 @@ impl<'a> Values<'a> {
     }
 }
 
-/// Returns the base type of an enumeration and the values that fit in it, without repetitions. Ranges of values do not
-/// become variants.
+/// Returns the base type of an enumeration and the values that fit in it, without repetitions. A range of values does
+/// not become a variant.
 fn listed<'a>(types: &[TypeDef], definition: &'a TypeDef) -> Option<(Type, Vec<&'a EnumValue>)> {
     let Shape::Enumeration { base, values, .. } = &definition.shape else { return None };
     let base = match resolve(types, *base).0 {

@@ -22,7 +22,7 @@ pub(super) fn default_bytes(record: &Record, parameters: &[Parameter<'_>]) -> Ve
     bytes
 }
 
-/// Copies `data` to `bytes` at `offset`. Data beyond the end is ignored.
+/// Copies `data` to `bytes` at `offset`. Data beyond the end of `bytes` is ignored.
 fn put(bytes: &mut [u8], offset: u32, data: &[u8]) {
     for (to, from) in bytes.iter_mut().skip(offset as usize).zip(data) {
         *to = *from;
@@ -56,8 +56,8 @@ fn put_default(bytes: &mut [u8], field: &Field<'_>, default: &Value) {
     }
 }
 
-/// Returns the byte position and the mask of bit `at` in a big-endian number. `first` is the first byte of the number,
-/// and `end` is its number of bits.
+/// Returns the byte position and the mask of bit `at` in a big-endian number. `first` is the position of the first byte
+/// of the number, and `end` is the number of bits in the number.
 fn bit_of(first: u32, end: u32, at: u32) -> (usize, u8) {
     let last = first + (end - 1) / 8;
     ((last - at / 8) as usize, 1 << (at % 8))

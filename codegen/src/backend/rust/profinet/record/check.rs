@@ -17,7 +17,8 @@ pub(super) fn ranges(limits: &Limits) -> Vec<(Option<Value>, Option<Value>)> {
     }
 }
 
-/// Returns a statement that checks a field. Returns `None` if all values or no values of its type are allowed.
+/// Returns a statement that checks a field. Returns `None` if all values of the field's type are allowed, or none of
+/// them.
 pub(super) fn check(parameter: &Parameter<'_>, name: &str) -> Option<Doc> {
     let Parameter { item, field } = parameter;
     let allowed = ranges(&item.limits);
