@@ -44,15 +44,15 @@ lexibus() {
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
     measure lexibus
 }
-# Measures the compiler with only the features $2, under the name $1.
+# Measures the build time of the compiler with the features $2 and no others. The output contains the label $1.
 lexibus-with() {
     crate "$1" "lexibus-codegen = { path = \"$root/codegen\", default-features = false, features = [$2] }" \
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
     measure "$1"
 }
-# Measures the compiler for EDS with overlays.
+# Measures the build time of the compiler with the features for EDS and overlays.
 lexibus-eds-table() { lexibus-with lexibus-eds-table '"eds", "table"'; }
-# Measures the compiler for EDS alone.
+# Measures the build time of the compiler with only the feature for EDS.
 lexibus-eds() { lexibus-with lexibus-eds '"eds"'; }
 prost-build() {
     crate prost-build 'prost-build = "0.14"' 'fn main() { let _ = prost_build::Config::new(); }'

@@ -2,8 +2,8 @@
 # Measures how long rustc needs per entry of generated bindings: benches/compile-time.sh [DESCRIPTION [RUNS]]
 #
 # If no description is given, the script creates an EDS with 9,999 entries. The script then prints the median time of
-# RUNS runs of `rustc --emit=metadata`, minus the time for an empty crate. The bindings contain only handles, then also
-# accessors, and then also PDO structs.
+# RUNS runs of `rustc --emit=metadata`, minus the time for an empty crate. The script measures bindings with handles
+# only, with handles and accessors, and with handles, accessors and PDO structs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD

@@ -12,7 +12,7 @@ export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}/entry-points CARGO_INC
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Use the same input as the other measurements.
+# Create the EDS with the same generator as the benchmarks in codegen/benches.
 printf '#[allow(dead_code)] #[path = "%s/codegen/benches/inputs/eds.rs"] mod inputs;\n' "$root" > "$work/eds.rs"
 echo 'fn main() { print!("{}", inputs::eds(std::env::args().nth(1).unwrap().parse().unwrap())) }' >> "$work/eds.rs"
 rustc --edition 2021 -O -o "$work/eds" "$work/eds.rs"

@@ -1,4 +1,4 @@
-//! Tests all methods of an accessor with a minimal client of twenty lines.
+//! Tests all methods of a generated accessor with a minimal client of twenty lines.
 
 use std::collections::HashMap;
 

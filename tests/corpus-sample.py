@@ -36,15 +36,15 @@ CORPUS = ROOT.parent / "shared" / "corpus"
 LIST = ROOT / "tests" / "corpus-sample.txt"
 NOT_DESCRIPTIONS = {"MANIFEST.tsv", "oracle.json"}
 MINIMUM = {"eds": 12, "esi": 8, "gsdml": 8}
-# Maximum size in bytes. Only the full tests read larger files, because a debug build needs longer for one large file than for ten
-# small ones.
+# Maximum size in bytes of a file in the sample. Only the full lane reads larger files, because a debug build needs longer for one
+# large file than for ten small ones.
 SIZE_LIMIT = 250_000
 # Number of bytes that is added to the size of each file, so that the script prefers a medium-sized file to many tiny ones.
 FILE_COST = 50_000
 
 # Family of each format. The formats of a family share a front end or a part of the intermediate representation.
 FAMILIES = {"eds": "canopen", "dcf": "canopen", "xdd": "canopen", "esi": "ethercat", "gsdml": "profinet"}
-# Keys that are not read, because their values are positions or free text.
+# Keys of the intermediate representation that the script ignores, because their values are positions or free text.
 IGNORED = {"at", "documentation", "doubts", "extensions", "files", "header", "name_at", "names", "origin", "span", "step_spans",
            "translations", "units"}
 # Keys whose text is the name of an enumeration variant. The text of other keys is data.
@@ -56,9 +56,10 @@ TYPES = {"ty", "element", "alias", "base"}
 WIDTHS = {1, 8, 16, 24, 32, 64}
 KEYS = 5
 
-# Regular expressions for the forms of the rows of QUIRKS.md. They ignore case; `^` and `$` match the start and end of a line.
-# Not in this table: rows with a diagnostic code, rows that the encoding or the intermediate representation shows (E52, E84, X25,
-# G01), and rows that no regular expression recognizes (E38, E79, X26, X29).
+# Regular expressions that find the notations described in the rows of QUIRKS.md. Matching ignores case; `^` and `$` match the
+# start and end of a line. This table does not contain rows with a diagnostic code, rows that the script recognizes by the
+# encoding or the intermediate representation (E52, E84, X25, G01), and rows that no regular expression recognizes (E38, E79, X26,
+# X29).
 SECTION = r"^\[[0-9a-f]{4}(?:sub[0-9a-f]+)?\].*\n"
 NONZERO = r" *= *0*(x0*)?[1-9a-f]"
 QUIRKS = {

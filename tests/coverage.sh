@@ -5,13 +5,14 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export CARGO_INCREMENTAL=0 LEXIBUS_LANE=full
-# All programs that the tests start share four profile files. Otherwise, the programs would write thousands of files.
+# All programs that the tests start share four profile files. With one profile file per process, the programs would write
+# thousands of files.
 export LLVM_PROFILE_FILE_NAME='lexibus-%4m.profraw'
 python=${LEXIBUS_PYTHON:-$PWD/target/python/bin/python}
 if "$python" -c 'import canopen, lxml' 2>/dev/null; then export LEXIBUS_PYTHON=$python; fi
 
-# Skip tests that compile other crates or that measure size, instructions or messages. Coverage counters would change their
-# results.
+# Skip tests that compile other crates or that measure size, instructions or messages. Coverage counters would change the
+# results of such tests.
 cargo llvm-cov test --no-report --workspace --all-features --no-fail-fast -- \
     --skip compile_fail --skip generated_code_costs --skip what_is_not_used --skip both_programs
 

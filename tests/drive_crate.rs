@@ -47,7 +47,7 @@ fn a_users_crate_compiles_and_its_tests_pass() {
     assert!(out.contains("6 passed"), "{out}");
 }
 
-/// Creates a crate with these files. The crate depends on the runtime with all features that the macro can use.
+/// Creates a crate that consists of `files`. The crate depends on the runtime with all features that the macro can use.
 fn crate_of(name: &str, files: &[(&str, &str)]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&folder);

@@ -1,5 +1,5 @@
 //! Tests the Eco's bindings on CANopen and EtherCAT against the manual: requests, scales and PDOs of its examples.
-//! Quotation marks enclose titles of the manual's sections. `frames` contains the tests for Modbus.
+//! Quotation marks enclose titles of the manual's sections. The test program `frames` contains the tests for Modbus.
 
 #[path = "support/can_script.rs"]
 mod can_script;
@@ -115,7 +115,8 @@ fn saving_and_guarding() {
     let key = [0x23, 0x10, 0x10, 1, 0x73, 0x61, 0x76, 0x65];
     writes(store_parameter_field::SAVE_ALL_PARAMETERS, StoreParameters::Save, key);
     commands(&[0x0006]);
-    // Section "Abilitazione e disabilitazione del servizio node guarding". Guarding is disabled if both times are 0.
+    // Section "Abilitazione e disabilitazione del servizio node guarding". Node guarding is disabled if the guard time
+    // and the life time factor are 0.
     writes(objects::GUARD_TIME, 500, [0x2B, 0x0C, 0x10, 0, 0xF4, 0x01, 0, 0]);
     writes(objects::LIFE_TIME_FACTOR, 2, [0x2F, 0x0D, 0x10, 0, 2, 0, 0, 0]);
     writes(objects::GUARD_TIME, 0, [0x2B, 0x0C, 0x10, 0, 0, 0, 0, 0]);
@@ -126,7 +127,7 @@ fn saving_and_guarding() {
 fn interpolator() {
     // Section "Modo interpolatore". The statusword is mapped at sub-index 2, but the manual prints sub-index 1.
     writes(interpolation_time_period::IP_TIME_UNITS, 1, [0x2F, 0xC2, 0x60, 1, 1, 0, 0, 0]);
-    // This is the default COB-ID for node 1. The example sets it in all nodes that share the PDO.
+    // 513 is the default COB-ID of RPDO 1 for node 1. The example sets this COB-ID in all nodes that share the PDO.
     let of_node_1 = ReceivePdoIdentifier::from_raw(513);
     writes(rpdo::COB_ID_OF_RPDO_1, of_node_1, [0x23, 0x00, 0x14, 1, 0x01, 0x02, 0, 0]);
     assert_eq!((of_node_1.identifier(), of_node_1.valid(), of_node_1.extended()), (0x201, true, false));
@@ -187,7 +188,7 @@ fn sends(procedure: &[SdoWrite], listed: Listed<'_>) {
 #[test]
 fn procedures_send_what_the_manual_lists() {
     let words = |all: &[u32]| all.iter().map(|word| (0x6040, 0, 16, *word)).collect::<Vec<_>>();
-    // Section "Modo Homing". The sequence is the same in the other examples.
+    // Section "Modo Homing". The other examples of the manual print the same sequence.
     sends(&procedures::ENABLE, &words(&[0, 0x80, 0, 6, 7, 0xF]));
     // Sections "Disabilitazione del drive" and "Salvataggio".
     sends(&procedures::DISABLE, &words(&[2]));
@@ -260,8 +261,8 @@ fn parameters_by_the_window_of_eight_bits() {
     drive_parameters_settings::PARAMETER_READ_ADDRESS.at(&mut own).write(1).expect("written");
     while read(&mut own, drive_parameters_settings::PARAMETER_READ_ADDRESS).expect("read") != 0 {}
     assert_eq!(read(&mut own, drive_parameters_settings::PARAMETER_READ_VALUE), Ok(80));
-    // Sections "Scrittura parametri drive" and "Esempio completo di asse gestito con interpolatore". The value is
-    // written before the address.
+    // Sections "Scrittura parametri drive" and "Esempio completo di asse gestito con interpolatore". The manual writes
+    // the value before the address.
     for (address, value) in [(2, 40), (1, 80), (2, 20)] {
         let mut own = node(&[
             confirmed([0x2F, 0x00, 0x20, 2, value, 0, 0, 0]),
@@ -273,7 +274,7 @@ fn parameters_by_the_window_of_eight_bits() {
 }
 
 /// Tests the objects 0x2005 and 0x2006. These objects give access to parameters by number, and to registers from
-/// address 0x8000. Reads and writes wait for 3 ms and do not poll the acknowledgement.
+/// address 0x8000. Instead of polling the acknowledgement, reads and writes wait for 3 ms.
 #[test]
 fn parameters_and_registers_by_the_window_of_32_bits() -> Answer<()> {
     let mut waited = Vec::new();
@@ -303,7 +304,7 @@ fn parameters_and_registers_by_the_window_of_32_bits() -> Answer<()> {
     Ok(())
 }
 
-/// Tests direct access to the objects 0x2005 and 0x2006. The test polls their acknowledgement.
+/// Tests direct access to the objects 0x2005 and 0x2006. The test polls the acknowledgement in these objects.
 #[test]
 fn the_window_of_32_bits_with_its_acknowledgement() -> Answer<()> {
     let address = |index, number| ([0x40, index, 0x20, 1, 0, 0, 0, 0], [0x4B, index, 0x20, 1, number, 0, 0, 0]);

@@ -1,6 +1,6 @@
-//! Tests the Eco on two buses with the manual's example of a positioner: configuration, homing, positioning. The same
-//! generated code must send the bytes in "Esempio di configurazione dell'asse" on Modbus, and those in "Esempio
-//! posizionamento punto a punto" on PROFINET.
+//! Tests the bindings of the Eco drive on two buses with the manual's example of a positioner: configuration, homing,
+//! positioning. The same generated code must send the bytes in "Esempio di configurazione dell'asse" on Modbus, and
+//! those in "Esempio posizionamento punto a punto" on PROFINET.
 
 use std::convert::Infallible;
 use std::time::Duration;
@@ -44,7 +44,7 @@ macro_rules! configure_home_position {
     }};
 }
 
-/// A simulated drive on Modbus. It records write requests (function 16) without the CRC.
+/// A simulated drive on Modbus. The simulated drive records write requests (function 16) without the CRC.
 #[derive(Default)]
 struct Serial {
     frames: Vec<String>,
@@ -116,7 +116,7 @@ fn on_modbus() -> Outcome<()> {
     Ok(())
 }
 
-/// Saves all parameters by writing registers. Disables the torque first, as the manual requires.
+/// Saves all parameters by writing registers. Disables the torque before saving, as the manual requires.
 macro_rules! save {
     ($client:expr) => {{
         let client = $client;
@@ -150,18 +150,18 @@ fn saving_by_an_address_on_modbus() -> Outcome<()> {
     let refused = Err(Error::OutOfRange(OutOfRange));
     assert_eq!(objects::SAVE_TO_FLASH.at(&mut drive).write(0x0012), refused);
     assert_eq!(objects::SAVE_TO_FLASH_32.at(&mut drive).write(0), refused);
-    // A write of one register also uses function 16 here. `frames` tests function 6.
+    // In this test, a write of one register also uses function 16. The test program `frames` tests function 6.
     let printed =
         ["01 10 80 00 00 02 04 00 00 00 00", "01 10 38 02 00 01 02 00 11", "01 10 38 02 00 02 04 00 00 00 11"];
     assert_eq!(drive.frames, printed);
     Ok(())
 }
 
-/// A simulated drive on PROFINET. It records the byte offset and the content of each changed field.
+/// A simulated drive on PROFINET. The simulated drive records the byte offset and the content of each changed field.
 struct Cyclically {
     before: [u8; 32],
     changes: Vec<(usize, String)>,
-    /// The number and the value in the window for each cycle in which one of these two fields changed.
+    /// The item number and the value in the window, for each cycle in which one of these two fields changed.
     pairs: Vec<String>,
 }
 
@@ -189,7 +189,8 @@ impl ImageClient for Cyclically {
             self.pairs.push(hex(&outputs[26..32]));
         }
         self.before.copy_from_slice(&outputs[..32]);
-        // Homing is completed as soon as it is started, and in positioner mode. Bytes 3 to 6 are the actual position.
+        // The simulated drive reports completed homing as soon as homing is started, and in positioner mode. Bytes 3 to
+        // 6 are the actual position.
         let done = if self.before[1] == 0x43 || self.before[2] == 1 { 0x40 } else { 0 };
         inputs[..2].copy_from_slice(&[0, done]);
         inputs[3..7].copy_from_slice(&6000_i32.to_be_bytes());
@@ -210,8 +211,8 @@ fn cyclically() -> Cyclic<Cyclically, [u8; 33], [u8; 33]> {
     Cyclic::new(drive, place(), outputs, [0; 33])
 }
 
-/// Saves by writing registers through the process image. The section "Registri" lists the mode for saving for all
-/// buses, but the manual prints no example for PROFINET.
+/// Tests saving all parameters by writing registers through the process image. The section "Registri" lists the mode
+/// for saving for all buses, but the manual prints no example for PROFINET.
 #[test]
 fn saving_by_registers_on_profinet() -> Outcome<()> {
     let mut drive = cyclically();
@@ -257,7 +258,8 @@ fn on_profinet() -> Outcome<()> {
     ];
     let changes = &drive.image().changes;
     assert_eq!(changes.iter().map(|(at, field)| (*at, field.as_str())).collect::<Vec<_>>(), expected);
-    // The number and the value must change in the same cycle. Otherwise, the value would be written to a wrong item.
+    // The item number and the value in the window must change in the same cycle. In different cycles, the drive would
+    // write the value to a wrong item.
     let pairs = [
         "80 02 00 00 00 3C",
         "80 1B 00 00 00 00",
@@ -270,8 +272,8 @@ fn on_profinet() -> Outcome<()> {
     Ok(())
 }
 
-/// Reads parameter d1 and a register without a field through the window of the image (section "Accesso asincrono a
-/// registri e parametri").
+/// Tests reading parameter d1 and a register without a field through the window of the image (section "Accesso
+/// asincrono a registri e parametri").
 #[test]
 fn what_the_image_lacks_is_read_through_its_window() -> Outcome<()> {
     struct Window;

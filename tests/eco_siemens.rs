@@ -1,6 +1,6 @@
-//! Tests the Eco's second Modbus address map. This address map is for Siemens controllers and is an option of the
-//! register table. The manual prints the fields of the requests ("Esempi di utilizzo dei codici funzione"), but not
-//! their bytes.
+//! Tests the second Modbus address map of the Eco drive, which is intended for Siemens controllers. An option of the
+//! register table selects it. The manual prints the fields of the requests ("Esempi di utilizzo dei codici funzione"),
+//! but not their bytes.
 
 use std::convert::Infallible;
 
@@ -8,7 +8,7 @@ use lexibus::modbus::{Limits, RegisterClient};
 use lexibus::{Client, Error, Modbus, Register};
 
 lexibus::dictionary! {
-    /// The Eco with the wire addresses for E3 = 9. A Siemens controller subtracts 1 from each address.
+    /// The Eco with the wire addresses that apply if parameter E3 is 9. A Siemens controller subtracts 1 from each address.
     #[allow(deprecated)]
     pub mod siemens = "dictionaries/eco.toml" { option: "register_base=siemens_plc", option: "parameter_base=siemens_plc" };
 }
@@ -59,7 +59,7 @@ fn the_second_map() -> Result<(), Error<Infallible>> {
     assert_eq!(drive.client().words, [0x0000, 0x03E8]);
     let asked = [(0x9C42, 1), (0xAC41, 2), (0xAC42, 2), (0x9C44, 1), (0xAC4A, 2)];
     assert_eq!(drive.client().asked, asked);
-    // The address for saving is the same in both maps.
+    // The address for saving is the same in both address maps.
     drive.save_to_flash().write(0x0011)?;
     assert_eq!(drive.client().asked.last(), Some(&(0x3802, 1)));
     Ok(())
@@ -69,7 +69,7 @@ fn the_second_map() -> Result<(), Error<Infallible>> {
 /// 0xAC41 with the high word first.
 #[test]
 fn blocks_of_the_second_map() -> Result<(), Error<Infallible>> {
-    // The manual prints this response for the first map.
+    // The manual prints this response in an example for the first address map.
     let mut drive = Probe { registers: vec![0x0014, 0x0032, 0x0032], ..Probe::default() };
     assert_eq!(drive.read_block((objects::D1, objects::D2, objects::D3))?, (20, 50, 50));
     drive.registers = vec![0x0000, 0x0023, 0xFFFF, 0xFFFE];

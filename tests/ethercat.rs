@@ -1,6 +1,6 @@
-//! Tests the code that is generated for EtherCAT. The expected process images and start-up commands were calculated by
-//! hand. The bindings are generated from `data/coupler.esi.xml` (a modular coupler and a servo drive) and
-//! `data/gateway.esi.xml` (slot groups).
+//! Tests the code that is generated for EtherCAT devices: slot plans, start-up commands and process images. The
+//! expected process images and start-up commands were calculated by hand. The bindings are generated from
+//! `data/coupler.esi.xml` (a modular coupler and a servo drive) and `data/gateway.esi.xml` (slot groups).
 
 #![cfg(feature = "macros")]
 
@@ -14,7 +14,7 @@ lexibus::dictionary! {
 }
 
 lexibus::dictionary! {
-    /// Only the drive, with its objects from 0x6000.
+    /// Bindings of the drive only, with its objects from index 0x6000.
     #[allow(deprecated)]
     pub mod drive = "tests/data/coupler.esi.xml" { device: "sv-*@latest", objects: "0x6000..0xFFFF" }
 }
@@ -84,7 +84,7 @@ fn what_does_not_fit_is_refused() {
     let mut plan = plan();
     assert_eq!(plan.plug(4, &modules::do_8::MODULE), Err(PlanError::Taken(4)));
     assert_eq!(plan.plug(32, &modules::do_8::MODULE), Err(PlanError::NoSuchSlot(32)));
-    // The plan has ten bytes of inputs, and this module adds five. The sync manager can have at most twelve.
+    // The plan has ten bytes of inputs, and the module in slot 5 adds five. The sync manager can have at most twelve.
     plan.plug(5, &modules::ai_2::MODULE).unwrap();
     assert_eq!(plan.check(), Err(PlanError::TooLong { sync_manager: 3, bytes: 15, max: 12 }));
     assert_eq!(SlotPlan::<32>::new(&cp_32::DEVICE).unwrap().check(), Err(PlanError::Empty(0)));
@@ -150,9 +150,9 @@ fn indices_grow_with_slot_and_slot_group() {
         (0x9000, 1, &[1]),
         (0x1C12, 0, &[0]),
         (0x1C13, 0, &[0]),
-        // Outputs. The PDO index of a 2-bit module depends on the slot, and its object index on slot and group. The PDO
-        // index of a 4-bit module depends on the group. This PDO maps an object that depends on the group, and an
-        // object of the device.
+        // The first commands are for outputs. The PDO index of a 2-bit module depends on the slot, and its object index
+        // depends on slot and group. The PDO index of a 4-bit module depends on the group. The PDO of a 4-bit module
+        // maps an object that depends on the group, and an object of the device.
         (0x1600, 0, &[0]),
         (0x1600, 1, &[0x02, 1, 0x00, 0x78]),
         (0x1600, 0, &[1]),
@@ -167,8 +167,9 @@ fn indices_grow_with_slot_and_slot_group() {
         (0x1603, 0, &[0]),
         (0x1603, 1, &[0x02, 1, 0x60, 0x80]),
         (0x1603, 0, &[1]),
-        // Inputs. The PDO index of a 2-bit module depends on slot and group, and its object indices depend on the slot.
-        // The PDO index of a 4-bit module depends on the slot, and its object index on slot and group.
+        // The other commands are for inputs. The PDO index of a 2-bit module depends on slot and group, and its object
+        // indices depend on the slot. The PDO index of a 4-bit module depends on the slot, and its object index depends
+        // on slot and group.
         (0x1A20, 0, &[0]),
         (0x1A20, 1, &[0x01, 1, 0x00, 0x60]),
         (0x1A20, 2, &[0x01, 2, 0x00, 0x60]),
@@ -197,7 +198,8 @@ fn indices_grow_with_slot_and_slot_group() {
     let plan = groups();
     assert_eq!(commands(&plan, Transition::PS), expected(&list));
     let offsets = |index| [0, 1, 2, 3].map(|slot| plan.index_offset(slot, index).unwrap());
-    // Offsets of objects in slots 1 and 2. The objects depend on slot and group, only on the group, or on neither.
+    // Index offsets of four objects for the slots. The index of an object depends on slot and group, only on the group,
+    // or on neither.
     assert_eq!(offsets(0x8000)[1..3], [0x810, 0x1040]);
     assert_eq!(offsets(0x9000)[1..3], [0x800, 0x1000]);
     assert_eq!(offsets(0xF210), [0; 4]);

@@ -162,8 +162,8 @@ fn what_the_device_refuses() {
         let message = read(client, 0x5FFF, 0).await.unwrap_err().to_string();
         assert_eq!(message, "the device refused: 0x06020000: the object doesn't exist in the dictionary");
 
-        // The value is longer than the buffer, in a transfer of one message and in a segmented transfer. The next
-        // transfer must succeed.
+        // Values of 20 bytes (one message) and 200 bytes (segmented transfer) are longer than the buffer for reading.
+        // The next transfer must succeed.
         let label = Object { index: 0x2011, sub_index: 0 };
         for length in [20, 200] {
             client.write(label, &vec![b'x'; length]).await.unwrap();
@@ -414,7 +414,7 @@ fn a_lost_mailbox_reply_is_requested_again() {
             lost.set(count);
             assert_eq!(drive.target_position().read_async().await, Ok(100 + count as i32));
         }
-        // A read fails if four replies are lost. The next read must return the right value.
+        // A read fails because four replies are lost. The next read must return the right value.
         lost.set(4);
         assert!(matches!(drive.target_position().read_async().await, Err(Error::Client(_))));
         lost.set(0);
@@ -435,7 +435,7 @@ fn what_goes_wrong_on_the_bus() {
         }
 
         fn write(&mut self, _: u16, _: u8, _: &[u8]) -> Result<(), u32> {
-            // The value is not a standard abort code.
+            // 0x12345678 is not a standard abort code.
             Err(0x1234_5678)
         }
     }

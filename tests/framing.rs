@@ -55,7 +55,7 @@ fn byte_by_byte() {
 fn framings() -> Vec<Delimited> {
     let mut all = Vec::new();
     for check in [Check::None, Check::Xor(0), Check::Sum(7), Check::Lrc(0), Check::Crc16(0xFFFF)] {
-        // A framing XORs escaped bytes with 0, 0xFF or 0x20. One framing has the same start and end byte.
+        // These framings XOR escaped bytes with 0, 0xFF or 0x20. One framing has the same start and end byte.
         let framings = [
             Delimited::new(Some(0x02), 0x03).with_escape(0x10, 0x00, &[0x02, 0x03, 0x10]),
             Delimited::new(Some(0x02), 0x03).with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B]),
@@ -91,8 +91,8 @@ fn special_bytes_at_every_position() {
 
 #[test]
 fn checks_that_have_to_be_escaped() {
-    // The checksum of a single byte is its complement. The checksums of these bytes equal the start, end and escape
-    // bytes.
+    // The checksum of a single data byte is its complement. The checksums of 0xFD, 0xFC and 0xE4 equal the start, end
+    // and escape bytes.
     for (byte, escaped) in [(0xFD, 0xFD), (0xFC, 0xFC), (0xE4, 0xE4)] {
         assert_eq!(encoded(&DRIVE, &[byte]), [0x02, byte, 0x1B, escaped, 0x03]);
         assert_eq!(decoded(&DRIVE, &encoded(&DRIVE, &[byte])), [Ok(vec![byte])]);
@@ -103,11 +103,11 @@ fn checks_that_have_to_be_escaped() {
 fn noise_in_front_and_what_is_cut_off() {
     for (data, frame) in FRAMES {
         for cut in 1..frame.len() {
-            // The end of a frame is noise; a complete frame follows.
+            // The stream consists of the end of a frame, which is noise, and a complete frame.
             let late = [&frame[cut..], frame].concat();
             let found = decoded(&DRIVE, &late);
             assert_eq!(found.last(), Some(&Ok(data.to_vec())), "{late:02X?}");
-            // The start of a frame is followed by a complete frame.
+            // The stream consists of the start of a frame and a complete frame.
             let early = [&frame[..cut], frame].concat();
             let lost = if frame[cut - 1] == 0x1B { FrameError::Escape } else { FrameError::Interrupted };
             assert_eq!(decoded(&DRIVE, &early), [Err(lost), Ok(data.to_vec())], "{early:02X?}");
@@ -159,7 +159,7 @@ fn lengths() {
     assert_eq!(errors, [FrameError::TooLong]);
     for (frame, found) in [
         (&[0x02, 0x03][..], vec![Err(FrameError::TooShort)]),
-        // This frame contains no data.
+        // The next frame contains no data.
         (&[0x02, 0xFF, 0x03], vec![Ok(vec![])]),
         (&[0x02, 0x41, 0x1B, 0x03], vec![Err(FrameError::Escape)]),
         (&[0x02, 0x41, 0x1B, 0x41, 0x03], vec![Err(FrameError::Escape)]),

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Runs the full lane: all tests with the whole corpus. Continues after a failure. At the end, prints a table of results and times.
+# Runs the full lane: all tests with the whole corpus. Continues after a failure. At the end, prints a table with the result and
+# the duration of each part.
 #
 #     tests/full.sh                   # all parts
 #     tests/full.sh clippy browser    # only the given parts

@@ -3,7 +3,7 @@
 //!
 //! `valgrind --tool=callgrind` counts the instructions of the function pairs in `benches/instructions`, in a release
 //! build. The counts are exact and reproducible. `LEXIBUS_LANE=full cargo test --test instructions -- --nocapture`
-//! prints the counts. It also prints the code size of each function if `nm` reports it.
+//! prints the counts. The command also prints the code size of each function if `nm` reports the size.
 
 #[path = "support/lane.rs"]
 mod lane;
@@ -12,11 +12,12 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Pairs whose counts may differ: the value and operation, and the allowed number of additional instructions per call.
+/// Pairs of functions whose counts may differ: value, operation, and allowed number of additional instructions per call.
 const TOLERATED: [(&str, &str, f64); 3] = [
     // Bytes 4 and 5 of the first PDO are stored separately, and LLVM extracts them from a word, not from a field.
     ("several_pdos", "pack", 1.0),
-    // The buffer has 8 bytes for all types. Results and errors have the same location, which costs a jump instruction.
+    // The buffer for values has 8 bytes for all types. Values and errors are returned in the same location, which costs
+    // a jump instruction.
     ("objects", "read", 2.0),
     // The value is converted to an enumeration that names most of its values.
     ("objects", "write_mode", 4.0),

@@ -22,7 +22,7 @@ use now::now;
 
 const NODE: u32 = 5;
 
-/// A simulated hoist. It stores its parameters and refuses heights above 100 m.
+/// A simulated hoist. The simulated hoist stores its parameters and refuses heights above 100 m.
 #[derive(Default)]
 struct Simulated {
     parameters: BTreeMap<u32, Setting>,
@@ -170,7 +170,7 @@ fn several_parameters_in_one_frame() -> Result<(), OutOfRange> {
     assert_eq!(hoist.client().exchange().sent[0], expected);
     let read = hoist.read(Parameter(0x010C)).send().unwrap();
     assert_eq!((read.setting.value_of(&objects::HEIGHT), read.setting.value_of(&objects::GAIN)), (Some(-5), None));
-    // The first request has more settings than the message allows. The second one exceeds the maximum length.
+    // The first request has more settings than the message allows. The second request exceeds the maximum length.
     let many = [settings[0]; 9];
     assert_eq!(hoist.write(&many).send(), Err(Error::OutOfRange(OutOfRange).into()));
     let long = [settings[1]; 7];

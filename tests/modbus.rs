@@ -53,7 +53,7 @@ fn words(device: &Device<Map>, table: lexibus::RegisterTable, address: u16, coun
 fn values_in_registers() {
     let (device, _server, mut inverter) = connected();
     assert_eq!(inverter.speed_setpoint().read().unwrap(), 1500);
-    // These items have the high word first, the low word first, or swapped bytes.
+    // The following items have the high word first, the low word first, or swapped bytes.
     assert_eq!(inverter.distance().read_scaled().unwrap(), 1000.0);
     assert_eq!(inverter.energy().read().unwrap(), 0x1234_5678);
     assert_eq!(inverter.serial_number().read().unwrap(), 0x1122_3344);
@@ -173,7 +173,7 @@ fn runtime() -> tokio::runtime::Runtime {
     tokio::runtime::Builder::new_current_thread().enable_io().build().expect("a runtime")
 }
 
-/// Tests the same requests with asynchronous clients.
+/// Tests asynchronous clients with the requests that the blocking clients send.
 async fn without_blocking(mut inverter: Inverter<ModbusClient<tokio_modbus::client::Context>>, device: &Device<Map>) {
     inverter.distance().write_async(123_456).await.unwrap();
     inverter.mode().write_async(Mode::Position).await.unwrap();

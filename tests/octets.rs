@@ -1,4 +1,5 @@
-//! Tests arrays of more than 32 bytes, for which `serde` does not implement its traits.
+//! Tests `lexibus::octets`, which serializes byte arrays of more than 32 bytes. `serde` implements its traits only for
+//! shorter arrays.
 
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 struct Frame {

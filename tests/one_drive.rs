@@ -1,5 +1,5 @@
-//! Tests a device on all buses. The accessors of `data/one-drive.toml` use objects, windows, registers and a process
-//! image.
+//! Tests the bindings of one device on all buses. The accessors of `data/one-drive.toml` use objects, windows,
+//! registers and a process image.
 
 #![cfg(all(feature = "macros", feature = "std"))]
 

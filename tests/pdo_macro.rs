@@ -4,7 +4,7 @@ use lexibus::{CobId, Int, LengthError, MappedEntry, NodeId, Pdo, SdoWrite, Uint}
 use lexibus_drives::{demo_drive, vector_step};
 use proptest::prelude::*;
 
-/// Generated code for a device whose objects have unusual lengths. Its mapping granularity is one bit.
+/// Generated code for a device whose objects have unusual lengths. The mapping granularity of the device is one bit.
 #[allow(missing_docs)]
 pub mod odd {
     pub mod types {
@@ -81,7 +81,7 @@ pub mod odd {
             const KEPT: &'static [rt::MappedEntry] = &[rt::MappedEntry::new(0x2000, 0, 3)];
         }
 
-        /// A PDO without a default COB-ID. Its COB-ID is read-only.
+        /// A PDO without a default COB-ID, whose COB-ID is read-only.
         pub enum TxPdo2 {}
 
         impl rt::Remappable for TxPdo2 {
@@ -170,7 +170,7 @@ fn configuration_is_disable_clear_map_count_timing_enable() {
         SdoWrite::new_u8(0x1600, 0, 0),
         SdoWrite::new_u32(0x1600, 1, 0x2000_0003),
         SdoWrite::new_u32(0x1600, 2, 0x2001_0001),
-        // These are the dummy entries of 8 bits and 1 bit.
+        // The mapping contains dummy entries of 8 bits and 1 bit.
         SdoWrite::new_u32(0x1600, 3, 0x0005_0008),
         SdoWrite::new_u32(0x1600, 4, 0x2002_0018),
         SdoWrite::new_u32(0x1600, 5, 0x2010_010C),
@@ -291,7 +291,7 @@ proptest! {
     fn frames_of_a_drive_are_read_alike(frame: [u8; 8]) {
         let (own, default) = (SameAsDefault::unpack(&frame).unwrap(), demo_drive::pdo::RxPdo2::unpack(&frame).unwrap());
         prop_assert_eq!((own.controlword, own.target_position), (default.controlword, default.target_position));
-        // Reserved bits must keep their values.
+        // Packing must give the same reserved bits with both structs.
         prop_assert_eq!(own.pack(), default.pack());
     }
 }
@@ -326,7 +326,7 @@ mod ethercat {
         let commands: Vec<SdoWrite> = assignment.commands().collect();
         let at = commands.iter().position(|write| write.object().index == 0x1600).unwrap();
         assert_eq!(commands[at..at + 5], Position::mapping_writes());
-        // The assignment is cleared before the mapping is written, and is written after the mapping.
+        // The commands first clear the PDO assignment, then write the mapping, and then write the assignment.
         assert_eq!(commands[0], SdoWrite::new_u8(0x1C12, 0, 0));
         assert!(commands[at + 5..].contains(&SdoWrite::new_u16(0x1C12, 1, 0x1600)));
         let other = Assignment::<8>::new(&drive::DEVICE, &[0x1601, 0x1A01]).unwrap();
@@ -362,8 +362,8 @@ mod ethercat {
     fn the_limits_are_those_of_the_description() {
         use sensor::remappable::Measurement;
 
-        // The PDO has at most 14 bytes and a fixed entry for the state. Objects of the default mapping can also be
-        // mapped.
+        // The PDO has at most 14 bytes and a fixed entry for the state. Objects of the default mapping can also be part
+        // of a custom mapping.
         assert_eq!(
             (Measurement::MAX_BITS, Measurement::KEPT, Measurement::ENTRIES),
             (112, &[MappedEntry::new(0x6000, 0, 2)][..], 254)

@@ -1,5 +1,5 @@
-//! Tests the code that is generated for PROFINET from the files in `data`. The expected process images and records were
-//! calculated by hand.
+//! Tests the code that is generated for PROFINET from the files in `data`: process images, records, start-up plans and
+//! diagnosis. The expected process images and records were calculated by hand.
 #![cfg(feature = "macros")]
 
 lexibus::dictionary! {
@@ -61,13 +61,13 @@ mod profisafe {
 
     #[test]
     fn parameters_start_from_their_defaults() {
-        // The constants are 5A 01 and EE. Mode 2 in bits 1 to 3 is 0x04, and inversion in bit 7 is 0x80. 1.5 is 3F C0
-        // 00 00. The layout is 7.
+        // The constants are 5A 01 and EE. Mode 2 in bits 1 to 3 is 0x04, and inversion in bit 7 is 0x80. The gain 1.5
+        // is 3F C0 00 00. The last byte contains the layout number 7.
         let default = [0x5A, 0x01, 0x84, 0x3F, 0xC0, 0x00, 0x00, 0xEE, 0x07];
         assert_eq!(InputFilterRecord::DEFAULT_BYTES, default);
         assert_eq!(InputFilterRecord::default().encode(), Ok(default));
         assert_eq!(InputFilterRecord::LAYOUT, 7);
-        // Mode 3 is 0x06, and 10.0 is 41 20 00 00.
+        // Mode 3 in bits 1 to 3 is 0x06, and the gain 10.0 is 41 20 00 00.
         let changed = InputFilterRecord { mode: VMode::Long, invert: false, gain: 10.0 };
         let bytes = [0x5A, 0x01, 0x06, 0x41, 0x20, 0x00, 0x00, 0xEE, 0x07];
         assert_eq!(changed.encode(), Ok(bytes));
@@ -121,7 +121,7 @@ mod profisafe {
         assert_eq!((second.index, second.data), (0x100, &F_PARAMETERS.default_bytes()[..]));
         assert_eq!(records.next(), None);
         // The inputs consist of 3 + 4 bytes with a provider status, a consumer status for the outputs, and one status
-        // each for head, interface and port.
+        // byte each for head, interface and port.
         assert_eq!(plan.lengths(), (8 + 1 + 3, 6 + 1 + 3));
         assert_eq!(safe_inputs::SUBMODULE.input_len, Some(7));
     }
@@ -234,8 +234,8 @@ mod multi_dap {
         basic.plug(1, &modules::input_module::MODULE).unwrap();
         assert_eq!(basic.plug(2, &modules::frame::MODULE), Err(PlanError::ModuleNotAllowed));
         assert_eq!(basic.plug(3, &modules::input_module::MODULE), Err(PlanError::NoSuchSlot));
-        // Head, interface and port have one status each, and 2 bytes of inputs have another one: 3 + 3 bytes. 3 more
-        // bytes exceed the maximum of 8.
+        // The head, interface and port have one status byte each, and the inputs have two bytes and a status byte: 3 +
+        // 3 bytes. Three more bytes exceed the maximum of 8.
         assert_eq!(basic.lengths().0, 6);
         assert_eq!(basic.plug(2, &modules::input_module::MODULE), Err(PlanError::InputsTooLong));
 

@@ -21,7 +21,7 @@ if tests/interop/setup.sh >/dev/null; then
 else
     echo "no Python with canopen, pymodbus, jsonschema and lxml: the tests against them are skipped, and nothing is validated by schema"
 fi
-# If a browser is available, this variable prevents the tests of the site from being skipped.
+# If a browser is available, LEXIBUS_BROWSER makes a skipped browser test an error.
 if cli/tests/browser/setup.sh >/dev/null; then
     echo "export LEXIBUS_BROWSER=required" >>target/programs.env
 else

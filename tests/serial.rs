@@ -31,7 +31,7 @@ fn framed(data: &[u8]) -> Vec<u8> {
 struct Line {
     received: Vec<u8>,
     replies: VecDeque<u8>,
-    /// True if a timeout follows the replies. Otherwise, the end of the stream follows.
+    /// True if a timeout follows the replies. False if the end of the stream follows the replies.
     is_late: bool,
     /// True if each write accepts only a single byte.
     slow: bool,
@@ -294,7 +294,7 @@ fn parameters_are_items() {
         assert_eq!(POSITION.at(&mut drive).read_async().await, Ok(-7));
         assert_eq!(GAIN.at(&mut drive).read_async().await, Ok(-2));
     });
-    // The reply belongs to another request.
+    // The reply in this test belongs to another request.
     let line = SerialLine::<_, _, 64>::new(Line::replying(framed(b"w\x04")), FRAMING);
     let mut drive = Parameters::<_, _, 20>::new(line, Messages);
     assert_eq!(GAIN.at(&mut drive).write(1), Err(Error::UnexpectedReply));

@@ -109,14 +109,15 @@ fn process_data_go_both_ways() {
         write.send(&mut device.client::<CanOpen>()).unwrap();
     }
     device.set(objects::STATUSWORD, status(State::OperationEnabled)).unwrap();
-    // The target position follows the controlword in the PDO. The device stores it before it reacts to the controlword.
+    // The target position follows the controlword in the PDO. The device stores the target position before it reacts to
+    // the controlword.
     let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0x1F), target_position: 250_000 };
     assert_eq!(device.receive_pdo(pdo::RxPdo2::INDEX, &frame.pack()), Ok(()));
     let answer = pdo::TxPdo2::unpack(&device.transmit_pdo(pdo::TxPdo2::INDEX).unwrap()).unwrap();
     assert_eq!(answer.position_actual_value, 250_000);
     assert_eq!(answer.statusword.state(), Some(State::OperationEnabled));
     assert_eq!(device.receive_pdo(pdo::RxPdo2::INDEX, &[0; 5]), Err(AbortCode::TOO_SHORT));
-    // The target exceeds its limit, but the controlword is accepted.
+    // The target position in the PDO exceeds its limit, but the device accepts the controlword.
     let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0), target_position: 1_000_001 };
     assert_eq!(device.receive_pdo(pdo::RxPdo2::INDEX, &frame.pack()), Err(AbortCode::TOO_HIGH));
     assert_eq!(device.get(objects::TARGET_POSITION), Ok(250_000));
@@ -164,7 +165,8 @@ fn a_frame_has_64_bits_on_can_only() {
     let mut client = device.client::<CanOpen>();
     clear.iter().chain(&map).try_for_each(|write| write.send(&mut client)).unwrap();
     assert_eq!(count.send(&mut client), abort(AbortCode::PDO_LENGTH));
-    // EtherCAT has no COB-IDs. Its abort code for writing entries before sub-index 0 differs from CANopen.
+    // EtherCAT has no COB-IDs. On EtherCAT, the abort code for a write of mapping entries before sub-index 0 is cleared
+    // differs from the code on CANopen.
     let mut device = vector();
     let mut client = device.client::<CoE>();
     assert_eq!(map[0].send(&mut client), abort(AbortCode(0x0601_0003)));
@@ -233,7 +235,7 @@ fn every_register_is_read_and_written() {
     let mut device = vector();
     let mut written = 0;
     for entry in vector_step::ENTRIES {
-        // Skip program registers, because they need several requests.
+        // Skip the block of program registers, because reading it needs several requests.
         let Some(register) = entry.register.filter(|register| register.count < 100) else { continue };
         let length = entry.data_type.bits().map_or(2 * usize::from(register.count), |bits| bits.div_ceil(8) as usize);
         let (mut buffer, value) = (vec![0; length], another(entry));
@@ -252,7 +254,7 @@ fn every_register_is_read_and_written() {
         }
         assert_eq!(client.read(register, &mut buffer), Ok(length));
         assert_eq!(buffer[..value.len()], value, "{entry:?}");
-        // The object must have the same value as the register.
+        // The object of an item must have the same value as its register.
         if let Some(object) = entry.object {
             assert_eq!(device.bytes(object).map(|bytes| bytes[0]), Ok(value[0]), "{entry:?}");
         }
@@ -461,7 +463,7 @@ fn process_images_of_ethercat() {
     assert_eq!(device.transmit_image(0x1C13), Ok(vec![0x34, 0x12, 0, 0x56]));
     assert_eq!(device.receive_image(0x1C12, &[0; 3]), Err(AbortCode::TOO_SHORT));
     assert_eq!(device.transmit_image(0x1C14), Err(AbortCode::NO_OBJECT));
-    // The refused value must be unchanged, and the other value must be written.
+    // The device must keep the value whose write it refuses, and must store the other value.
     device.on_any_write(|_, entry| match entry.object {
         Some(Object { index: 0x2000, .. }) => Err(AbortCode::INVALID_VALUE),
         _ => Ok(()),
@@ -691,7 +693,7 @@ mod frames {
         }
         let node = drive.client();
         node.nmt(NmtCommand::Start).unwrap();
-        // TPDO 1 is event-driven. The node sends it when it starts.
+        // TPDO 1 is event-driven. The node sends this TPDO as soon as it enters the state Operational.
         let first = receive(node.port(), 0x185);
         assert_eq!(pdo::TxPdo1::unpack(first.data()).unwrap().statusword.state(), Some(State::OperationEnabled));
         let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0x1F), target_position: -70_000 };

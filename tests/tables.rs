@@ -1,5 +1,5 @@
-//! Tests register tables from the description to the device. The bindings are generated from `data/press.toml`, and
-//! each bus has a simulated client.
+//! Tests the bindings of a register table: which requests the accessors send to the device, and which values they
+//! return. The bindings are generated from `data/press.toml`, and each bus has a simulated client.
 
 #![cfg(feature = "macros")]
 
@@ -187,7 +187,7 @@ fn further_axes() {
     press.axis(1).target_position().write(1).unwrap();
     press.axis(2).target_position().write(2).unwrap();
     press.axis(2).velocity().write(20).unwrap();
-    // All axes have the same gain.
+    // All axes of the press share one gain object (0x200D:1).
     press.axis(2).gain().write(3).unwrap();
     let entries = &press.client().entries;
     assert_eq!(entries[&Object::new(0x607A, 0)], [1, 0, 0, 0]);

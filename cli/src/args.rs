@@ -76,10 +76,11 @@ pub(super) struct Inputs {
     /// Report this diagnostic code as an error.
     #[arg(short = 'D', long = "deny", value_name = "CODE")]
     pub deny: Vec<String>,
-    /// Entries of `allow`, `warn` and `deny` in the order of the command line. The last entry for a code takes precedence.
+    /// The codes in `allow`, `warn` and `deny`, in the order in which the user wrote them. If a code occurs several times, the
+    /// last level applies.
     #[arg(skip)]
     pub levels: Vec<(String, Level)>,
-    /// Additional name for $NODEID in formulas.
+    /// Name that formulas may use for the node-ID instead of $NODEID.
     #[arg(long, value_name = "NAME")]
     pub node_id_alias: Vec<String>,
     /// Set an option that the register table defines; can be repeated.
@@ -166,7 +167,7 @@ pub(super) struct Diff {
 pub(super) enum DiffFormat {
     /// One line per change, followed by a summary.
     Text,
-    /// One JSON object per change and line.
+    /// One line per change, which contains a JSON object.
     Json,
     /// HTML page.
     Html,
@@ -299,9 +300,9 @@ pub(super) struct Export {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum RealForm {
-    /// Decimal numbers, which Python's `canopen` can read.
+    /// Decimal numbers, which Python's `canopen` library can read.
     Decimal,
-    /// IEEE 754 bit patterns in hexadecimal, which the tools of lely can read.
+    /// IEEE 754 bit patterns in hexadecimal, which the Lely CANopen tools can read.
     Hex,
 }
 
@@ -317,7 +318,7 @@ pub(super) enum ExportFormat {
     Gsdml,
 }
 
-/// Parses `KEY=VALUE`.
+/// Parses an argument of the form `KEY=VALUE`.
 fn fact(text: &str) -> Result<(String, String), String> {
     let (key, value) = text.split_once('=').ok_or("expected KEY=VALUE")?;
     Ok((key.trim().to_owned(), value.to_owned()))
@@ -353,7 +354,7 @@ pub(super) struct Import {
     /// File to create, which must not exist; by default, standard output.
     #[arg(short, long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Column that contains a field: FIELD=TITLE or FIELD=#NUMBER, such as reg="Start address"; can be repeated.
+    /// Column to read for a field: FIELD=TITLE or FIELD=#NUMBER, such as reg="Start address"; can be repeated.
     #[arg(long, value_name = "FIELD=COLUMN", value_parser = lexibus_import::mapping)]
     pub map: Vec<(Field, String)>,
     /// Cell delimiter: a character, `tab`, `comma` or `semicolon`; by default, it is detected.
@@ -410,7 +411,8 @@ fn presence(text: &str) -> Result<Presence, String> {
 }
 
 impl Arguments {
-    /// Parses the arguments of this process. `levels` has the order of the command line.
+    /// Parses the arguments of this process. `levels` contains the options `--allow`, `--warn` and `--deny` in the order in
+    /// which the user wrote them.
     pub(super) fn parse_in_order() -> Self {
         let matches = Arguments::command().get_matches();
         let mut arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
@@ -432,7 +434,7 @@ impl Arguments {
 }
 
 impl Inputs {
-    /// Fills `levels` in the order of the command line.
+    /// Fills `levels` with the options `--allow`, `--warn` and `--deny` in the order in which the user wrote them.
     fn order_levels(&mut self, matches: &ArgMatches) {
         let settings = [
             ("allow", &self.allow, Level::Allow),

@@ -41,7 +41,7 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     reporter.finish()
 }
 
-/// Returns an error if the folder contains files but no first page that `lexibus docs` wrote.
+/// Returns an error if the folder contains files, unless one of them is the first page of a site that `lexibus docs` wrote.
 fn foreign(folder: &Path, format: Format) -> Option<String> {
     let names = std::fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.file_name()));
     let first = names.filter(|name| !name.as_encoded_bytes().starts_with(b".")).min()?;

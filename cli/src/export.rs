@@ -64,7 +64,7 @@ impl Format {
     }
 }
 
-/// An exported file, with its device if the file describes only one.
+/// An exported file, with its device if the file describes only one device.
 struct File<'c> {
     device: Option<&'c Device>,
     /// File name that the format requires. `None` means that the name of the input is used.

@@ -27,7 +27,8 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
                 }
                 target.put(|| file_name(input, &compilation), "rs", &text, &mut reporter)
             }
-            // The errors have been reported. If there are several inputs, an input without a device is skipped.
+            // The errors in the input have already been reported. If there are several inputs, an input without a
+            // device is skipped.
             None if !compilation.is_usable() || target.many => Ok(()),
             None => {
                 reporter.error(&format!("{}: {}", input.display(), compile::NOTHING_TO_GENERATE));

@@ -16,7 +16,7 @@ use lexibus_codegen::source::{FileId, Source, Span};
 use super::args::Inputs;
 use super::Failure;
 
-/// Compiles all inputs in parallel. Passes the results to `use_it` in the order of the command line.
+/// Compiles all inputs in parallel. Passes the results to `use_it` in the order of the arguments on the command line.
 pub(super) fn each(
     inputs: &Inputs,
     options: &Options,
@@ -139,7 +139,7 @@ fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
 
 /// Adds the device descriptions in `folder` and its subfolders to the list.
 ///
-/// Each folder is searched only once, because a symbolic link to a parent folder would cause an endless search.
+/// Each folder is searched only once, because a symbolic link to a parent folder would otherwise cause an endless search.
 fn search(
     folder: &Path,
     depth: usize,

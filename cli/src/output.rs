@@ -77,7 +77,8 @@ impl<'g> Target<'g> {
         Ok(())
     }
 
-    /// Returns whether a single input is written to a single file. Details about the content are reported only in this case.
+    /// Returns whether a single input is written to a single file. For such outputs, commands also report details about
+    /// the content of the file.
     pub(super) fn is_one_file(&self) -> bool {
         self.out.is_some() && !self.check && !self.many
     }

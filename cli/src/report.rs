@@ -32,8 +32,8 @@ struct ExportNote<'a> {
 pub(super) struct Reporter {
     format: MessageFormat,
     color: bool,
-    /// Whether diagnostics are the main output of the command. If so, machine-readable formats are printed to standard
-    /// output.
+    /// Whether diagnostics are the main output of the command, so that machine-readable diagnostics are printed to
+    /// standard output.
     is_result: bool,
     errors: usize,
     warnings: usize,
@@ -151,7 +151,8 @@ impl Reporter {
         Ok(())
     }
 
-    /// Collects diagnostics and their source files for SARIF. File identifiers are renumbered.
+    /// Collects diagnostics and their source files for SARIF. Renumbers the file identifiers so that they are unique
+    /// among all inputs.
     fn keep(&mut self, compilation: &Compilation) {
         let shift = self.sources.len() as u32;
         let moved = |span: Span| Span::new(FileId(span.file.0 + shift), span.start, span.end);

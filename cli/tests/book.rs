@@ -176,7 +176,8 @@ fn the_catalogue_of_codes_is_todays() {
     assert!(is_same, "docs/src/lints.md is stale: tests/bindings.sh writes it again");
 }
 
-/// The README must show the output of its first command. The number of lines may differ.
+/// The README must show the output of its first command. In a line that starts with `wrote`, the numbers after the file name
+/// may differ.
 #[test]
 fn the_readme_shows_what_its_first_command_prints() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -302,12 +302,12 @@ fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 #[test]
 fn output_depends_neither_on_the_order_of_files_nor_on_the_number_of_jobs() {
     let folder = folder("order");
-    // Create two input files with the same name. A number distinguishes their outputs.
+    // Create two input files with the same name. The second output must get a number.
     let twin = folder.join("in");
     std::fs::create_dir_all(&twin).expect("a folder");
     let mut files = examples();
     files.push(file(&twin, "demo-drive.eds", QUIRKY));
-    // Facts that ESI requires and files in other formats do not contain.
+    // Facts that an ESI requires and that files in other formats do not contain.
     const FACTS: [&str; 7] =
         ["vendor-id=1", "vendor-name=V", "physics=YY", "product-code=2", "revision=3", "group=G", "order-code=O"];
     for (command, format) in [("generate", ""), ("docs", ""), ("export", "eds"), ("export", "esi"), ("export", "gsdml")]
@@ -416,7 +416,7 @@ fn what_describes_no_device_gives_no_bindings() {
     let generated = lexibus(&["generate", &empty, "--out", &target.to_string_lossy()]);
     assert_eq!((code(&generated), target.exists()), (1, false));
     assert!(err(&generated).contains("describes no device"), "{}", err(&generated));
-    // If there are several inputs, the input without a device is skipped.
+    // If there are several inputs, an input without a device is skipped.
     std::fs::copy(COUPLER, folder.join("coupler.xml")).expect("a copy");
     let all = lexibus(&["generate", &folder.to_string_lossy(), "--out", &format!("{}/", folder.display())]);
     assert_eq!((code(&all), folder.join("coupler.rs").exists()), (0, true), "{}", err(&all));

@@ -15,8 +15,8 @@ fn folder(name: &str) -> PathBuf {
     path
 }
 
-/// Runs a shell command. `$LEXIBUS` is the path of the program. The command is stopped after a minute, because it may wait
-/// for a pipe.
+/// Runs a shell command. `$LEXIBUS` is the path of the program. The command is stopped after a minute, because it might
+/// otherwise wait for a pipe forever.
 fn shell(folder: &Path, script: &str) -> Output {
     let mut child = Command::new("sh")
         .args(["-c", script])

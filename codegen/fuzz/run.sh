@@ -53,8 +53,8 @@ overlays() {
     done
 }
 
-# Creates a request with each code to node 1, followed by a reply of zeros. `arbitrary` reads a list of bytes as 01 before each byte,
-# and 00 after the last byte.
+# Creates a request with each code to node 1, followed by a reply of zeros. The crate `arbitrary` expects 01 before each byte of a
+# list, and 00 after the last byte.
 requests() {
     local code number
     mkdir -p corpus/requests
@@ -81,7 +81,7 @@ process_data() {
     find corpus/process_data -type f
 }
 
-# Creates files of random bytes. The fuzz target `ir` generates a catalog from each.
+# Creates files of random bytes. The fuzz target `ir` generates a catalog from each file.
 random() {
     mkdir -p corpus/random
     for number in {1..64}; do

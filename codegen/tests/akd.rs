@@ -1,5 +1,5 @@
-//! Compares the table of the Kollmorgen AKD with the text of its manual. Each printed row must be in the table, cite its line,
-//! and have the properties in the printed cells. Each deliberate difference must have a `doubt` entry.
+//! Compares the register table of the Kollmorgen AKD with the text of its manual. Each printed row must be in the register table,
+//! cite its line, and have the properties in the printed cells. Each deliberate difference must have a `doubt` entry.
 
 #[path = "table_support/manual.rs"]
 mod manual_text;
@@ -87,7 +87,8 @@ fn the_table_has_no_findings() {
     assert_eq!(found, Vec::<String>::new());
 }
 
-/// Compares the table of hardware revisions. Each revision must be a model with its software versions.
+/// Compares the manual's table of hardware revisions with the register table. Each revision must be a model with its software
+/// versions.
 #[test]
 fn revisions_of_the_hardware() {
     let Some(manual) = manual() else { return };
@@ -179,7 +180,7 @@ fn bits_of_the_registers() {
     let compilation = table();
     let device = device(&compilation);
     assert_eq!(table_of_bits(&manual, device, "InterruptEnable", (567, 578), 0x204), 12);
-    // The manual has twelve rows. The last row is outside the register, and bit 1 has no row.
+    // The manual's table has twelve rows. The last row describes bits outside the register, and bit 1 has no row.
     assert_eq!(table_of_bits(&manual, device, "AlEventRequest", (585, 598), 0x220), 11);
     assert_eq!(fields(device, "AlEventRequest").len(), 12);
     assert_eq!(table_of_bits(&manual, device, "AlControl", (609, 616), 0x120), 4);
@@ -241,7 +242,8 @@ fn status_codes_and_transitions_of_the_communication() {
         );
         let command = item.command.as_deref().expect("a command");
         let value = machine.commands.iter().find(|entry| entry.name == command).expect("its pattern").value;
-        // The manual prints no value for the transition from bootstrap to init, so the expected value is 1.
+        // Line 650 (from bootstrap to init) contains no printed value. The expected value is 1, which is the value for the state
+        // init.
         let expected = if *line == 650 { 1 } else { hex(cells[1]) };
         assert_eq!((value, cited(item.documentation.as_deref()).contains(line)), (expected, true), "line {line}");
     }
@@ -498,7 +500,7 @@ fn the_start_up_list() {
         let (number, decimal) = cells[3].split_once(' ').expect("two numbers");
         let number = hex(number);
         assert_eq!(decimal.trim_matches(['(', ')']).parse(), Ok(number), "line {line}");
-        // In line 942, the manual assigns the fixed mapping, although the example maps 0x1A00.
+        // In line 942, the manual assigns the fixed PDO 0x1B01, although its example configures the mapping 0x1A00.
         let expected = if *line == 942 { 0x1A00 } else { number };
         assert_eq!(*value, Value::Int(expected.into()), "line {line}");
     }
@@ -572,7 +574,7 @@ fn latch_words() {
     assert_eq!(compared, 20);
 }
 
-/// Returns whether a field of the word cites the line and has the value.
+/// Returns whether the bits `entry` of a latch word cite the line and have the value.
 fn holds(device: &Device, entry: &BitFieldEntry, line: usize, value: u32) -> bool {
     let actual = i128::from(value >> entry.offset);
     match entry.meaning {
@@ -605,7 +607,8 @@ fn mailbox_frames_and_their_example() {
     };
     let example = &message.examples[0];
     assert_eq!(example.request, bytes(1211));
-    // The manual prints the wrong length 0x0E and the wrong type 0x20 for the reply. The table has a `doubt` entry for both numbers.
+    // The manual prints the wrong length 0x0E and the wrong type 0x20 for the reply. The register table has a `doubt` entry about
+    // both numbers.
     let mut reply = bytes(1230);
     assert_eq!((reply[0], reply[7]), (0x0E, 0x20));
     (reply[0], reply[7]) = (0x0A, 0x30);
@@ -638,7 +641,7 @@ fn frame(manual: &[String], device: &Device, fields: &[MessageField], (first, la
                 let bits = basic(device, value.item.ty).bits().expect("a length");
                 (bits / 8, Some(cited(value.item.documentation.as_deref())))
             }
-            // The index is two bytes long, and the sub-index is one byte long.
+            // The field `index` is two bytes long, and the sub-index is one byte long.
             MessageField::Echo { field, .. } => (if field == "index" { 2 } else { 1 }, None),
             other => panic!("{other:?}"),
         };
@@ -654,8 +657,8 @@ fn frame(manual: &[String], device: &Device, fields: &[MessageField], (first, la
     }
 }
 
-/// Compares the objects that the manual mentions. Section 3.3 of the analysis counts 43 indices without 0x1704, and 41 pairs of
-/// index and sub-index.
+/// Compares the objects that the manual mentions. Section 3.3 of the notes on the manual counts 43 indices, not including 0x1704,
+/// and 41 pairs of index and sub-index.
 #[test]
 fn objects_and_parameters() {
     let compilation = table();
@@ -677,7 +680,7 @@ fn objects_and_parameters() {
         device.groups.iter().flat_map(|group| &group.items).filter_map(Item::object).collect();
     let missing: Vec<_> = pairs.iter().filter(|pair| !items.contains(pair)).collect();
     assert_eq!(missing, [&(0, 0); 0]);
-    // The table can have more entries of mapping objects than the manual, but at most four per object.
+    // The register table can contain more entries of mapping objects than the manual, but at most four per object.
     let more: Vec<_> = items.iter().filter(|pair| !pairs.contains(pair)).collect();
     assert!(more.iter().all(|(index, sub)| matches!(index, 0x1600..=0x1603 | 0x1A00..=0x1A03) && *sub <= 4));
     let mut names: Vec<&str> = Vec::new();

@@ -1,8 +1,8 @@
 //! Lists the 48 items in section 4 of the notes on the Kollmorgen AKD manual. Each item is covered by the diagnostics of a
 //! verbatim transcription (the `manual-akd` cases in `tests/ui`), or by a `doubt` entry in dictionaries/kollmorgen-akd.toml.
 //!
-//! The tests compare the list with these cases and entries. If the manual is available, they also compare it with the lines
-//! of the manual.
+//! The tests compare the list with these cases and entries. If the manual is available, the tests also compare the list with
+//! the manual.
 
 #[path = "table_support/cases.rs"]
 mod cases;
@@ -94,7 +94,8 @@ const ITEMS: &[(u8, How)] = &[
     (40, Doubt(&[(1081, "8-12"), (1096, "8-11")])),
     (41, Finding("items-40-41-bit-that-is-left-out", &["TAB036"])),
     (41, Doubt(&[(1079, "4"), (1094, "4")])),
-    // The documentation of the field states that 3 is a number and not a bit. The test `akd` checks its values.
+    // The documentation of the field states that it contains a number from 1 to 4, and not one bit per latch. The test `akd`
+    // checks its values.
     (42, Doubt(&[(1096, "z1zz")])),
     (43, Doubt(&[(1100, "12-15"), (1103, "stato 1")])),
     // Section 4.6: the mailbox.

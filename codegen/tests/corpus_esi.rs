@@ -1,6 +1,6 @@
-//! Compares the results for all ESI files of the corpus with counts by a simple script (`oracle.json`).
+//! Compares the results for all ESI files of the corpus with the counts that a simple script has determined (`oracle.json`).
 //!
-//! The corpus is not part of the repository. If it is missing, the tests print a message and pass.
+//! The corpus is not part of the repository. If the corpus is missing, the tests print a message and pass.
 
 mod corpus_support;
 

@@ -88,8 +88,8 @@ fn well_formed_files_are_read_without_errors() {
 #[test]
 fn malformed_files_have_one_error_with_its_place() {
     let Some(cases) = cases(false) else { return };
-    // The first file has a surplus end tag. The second file ends inside an element, so its error is after its last
-    // character.
+    // The first file has a surplus end tag. The second file ends inside an element, so the error is reported after the last
+    // character of the file.
     let places: BTreeMap<&str, u32> = [
         ("vformi__PLC.Commissioning.Lib.Siemens__MalformedGSDML.xml", 5085),
         ("vformi__PLC.Commissioning.Lib.Siemens__invalid.xml", 5585),
@@ -370,7 +370,8 @@ fn counts_of_data(catalog: &Catalog) -> Vec<(&'static str, usize)> {
     ]
 }
 
-/// Returns the number of ProfileChannelDiagItem elements, which the oracle does not count. No other codes have an API.
+/// Returns the number of ProfileChannelDiagItem elements, which the oracle does not count. Only the codes of these elements
+/// have an API number.
 fn channel_errors(catalog: &Catalog) -> usize {
     let tables = catalog.code_tables.iter().filter(|table| table.name == "channel_diagnosis");
     tables.flat_map(|table| &table.rows).filter(|row| row.cells[1] == ir::Value::Int(0)).count()

@@ -16,15 +16,15 @@ use lexibus_codegen::syntax::ini::{Document, Entry, Oddity};
 /// Sections with their keys and values. Names are in lowercase.
 type Sections = BTreeMap<String, BTreeMap<String, String>>;
 
-/// Name that `configparser` gives to the section of entries before the first section header.
+/// Section name under which `configparser` stores entries that occur before the first section header.
 const NO_SECTION: &str = "\u{1}no section";
 
 /// The result of `configparser` for a text.
 struct Theirs {
     sections: Sections,
-    /// Lines without `=` in lowercase, each with its section.
+    /// The lines that contain no `=`, as pairs of section and line in lowercase.
     junk: BTreeSet<(String, String)>,
-    /// Keys before the first section header.
+    /// The keys that occur before the first section header.
     outside: BTreeSet<String>,
 }
 

@@ -16,7 +16,7 @@ use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Access, Configured, Device, Extension, Group, Item, Mappable, ObjectCode, Type, Value};
 use lexibus_codegen::source::Source;
 
-/// Codes for values that are unreadable, or that the compiler reads differently from this test.
+/// Codes of diagnostics about values that are unreadable, or that the compiler reads differently from this test.
 const ABOUT_THE_VALUE: [&str; 16] = [
     "EDS014", "EDS015", "EDS016", "EDS022", "EDS023", "EDS024", "EDS027", "EDS028", "EDS029", "EDS030", "EDS032",
     "EDS033", "EDS037", "EDS047", "EDS064", "EDS067",
@@ -36,13 +36,13 @@ fn as_it_stands() -> Options {
 /// Results of comparing files with their compilations.
 #[derive(Default)]
 struct Tally {
-    /// Number of equal values by key.
+    /// Number of values that are equal in the file and in the IR, by key.
     same: BTreeMap<String, usize>,
-    /// Number of equal values of items that CompactSubObj implies.
+    /// Number of equal values in items that CompactSubObj implies.
     compact: usize,
-    /// Number of values that an extension keeps, by key.
+    /// Number of values that are kept as an extension, by key.
     kept: BTreeMap<String, usize>,
-    /// Number of reported values by code.
+    /// Number of values about which there is a diagnostic, by the code of the diagnostic.
     reported: BTreeMap<String, usize>,
     /// Number of values that are empty, or that are 0 if 0 means no value.
     empty: usize,
@@ -122,7 +122,7 @@ impl Comparison<'_> {
             self.reported_or_lost(line, &["EDS007"], "the repeated section is not reported");
         }
         for fact in section.facts.values().flat_map(|facts| facts.iter().skip(1)) {
-            // EDS056: neither section describes a sub-index, and both are kept.
+            // EDS056 means that neither of two repeated keys describes a sub-index, and that both are kept.
             self.reported_or_lost(fact.line, &["EDS008", "EDS056"], "the repeated key is not reported");
         }
     }
@@ -403,8 +403,8 @@ impl Comparison<'_> {
         self.hold_in(target, fact, &name, Some(&fact.value.as_str()));
     }
 
-    /// Checks that an extension keeps an entry for which the IR has no field. An entry of 0 can be dropped if 0 is the same
-    /// as a missing entry.
+    /// Checks that an extension keeps an entry for which the IR has no field. An entry with the value 0 can be dropped if 0
+    /// means the same as a missing entry.
     fn extension(&mut self, fact: &Fact, target: Target<'_>) {
         let key = fact.key.to_ascii_lowercase();
         let says_nothing = matches!(key.as_str(), "subnumber" | "compactsubobj" | "pdomapping");
@@ -528,7 +528,7 @@ fn has_configuration(section: &Section) -> bool {
     CONFIGURATION.iter().any(|key| section.get(key).is_some_and(|fact| !fact.value.is_empty()))
 }
 
-/// Returns whether values of the type are texts or are stored as texts. A text includes the rest of its line.
+/// Returns whether values of the type are texts or are stored as texts. Such a text includes the rest of its line.
 fn is_free(ty: Type) -> bool {
     let is_text = matches!(ty, Type::VisibleString(_) | Type::UnicodeString(_));
     is_text || matches!(ty, Type::Domain | Type::Opaque(_) | Type::Named(_))
@@ -635,7 +635,7 @@ fn none_lost(tally: &Tally) {
     assert!(tally.lost.is_empty(), "{} values are lost or changed without a diagnostic:{shown}", tally.lost.len());
 }
 
-/// Notations of values: those in the corpus, and unusual ones.
+/// Notations of values: the notations that occur in the corpus, and unusual notations.
 #[rustfmt::skip]
 const SPELLINGS: [&str; 60] = [
     "0", "1", "2", "7", "00", "001", "012", "018", "00000005", "-1", "-0", "-012", "0x0", "0X1a", "0xff",

@@ -80,7 +80,7 @@ fn xml_files() -> Vec<File> {
     all_files().into_iter().flatten().filter(File::is_xml).collect()
 }
 
-/// Compares both readers. Returns whether the cursor found no error.
+/// Compares the events of both readers. Returns whether the cursor found no error.
 fn agree(name: &str, text: &str) -> bool {
     let Ok(found) = ours(text) else { return false };
     let expected = theirs(text).unwrap_or_else(|error| panic!("{name}: {error}"));

@@ -126,7 +126,7 @@ fn rows_are_on_the_lines_that_they_cite() {
                 doubts::lines(cite).iter().flat_map(|line| line.saturating_sub(3)..=line + 2).collect();
             let near: Vec<&str> = context.iter().filter_map(|line| lines.get(*line)).map(String::as_str).collect();
             let near = format!(" {} ", near.join(" "));
-            // The table has four mapping entries, although the manual prints only the first two.
+            // The register table of the AKD has four mapping entries, although the manual prints only the first two.
             let is_assumed = file.starts_with("kollmorgen") && matches!(item.name.as_str(), "Entry 3" | "Entry 4");
             if !is_assumed && !printed(item).iter().any(|form| near.contains(form)) {
                 missing.push(item.name.as_str());

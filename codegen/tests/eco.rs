@@ -1,5 +1,5 @@
-//! Compares the table of the Eco with the text of its manual. Each printed row must be in the table once, cite its line, and
-//! have the properties in the printed cells. Each deliberate difference must have a `doubt` entry.
+//! Compares the register table of the Eco drive with the text of its manual. Each printed row must be in the register table
+//! once, cite its line, and have the properties in the printed cells. Each deliberate difference must have a `doubt` entry.
 
 mod eco_support;
 
@@ -27,7 +27,7 @@ struct Printed {
     addresses: (u16, u16),
 }
 
-/// Returns the rows of the register table. A row consists of a label and all cells up to the address.
+/// Returns the rows of the manual's register table. A row consists of a label and all cells up to the address.
 fn registers(manual: &[String]) -> Vec<Printed> {
     let mut rows: Vec<(usize, String)> = Vec::new();
     let mut open = false;
@@ -84,7 +84,7 @@ fn register(line: usize, text: &str) -> Printed {
 /// Returns the printed limits of a value with this size. The limits are treated as signed if the lower limit would
 /// otherwise exceed the upper limit.
 fn signed(limits: &[u64], bits: u32) -> (i128, i128) {
-    // A limit of nine hexadecimal digits has one digit too many.
+    // One printed limit has nine hexadecimal digits, which is one too many.
     let limit = |value: u64| i128::from(if value > 0xFFFF_FFFF { value >> 4 } else { value });
     let (low, high) = (limit(limits[0]), limit(limits[1]));
     (if low > high { low - (1 << bits) } else { low }, high)
@@ -147,7 +147,8 @@ fn registers_without_the_printed_limits_say_why() {
             differing.insert(row.numbers.0);
         }
     }
-    // The limits of three registers differ: the status word, and two registers whose objects are shorter.
+    // The limits of three registers differ from the printed limits: the register of the status word, and two registers whose
+    // objects are shorter.
     assert_eq!(differing, BTreeSet::from([5, 34, 42]));
 }
 
@@ -285,8 +286,8 @@ fn every_parameter_is_there_at_its_line() {
     assert_eq!((kinds, found), ([38, 18, 2, 1], 57));
 }
 
-/// Compares the values that consist of several parameters: pairs of a more and a less significant part, and the offset with
-/// its sign and three parts.
+/// Compares the values that consist of several parameters: pairs of a more and a less significant part, and an offset that
+/// consists of a sign and three parts.
 #[test]
 fn every_number_in_several_parameters_is_a_composite() {
     let Some(manual) = manual() else { return };
@@ -301,7 +302,7 @@ fn every_number_in_several_parameters_is_a_composite() {
         expected.push((pair.iter().map(|row| row.0.as_str()).collect(), None));
     }
     let offset = with("Offset di spazio in impulsi");
-    // Units of the parameters H6, H7 and H8.
+    // The parameters H6, H7 and H8 contain the ten thousands, the hundreds and the units of the offset.
     let weights = ["decine di migliaia", "centinaia", "unità"];
     assert!(offset.iter().zip(weights).all(|(row, weight)| row.2.contains(weight)));
     let sign = with("Segno offset di spazio");

@@ -128,7 +128,7 @@ fn modes_profiles_and_bit_rates_are_the_printed_ones() {
         .filter_map(Result::ok)
         .collect();
     assert_eq!(in_registers, BTreeSet::from([-127, -50, -2, -1, 1, 3, 6, 7]));
-    // EtherCAT also has the mode 8 (cyclic synchronous position).
+    // On EtherCAT, the drive also has the mode 8 (cyclic synchronous position).
     let with_csp = |mut list: BTreeSet<i128>| {
         list.insert(8);
         list
@@ -176,8 +176,8 @@ fn inputs_and_outputs_are_the_printed_ones() {
     }
 }
 
-/// Compares the functions of the miniECO's inputs, their c8 values and their bits (section "digital_inputs su MiniECO
-/// standard o miniECO PLUS").
+/// Compares the functions of the miniECO's inputs, the values of parameter c8 that select them, and their bits (section
+/// "digital_inputs su MiniECO standard o miniECO PLUS").
 #[test]
 fn inputs_of_the_mini_eco_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -218,7 +218,8 @@ fn pins_of_cn2_are_the_printed_ones() {
     }
 }
 
-/// Compares the values of c9 that select a bus, and the values of E3, with all tables that print these values.
+/// Compares the values of parameter c9, which select a bus, and the values of parameter E3 with all lines that print
+/// such a value.
 #[test]
 fn values_of_c9_and_e3_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -240,7 +241,7 @@ fn values_of_c9_and_e3_are_the_printed_ones() {
     }
 }
 
-/// Words in a line about a bit, and the mode of operation to which the line refers.
+/// Words that occur in a line about a bit, and the number of the mode of operation to which such a line refers.
 const MODES: [(&str, i128); 6] = [
     ("Posizionatore", 1),
     ("Controllo Velocità", 3),
@@ -305,7 +306,7 @@ fn bits_of_the_vendor_in_words_of_402_are_the_printed_ones() {
             let field = fields(device(&compilation), name).iter().find(|field| field.offset == bit).expect("a bit");
             assert!(cites(field.documentation.as_deref(), line), "line {line}");
             assert!(!matches!(field.meaning, BitMeaning::Reserved { .. }), "line {line}");
-            // The manual prints a transition only for bit 14.
+            // The manual states for one bit of the controlword that a transition from 0 to 1 has the effect.
             let is_edge = manual[line - 1].contains("transizione da 0 a 1") && name == "Controlword";
             assert_eq!(field.trigger == Some(Trigger::Rising), is_edge, "line {line}");
         }

@@ -1,5 +1,6 @@
-//! Tests the `doubt` entries in dictionaries/eco.toml. The entries must cover the 85 items in section 4 of the notes on the
-//! Eco manual and cite the same lines. The `manual-eco` cases in `tests/ui` show the diagnostics of verbatim excerpts.
+//! Tests the `doubt` entries in dictionaries/eco.toml. The entries must cover the 85 items in section 4 of the notes on the Eco
+//! manual, and cite the lines that the items mention. The `manual-eco` cases in `tests/ui` show the diagnostics of verbatim
+//! excerpts.
 
 #[path = "table_support/doubts.rs"]
 mod doubts;
@@ -90,7 +91,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("E6", &["The mailbox header"], &[]),
     ("E7", &["The mailbox header"], &[]),
     ("E8", &["The mailbox header", "The text describes 8"], &[]),
-    // The numbers of the next items are alarm numbers.
+    // The numbers in the next items are alarm numbers, not line numbers.
     ("E9", &["The manual prints two", "The alarms 11, 12,", "Alarm 22 is in"], &[30, 31, 32]),
     ("E10", &["The alarms 31 to"], &[31]),
     ("E11", &["The word slot"], &[]),
@@ -104,7 +105,8 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("F8", &["The Modbus and PROFINET"], &[33, 34]),
 ];
 
-/// Each item of section 4 must have `doubt` entries. The entries must cite all lines and line ranges in the text of the item.
+/// Each item in section 4 of the notes must have `doubt` entries. These entries must cite each line that the item mentions, and
+/// at least one line of each line range.
 #[test]
 fn every_contradiction_has_its_doubts() {
     let Some(notes) = notes() else { return };

@@ -35,7 +35,7 @@ fn objects(manual: &[String]) -> Vec<Printed> {
         }
     }
     let found = rows.into_iter().map(|(line, index, sub, text)| {
-        // In a row, the length is followed by the name of a standard's chapter.
+        // The length of an object is printed as `4 B`. A `B` that starts a longer word does not mark a length.
         let is_length = |at: usize| {
             let goes_on = text[at + 2..].starts_with(|c: char| c.is_alphabetic());
             text[..at].ends_with(|c: char| c.is_ascii_digit()) && !goes_on
@@ -133,7 +133,7 @@ fn what_only_ethercat_has_is_not_on_canopen() {
     }
 }
 
-/// Compares the process images with the manual: names with their lengths, and unused bytes of groups of eight (section
+/// Compares the process images with the manual: names with their lengths, and unused bytes in groups of eight (section
 /// "Mappatura memoria condivisa").
 #[test]
 fn images_are_the_printed_ones() {
@@ -154,7 +154,7 @@ fn images_are_the_printed_ones() {
         images.iter().map(|image| image.direction).collect::<Vec<_>>(),
         [Direction::Receive, Direction::Transmit]
     );
-    // The table must contain each length as often as the manual prints it.
+    // The register table must contain each field length as often as the manual prints it.
     let sorted = |mut list: Vec<u32>| {
         list.sort_unstable();
         list
@@ -206,7 +206,7 @@ fn pdos_of_ethercat_are_the_printed_ones() {
         let mut there: Vec<Mapped> = Vec::new();
         for entry in &pdo.entries {
             match entry.kind {
-                // A mode is one byte long, but the manual prints two bytes (E3 of the notes).
+                // A mode of operation is one byte long, but the manual prints two bytes (item E3 of the notes on the manual).
                 PdoEntryKind::Padding => there.last_mut().expect("an entry").2 += entry.bits,
                 _ => there.push((entry.index, entry.sub_index, entry.bits)),
             }
@@ -358,7 +358,7 @@ fn sequences_write_what_the_examples_write() {
     assert_eq!(written("position_by_402"), [printed(4305, 4318), printed(4336, 4340)].concat());
     assert_eq!(written("velocity_by_402"), [printed(4354, 4364), printed(4377, 4377)].concat());
     assert_eq!(written("save_on_canopen"), printed(4383, 4397));
-    // The manual prints the second entry of the TPDO with the sub-index of the first entry (D7 of the notes).
+    // The manual prints the second entry of the TPDO with the sub-index of the first entry (item D7 of the notes on the manual).
     let mut mapping = [printed(4423, 4427), printed(4439, 4443)].concat();
     assert_eq!(mapping[8].0, (0x1A00, 1));
     mapping[8].0 = (0x1A00, 2);

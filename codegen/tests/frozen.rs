@@ -24,7 +24,7 @@ const KINDS: [&str; 3] = ["rust", "diagnostics", "values"];
 const HEADER: &str = "# Digests of what is generated, reported and read of each file. Written by codegen/tests/frozen.rs: do not edit.\n\
     # file\trust\tdiagnostics\tvalues\n";
 
-/// An input file and its name in the list.
+/// An input file and its name in `tests/frozen.tsv`.
 struct Frozen {
     name: String,
     source: Source,
@@ -76,7 +76,7 @@ fn digest(text: &str) -> String {
     Source::new("text", text.as_bytes().to_vec()).sha256()[..16].to_owned()
 }
 
-/// Reads the expected digests of each file from the list.
+/// Reads the expected digests of each file from `tests/frozen.tsv`.
 fn listed() -> BTreeMap<String, Vec<String>> {
     let text = std::fs::read_to_string(LIST).unwrap_or_default();
     let lines = text.lines().filter(|line| !line.starts_with('#'));

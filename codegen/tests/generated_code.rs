@@ -30,8 +30,8 @@ fn every_file_of_the_corpus_compiles_or_is_rejected_with_a_reason() {
     assert!(compiled > lane::at_least(500), "only {compiled} different devices");
 }
 
-/// Compiles all devices and modules of a file together. Their modules re-export definitions that a previous device or module
-/// also has.
+/// Compiles all devices and modules of a file together. The generated Rust modules re-export definitions that an earlier
+/// device or module of the file also has.
 #[test]
 fn all_devices_of_a_file_compile_and_are_documented_together() {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui/quirks-esi");
@@ -308,7 +308,7 @@ fn process_data_of_any_name_and_length_compile() {
         let options = Options { rust: everything(), ..Options::default() };
         let compilation = check(Source::new("lengths.xml", esi(&long).into_bytes()), &options);
         let text = compilation.rust(&options.rust).expect("bindings");
-        // An image is left out if its number of bits does not fit in 32 bits.
+        // A process image is left out if its length in bits exceeds a 32-bit number.
         assert_eq!(text.contains("pub mod image {"), has_image);
         compile("lengths", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
         document("lengths", &[&text]).unwrap_or_else(|message| panic!("{message}\n{text}"));

@@ -1,6 +1,6 @@
-//! Compares the table of the HSD SM137 and SM140 with the text of their manual. The tests cover all frames byte by byte, all
-//! parameters with size, unit, scale, default and range per model, alarms, states, bits, and the table of commands and states.
-//! Each deliberate difference is listed in the tests and must have a `doubt` entry.
+//! Compares the register table of the HSD motors SM137 and SM140 with the text of their manual. The tests cover all frames
+//! byte by byte, all parameters with size, unit, scale, default and range per model, alarms, states, bits, and the table of
+//! commands and states. Each deliberate difference is listed in the tests and must have a `doubt` entry.
 
 #[path = "hsd/codes.rs"]
 mod codes;

@@ -1,7 +1,7 @@
 //! Lists the 55 items in section 4 of the notes on the HSD manual. Each item is covered by the diagnostics of a verbatim
 //! transcription (the `manual-hsd` cases in `tests/ui`), or by a `doubt` entry in dictionaries/hsd-sm137-sm140.toml.
 //!
-//! The tests compare the list with these cases and entries. If the manual is available, they also compare it with the lines of
+//! The tests compare the list with these cases and entries. If the manual is available, the tests also compare the list with
 //! the manual.
 
 #[path = "table_support/cases.rs"]

@@ -145,7 +145,7 @@ fn files_that_an_esi_refers_to() {
 #[test]
 fn files_that_are_too_large() {
     let path = folder("large").join("large.eds");
-    // Use a sparse file, because the missing part is neither written nor read.
+    // Use a sparse file, whose empty part takes no time to write and is not read by the compiler.
     std::fs::File::create(&path).and_then(|file| file.set_len(limits::MAX_INPUT_BYTES as u64 + 1)).expect("a file");
     let error = Source::read(&path).expect_err("it is too large");
     assert_eq!(error.kind(), std::io::ErrorKind::FileTooLarge);
@@ -262,7 +262,8 @@ fn notes_of_many_cells() {
     assert_eq!(machine(2 * limits::ROW_BYTES_PER_ITEM), (1, 0));
 }
 
-/// Compares all limits with the book. Depth, text references and copies are tested with the quirks of their formats.
+/// Compares all limits with the limits in the book. Other tests cover the limits of nesting depth, text references and
+/// copies, together with the quirks of the formats.
 #[test]
 fn the_book_has_each_limit() {
     let chapter = include_str!("../../docs/src/limits.md");

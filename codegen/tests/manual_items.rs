@@ -2,8 +2,8 @@
 //! item is covered by the diagnostics of a verbatim transcription (the `manual-vector-step` cases in `tests/ui`), by a test of
 //! `import`, or by a `doubt` entry in dictionaries/aec-vector-step.toml.
 //!
-//! The tests compare the list with these cases, tests and entries. If the manual is available, they also compare it with the lines of
-//! the manual.
+//! The tests compare the list with these cases, tests and entries. If the manual is available, the tests also compare the list
+//! with the manual.
 
 #[path = "table_support/cases.rs"]
 mod cases;
@@ -80,7 +80,7 @@ const ITEMS: &[(&str, How)] = &[
     ("28", Finding("item-28-name-of-an-old-and-a-new-register", &["TAB007"])),
     ("29", Finding("item-29-names-misspelled-in-texts", &["TAB025"])),
     ("29", Doubt(&[(464, "Axis 1 Posact"), (3082, "Rtouchprobepos2pos")])),
-    // None of the rows contains the sub-index.
+    // The rows of registers never print the sub-index of their objects.
     ("30", Doubt(&[(464, "2000:01"), (2129, "0x2000")])),
     // Section 4.3: conflicts of types, access rights and ranges.
     ("31", Finding("items-31-32-34-36-overview-against-the-box", &["TAB021", "TAB024"])),
@@ -101,18 +101,18 @@ const ITEMS: &[(&str, How)] = &[
     ("42", Finding("items-42-43-control-word-of-the-touch-probe", &["TAB041"])),
     ("43", Finding("items-42-43-control-word-of-the-touch-probe", &["TAB022", "TAB025"])),
     ("43", Finding("item-43-two-bits-with-one-name", &["TAB040"])),
-    // The words for edges and sources are ambiguous.
+    // The manual's words for edges and sources of the touch probe are ambiguous.
     ("43", Doubt(&[(1706, "al touch probe 1"), (1770, "valore positivo"), (1794, "valore positivo"), (2958, "fronte positivo"), (2973, "fronti positivi"), (3028, "Touch Encoder 1")])),
     ("44", Finding("item-44-types-that-contradict-their-limits", &["EDS025", "TAB016", "TAB018", "TAB009", "TAB004"])),
     ("44", Finding("item-44-no-notes-at-all", &["TAB010"])),
     ("45", Finding("item-45-values-and-bits-outside-of-the-limits", &["TAB016", "TAB018", "TAB021"])),
     ("46", Finding("item-46-access-against-storage-and-mapping", &["TAB024", "TAB022"])),
-    // Saved versions, a saved command and read-only limits are all plausible.
+    // The printed access rights are plausible, although versions and a command are saved and limits are read-only.
     ("46", Doubt(&[(2867, "RW SAVE"), (2868, "RW SAVE"), (2869, "RW SAVE"), (3184, "RO"), (3185, "RO"), (3188, "SAVE")])),
     ("47", Finding("item-47-mode-that-is-reserved", &["TAB018", "TAB015", "TAB017"])),
     ("48", Finding("item-48-one-value-with-two-limits-and-two-types", &["TAB022"])),
     ("49", Finding("item-49-commands-at-other-bits", &["TAB022"])),
-    // The register table contains both filters.
+    // The manual names two different filter times, and the register table describes both.
     ("50", Doubt(&[(2273, "Rposalmtime"), (2356, "Rflwtim"), (2382, "Rflwtim")])),
     ("51", Finding("item-51-number-of-kept-errors", &["TAB021"])),
     ("52", Finding("item-52-list-of-methods-that-ends-early", &["TAB022"])),
@@ -130,7 +130,7 @@ const ITEMS: &[(&str, How)] = &[
     ("57", Doubt(&[(2173, "6,15"), (2705, "Fw710"), (2785, "5.50"), (2678, "3.44")])),
     // Parts of the extracted text are missing.
     ("58", Doubt(&[(574, "0x601"), (944, "0x00000580")])),
-    // The example is a screenshot of a running drive.
+    // The cited example is a screenshot of a running drive.
     ("59", Doubt(&[(464, "RW P 3849")])),
     ("60", Finding("item-60-defaults-in-the-cell-of-the-limit", &["TAB004", "TAB042"])),
     ("60", Import("item_60_a_default_in_the_cell_of_a_limit", &["CSV003"])),

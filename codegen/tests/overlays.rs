@@ -177,7 +177,7 @@ fn tables_of_the_device_are_added_or_replaced() {
     let names: Vec<&str> = device.code_tables[0].rows.iter().map(|row| row.name.as_str()).collect();
     assert_eq!((names, device.machines.len()), (vec!["too hot", "cold"], 1));
     assert!(device.machines[0].states.is_empty());
-    // A state machine that exceeds a limit must not replace another one.
+    // A state machine that exceeds a limit must not replace the state machine with the same name.
     let states: String =
         (0..limits::MAX_MACHINE_ROWS).map(|at| format!("s{at} = {{ mask = 0xFFFF, value = {at} }}\n")).collect();
     let huge = format!("lexibus = 1\n[overlay]\n[machines.pump]\nstatus = \"Flags\"\n[machines.pump.states]\n{states}");
@@ -390,7 +390,7 @@ fn a_submodule_of_several_devices_is_changed_once() {
     let one = applied("for = { device = \"A\" }\n", "unit = \"rpm\"");
     let found: Vec<_> = findings(&one).into_iter().map(|(code, _)| code).collect();
     assert_eq!((found, speed(&one).quantity.is_some()), (vec!["TAB053"], true), "B also has the description");
-    // An unknown name must be reported. The compiler must not look it up in another submodule.
+    // An unknown name must be reported. The compiler must not search for the name in another submodule.
     let typo = applied("", "same_as = \"Sped\"");
     assert_eq!(findings(&typo), [("TAB005", "\"Sped\"".to_owned())]);
     assert_eq!(findings(&applied("", "same_as = \"Speed\"")), []);

@@ -1,5 +1,5 @@
-//! Tests that generated code packs and unpacks data without changes. The tests use random bits for the process data, process
-//! images, records and messages of all corpus files and dictionaries.
+//! Tests that generated code packs and unpacks data without changing it. The tests use random bits for the process data,
+//! process images, records and messages of all corpus files and dictionaries.
 //!
 //! The tests compile the bindings to programs and run them. `packing/program.rs` contains the checks for a type. The
 //! intermediate representation determines the expected bit positions (`packing/layouts.rs`) and whether requests contain a

@@ -157,7 +157,7 @@ fn further_axes_are_completed_where_they_exist() {
     assert_eq!(type_name(&two, 0x6841, 0), "Statusword");
     assert_eq!(item(&two, 0x6840, 0).ty, item(&two, 0x6040, 0).ty);
     assert_eq!(type_name(&two, 0x6860, 0), "ModesOfOperation");
-    // Without a control word, 0x6860 does not belong to a second axis.
+    // In a device without the control word 0x6840, object 0x6860 does not belong to a second axis.
     let one = device(&drive(&axis("6842", "6843", "6860")));
     assert_eq!(type_name(&one, 0x6860, 0), "INTEGER8");
 }

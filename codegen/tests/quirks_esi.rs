@@ -135,7 +135,7 @@ fn small_files_do_not_grow() {
 }
 
 /// Creates a description that refers to three files. Several devices refer to the same file, and the references contain
-/// a cycle. Returns its path.
+/// a cycle. Returns the path of the description.
 fn referring() -> PathBuf {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui/quirks-esi");
     cases.join("x24-files-next-to-the-description/input.xml")

@@ -1,4 +1,4 @@
-//! Compares diagnostics and the output for small descriptions with snapshots, which make changes visible in a review.
+//! Compares the diagnostics and outputs for small descriptions with saved snapshots, so that a review shows all changes.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::diagnostics::render;
@@ -54,7 +54,7 @@ DefaultValue=0x20000010
 
 #[test]
 fn rust_of_a_small_device() {
-    // Disable profiles, because other tests cover them.
+    // Disable profiles, because other tests cover profiles.
     let options = Options { no_profiles: true, ..Options::default() };
     let text = check(Source::new("pump.eds", PUMP.into()), &options).rust(&options.rust).expect("bindings");
     insta::assert_snapshot!(text);
@@ -90,7 +90,7 @@ const STATION: &str = "\
 
 #[test]
 fn rust_of_a_small_slave() {
-    // Disable profiles, because other tests cover them.
+    // Disable profiles, because other tests cover profiles.
     let options = Options { no_profiles: true, ..Options::default() };
     let text = check(Source::new("dio.xml", STATION.into()), &options).rust(&options.rust).expect("bindings");
     insta::assert_snapshot!(text);

@@ -158,7 +158,7 @@ fn the_worked_example() {
 fn the_examples_of_the_documentation_are_tables() {
     let examples = examples();
     assert!(examples.len() > 5);
-    // Skip overlays, because they contain no device. Another test checks them against the schema.
+    // Skip overlays, because they contain no device. Another test checks overlays against the schema.
     for (line, block) in examples.iter().filter(|(_, block)| !block.contains("[overlay]")) {
         let compilation = read(&whole(block));
         let errors = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Error);

@@ -1,4 +1,4 @@
-//! Tests numbers and ranges in register tables that are at their limits or exceed them.
+//! Tests register tables with numbers and ranges that are at or beyond their limits.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Binding, Item, Scale, Shape, Value};

@@ -1,5 +1,5 @@
-//! Tests register tables with several windows per space, values that are extended to the size of their registers, PDOs and codes
-//! that exist only on some buses, and numbers that are split into several items.
+//! Tests register tables with several windows per address space, values that are extended to the size of their registers, PDOs
+//! and codes that exist only on some buses, and numbers that are split into several items.
 
 mod form_support;
 

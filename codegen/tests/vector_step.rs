@@ -1,5 +1,5 @@
-//! Compares the table of the Vector Step with the text of its manual. Each printed row must be in the table once, cite its
-//! line, and have the properties in the printed cells. Each deliberate difference must have a `doubt` entry.
+//! Compares the register table of the AEC Vector Step with the text of its manual. Each printed row must be in the register table
+//! once, cite its line, and have the properties in the printed cells. Each deliberate difference must have a `doubt` entry.
 
 #[path = "table_support/manual.rs"]
 mod manual_text;
@@ -63,7 +63,8 @@ struct Printed<'m> {
     cells: Vec<&'m str>,
 }
 
-/// Returns the rows of all register tables. A row starts with an address or a range of addresses. A cell with an index can follow.
+/// Returns the rows of all register tables. A row starts with an address or a range of addresses. A cell with an object index can
+/// follow the address.
 fn printed(manual: &[String]) -> Vec<Printed<'_>> {
     let mut rows = Vec::new();
     for (position, line) in manual.iter().enumerate() {
@@ -150,7 +151,7 @@ fn types_access_mapping_and_saving_are_the_printed_ones() {
     assert_eq!(wrong, Vec::<String>::new());
 }
 
-/// Number of rows in each chapter, from section 3.2 of the analysis.
+/// Number of rows in each chapter, according to section 3.2 of the notes on the manual.
 const CHAPTERS: [usize; 36] = [
     7, 3, 3, 19, 9, 14, 3, 2, 4, 2, 45, 45, 25, 4, 16, 26, 1, 29, 5, 11, 90, 8, 9, 17, 69, 4, 5, 26, 4, 8, 15, 16, 2,
     10, 9, 20,

@@ -465,7 +465,8 @@ fn comparable(device: &Device) -> serde_json::Value {
     let mut value = serde_json::to_value(device).unwrap();
     clear(&mut value);
     let header = value["header"].as_object_mut().unwrap();
-    // The removed facts describe the file. The version of CiA 306, for example, does not apply to CiA 311 files.
+    // The removed facts describe the file and not the device. The version of CiA 306, for example, does not apply to
+    // CiA 311 files.
     for key in
         ["file_name", "format_version", "creation_date", "creation_time", "modification_date", "modification_time"]
     {

@@ -24,7 +24,7 @@ const COUNT: Object = Object::new(0x2000, 0);
 const TEXT: Object = Object::new(0x2001, 0);
 const SETPOINT: Object = Object::new(0x2002, 0);
 
-/// Fault in the replies to one request.
+/// A fault in the replies to one request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Fault {
     Nothing,
@@ -286,7 +286,7 @@ fn a_dropped_transfer_is_aborted_and_the_next_one_is_right() {
 
 const PDO: CobId = CobId::from_node(0x180);
 
-/// Returns a node that has sent 200 PDOs. While the client waits for another message, its buffer keeps 16 of them.
+/// Returns a node that has sent 200 PDOs. While the client waits for another message, its buffer keeps 16 of these PDOs.
 fn behind() -> Node<Buffered<AsyncBus, 16>> {
     let mut bus = Bus::new();
     for _ in 0..200 {

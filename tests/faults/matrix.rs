@@ -1,4 +1,5 @@
-//! Tests each client with each fault. Prints a table with the result, its duration, and that of the next request.
+//! Tests each client with each fault. Prints a table with the result and duration of the request, and the duration of
+//! the next request.
 
 use std::fmt::{Debug, Write as _};
 use std::time::Duration;
@@ -7,7 +8,7 @@ use lexibus::Error;
 
 use crate::{can, modbus, serial};
 
-/// Results of a request with a fault and of the next request without. The code that creates a row checks the values.
+/// Results of a request with a fault, and of the next request, which has no fault. The code that creates a row checks the values.
 pub struct Row {
     pub client: &'static str,
     pub is_async: bool,
@@ -20,7 +21,7 @@ pub struct Row {
     pub timeout: Duration,
 }
 
-/// Returns the name of a result in the table. The caller has already checked the value.
+/// Returns the text that the table shows for a result. The caller has already checked the value.
 pub fn name<T, E: Debug>(result: &Result<T, Error<E>>) -> &'static str {
     match result {
         Ok(_) => "right value",
@@ -49,6 +50,6 @@ fn matrix() {
         assert!(row.time <= 2 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.time);
         assert!(row.next <= 4 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.next);
     }
-    // Four clients and six faults, blocking and async.
+    // The table has one row for each of four clients with each of six faults, blocking and asynchronous.
     assert_eq!(rows.len(), 4 * 6 * 2);
 }

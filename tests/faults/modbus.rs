@@ -29,7 +29,7 @@ enum Fault {
     Lost,
     Duplicated,
     Truncated,
-    /// A reply from another device (RTU) or to another transaction (TCP) arrives before the reply.
+    /// A reply from another device (RTU) or to another transaction (TCP) arrives before the expected reply.
     Foreign,
     Noise,
     /// Noise arrives for a minute instead of the reply, one byte every 10 ms.
@@ -60,7 +60,7 @@ fn frame(is_rtu: bool, transaction: [u8; 2], device: u8, data: &[u8]) -> Vec<u8>
     [&transaction[..], &[0, 0, high, low], &frame].concat()
 }
 
-/// Simulates a device that answers requests with the functions 3 and 6.
+/// Simulates a device that answers requests that use function 3 or 6.
 async fn serve(mut line: impl AsyncRead + AsyncWrite + Unpin, is_rtu: bool, world: Shared) {
     let mut request = vec![0; if is_rtu { 8 } else { 12 }];
     while line.read_exact(&mut request).await.is_ok() {
@@ -194,7 +194,7 @@ async fn after_each_fault_the_next_request_is_right() {
     }
 }
 
-/// Tests a pseudo-terminal in real time. On a machine under load, additional requests may time out.
+/// Tests a client on a pseudo-terminal in real time. On a machine under load, additional requests may time out.
 #[cfg(unix)]
 #[tokio::test]
 async fn late_replies_on_a_pseudo_terminal() {

@@ -1,4 +1,4 @@
-//! Tests the worked examples of the manual. The comments name its sections.
+//! Tests the worked examples of the HSD manual. The comments cite sections of the manual.
 
 use lexibus::codes::CodeTable;
 use lexibus::message::{Message, Reader, Reply, Writer};
@@ -7,7 +7,7 @@ use lexibus_drives::hsd::machine::Machine;
 use lexibus_drives::hsd::messages::*;
 use lexibus_drives::hsd::{codes, models, objects, types};
 
-/// The machine in the examples. In the positioning examples, it has 500 counts per turn.
+/// The machine in the examples. In the positioning examples, the machine has 500 counts per turn.
 const MACHINE: Machine = Machine { screw_pitch: 0.32, counts_per_turn: 800.0 };
 
 fn sent(message: &impl Message) -> Vec<u8> {
@@ -22,11 +22,11 @@ const ANSWER: [u8; 6] = [0x01, 0x02, 0x10, 0xAB, 0x09, 0xC1];
 
 #[test]
 fn positions() {
-    // Section 3.6. The text prints 6766.8176 mm, and the formula prints 6780.8465 mm. The printed bytes agree with the
-    // formula.
+    // Section 3.6: the text of the example prints 6766.8176 mm, but its formula contains 6780.8465 mm. The printed
+    // bytes agree with the formula.
     let position = MACHINE.mm_to_count(6780.8465) as i32;
     assert_eq!((position, sent(&CmdMazz { position })), (16_952_116, vec![1, 0x01, 0xAB, 0x34, 0x01, 0x02]));
-    // Sections 3.9 and 3.10: 1798046 counts. The manual prints 0x01 for Q3, but the correct value is 0x001B6F9E.
+    // Sections 3.9 and 3.10: 1798046 counts. The manual prints 0x01 for the highest byte Q3, but 1798046 is 0x001B6F9E.
     let machine = Machine { counts_per_turn: 500.0, ..MACHINE };
     let target = machine.mm_to_count(1150.75) as i32;
     assert_eq!((target, sent(&CmdTraj { target })), (1_798_046, vec![1, 0x02, 0x6F, 0x9E, 0x00, 0x1B]));
@@ -42,7 +42,7 @@ fn positions() {
 }
 
 /// Sections 3.9 and 3.10. At position 1000, targets from -67107863 to 67109863 are allowed. Only the motor knows its
-/// position, so both messages accept all targets. The alarm for an invalid target has a name.
+/// position, so both messages accept all targets. The bindings contain the alarm for an invalid target.
 #[test]
 fn the_limit_of_a_way_is_the_motors() {
     let ends = [1000 - 0x03FF_FFFF, 1000 + 0x03FF_FFFF];
@@ -155,7 +155,8 @@ fn mantissa_and_exponent() {
 
 #[test]
 fn gains_of_a_controller() {
-    // Appendix A, gains of PI controllers: Kp 0.5, Ki 0.08 and 15 %. The other two controllers use the same notation.
+    // Appendix A, gains of PI controllers: Kp 0.5, Ki 0.08 and 15 %. The gains of the other two controllers use the
+    // same notation.
     let (sum, correction) = (0.5 + 0.08, 0.08 / (0.5 + 0.08));
     for mantissa in [objects::KIQDPIMANT, objects::KVELPIMANT, objects::KPOSPIMANT] {
         assert_eq!(mantissa.mantissa_and_exponent(sum, 0..=6), Ok((19_005, 0)), "{}", mantissa.name());

@@ -29,7 +29,8 @@ fn each_model_has_its_own_range_and_initial_value() {
     assert_eq!((one.location(), one.name()), (objects::PIMIN_VEL.location(), objects::PIMIN_VEL.name()));
     let Range::Between(low, _) = *objects::PIMIN_VEL.range() else { panic!("{:?}", objects::PIMIN_VEL.range()) };
     let is_allowed = |range: &Range<i16>| matches!(range, Range::Between(own, _) if *own <= low);
-    // The range in `objects` is the widest range of all models. Only one of these models allows its minimum.
+    // The range in `objects` is the widest range of all models. Only one of the two tested models allows the minimum of
+    // this range.
     assert_eq!([one.range(), other.range()].map(is_allowed), [false, true]);
     assert!(objects::PIMIN_VEL.at(&mut Anything).write(low).is_ok());
     assert!(matches!(one.at(&mut Anything).write(low), Err(Error::OutOfRange(_))));

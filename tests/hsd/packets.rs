@@ -56,7 +56,7 @@ fn framing_holds(data: &[u8]) {
 /// Bytes that need an escape, and their replacements.
 const SPECIAL: [u8; 6] = [0x02, 0x03, 0x1B, 0xFD, 0xFC, 0xE4];
 
-/// A line on which the reply arrives in two pieces. The reader must wait between them.
+/// A line on which the reply arrives in two pieces. The reader must wait between the two pieces.
 struct Pieces<'a> {
     now: &'a [u8],
     later: Option<&'a [u8]>,
@@ -205,7 +205,7 @@ fn every_packet_goes_there_and_comes_back() {
     seen.insert(exchanged(CmdJog { speed: -2368 }, CmdJogReply { status: done() }, 9));
     seen.insert(exchanged(CmdAzzElWait { method: 0 }, CmdAzzElWaitReply { status: done() }, 9));
     seen.insert(exchanged(CmdSample { variable_1: 1, variable_2: 4 }, CmdSampleReply { status: done() }, 9));
-    // These messages borrow from the packet.
+    // The following messages borrow data from the packet.
     let settings = [setting(0x0105, &[150, 0]), setting(0x011C, &[1, 2, 3, 0x1B])];
     let request = CmdChgParN { settings: Settings::sent(&settings, PARAMETER) };
     let data = sent(&request);
@@ -238,8 +238,8 @@ fn refusals() {
     framing_holds(&data);
     assert_eq!(CmdNack::read(&jog, &mut Reader::new(&data)), Some(refusal));
     assert_eq!(CmdJogNReply::read(&jog, &mut Reader::new(&data)), None);
-    // A position can contain the same byte as a refusal. Such a position is not a refusal, because a motor cannot
-    // refuse the null request.
+    // A reply with a position can contain the byte that identifies a refusal. The reply is not a refusal, because a
+    // motor cannot refuse the null request.
     let poll = sent(&PollPosition);
     let position = PollPositionReply { status: done(), real_position: 0x0000_B000 };
     let data = answered(&position, &poll);

@@ -8,13 +8,13 @@ use lexibus_drives::hsd::types::State;
 fn commands_in_each_state() {
     assert_eq!(CmdJogN::OUTCOMES.of(State::Stopped), [Outcome::States(&[State::Jogging])]);
     assert_eq!(CmdJogN::OUTCOMES.accepts(State::Alarm), Some(false));
-    // The cell in the manual lists a sequence of states. The motor stays in the last state.
+    // The manual's cell for this command lists a sequence of states. The motor stays in the last state.
     assert_eq!(
         CmdAzz::OUTCOMES.of(State::Stopped),
         [Outcome::Refused, Outcome::States(&[State::Homing, State::Stopping, State::Stopped])]
     );
     assert_eq!(CmdAzz::OUTCOMES.accepts(State::Stopped), None);
-    // This cell is empty in the manual.
+    // The cell for CmdNoReg in the state of electrical homing is empty in the manual.
     assert!(CmdNoReg::OUTCOMES.of(State::ElectricalHoming).is_empty());
     assert_eq!(CmdChgPar::OUTCOMES.accepts(State::Released), Some(true));
 }

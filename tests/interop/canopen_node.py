@@ -77,7 +77,7 @@ class Node:
         self.node.nmt.state = "INITIALISING"
         self.node.nmt.state = "PRE-OPERATIONAL"
 
-    # The following methods refuse writes according to CiA 301, because the library does not check them.
+    # The following methods refuse writes according to CiA 301, because the library does not check writes itself.
 
     def check_limits(self, od, data, **_):
         """Checks the limits of integers. The library reads the limits of 8, 16, 32 and 64-bit integers from the EDS."""

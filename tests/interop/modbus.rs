@@ -1,4 +1,5 @@
-//! Tests with servers of `pymodbus`, over TCP and RTU, with blocking and asynchronous clients.
+//! Tests generated accessors on Modbus with servers of the Python library `pymodbus`: over TCP and RTU, with blocking
+//! and asynchronous clients.
 //!
 //! Each scenario is a macro, which the tests expand for all four combinations of transport and client.
 
@@ -30,7 +31,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// The server's unit ID.
 const DEVICE: Slave = Slave(1);
 
-/// Bit rate of the serial line. It determines the silent interval between RTU frames.
+/// Bit rate of the serial line, which determines the silent interval between RTU frames.
 const BAUD: u32 = 115_200;
 
 type Error = lexibus::Error<ModbusError>;
@@ -232,7 +233,7 @@ macro_rules! other_tables {
     };
 }
 
-/// Checks that the client reports the exceptions of the server.
+/// Checks that the client reports the Modbus exceptions that the server returns.
 macro_rules! refusals {
     ($way:ident, $script:ident, $device:ident) => {
         let refused: [Result<(), Error>; 5] = [
@@ -249,12 +250,12 @@ macro_rules! refusals {
             );
             assert!(is_exception, "{refused:?}");
         }
-        // The next request must succeed.
+        // The next request after the exceptions must succeed.
         assert_eq!($way!($device.protected(), read)?, 0);
     };
 }
 
-/// Checks the function codes of all kinds of access.
+/// Checks which function codes the clients use for each kind of access.
 macro_rules! functions {
     ($way:ident, $script:ident, $device:ident) => {
         $script.functions();
@@ -290,7 +291,7 @@ macro_rules! blocks {
         let functions = $script.functions();
         let mut functions: Vec<u64> = functions.as_array().into_iter().flatten().filter_map(Value::as_u64).collect();
         functions.sort_unstable();
-        // The coils are not adjacent.
+        // The coils are not adjacent, so reading them needs two requests.
         assert_eq!(functions, [1, 1, 3, 4]);
     };
 }

@@ -69,7 +69,7 @@ PLACES = {
     "discretes": (DISCRETE, 0, None, 40, None, False),
 }
 
-# The registers that exist. Register 349 is read-only, and register 398 is the last one before a gap.
+# Addresses of the registers that exist. Register 349 is read-only, and register 398 is the last one before a gap.
 MEMORY = (
     [SimData(0, values=[False] * 64, datatype=DataType.BITS)],
     [SimData(0, values=[False] * 64, datatype=DataType.BITS)],

@@ -15,7 +15,7 @@ use nix::unistd::ttyname;
 /// The master end of a pseudo-terminal. Another process can open the slave end by its path.
 pub struct Pty {
     near: File,
-    /// The slave end. It is kept open, because the line breaks if no process has the slave end open.
+    /// The slave end. The slave end is kept open, because the line breaks if no process has the slave end open.
     far: OwnedFd,
     path: PathBuf,
 }
@@ -36,7 +36,7 @@ impl Pty {
         self.path.to_str().expect("UTF-8")
     }
 
-    /// Reads the available bytes. If there are none, waits for at most `patience`. Returns the number of bytes.
+    /// Reads the available bytes. If no bytes are available, waits for at most `patience`. Returns the number of bytes.
     pub fn read(&mut self, buffer: &mut [u8], patience: Duration) -> std::io::Result<usize> {
         match self.is(PollFlags::POLLIN, patience)? {
             true => self.near.read(buffer),
@@ -62,7 +62,7 @@ impl Pty {
 /// A serial line between two pseudo-terminals, like a cable between two computers.
 pub struct Cable {
     ends: [PathBuf; 2],
-    /// Slave ends of both pseudo-terminals. Closing them ends the threads that copy the bytes.
+    /// Slave ends of both pseudo-terminals. When the slave ends are closed, the threads that copy the bytes end.
     _far: [OwnedFd; 2],
 }
 

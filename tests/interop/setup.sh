@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Creates a virtual environment in target/python for the Python scripts of these tests. requirements.txt lists the
-# libraries and their versions. If they are already installed, the script does nothing.
+# libraries and their versions. If the libraries are already installed, the script does nothing.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 python=target/python/bin/python

@@ -25,7 +25,8 @@ pub struct Drive {
     pub response: Vec<u8>,
     /// Number of reads before the response is available.
     pub delay: u32,
-    /// True if the record is empty until the response is available. Otherwise, reads return an error until then.
+    /// True if the record is empty until the response is available. If this value is false, reads return an error until
+    /// the response is available.
     pub is_empty: bool,
 }
 
@@ -110,7 +111,7 @@ impl RecordClient for Device {
             LOCAL | GLOBAL => &self.drive.response,
             _ => self.records.get(&address).ok_or(Error::Client(INVALID_INDEX))?,
         };
-        // A record that exceeds the buffer is truncated. The returned length shows this.
+        // A record that exceeds the buffer is truncated. The returned length is the length of the whole record.
         buffer.iter_mut().zip(data).for_each(|(to, from)| *to = *from);
         Ok(data.len())
     }

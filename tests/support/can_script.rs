@@ -7,7 +7,7 @@ use std::time::Duration;
 use lexibus::clients::canopen::{CanFrame, CanPort, Node};
 use lexibus::NodeId;
 
-/// The remaining requests with their responses.
+/// The requests that the node still expects, with the responses to them.
 pub struct Script {
     left: VecDeque<([u8; 8], [u8; 8])>,
     /// True if the next request has been sent but its response has not been read.

@@ -9,7 +9,7 @@ pub fn is_full() -> bool {
     std::env::var_os("LEXIBUS_LANE").is_some_and(|lane| lane == "full")
 }
 
-/// Returns whether to skip a test because only the full lane runs it. Prints a message if so.
+/// Returns whether to skip a test because only the full lane runs it. If the test is skipped, prints a message.
 pub fn skips(test: &str) -> bool {
     if !is_full() {
         println!("skipped: {test} is part of the full lane (tests/full.sh)");
@@ -18,7 +18,7 @@ pub fn skips(test: &str) -> bool {
 }
 
 /// Returns the minimum number of results that a test must have. `full` is the number for the whole corpus. The sample
-/// has an eighth of the files, and they are smaller.
+/// of the fast lane has an eighth of the files, and its files are smaller, so the minimum is a twentieth of `full`.
 pub fn at_least(full: usize) -> usize {
     if is_full() {
         full

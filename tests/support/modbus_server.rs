@@ -82,7 +82,7 @@ impl<S: Registers> Device<S> {
         std::mem::take(&mut self.lock().1)
     }
 
-    /// Calls `look` with the registers.
+    /// Calls `look` with the registers of the device.
     pub fn with<T>(&self, look: impl FnOnce(&mut S) -> T) -> T {
         look(&mut self.lock().0)
     }
@@ -168,7 +168,7 @@ impl Server {
     ///
     /// # Errors
     ///
-    /// Returns the error of the port or the runtime.
+    /// Returns an error if the port cannot be opened or the runtime cannot be started.
     pub fn start<S: Registers>(device: &Device<S>, framing: Framing) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build()?;
         let listener = runtime.block_on(TcpListener::bind("127.0.0.1:0"))?;

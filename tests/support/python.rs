@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Returns the path of a Python that can import `modules`. If there is none, prints a message and returns `None`.
+/// Returns the path of a Python that can import `modules`. If there is no such Python, prints a message and returns `None`.
 ///
 /// The first Python that exists is used: the one that `LEXIBUS_PYTHON` names, the one that `tests/interop/setup.sh`
 /// installs, or `python3`.

@@ -82,7 +82,8 @@ mod whole_bytes {
         ethercrab_wire: |frame| EtherCrab::unpack_from_slice(frame).unwrap(), |value| value.pack();
         deku: |frame| Deku::from_bytes((frame, 0)).unwrap().1, deku_bytes;
         packed_struct: |frame| Packed::unpack(frame).unwrap(), |value| value.pack().unwrap();
-        // The `bilge` struct only stores the word. Read all its fields, because the other libraries also decode them.
+        // The `bilge` struct only stores the word. Read all fields of the struct, because the other libraries also
+        // decode all fields.
         bilge: |frame| {
             let bits = Bilge::from(word(frame));
             WordAndLong { word: bits.word(), long: bits.long() as i32 }

@@ -18,7 +18,7 @@ pub fn compare() -> Vec<Table> {
     vec![generators(), alone()]
 }
 
-/// Measures all generators from bytes of the description to Rust text.
+/// Measures how long each generator needs to convert the bytes of a description to Rust text.
 fn generators() -> Table {
     let input = registers(REGISTERS);
     let mut contestants = [
@@ -34,7 +34,7 @@ fn generators() -> Table {
     Table { title: format!("Generation: {REGISTERS} registers of 6 fields, bytes to Rust"), bytes: None, lines }
 }
 
-/// Measures Lexibus from IR to Rust text, for an EDS with 10,000 entries.
+/// Measures how long Lexibus needs to convert the IR of an EDS with 10,000 entries to Rust text.
 fn alone() -> Table {
     // The EDS has 1,110 records with nine entries each.
     let bytes = growing(InputFormat::Eds, 111);

@@ -48,7 +48,8 @@ fn one(&(title, name, make): &Way, print: bool) -> Value {
         println!("| size | MB | read, ns per byte | check | emit | peak memory, times the input | retained memory |");
         println!("|---|---|---|---|---|---|---|");
     }
-    // Compare with the second size, because the fixed cost per file dominates the smallest input.
+    // Compare all costs with the cost of the second size, because the fixed cost per file dominates the cost of the smallest
+    // input.
     let usual = &costs[1];
     let mut rows = Vec::new();
     for (size, cost) in SIZES.iter().zip(&costs) {

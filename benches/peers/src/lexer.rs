@@ -9,7 +9,7 @@ pub struct Span {
     pub end: u32,
 }
 
-/// A section. Its entries end at the first entry of the next section.
+/// A section. The entries of a section end at the first entry of the next section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Section {
     pub name: Span,
@@ -25,7 +25,7 @@ pub struct Spans {
 
 pub fn lex(text: &str) -> Spans {
     let bytes = text.as_bytes();
-    // Estimate the number of spans from the size of lines and sections in real files.
+    // Estimate the number of spans from the typical size of lines and sections in real files.
     let mut spans =
         Spans { sections: Vec::with_capacity(bytes.len() / 160), entries: Vec::with_capacity(bytes.len() / 20) };
     let mut start = 0;

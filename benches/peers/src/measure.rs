@@ -26,7 +26,7 @@ const FEWEST: usize = 3;
 /// Time limit for a program with one input. The limit applies after the minimum number of rounds.
 const PATIENCE: Duration = Duration::from_secs(4);
 
-/// Minimum duration of a round. Short work is repeated until it takes this long.
+/// Minimum duration of a round. Work that takes less time is repeated until a round takes this long.
 const ROUND: Duration = Duration::from_millis(10);
 
 impl<'a> Contestant<'a> {
@@ -57,7 +57,7 @@ impl<'a> Contestant<'a> {
     }
 }
 
-/// Results of a program so far.
+/// The rounds of a program that have been measured so far.
 struct Progress {
     repetitions: u32,
     times: Vec<Duration>,

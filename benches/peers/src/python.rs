@@ -12,7 +12,7 @@ pub struct Python {
 }
 
 impl Python {
-    /// Starts the process. Returns `None` if `setup.sh` has not been run.
+    /// Starts the Python process. Returns `None` if `setup.sh` has not been run.
     pub fn start() -> Option<Self> {
         let here = Path::new(env!("CARGO_MANIFEST_DIR"));
         let python = here.join("target/python/bin/python");
@@ -40,7 +40,7 @@ impl Python {
 
 impl Drop for Python {
     fn drop(&mut self) {
-        // Ignore an error, because it means that the process has already ended.
+        // Ignore an error of `kill`, because it means that the process has already ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

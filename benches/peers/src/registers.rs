@@ -1,5 +1,5 @@
-//! The same registers in the input formats of three generators. Each register has 32 bits with the six bit fields of
-//! `FIELDS`.
+//! Writes the same registers in the input formats of three generators. Each register has 32 bits with the six bit
+//! fields of `FIELDS`.
 
 use std::fmt::Write;
 
@@ -38,7 +38,7 @@ fn svd(count: usize) -> String {
     text + "</registers></peripheral></peripherals></device>\n"
 }
 
-/// Returns a device in the language of device-driver.
+/// Returns a device in the input language of the generator device-driver.
 fn ddsl(count: usize) -> String {
     let mut text = String::from("device Bench {\n    default-byte-order: LE,\n    register-address-type: u16,\n");
     text += "    default-access: RW,\n";

@@ -8,11 +8,11 @@ use crate::measure::Sample;
 pub struct Line {
     pub name: String,
     pub outcome: Result<Sample, String>,
-    /// Required ratio: how many times as fast as this program Lexibus should be.
+    /// Required speed ratio: Lexibus should be at least this many times as fast as the program.
     pub target: Option<f64>,
 }
 
-/// Results of all programs for one input. The first line is Lexibus.
+/// Results of all programs for one input. The first line contains the result of Lexibus.
 pub struct Table {
     pub title: String,
     /// Number of input bytes, used to print the speed. `None` means that the table shows only times.
@@ -21,7 +21,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Returns how many times as fast as `line` the first line of the table is.
+    /// Returns the time in `line` divided by the time of Lexibus, which is in the first line of the table.
     fn ratio(&self, line: &Line) -> Option<f64> {
         let lexibus = self.lines[0].outcome.as_ref().ok()?.least.as_secs_f64();
         Some(line.outcome.as_ref().ok()?.least.as_secs_f64() / lexibus)

@@ -45,7 +45,7 @@ pub fn catalogue() -> String {
     text
 }
 
-/// Returns the section of a code. The code is the anchor of the section.
+/// Returns the section of the catalog that describes a code. The code is the anchor of the section.
 pub fn explain(code: &Code) -> String {
     let (class, summary) = (code.class.name(), escaped(code.summary));
     let mut text = format!("<a id=\"{}\"></a>\n\n### {}: {}\n\n", code.id, code.id, code.name);
@@ -59,7 +59,7 @@ pub fn explain(code: &Code) -> String {
     text
 }
 
-/// Returns the sort position of a class within a family. Errors come first.
+/// Returns the sort position of a class within a family. The class of errors comes first.
 fn severity(class: Class) -> u8 {
     match class {
         Class::Error => 0,

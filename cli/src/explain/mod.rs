@@ -35,7 +35,7 @@ pub fn catalogue() -> String {
     CODES.iter().map(line).collect()
 }
 
-/// Returns a sentence that states when codes of a class are errors.
+/// Returns a sentence that states under which conditions codes of a class are errors.
 fn strictness(class: Class) -> &'static str {
     match class {
         Class::Error => "always an error",
@@ -53,7 +53,7 @@ fn level(code: &Code) -> &'static str {
     }
 }
 
-/// Wraps a text at [`COLUMNS`] characters. Each line ends with a line feed. Longer words are not split.
+/// Wraps a text at [`COLUMNS`] characters. Each line ends with a line feed. Words that are longer than a line are not split.
 fn wrapped(text: &str) -> String {
     let (mut lines, mut column) = (String::with_capacity(text.len() + 1), 0);
     for word in text.split_whitespace() {

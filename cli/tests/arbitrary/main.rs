@@ -30,19 +30,19 @@ use outputs::Outputs;
 /// Number of catalogs in the full lane. The fast lane tests a sixteenth of this number.
 const DRAWN: u64 = 400;
 
-/// Default number of catalogs for which all other outputs are created.
+/// Default number of catalogs for which all outputs other than Rust are created.
 const OUTPUTS: usize = 30;
 
 /// Number of catalogs whose generated code implements traits of other crates.
 const WITH_TRAITS: usize = 60;
 
-/// Number of catalogs for whose generated code rustdoc is run.
+/// Number of catalogs whose generated code is documented with rustdoc.
 const DOCUMENTED: usize = 30;
 
 /// Number of generated modules that are compiled together.
 const BATCH: usize = 60;
 
-/// Number of random bytes that determine a catalog.
+/// Number of random bytes from which a catalog is created.
 const BYTES: usize = 8000;
 
 fn seeds() -> Range<u64> {
@@ -104,7 +104,8 @@ fn what_passes_the_lints_compiles() {
     }
     let failures: Vec<String> = kept.chunks(BATCH).filter_map(|batch| compile_modules(batch).err()).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
-    // The share of catalogs without errors varies more if their number is small, so the required share is 10 % lower.
+    // Require 80 % instead of 90 % of catalogs without errors if fewer than 100 catalogs are tested, because the share
+    // varies more.
     let tenths = if drawn < 100 { 8 } else { 9 };
     assert!(kept.len() as u64 * 10 >= drawn * tenths, "only {} of {drawn} catalogs have no errors", kept.len());
 }
@@ -122,7 +123,7 @@ fn traits_of_other_crates_are_derived_for_it() {
     assert!(count("serde::Serialize") > kept.len() && count("defmt::Format") > kept.len());
 }
 
-/// Returns the seed, compilation and other outputs of each catalog.
+/// Returns the seed, the compilation, and the outputs other than Rust of each catalog.
 fn outputs() -> impl Iterator<Item = (u64, Compilation, Outputs)> {
     some(OUTPUTS).map(|seed| {
         let (compilation, _) = drawn(seed);

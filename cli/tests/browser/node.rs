@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 /// Folder for screenshots and for the libraries that `setup.sh` installs.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/browser");
 
-/// Environment variable that makes a missing browser an error. CI sets it after running `setup.sh`.
+/// Environment variable that makes a missing browser an error. CI sets this variable after running `setup.sh`.
 const REQUIRED: &str = "LEXIBUS_BROWSER";
 
 /// Runs a script with paths as arguments. The test fails if the script fails.
@@ -25,7 +25,7 @@ pub fn run<const N: usize>(script: &str, paths: impl FnOnce() -> [PathBuf; N]) {
     print!("{printed}");
 }
 
-/// Returns an error with the reason if no browser can be controlled.
+/// Returns the reason as an error if no browser can be controlled.
 fn ready() -> Result<(), &'static str> {
     static READY: OnceLock<Result<(), String>> = OnceLock::new();
     let ready = READY.get_or_init(|| match node("ready.mjs", &[]) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the libraries that control the browser to target/browser. package-lock.json determines their versions. If they are already
-# installed, the script does nothing. The script fails if Chromium or Node is not installed.
+# Installs the libraries that control the browser to target/browser. package-lock.json determines their versions. If the libraries
+# are already installed, the script does nothing. The script fails if Chromium or Node is not installed.
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
 tests=cli/tests/browser

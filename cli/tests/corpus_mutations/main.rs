@@ -44,7 +44,8 @@ fn config(cases: u32) -> ProptestConfig {
 
 /// Runs `exercise` on the inputs that `make` creates. Prints the smallest input that fails.
 ///
-/// At least `usable` percent of the inputs must reach the back end. Otherwise, the test would not be meaningful.
+/// At least `usable` percent of the inputs must reach the back end. A test in which fewer inputs reach the back end would
+/// not be meaningful.
 fn hold<T: Debug + Clone>(
     cases: u32,
     usable: u32,
@@ -259,7 +260,7 @@ fn text_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
 
 /// Returns the range of the next XML element after a position. The root element is excluded.
 fn element_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
-    /// Maximum size of an element. Larger elements would make up most of a file.
+    /// Maximum size of an element. A larger element would contain most of a file.
     const LARGEST: usize = 20_000;
     let is_tag = |at: usize| bytes[at] == b'<' && bytes.get(at + 1).is_some_and(u8::is_ascii_alphabetic);
     let is_start = |at: usize| is_tag(at) && !in_comment(bytes, at);
@@ -426,7 +427,7 @@ fn files_that_start_as_one_and_end_as_another() {
     });
 }
 
-/// Generates a file name whose extension is that of a format, or unrelated.
+/// Generates a file name with the extension of a format or with an unrelated extension.
 fn name() -> impl Strategy<Value = &'static str> {
     select(&["x.eds", "x.dcf", "x.xdd", "x.xdc", "", "x"][..])
 }

@@ -1,5 +1,5 @@
-//! Compiles inputs with all line ends, with and without a byte order mark and, for EDS, in Windows-1252. All results
-//! must be equal. The fast lane tests one form of each kind, and only with the `quirks` cases.
+//! Compiles each input with all line ends, with and without a byte order mark and, if it is an EDS, in Windows-1252.
+//! All results must be equal. The fast lane tests fewer combinations, and only the `quirks` cases.
 
 use lexibus_codegen::compile::{check, Compilation};
 use lexibus_codegen::source::Source;
@@ -38,7 +38,8 @@ pub fn all_say_the_same(case: &Case) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the names and bytes of a file's other forms. Tables and register lists have none.
+/// Returns the file with other line ends, byte order marks and encodings: the name and the bytes of each form. Register
+/// tables and register lists have no other forms.
 fn forms(input: &Source) -> Vec<(String, Vec<u8>)> {
     let is_eds = match ending(input.name()) {
         "eds" | "dcf" => true,

@@ -57,7 +57,7 @@ fn printed(compilation: &Compilation) -> String {
     format!("{text}{name}: {}\n", render::summary(counts.0, counts.1))
 }
 
-/// Adds the named outputs of a file. Notes of exports are added to the diagnostics.
+/// Adds the outputs of a file that the settings name. Notes of exports are added to the diagnostics.
 fn made(
     case: &Case,
     compilation: &Compilation,

@@ -6,8 +6,8 @@
 //!   documentation and attributes above the item, and the text must be one or more whole words in the item's first line
 //!   (`SPEED`, `fn speed`, `struct RxPdo1`). A `^` at the end of the text selects the enclosing element, and `^^` the next outer
 //!   element.
-//! - EDS, Markdown and plain text: all lines up to the next empty line. In a Markdown table, the header and the rows that
-//!   contain the text.
+//! - EDS, Markdown and plain text: all lines up to the next empty line. In a Markdown table, the part consists of the header and
+//!   the rows that contain the text.
 
 use std::ops::Range;
 

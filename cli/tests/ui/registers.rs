@@ -17,7 +17,7 @@ use crate::compile_support::compile_modules;
 /// Codes that no test case can cause. IO001 reports an unreadable file; a test of the command line covers it.
 const WITHOUT_INPUT: [&str; 1] = ["IO001"];
 
-/// Each diagnostic code must have a test case that has its name and reports it.
+/// Each diagnostic code must have a test case that is named after the code and reports it.
 pub fn every_code_has_a_case(cases: &[Case]) -> Trial {
     let cases: Vec<(String, String)> =
         cases.iter().map(|case| (case.folder_name(), case.expected_diagnostics())).collect();
@@ -88,8 +88,8 @@ fn none_missing(what: &str, missing: &[&str]) -> Result<(), Failed> {
     Err(format!("{what} is missing for {}", missing.join(", ")).into())
 }
 
-/// Number of inputs that are compiled as one crate. More crates would take longer, and a single crate would need too deep
-/// a stack.
+/// Number of inputs that are compiled as one crate. Compiling more crates would take longer, and compiling a single crate
+/// would need too deep a stack.
 const INPUTS: usize = 50;
 
 /// The Rust code of all inputs without errors must compile without warnings. Each crate is a separate trial.

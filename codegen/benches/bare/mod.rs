@@ -1,5 +1,5 @@
-//! Reference for the XML readers: a loop that reads the events of `quick-xml` with their positions, and a loop that also splits
-//! the attributes.
+//! Two reference loops for comparison with the XML front ends: one reads the events of `quick-xml` with their positions, and
+//! one also splits the attributes.
 
 use std::path::Path;
 use std::time::{Duration, Instant};

@@ -33,7 +33,8 @@ pub fn passes(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     });
 }
 
-/// Measures the stages from bytes to checked IR. The stages include profiles and the digest of the source.
+/// Measures the stages from bytes to checked IR. The stages include adding the facts of profiles and calculating the
+/// digest of the source.
 pub fn check(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     bencher
         .counter(BytesCount::new(bytes.len()))

@@ -1,7 +1,7 @@
 //! Exports devices from any input format as EDS or DCF (CiA 306), ESI (ETG.2000) or GSDML. Also writes the IR as JSON,
 //! and diagnostics as JSON lines or SARIF.
 //!
-//! Facts that the output format cannot express are left out. [`Export::notes`] lists them.
+//! Facts that the output format cannot express are left out. [`Export::notes`] lists the facts that were left out.
 //!
 //! ```
 //! use lexibus_codegen::compile::{check, Options};

@@ -76,7 +76,7 @@ kinds! {
     Structure = "structure", "array or record in a single entry written as raw bytes";
     /// An integer whose width does not exist in the format.
     Widened = "widened-type", "integer written with the next wider type of the format";
-    /// A type that the format does not have, or that is not defined.
+    /// A type that the format does not support, or that the source does not define.
     UnknownType = "unknown-type", "unsupported type written as raw bytes";
     /// The maximum length of a string.
     Length = "text-length", "maximum length of a string left out";
@@ -100,7 +100,7 @@ kinds! {
     Pdo = "pdo", "PDO, or its communication parameters, left out: no object of the file describes it";
     /// Storage behavior, side effects or conditions of an item.
     Behaviour = "behaviour", "storage, conditions or side effects left out";
-    /// Models, versions or options that have an item.
+    /// The models, versions or options in which an item exists.
     Availability = "availability", "models, versions or options of an item left out";
     /// A reference to another item that contains the same value or a part of it, or a mark as reserved or optional.
     Relation = "relation", "relation to other items, or mark as reserved or optional, left out";
@@ -132,11 +132,11 @@ kinds! {
     Slot = "slot", "slot left out";
     /// A setting of another bus.
     OtherBus = "other-bus", "settings of another bus left out";
-    /// An additional axis. The objects of this axis are derived from those of the first axis.
+    /// An additional axis. The objects of an additional axis are derived from the objects of the first axis.
     Axis = "axis", "additional axis left out: the file contains only the objects of the first axis";
     /// A PROFINET submodule, message, code table, state machine, procedure or variant.
     OtherPart = "other-part", "message, code table, state machine, procedure, variant or submodule left out";
-    /// A setting of the device or of one of its objects that the format does not have.
+    /// A setting of the device or of one of its objects for which the format has no field.
     Setting = "setting", "setting left out: the format has no field for it";
     /// A date, time, version or comment that the format writes in another form.
     FileInfo = "file-info", "date, time, version or comment of the file converted or left out";
@@ -185,7 +185,7 @@ impl Notes {
         self.add_many(kind, true, subject);
     }
 
-    /// Adds `count` facts. `true` counts as one fact and `false` as none.
+    /// Adds `count` facts. As a count, `true` means one fact and `false` means none.
     pub(super) fn add_many(&mut self, kind: NoteKind, count: impl Into<usize>, subject: Subject<'_>) {
         let count = count.into();
         if count > 0 {
@@ -198,7 +198,7 @@ impl Notes {
     }
 }
 
-/// Returns how many facts of an item are of the kind [`NoteKind::Relation`].
+/// Returns the number of facts of an item that belong to the kind [`NoteKind::Relation`].
 pub(crate) fn relations(item: &Item) -> usize {
     usize::from(item.related.is_some()) + usize::from(item.is_reserved) + usize::from(item.is_optional)
 }
@@ -242,7 +242,7 @@ impl fmt::Display for Subject<'_> {
             Subject::Device => f.write_str("the device"),
             Subject::Object(index) => write!(f, "0x{index:04X}"),
             Subject::Entry(index, sub) => f.write_str(&lexibus_codegen::facts::address::object(*index, *sub)),
-            // Replace control characters in names, because a note is one line.
+            // Replace control characters in names, because a note must fit on one line.
             Subject::Named(name) => name.chars().try_for_each(|letter| {
                 let letter = if letter.is_control() { ' ' } else { letter };
                 write!(f, "{letter}")

@@ -44,8 +44,8 @@ impl std::error::Error for Refusal {}
 pub(super) struct MissingFacts(Vec<MissingFact>);
 
 impl MissingFacts {
-    /// Returns `found`. If it is `None`, records the missing fact and returns a default, so that one refusal lists all
-    /// missing facts.
+    /// Returns `found`. If `found` is `None`, records the missing fact and returns a default, so that one refusal lists
+    /// all missing facts.
     pub(super) fn require<T: Default>(
         &mut self,
         found: Option<T>,
@@ -70,7 +70,7 @@ impl MissingFacts {
     }
 }
 
-/// A type of option values.
+/// A type that the value of an option can have.
 pub(super) trait OptionValue: Sized {
     /// Description of the valid values, for messages.
     const WHAT: &'static str;

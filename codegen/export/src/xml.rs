@@ -60,7 +60,7 @@ impl Xml {
         self.text.push(' ');
         self.text += name;
         self.text += "=\"";
-        // XML readers replace these characters with spaces if they are not character references.
+        // In attributes, XML readers replace tabs and line breaks with spaces unless they are written as character references.
         let breaks = [("\t", "&#9;"), ("\n", "&#10;"), ("\r", "&#13;")];
         let value = breaks.into_iter().fold(escape(&*value).into_owned(), |text, (from, to)| text.replace(from, to));
         self.text += &value;
@@ -123,14 +123,14 @@ impl Xml {
         self.close();
     }
 
-    /// Writes an element that contains only text if its value is `Some`.
+    /// Writes an element that contains only text. Writes nothing if `value` is `None`.
     pub(super) fn optional_leaf(&mut self, name: &'static str, value: Option<impl Display>) {
         if let Some(value) = value {
             self.leaf(name, value);
         }
     }
 
-    /// Writes an element that contains only text unless the text is empty.
+    /// Writes an element that contains only text. Writes nothing if the text is empty.
     pub(super) fn text_leaf(&mut self, name: &'static str, text: &str) {
         if !text.is_empty() {
             self.leaf(name, text);

@@ -1,5 +1,5 @@
-//! Decodes arbitrary bytes as a stream of frames, and as a request and its reply. Encoding the decoded data must give the same
-//! bytes.
+//! Decodes arbitrary bytes with the serial protocol of the HSD motors: as a stream of frames, and as a request and its reply.
+//! Encoding the decoded data must give the same bytes.
 #![no_main]
 
 use lexibus::framing::Framing;

@@ -1,4 +1,4 @@
-//! Unpacks arbitrary bytes as process data of the drives. Packing must give the same bytes.
+//! Unpacks arbitrary bytes as the process data of each drive. Packing must give the same bytes.
 #![no_main]
 
 use lexibus_drives::{akd, demo_drive, eco, vector_step};
@@ -6,7 +6,7 @@ use lexibus_drives::{akd, demo_drive, eco, vector_step};
 macro_rules! process_data {
     ($data:ident $($name:path)*) => { $({
         use $name as Layout;
-        // `ones` has all bits of fields set. The other bits are padding.
+        // In `ones`, all bits that belong to fields are set, and all padding bits are 0.
         let ones = Layout::unpack(&[0xFF; Layout::LEN]).expect("so many bytes").pack();
         match Layout::unpack($data) {
             Ok(fields) => {

@@ -12,7 +12,7 @@ pub(super) enum Table {
 }
 
 impl Table {
-    /// Returns the key of the table in the register-table format.
+    /// Returns the name of this Modbus table in the register-table format.
     pub fn name(self) -> &'static str {
         match self {
             Table::Holding => "holding",
@@ -22,12 +22,12 @@ impl Table {
         }
     }
 
-    /// Returns whether the table consists of bits.
+    /// Returns whether this Modbus table consists of bits.
     pub fn is_bits(self) -> bool {
         matches!(self, Table::Coil | Table::Discrete)
     }
 
-    /// Returns whether the table is read-only.
+    /// Returns whether this Modbus table is read-only.
     pub fn is_read_only(self) -> bool {
         matches!(self, Table::Input | Table::Discrete)
     }
@@ -77,7 +77,7 @@ pub(super) struct Address {
 pub(super) struct Style {
     /// True if digits without a prefix are hexadecimal.
     pub is_hex: bool,
-    /// True if addresses have the form `4x0001`. In this notation, `0x0001` is a coil.
+    /// True if addresses have the form `4x0001`. In the notation `4x0001`, the address `0x0001` is a coil.
     pub is_x: bool,
     /// True if all addresses end in `.0`, which some spreadsheets add.
     pub is_fraction: bool,
@@ -100,7 +100,7 @@ impl Style {
     }
 }
 
-/// Parses an address such as `4x0012`. Returns the digit of the table and the number.
+/// Parses an address such as `4x0012`. Returns the digit that identifies the Modbus table, and the number after `x`.
 fn x_notation(text: &str) -> Option<(char, u32)> {
     let mut letters = text.chars();
     let digit = letters.next().filter(|digit| matches!(digit, '0' | '1' | '3' | '4'))?;
@@ -131,7 +131,7 @@ fn part_of(text: &str) -> (&str, Option<(u8, u8)>) {
     let by_word = lower.find("bit").map(|at| (at, at + 3));
     let by_mark = || {
         let at = text.find(['.', ':'])?;
-        // `40001..40002` is a range.
+        // In `40001..40002`, the dots mark a range and not a bit.
         let is_range = text.get(at + 1..).is_some_and(|rest| rest.starts_with('.'));
         (!is_range).then_some((at, at + 1))
     };
@@ -197,7 +197,7 @@ fn end_of(first: u32, last: &str, style: Style) -> Option<u32> {
     }
 }
 
-/// Returns whether a text is a hexadecimal number in this notation.
+/// Returns whether a text is a hexadecimal number in the notation `style`.
 fn is_hexadecimal(text: &str, style: Style) -> bool {
     hexadecimal(text, style.is_hex).is_some() && !(style.is_x && x_notation(text.trim()).is_some())
 }

@@ -73,7 +73,7 @@ pub(super) fn number(text: &str, comma: bool) -> Option<Number> {
     Some(Number::Real(sign as f64 * value))
 }
 
-/// Converts a number to a decimal point and removes its thousands separators.
+/// Converts the decimal mark of a number to a point, and removes the thousands separators.
 fn point(digits: &str, comma: bool) -> String {
     let groups = |mark: char| {
         let mut parts = digits.split(mark);
@@ -90,8 +90,8 @@ fn point(digits: &str, comma: bool) -> String {
     }
 }
 
-/// Returns whether the decimal mark of a number is a comma. Returns `None` if the number has no decimal mark or its meaning is
-/// unclear.
+/// Returns whether the decimal mark of a number is a comma. Returns `None` if the number has no decimal mark, or if the
+/// meaning of the mark is unclear.
 pub(super) fn decimal_mark(text: &str) -> Option<bool> {
     let digits = text.trim().trim_start_matches(['-', '+']);
     let (whole, fraction) = digits.split_once([',', '.'])?;
@@ -125,7 +125,7 @@ pub(super) fn range(text: &str, unit: &str, comma: bool) -> Option<(Number, Numb
     Some((quantity(low, unit, comma)?, quantity(high, unit, comma)?))
 }
 
-/// A scale factor. The factor is ambiguous if its inverse could also be meant.
+/// A scale factor. The factor is ambiguous if the list could also mean its inverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Factor {
     pub value: f64,

@@ -165,7 +165,7 @@ fields! {
 }
 
 impl Field {
-    /// Returns the field with this name. Upper and lower case are equivalent.
+    /// Returns the field with this name, ignoring case.
     pub fn find(name: &str) -> Option<Field> {
         FIELDS.iter().find(|(_, known, _)| known.eq_ignore_ascii_case(name)).map(|&(field, ..)| field)
     }
@@ -198,7 +198,7 @@ impl fmt::Display for Field {
     }
 }
 
-/// A column whose field is known.
+/// A column of the list whose field was recognized.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Column {
     pub field: Field,
@@ -206,7 +206,7 @@ pub(super) struct Column {
     pub at: usize,
     /// True if the title states that the numbers are hexadecimal.
     pub is_hex: bool,
-    /// Unit or operation in the title: words instead of bytes, or a gain instead of a divisor.
+    /// Unit or operation that the title mentions: words instead of bytes, or a gain instead of a divisor.
     pub hint: Hint,
 }
 
@@ -230,17 +230,17 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    /// Returns the first column that contains a field.
+    /// Returns the first column that was recognized as `field`.
     pub fn get(&self, field: Field) -> Option<Column> {
         self.all(field).next()
     }
 
-    /// Returns all columns that contain a field.
+    /// Returns all columns that were recognized as `field`.
     pub fn all(&self, field: Field) -> impl Iterator<Item = Column> + '_ {
         self.list.iter().copied().filter(move |column| column.field == field)
     }
 
-    /// Returns whether a column contains addresses.
+    /// Returns whether at least one column contains addresses.
     pub fn has_address(&self) -> bool {
         self.list.iter().any(|column| column.field.is_address())
     }
@@ -263,7 +263,8 @@ pub(super) fn find<'m>(records: &Records, map: &'m [(Field, String)]) -> Result<
     let by_number = map.iter().all(|(_, column)| number(column).is_some());
     let (mut best, mut missing) = (Columns::default(), None);
     for (line, record) in records.list.iter().take(PREAMBLE).enumerate() {
-        // Column numbers match any line. A line of titles must therefore contain at least one known title.
+        // Columns that the caller identifies by number exist in any line. A line of titles must therefore contain at
+        // least one known title.
         if by_number && plain(record).is_empty() {
             continue;
         }
@@ -411,7 +412,8 @@ fn field_of(title: &str) -> Option<Field> {
         let has = |list: &[&str]| words().any(|word| list.contains(&word));
         match () {
             () if words().count() > 4 => None,
-            // An example is "Indirizzo CAN EtherCAT Profinet", if another column contains the Modbus address.
+            // The title "Indirizzo CAN EtherCAT Profinet", for example, means the object index if another column
+            // contains the Modbus address.
             () if is_fieldbus(title) => Some(Field::Index),
             () if has(&["subindex", "sub"]) => Some(Field::Sub),
             () if has(&["address", "adresse", "indirizzo", "addr"]) => Some(Field::Reg),

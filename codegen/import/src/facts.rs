@@ -74,8 +74,8 @@ impl Reader<'_, '_> {
         (reference, (factor.unwrap_or(1.0), offset.unwrap_or(0.0)))
     }
 
-    /// Returns whether a text can be a unit. Reports each unknown unit once, because it may be misspelled or contain a
-    /// factor.
+    /// Returns whether a text can be a unit. Reports each unknown unit once, because the unit may be misspelled or
+    /// contain a factor.
     fn is_symbol(&mut self, record: &Record, unit: &str) -> bool {
         let Some(cell) = self.cell(record, Field::Unit) else { return true };
         if unit.chars().count() > UNIT_LETTERS || unit.contains(['<', '>', '=', ';']) {
@@ -155,14 +155,14 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Returns a reference to the row that contains the scale factor, if the cell names one.
+    /// Returns a reference to the row that contains the scale factor, if the cell contains the name of such a row.
     fn other(&mut self, cell: &Cell, is_exponent: bool) -> Option<Reference> {
         let name = tidy(&cell.text);
         if !self.names.contains(&name) {
             self.unreadable(cell, "a factor or the name of another row");
             return None;
         }
-        // According to SunSpec's naming convention, these rows contain decimal exponents.
+        // According to SunSpec's naming convention, rows whose names end with `_SF` contain decimal exponents.
         let is_exponent = is_exponent || name.to_lowercase().ends_with("_sf");
         Some(Reference { name: row_name(&name), is_exponent, span: cell.span })
     }
@@ -176,7 +176,7 @@ impl Reader<'_, '_> {
                 Some((low, high)) => {
                     values.extend([("min", Field::Range, Some(low)), ("max", Field::Range, Some(high))]);
                 }
-                // The range is a list of values, which `meaning` reads.
+                // The cell contains a list of values instead of a range; `meaning` reads the list.
                 None if values::read(&cell.text).is_some() => {}
                 None => self.unreadable(cell, "a range such as 0..100"),
             }
@@ -298,7 +298,7 @@ impl Reader<'_, '_> {
         (!entries.is_empty()).then(|| self.definitions.add(is_bits, entries, name))
     }
 
-    /// Returns the list of values or bits in the documentation, if there is one, with the cell that contains it.
+    /// If the documentation contains a list of values or bits, returns the list and its cell.
     pub fn described_list<'c>(&self, record: &'c Record, ty: Type) -> Option<(&'c Cell, List)> {
         let columns = self.columns.all(Field::Doc).filter(|_| ty.is_integer());
         let mut cells = columns.filter_map(|column| record.cells.get(column.at));
@@ -349,7 +349,7 @@ fn truth(text: &str) -> Option<Number> {
     Some(Number::Int { value, is_hex: false })
 }
 
-/// Creates a valid row name without braces and control characters. The maximum length is 60 characters.
+/// Creates a valid row name without braces and control characters. The maximum length of the name is 60 characters.
 pub(super) fn row_name(text: &str) -> String {
     let text = unbraced(&tidy(text));
     let text: String = text.chars().filter(|letter| !letter.is_control()).collect();

@@ -1,4 +1,5 @@
-//! Arranges rows in chapters and spaces, and resolves repeated names and addresses.
+//! Groups the rows by chapter and Modbus table, makes repeated names unique, and converts rows with repeated addresses to
+//! comments.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
@@ -30,7 +31,7 @@ pub(super) struct Space {
     pub swap: bool,
 }
 
-/// The rows of a chapter that belong to the same table.
+/// The rows of a chapter that belong to the same Modbus table.
 #[derive(Debug)]
 pub(super) struct Chapter {
     pub title: Rc<str>,
@@ -47,7 +48,7 @@ pub(super) struct Listing {
     pub no_access: bool,
 }
 
-/// Assigns a table, a unique name and a chapter to each row.
+/// Assigns a Modbus table, a unique name and a chapter to each row.
 pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
     let Rows { mut rows, definitions, no_access, from_one } = list;
     within_budget(&mut rows, diagnostics);
@@ -92,7 +93,7 @@ fn within_budget(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Groups rows by chapter and table.
+/// Groups rows by chapter and Modbus table.
 fn chapters(rows: Vec<Row>) -> Vec<Chapter> {
     let mut chapters: Vec<Chapter> = Vec::new();
     // Use a map because there may be as many chapters as rows.
@@ -159,10 +160,12 @@ fn space(table: Table, rows: &[Row], from_one: bool, diagnostics: &mut Diagnosti
     };
     let mut bases =
         numbers().map(|number| Table::of_number(number).filter(|(found, _)| *found == table).map(|(_, base)| base));
-    // Base 1 is not conclusive. By convention, addresses from 1 are coils, but other tables can also start at 1.
+    // Ignore base 1: by convention, addresses that start at 1 belong to coils, but lists also use them for the other Modbus
+    // tables.
     let base = bases.next().flatten().filter(|&base| base > 1 && bases.all(|other| other == Some(base)));
     let first = wire(in_table(), diagnostics).or(base.map(i64::from)).or(from_one.then_some(1));
-    // Set an order for the whole space only if all rows state it. A row without an order uses the default.
+    // Set `low_first` or `swap` for the whole Modbus table only if all rows state it. A row that states no order has the
+    // default order.
     let all = |matter: fn(&Row) -> bool, of: fn(&Row) -> Option<bool>| {
         let mut rows = in_table().filter(|row| matter(row)).peekable();
         rows.peek().is_some() && rows.all(|row| of(row) == Some(true))

@@ -1,4 +1,4 @@
-//! Converts lists of registers to register tables. The lists are CSV files, as saved by spreadsheets.
+//! Converts lists of registers to register tables. The lists are CSV files that were exported from spreadsheets.
 //! [`lexibus-codegen`](lexibus_codegen) compiles the tables to typed Rust. The command `lexibus import` uses this crate.
 //!
 //! ```
@@ -58,11 +58,11 @@ use records::{Record, Records};
 pub struct Options {
     /// Levels of the diagnostic codes.
     pub levels: Levels,
-    /// Fields of columns. A column is identified by its title, or by `#` and its number.
+    /// The fields of columns that the caller identifies. A column is identified by its title, or by `#` and its number.
     pub map: Vec<(Field, String)>,
     /// Delimiter between cells. By default, the delimiter with the most recognized titles is used.
     pub delimiter: Option<u8>,
-    /// Name of the device. The default is the file name.
+    /// Name of the device. The default name is the file name.
     pub name: Option<String>,
 }
 

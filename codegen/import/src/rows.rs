@@ -111,7 +111,7 @@ pub(super) struct Rows {
     pub definitions: Vec<Definition>,
     /// True if the list contains no access rights.
     pub no_access: bool,
-    /// True if addresses have the form `4x0001`. These addresses start at 1.
+    /// True if addresses have the form `4x0001`. In the notation `4x0001`, the first address is 1.
     pub from_one: bool,
 }
 
@@ -337,7 +337,7 @@ impl Reader<'_, '_> {
 
     /// Returns the bits that the row describes. Returns `None` if the row describes the whole register.
     fn part(&mut self, record: &Record, address: Option<&RowAddress>) -> Option<(u8, u8)> {
-        // A row can only describe a part of a register.
+        // Only registers have parts; objects and parameters have none.
         let table =
             address.and_then(
                 |address| if let RowAddress::Register { table, .. } = address { Some(table) } else { None },
@@ -510,7 +510,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Returns the assumed type of a row without a type. The row may state its size.
+/// Returns the assumed type of a row without a type. `size` is the size of the row in bits if it is known.
 fn guess(size: Option<u32>) -> Type {
     let of = |bits, elements| Type { base: Base::Unsigned, bits, elements, length: None };
     match size {

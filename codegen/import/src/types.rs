@@ -30,7 +30,7 @@ pub(super) struct Written {
     pub order: Order,
 }
 
-/// Words in type names that mean swapped words. The suffix `_R` comes from ESPHome.
+/// Parts of type names that mean that the registers of a value are swapped. The suffix `_R` comes from ESPHome.
 const SWAPPED: [&str; 10] = ["swapped", "swap", "swp", "cdab", "lsw", "lswfirst", "r", "rev", "reversed", "inverse"];
 const ORDERS: [&str; 16] = [
     "abcd", "badc", "dcba", "le", "be", "little", "big", "endian", "msw", "mswfirst", "first", "msb", "lsb", "low",
@@ -67,7 +67,7 @@ pub(super) fn read(text: &str) -> Option<Written> {
             order,
         ),
     };
-    // A single `char` is a byte. Several `char` elements are a text.
+    // A single `char` is a byte, and an array of `char` is a text.
     let glued = if glued == "char" && elements.is_some() { "chars".to_owned() } else { glued };
     let written = single(&glued)?;
     Some(match (written.base, elements) {
@@ -83,7 +83,7 @@ fn array(text: &str) -> (&str, Option<u32>) {
     match bracket.or_else(times) {
         Some((name, count)) => match count.trim().parse() {
             Ok(count) if count > 0 => (name, Some(count)),
-            // A text in parentheses can be no number of elements: "float32 (CDAB)", "int (16 bit)".
+            // A text in parentheses is not always a number of elements: "float32 (CDAB)", "int (16 bit)".
             _ => (text, None),
         },
         None => (text, None),

@@ -1,4 +1,4 @@
-//! Writes the register table as TOML. Each row is an aligned line.
+//! Writes the register table as TOML. Each row is written on one line, and the entries of the rows are aligned.
 
 use std::collections::HashSet;
 use std::fmt::Write as _;
@@ -85,7 +85,7 @@ pub(super) fn table(list: &Listing, name: &str, source: &str) -> String {
     let mut addresses = list.chapters.iter().flat_map(|chapter| &chapter.rows).map(|row| row.address);
     let is_object =
         |address| matches!(address, Ok(RowAddress::Object { .. } | RowAddress::Register { object: Some(_), .. }));
-    // The list does not name the bus of the objects, so the user must add the bus.
+    // The list does not state which bus the objects belong to, so the user must add the bus.
     if !list.spaces.is_empty() && !addresses.any(is_object) {
         out += "buses = [\"modbus\"]\n";
     }

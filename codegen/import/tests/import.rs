@@ -431,7 +431,7 @@ fn lines_of_a_list_that_stand_for_many_items() {
 
 #[test]
 fn names_of_repeated_lines_that_are_taken() {
-    // Each of the `used` lines has a name that the second repeated row could also generate.
+    // Each of the `used` lines has a name that would otherwise be generated for the second repeated row.
     let tried = limits::MAX_DERIVED_ITEMS / 1000;
     let lines = |used: usize| {
         let used: String = (0..used).map(|at| format!("{},P 1000 {},u8,\n", 5000 + at, at + 2)).collect();
@@ -445,7 +445,8 @@ fn names_of_repeated_lines_that_are_taken() {
     assert_eq!(lines(tried + 9), (1, 1));
 }
 
-// The following tests import excerpts of the AEC Vector Step manual. The number in a test's name is an item in section 4 of the notes.
+// The following tests import excerpts of the AEC Vector Step manual. The number in a test's name is the number of an item in
+// section 4 of the notes on the manual.
 
 /// Imports rows of a list that has the column titles of the manual's register tables.
 fn manual(rows: &str) -> Import {
@@ -534,7 +535,7 @@ fn item_26_a_line_of_dashes() {
 
 #[test]
 fn items_18_and_19_indices_beside_numbers() {
-    // The printed address is the wire address on Modbus. The wire address is not the base of the object index.
+    // The printed address is the wire address on Modbus. The object indices in the second column are not wire addresses.
     let import = manual(
         "10144\t0x4800\tRalmbuffres\tReset buffer storico allarmi\t\t\t\tUnsigned16\tRW SAVE\n\
          10145\t0x4801\tRalmbuffptr\tPuntatore al buffer storico allarmi\t\t0\t15\tUnsigned16\tRW SAVE\n\
@@ -605,7 +606,7 @@ fn an_index_beside_a_number_without_a_title_that_says_so() {
     let import = read("Register,Address,Name,Type,Access\n198,0x20C6,a,u16,rw\n199,0x20C7,b,u16,rw\n");
     assert_eq!(findings(&import), [(2, 5, "CSV007")]);
     assert_eq!(rows(&import)[0], r#"a = { reg = 198, obj = 0x20C6, type = "u16", access = "rw" }"#);
-    // If both columns contain addresses of the same register, the second one is not an object index.
+    // If two columns contain addresses of the same register, the second address is not an object index.
     let import = read("Register,Address,Name,Type,Access\n40001,0x0000,a,u16,rw\n40002,0x0001,b,u16,rw\n");
     assert_eq!((findings(&import), import.table.unwrap().contains("first = 40001")), (vec![], true));
 }

@@ -38,7 +38,7 @@ pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Ca
 ///
 /// # Panics
 ///
-/// If `test` fails or a file is rejected without a diagnostic. The message contains the first failures.
+/// Panics if `test` fails or a file is rejected without a diagnostic. The message contains the first failures.
 pub fn each(files: Vec<File>, options: &Options, test: impl Fn(&str, &str) -> Result<(), String> + Sync) -> usize {
     let (seen, failures) = (Mutex::new(HashSet::new()), Mutex::new(Vec::new()));
     on_all_processors(files, |File { name, bytes }| {
@@ -66,7 +66,7 @@ pub fn each(files: Vec<File>, options: &Options, test: impl Fn(&str, &str) -> Re
 ///
 /// # Panics
 ///
-/// If `work` panics.
+/// Panics if `work` panics.
 pub fn on_all_processors<T: Send>(all: Vec<T>, work: impl Fn(T) + Sync) {
     let queue = Mutex::new(all.into_iter());
     let one_by_one = || {

@@ -7,7 +7,7 @@ pub enum Number {
     NodeId(i128),
 }
 
-/// Parses a number or a formula. Accepts any case and any order of terms (E13 to E17).
+/// Parses a number or a formula. Ignores the case of `$NODEID` and accepts the terms in any order (E13 to E17).
 pub fn number(text: &str) -> Option<Number> {
     if !text.contains('$') {
         return plain(text).map(Number::Plain);

@@ -19,7 +19,7 @@ pub struct Fact {
 pub struct Section {
     /// Line numbers of the section headers.
     pub headers: Vec<u32>,
-    /// Values by key. Keys are in lowercase.
+    /// Values of the entries, by key in lowercase.
     pub facts: BTreeMap<String, Vec<Fact>>,
 }
 
@@ -87,8 +87,7 @@ impl Reading {
     }
 }
 
-/// Parses the name of a section such as `xxxx`, `xxxxsubN` or `xxxxName`. Accepts any case and leading zeros (E24, E26,
-/// E41, E57).
+/// Parses the name of a section such as `xxxx`, `xxxxsubN` or `xxxxName`. Ignores case and leading zeros (E24, E26, E41, E57).
 fn part_of(name: &str) -> Option<(u16, Part)> {
     let name = name.to_ascii_lowercase();
     let hex = |digits: &str| u32::from_str_radix(digits.trim(), 16).ok().filter(|_| !digits.starts_with('+'));

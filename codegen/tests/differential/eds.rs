@@ -72,7 +72,7 @@ fn header(device: &Device) -> Facts {
     put_flag(&mut facts, "LSS", canopen.lss);
     let words = |numbers: Vec<String>| numbers.join(" ");
     put(&mut facts, "bit rates", words(canopen.bit_rates.iter().map(ToString::to_string).collect()));
-    // The library reads dummy usage only for the types 1 to 7.
+    // The library `canopen` reads dummy usage only for the types 1 to 7.
     let dummies = canopen.dummies.iter().filter(|code| (1..8).contains(*code));
     put(&mut facts, "dummies", words(dummies.map(ToString::to_string).collect()));
     facts

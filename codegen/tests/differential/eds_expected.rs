@@ -1,4 +1,4 @@
-//! Returns the facts of an EDS that the table of quirks requires. The functions do not use Lexibus to read the file.
+//! Functions that return the facts of an EDS in the form that the table of quirks requires. They read the file without Lexibus.
 
 use super::corpus_support::number::{self, hex_digits, number, plain, Number};
 use super::corpus_support::reading::{cut, Part, Reading};
@@ -15,7 +15,7 @@ pub fn signed_bits(ty: i128) -> Option<u32> {
 }
 
 /// Parses a value of the type number `ty`. Hexadecimal digits are the bit pattern of a signed number (E07, E08) or of a
-/// real number (E51). `$NODEID` can have any case and position (E12 to E17) and is replaced with the node-ID.
+/// real number (E51). `$NODEID` is accepted at any position, ignoring case (E12 to E17), and is replaced with the node-ID.
 pub fn value(raw: &str, ty: i128, node_id: u8) -> Option<String> {
     match ty {
         0x08 => real(cut(raw).0, 32),
@@ -45,14 +45,14 @@ pub fn is_relative(raw: &str) -> bool {
     matches!(number(cut(raw).0), Some(Number::NodeId(_)))
 }
 
-/// Returns the access rights. Keywords of CiA 306 are accepted in any case (E47); other texts mean `ro` (E48).
+/// Returns the access rights. Ignores the case of the keywords in CiA 306 (E47). Any other text means `ro` (E48).
 pub fn access(text: Option<&str>) -> &'static str {
     const KNOWN: [&str; 6] = ["ro", "wo", "rw", "rwr", "rww", "const"];
     let text = text.unwrap_or_default();
     KNOWN.into_iter().find(|known| known.eq_ignore_ascii_case(text)).unwrap_or("ro")
 }
 
-/// Returns the last value (E28) of `key` in `section`. Accepts any case of both names (E25, E66).
+/// Returns the last value (E28) of `key` in `section`. Ignores the case of both names (E25, E66).
 fn value_of<'t>(text: &'t str, section: &str, key: &str) -> Option<&'t str> {
     let (mut is_within, mut found) = (false, None);
     for (_, line) in lines(text) {
@@ -69,7 +69,7 @@ fn number_of(text: &str, section: &str, key: &str) -> Option<i128> {
     plain(cut(value_of(text, section, key)?).0)
 }
 
-/// Returns the fact of the device that is named `fact`.
+/// Returns the fact of the device that has the name `fact`.
 pub fn of_device(text: &str, fact: &str) -> Option<String> {
     let number = |key: &str| number_of(text, "DeviceInfo", key);
     match fact {

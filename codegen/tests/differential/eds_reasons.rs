@@ -8,7 +8,7 @@ use super::eds_expected as expected;
 use super::facts::{Difference, Elements};
 use super::tally::Reasons;
 
-/// Deviations of the library from Lexibus, each with an explanation.
+/// Known differences between the library `canopen` and Lexibus: the name of each difference, and an explanation.
 const PEER: &[(&str, &str)] = &[
     ("files by ending", "It reads only files with the extensions .eds and .dcf, and no XML."),
     ("files without sections", "It reads a file without a section of CiA 306 as an empty dictionary, not as an error."),
@@ -28,7 +28,7 @@ pub const REASONS: Reasons = Reasons {
     peer: PEER,
 };
 
-/// A file with the results of both readers.
+/// A file with the facts that the library and Lexibus read from it.
 pub struct Case<'a> {
     pub text: String,
     pub reading: Reading,
@@ -38,8 +38,8 @@ pub struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// Creates a case. `node_id` replaces `$NODEID` if the file has no node-ID or only the one that LSS uses for an
-    /// unconfigured device.
+    /// Creates a case. `node_id` replaces `$NODEID` if the file has no node-ID, or if its node-ID is 255, which means an
+    /// unconfigured device in LSS.
     pub fn new<'a>(file: &File, peer: &'a Elements, ours: &'a Elements, node_id: u8) -> Case<'a> {
         let text = file.text();
         let given = peer.get("device").and_then(|facts| facts.get("node-ID")?.parse().ok()).filter(|id| *id != 255);
@@ -73,7 +73,7 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
     }
 }
 
-/// Returns the reason why one of the readers lacks an element.
+/// Returns the reason why the library does not find an element.
 fn missing(case: &Case<'_>, index: u16, sub: Option<u8>, difference: &Difference<'_>) -> Option<&'static str> {
     difference.ours?;
     let object = case.reading.get(index, Part::Object);
@@ -87,7 +87,7 @@ fn missing(case: &Case<'_>, index: u16, sub: Option<u8>, difference: &Difference
     }
 }
 
-/// Returns whether an object without a description belongs to a PDO that the file announces.
+/// Returns whether an object that the file does not describe belongs to a PDO that CompactPDO and the number of PDOs imply.
 fn is_announced(case: &Case<'_>, index: u16, sub: Option<u8>) -> bool {
     if !(0x1400..0x1C00).contains(&index) {
         return false;
@@ -132,12 +132,12 @@ fn of_device(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static st
     }
 }
 
-/// Returns whether a file contains `key` in upper or lower case.
+/// Returns whether a file contains `key`, ignoring case.
 fn has_key(text: &str, key: &str) -> bool {
     lines(text).iter().any(|(_, line)| entry(line).is_some_and(|(ours, _)| ours.eq_ignore_ascii_case(key)))
 }
 
-/// Returns whether a file contains `key` only in a different case.
+/// Returns whether a file contains `key` only with different capitalization.
 fn is_misspelt(text: &str, key: &str) -> bool {
     has_key(text, key) && !lines(text).iter().any(|(_, line)| entry(line).is_some_and(|(ours, _)| ours == key))
 }

@@ -173,6 +173,6 @@ for path in sys.argv[1:]:
     try:
         answer = {"elements": elements(parse(path))}
     except etree.XMLSyntaxError as error:
-        # Compare the text that libxml2 recovers from the file.
+        # If the file is not well-formed, compare the part that libxml2 recovers from it.
         answer = {"errors": [str(error).split(" (<string>")[0]], "elements": elements(parse(path, recover=True))}
     print(json.dumps(answer))

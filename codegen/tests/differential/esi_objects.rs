@@ -86,7 +86,7 @@ fn item(item: &Item, types: &[TypeDef]) -> Facts {
     put_names(&mut facts, "name", &item.name, &item.names);
     put_documentation(&mut facts, "comment", item.documentation.as_deref());
     put(&mut facts, "type", type_name(item.ty, types));
-    // Access rights that the file does not declare are read-only in the IR.
+    // If the file declares no access rights for an entry, the entry is read-only in the IR.
     put(&mut facts, "access", if item.at.access.is_empty() { "" } else { item.access.name() });
     put(
         &mut facts,

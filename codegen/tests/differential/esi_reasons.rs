@@ -7,7 +7,7 @@ use super::corpus_support::File;
 use super::facts::{Difference, Elements, Facts};
 use super::tally::Reasons;
 
-/// Deviations of the plain reading from Lexibus, each with an explanation.
+/// Known differences between the plain reading and Lexibus: the name of each difference, and an explanation.
 const PEER: &[(&str, &str)] = &[
     ("a bare &", "libxml2 rejects a file with a `&` that starts no reference. Lexibus reads it as text."),
     ("objects twice", "It lists both objects of one index. Lexibus keeps the first and reports the second."),
@@ -26,7 +26,7 @@ pub const REASONS: Reasons = Reasons {
     peer: PEER,
 };
 
-/// A file with the results of both readers.
+/// A file with the facts that the script and Lexibus read from it.
 pub struct Case<'a> {
     text: String,
     peer: &'a Elements,

@@ -1,4 +1,4 @@
-//! Facts by element and name, and the differences between two readers.
+//! Stores facts by element and name, and finds the differences between the facts of two readers.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;

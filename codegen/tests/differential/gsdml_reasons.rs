@@ -5,7 +5,7 @@ use lexibus_codegen::compile::Compilation;
 use super::facts::{Difference, Elements};
 use super::tally::Reasons;
 
-/// Deviations of the plain reading from Lexibus, each with an explanation.
+/// Known differences between the plain reading and Lexibus: the name of each difference, and an explanation.
 const PEER: &[(&str, &str)] = &[
     ("attributes in another case", "In XML, `VendorId` and `VendorID` differ. Lexibus reads and reports both."),
     (
@@ -16,7 +16,7 @@ const PEER: &[(&str, &str)] = &[
 
 pub const REASONS: Reasons = Reasons { quirks: &["G01", "G12", "G15"], peer: PEER };
 
-/// A file with the results of both readers.
+/// A file with the facts that the script and Lexibus read from it.
 pub struct Case<'a> {
     pub text: String,
     pub peer: &'a Elements,
@@ -51,7 +51,7 @@ fn is_misdeclared(peer: &str, ours: &str) -> bool {
     bytes.is_some_and(|bytes| bytes == ours.as_bytes())
 }
 
-/// Returns the reason why only the plain reading has an element: a submodule is in a list of another kind.
+/// Returns the reason why only the plain reading has an element: the file lists a submodule among submodules of another kind.
 fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str> {
     let is_misplaced = |holder: &str| case.peer.get(holder)?.get("fixed").filter(|fixed| *fixed == "?").map(|_| ());
     let number = element.strip_prefix("submodule ");

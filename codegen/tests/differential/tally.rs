@@ -5,8 +5,8 @@ use std::path::Path;
 
 use super::facts::{compare, Difference, Elements};
 
-/// The possible reasons for differences: rows of the table of quirks, and known deviations of the independent reader with an
-/// explanation.
+/// The accepted reasons for differences: the identifiers of rows in the table of quirks, and the known limitations of the
+/// independent reader, each with an explanation.
 #[derive(Clone, Copy)]
 pub struct Reasons {
     pub quirks: &'static [&'static str],
@@ -89,8 +89,8 @@ impl Tally {
     }
 }
 
-/// Returns the identifiers in the table of quirks. The table is outside the repository. If it is missing, prints a message and
-/// returns `None`.
+/// Returns the identifiers in the table of quirks. The table is outside the repository. If the table is missing, prints a
+/// message and returns `None`.
 fn table_of_quirks() -> Option<BTreeSet<String>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/QUIRKS.md");
     let Ok(text) = std::fs::read_to_string(&path) else {

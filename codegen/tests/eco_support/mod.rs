@@ -1,4 +1,4 @@
-//! Helpers for the tests of the Eco's table, which return the table, the text of the manual, and facts about items.
+//! Helpers for the tests of the Eco's register table. They return the table, the text of the manual, and facts about items.
 
 #![allow(dead_code)]
 

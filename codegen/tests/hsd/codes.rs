@@ -66,7 +66,8 @@ fn states_homing_states_and_types() {
             values(device, "HomingState").iter().find(|value| number(&cells[0]) == Some(value.value)).expect("a value");
         let types: Vec<i128> = cells[3].split(" - ").filter_map(number).collect();
         let when: Vec<i128> = value.when.as_ref().expect("types").values.iter().filter_map(Value::as_int).collect();
-        // The table prints other types for state 6, but the text of the manual restricts this state to the types 0 and 2.
+        // The manual's table prints other homing types for homing state 6, but the text of the manual restricts this state to
+        // the homing types 0 and 2.
         assert!(types == when || (value.value == 6 && when == [0, 2]), "{cells:?} {when:?}");
     }
     for (_, cells) in manual.rows(1215, 1221).iter().filter(|(_, cells)| !cells[0].is_empty()) {
@@ -74,7 +75,7 @@ fn states_homing_states_and_types() {
             values(device, "MotorType").iter().find(|value| number(&cells[0]) == Some(value.value)).expect("a value");
         assert_eq!(value.name, format!("{} {}", cells[1], cells[2]));
     }
-    // Section 4.9 lists the same six states in a different order.
+    // Section 4.9 of the manual lists the same six homing states in a different order.
     let section: BTreeSet<_> = manual
         .rows(1005, 1012)
         .into_iter()
@@ -112,7 +113,7 @@ fn bits_are_the_printed_ones() {
         );
         let text = &cells[2];
         assert_eq!(matches!(field.meaning, BitMeaning::Reserved { .. }), text.starts_with("Riservato."), "line {at}");
-        // The second column contains the default value.
+        // The second column of the printed table contains the default value.
         let default = default.as_ref().and_then(Value::as_int).expect("a default");
         assert_eq!(number(&cells[1]), Some(default >> field.offset & 1), "line {at}");
         let only = match () {
@@ -180,7 +181,8 @@ fn patterns_of_interpolation_are_the_printed_ones() {
                 mask |= u32::from(cell != "x") << bit;
                 value |= u32::from(cell == "1") << bit;
             }
-            // In the manual, S6 does not specify bit 2 and has the same pattern as the second S5. This row has a `doubt` entry.
+            // In the manual, the row of state S6 does not specify bit 2 and has the same pattern as the second row of S5. The
+            // row of S6 has a `doubt` entry.
             if *at == 2296 {
                 assert_eq!((mask, value), (0xF2, 0x82));
                 (mask, value) = (0xF6, 0x86);

@@ -5,7 +5,8 @@ use lexibus_codegen::ir::{CompactString, Device, GivenNumber, Item, MessageField
 use super::hsd_support::{chapter, device, message, table};
 use super::parameters::of_model;
 
-/// Calculates the worked examples of the manual with the scales of the table. The expected numbers do not contain misprints.
+/// Calculates the worked examples of the manual with the scales of the register table. The expected numbers do not contain
+/// misprints.
 #[test]
 fn worked_examples() {
     let compilation = table();

@@ -1,4 +1,4 @@
-//! Tests frames, the availability of commands, and the completion of commands.
+//! Compares the printed frames, the availability of commands, and the completion of commands with the register table.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -52,7 +52,7 @@ const FRAMES: [(&str, &str, &[usize]); 41] = [
     ("", "CmdNACK", &[]),
 ];
 
-/// Lines of printed frames that the table corrects. Each correction has a `doubt` entry.
+/// Lines of printed frames that the register table corrects. Each correction has a `doubt` entry.
 const MISPRINTED: [usize; 5] = [
     249,  // The status is printed next to the node.
     250,  // The status is missing.
@@ -77,7 +77,7 @@ fn every_frame_is_there_byte_by_byte() {
         if !sizes.is_empty() {
             layout.values = sizes.to_vec();
         }
-        // The manual prints the samples 1, 2 and N.
+        // The manual prints the first two samples and the last sample, so the layout repeats the fields three times.
         layout.count = 3;
         let request = if actual.request.is_empty() { Vec::new() } else { layout.request(actual) };
         let (mut request, mut reply) = (request, layout.reply(actual));
@@ -141,8 +141,8 @@ fn opcodes_are_the_printed_ones_and_all_different() {
     assert_eq!(echoed, (26, 6));
 }
 
-/// Compares the notes on which models have a command, in the order of the manual: all motors except the SM137 before revision
-/// C, or only the SM140.
+/// Compares the models that support each command with the notes in the manual: all motors except the SM137 before revision C,
+/// or only the SM140.
 #[test]
 fn who_has_a_command_is_as_its_note_says() {
     let Some(manual) = Manual::read() else { return };

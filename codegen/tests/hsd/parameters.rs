@@ -1,4 +1,4 @@
-//! Compares the parameters in both chapters of the manual with the table, row by row.
+//! Compares the parameters in both chapters of the manual with the register table, row by row.
 
 use std::collections::BTreeSet;
 
@@ -179,7 +179,7 @@ fn low_level_parameters() {
     assert_eq!(low, (0..=0x2D).collect::<Vec<_>>());
     let wrong = compare(device, "Low-level parameters", &printed);
     let names: Vec<&str> = wrong.iter().map(|(name, _)| name.as_str()).collect();
-    // The manual's line for the SM140 is empty.
+    // For the parameter KIQDLIMIN, the manual's row for the SM140 is empty.
     assert_eq!(names, ["KIQDLIMIN"], "{wrong:#?}");
     let chapters = ["Parameters", "Low-level parameters"].map(|title| chapter(device, title));
     assert_eq!(chapters.map(|group| group.items.len()).iter().sum::<usize>(), 93);

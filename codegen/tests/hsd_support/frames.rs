@@ -1,4 +1,5 @@
-//! Reads the frames that the manual prints, and creates frames according to the table. The tests compare them byte by byte.
+//! Reads the frames that the manual prints, and creates frames according to the register table, so that tests can compare
+//! them byte by byte.
 
 use lexibus_codegen::ir::{Device, Framing, Item, Message, MessageField, MessageValue, Type};
 
@@ -143,7 +144,7 @@ impl Printed {
     }
 }
 
-/// Creates frames according to the table, from the start byte to the end byte.
+/// Creates frames according to the register table, from the start byte to the end byte.
 pub struct Layout<'d> {
     pub device: &'d Device,
     /// Lengths of the parameter values in order. The last length also applies to all further values.

@@ -1,4 +1,4 @@
-//! Helpers that compare the table of the HSD motors with the text of its manual.
+//! Helpers that compare the register table of the HSD motors with the text of the manual.
 
 #![allow(dead_code)] // Each test program uses only some of the helpers.
 

@@ -33,7 +33,7 @@ impl Layout {
         self.fields.len()
     }
 
-    /// Returns the layout as an expression for the test program. The maximum number represents a missing bit.
+    /// Returns the layout as an expression for the test program. The maximum of `u32` marks bits that belong to no value.
     pub fn literal(&self, title: &str) -> String {
         let piece = |piece: &Piece| format!("({}, {}, {})", piece.at, piece.of.unwrap_or(u32::MAX), piece.bits);
         let field = |field: &Vec<Piece>| format!("&[{}]", field.iter().map(piece).collect::<Vec<_>>().join(", "));

@@ -53,7 +53,7 @@ impl Random {
 
 const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// The bytes of packed data, and the text of their fields.
+/// The bytes of packed data, and their unpacked fields as text.
 type Packed = (Vec<u8>, String);
 
 /// Unpacks data, sets a field to the bits of a value, and packs the fields. A number selects the field; no field is set for
@@ -306,7 +306,7 @@ macro_rules! record {
     }};
 }
 
-/// Minimum number of accepted values per record, and of accepted values that differ from the previous one.
+/// Minimum number of accepted data per record, and of accepted data that differ from the data before.
 const ACCEPTED: usize = 64;
 
 /// Checks a record. Decoding and encoding must keep the bits of all fields, and must set all other bits to those of
@@ -369,7 +369,7 @@ fn message(title: &str, request: fn(&mut Random) -> Option<Vec<u8>>, reply: fn(&
     panic!("{title}: {requests} requests, {replies} replies");
 }
 
-/// Returns whether two values are equal or have the same text. The texts are compared because of NaN.
+/// Returns whether two values are equal or have the same text. The texts are also compared because NaN does not equal itself.
 fn is_same<T: PartialEq + Debug>(one: &T, other: &T) -> bool {
     one == other || format!("{one:?}") == format!("{other:?}")
 }

@@ -1,4 +1,4 @@
-//! Returns the examples in `dictionaries/README.md` as register tables.
+//! Completes the examples in `dictionaries/README.md` to register tables, so that tests can compile the examples.
 
 #![allow(dead_code)]
 

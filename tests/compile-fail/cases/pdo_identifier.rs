@@ -1,4 +1,4 @@
-//! CANopen configuration of an EtherCAT PDO, and of a PDO without a default COB-ID.
+//! A PDO on EtherCAT, and a PDO without a default COB-ID, have no CANopen configuration.
 
 #[allow(non_camel_case_types)]
 mod device {

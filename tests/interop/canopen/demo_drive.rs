@@ -55,8 +55,8 @@ fn limits_of_the_drive() -> Result<(), Error> {
     Ok(())
 }
 
-/// Goes from a fault to each state and back. Lexibus selects the commands. The library determines the resulting states
-/// with its own tables.
+/// Goes from a fault to each state and back. Lexibus selects the commands. The Python library determines the resulting
+/// states with its own tables.
 #[test]
 fn the_state_machine() -> Result<(), Error> {
     let Some((mut script, node)) = start("demo-states", FILE) else { return Ok(()) };

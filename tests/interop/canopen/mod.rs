@@ -1,5 +1,5 @@
-//! Tests with a node of the library `canopen`. The CAN bus of the node is a pseudo-terminal, and Lexibus exports the
-//! EDS of the node.
+//! Tests generated accessors and PDOs on CANopen with a node of the Python library `canopen`. The CAN bus of the node
+//! is a pseudo-terminal, and Lexibus exports the EDS of the node.
 
 mod demo_drive;
 mod network;
@@ -31,10 +31,10 @@ lexibus::dictionary! {
 /// Maximum time to wait for a frame. The Python node replies slowly on a machine under load.
 pub const PATIENCE: Duration = Duration::from_secs(10);
 
-/// The node-ID.
+/// Node-ID of the Python node.
 pub const NODE: u8 = 5;
 
-/// The blocking client of the node. While it waits for a response, it buffers other frames that arrive.
+/// The blocking client of the node. While the client waits for a response, it buffers other frames that arrive.
 pub type Node = canopen::Node<Buffered<Slcan<Pty>, 64>>;
 
 /// The asynchronous client of the node.
@@ -87,12 +87,12 @@ fn exported(test: &str, file: &str) -> PathBuf {
 }
 
 impl Script {
-    /// Returns the value of an object. The library decodes it.
+    /// Returns the value of an object, which the Python library decodes.
     pub fn get(&mut self, index: u16, sub: u8) -> Value {
         self.ask(json!({ "do": "get", "index": index, "sub": sub }))
     }
 
-    /// Sets the value of an object. The library encodes it.
+    /// Sets the value of an object, which the Python library encodes.
     pub fn set(&mut self, index: u16, sub: u8, value: Value) {
         self.ask(json!({ "do": "set", "index": index, "sub": sub, "value": value }));
     }

@@ -28,8 +28,8 @@ fn states_and_heartbeat() -> Result<(), Error> {
         // The node must ignore commands for other nodes.
         device.client().send(&NmtCommand::Start.frame(NodeId::new(NODE + 1)))?;
         device.client().nmt(command)?;
-        // An SDO response proves that the node has processed the command. The node of this library also answers when it
-        // is stopped.
+        // An SDO response proves that the node has processed the command. A node of the Python library also answers SDO
+        // requests in the state Stopped.
         assert_eq!(device.heartbeat_time().read()?, 20);
         assert_eq!(script.ask(json!({ "do": "state" })), name);
         // Discard heartbeats that have already arrived.

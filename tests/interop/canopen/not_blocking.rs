@@ -1,4 +1,4 @@
-//! Tests the node with asynchronous accessors: all kinds of transfers, NMT states and PDOs.
+//! Tests asynchronous accessors with the Python node: all kinds of transfers, NMT states and PDOs.
 
 use lexibus::clients::canopen::{AsyncCanPort, NmtCommand, NmtState};
 use lexibus::{AbortCode, Int};

@@ -12,12 +12,12 @@ use crate::python::Script;
 
 const FILE: &str = "tests/interop/all-types.toml";
 
-/// Returns the PDO parameters that the library reads from the node's objects.
+/// Returns the PDO parameters that the Python library reads from the objects of its node.
 pub fn used(script: &mut Script, direction: &str, number: u32) -> Value {
     script.ask(json!({ "do": "pdo", "direction": direction, "number": number }))
 }
 
-/// Returns the PDO parameters that the library should read for a struct.
+/// Returns the PDO parameters that the Python library should read if a PDO struct is configured.
 pub fn expected<P: Pdo>(cob_id: u32, transmission_type: u8) -> Value {
     let entry = |entry: &lexibus::MappedEntry| json!([entry.index, entry.sub_index, entry.bits]);
     let bits: u32 = P::MAPPING.iter().map(|entry| entry.bits).sum();
@@ -40,7 +40,7 @@ pub fn receive(node: &mut Node, id: u32) -> CanFrame {
     received.unwrap_or_else(|| panic!("no frame with the identifier {id:#x}"))
 }
 
-/// Configures an RPDO and sends it. Checks the values that the library decodes.
+/// Configures an RPDO and sends it. Checks the values that the Python library decodes.
 macro_rules! received {
     ($script:ident, $node:ident, $number:literal by $configuration:expr, at $id:expr, $pdo:ident $fields:tt, $values:tt) => {
         configure(&mut $node, $configuration)?;
@@ -51,7 +51,7 @@ macro_rules! received {
     };
 }
 
-/// Configures a TPDO and lets the library send it. Checks the decoded values.
+/// Configures a TPDO and makes the Python library send it. Checks the values that the generated struct decodes.
 macro_rules! transmitted {
     ($script:ident, $node:ident, $number:literal by $configuration:expr, at $id:expr, $pdo:ident $fields:tt, $values:tt) => {
         configure(&mut $node, $configuration)?;

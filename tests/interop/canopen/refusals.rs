@@ -1,4 +1,5 @@
-//! Tests refusals. The accessor must report the node's abort codes, and must not send values that it rejects itself.
+//! Tests accesses that the node or the accessor rejects. The accessor must report the node's abort codes, and must not
+//! send values that it rejects itself.
 //!
 //! The library checks access rights, lengths, and whether objects exist. The script checks limits, which the library
 //! reads from the exported EDS.
@@ -27,7 +28,7 @@ pub fn assert_aborted<T: std::fmt::Debug>(result: Result<T, Error>, code: AbortC
 fn values_out_of_range() -> Result<(), Error> {
     let Some((mut script, node)) = start("out-of-range", FILE) else { return Ok(()) };
     let mut device = AllTypes::new(node);
-    // The EDS contains the limits.
+    // The library must read the limits from the exported EDS.
     assert_eq!(script.ask(json!({ "do": "limits", "index": 0x2203 })), json!([-100, 200]));
     assert_eq!(script.ask(json!({ "do": "limits", "index": 0x2204 })), json!([10, 0xFFFF_FFF0_u32]));
     for value in [-100, 200] {
@@ -38,17 +39,17 @@ fn values_out_of_range() -> Result<(), Error> {
         device.limited_unsigned().write(value)?;
         assert_eq!(script.get(0x2204, 0), value);
     }
-    // The accessor rejects the values without sending them.
+    // The accessor rejects values outside the limits without sending a request.
     assert!(matches!(device.limited_signed().write(-101), Err(Error::OutOfRange(_))));
     assert!(matches!(device.limited_unsigned().write(9), Err(Error::OutOfRange(_))));
-    // The device rejects the same values.
+    // The device rejects values outside the limits if a request contains them.
     let signed: Naive<i16> = naive(0x2203, 0);
     let unsigned: Naive<u32> = naive(0x2204, 0);
     assert_aborted(signed.at(device.client()).write(-101), AbortCode::TOO_LOW);
     assert_aborted(signed.at(device.client()).write(201), AbortCode::TOO_HIGH);
     assert_aborted(unsigned.at(device.client()).write(9), AbortCode::TOO_LOW);
     assert_aborted(unsigned.at(device.client()).write(u32::MAX), AbortCode::TOO_HIGH);
-    // The values must be unchanged.
+    // The rejected writes must not change the values.
     assert_eq!(device.limited_signed().read()?, 200);
     assert_eq!(device.limited_unsigned().read()?, 0xFFFF_FFF0);
     Ok(())

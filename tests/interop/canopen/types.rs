@@ -1,4 +1,5 @@
-//! Tests values of all data types in both directions. The accessor is on one side, and the library is on the other.
+//! Tests values of all data types in both directions: generated accessors encode and decode the values on one side, and
+//! the Python library on the other side.
 
 use lexibus::{TimeDifference, TimeOfDay};
 use serde_json::{json, Value};
@@ -8,7 +9,8 @@ use super::{start, Error};
 
 const FILE: &str = "tests/interop/all-types.toml";
 
-/// Writes `$value` and checks that the node contains `$json`. Then sets `$json` on the node and checks that it is read.
+/// Writes `$value` and checks that the node contains `$json`. Also sets `$json` on the node and checks that reading
+/// returns `$value`.
 macro_rules! exchange {
     ($script:ident, $device:ident, $($accessor:ident at $index:literal: [$($value:expr => $json:expr),* $(,)?];)*) => {$(
         $(

@@ -46,7 +46,7 @@ impl<'b> Bytes<'b> {
         (0..count).map(|_| make(self)).collect()
     }
 
-    /// Returns a list of up to `most` values once in `times` calls, on average. Otherwise, the list is empty.
+    /// Returns a list of up to `most` values once in `times` calls, on average. In all other calls, the list is empty.
     pub fn few<T>(&mut self, times: u8, most: usize, make: impl FnMut(&mut Self) -> T) -> Vec<T> {
         if self.one_in(times) {
             self.list(most, make)

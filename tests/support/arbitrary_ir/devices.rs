@@ -39,7 +39,7 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
         _ => &[ObjectBuses::CANOPEN],
     };
     let around = Around { types: &types, given: &given_names, images: &images, spaces: &spaces, buses, is_table };
-    // Chapters have no index and come before the groups that have one.
+    // Chapters have no index and come before the groups that have an index.
     let mut groups = if is_table { b.list(3, |b| items::chapter(b, &around)) } else { Vec::new() };
     groups.extend(items::objects(b, &around, 12));
     // An EDS declares no PDOs, because its objects determine the PDOs.

@@ -1,4 +1,4 @@
-//! Random names and texts. Some are ordinary. Others conflict with Rust, with generated code, or with each other.
+//! Random names and texts: ordinary names, and names that conflict with Rust, with generated code, or with each other.
 
 use lexibus_codegen::ir::{
     Bus, Buses, CiteUnit, CompactString, Documentation, Doubt, Doubts, Extension, Extensions, Fact, FactOrigin,
@@ -190,7 +190,7 @@ const TEXTS: [&str; 14] = [
 
 const LANGUAGES: [&str; 3] = ["de", "ja", "zh-\""];
 
-/// Returns a name. Other elements often have the same name.
+/// Returns a name that other elements often also have.
 pub fn name(b: &mut Bytes<'_>) -> CompactString {
     match b.within(0..=9) {
         0..=4 => b.pick(&ORDINARY).into(),

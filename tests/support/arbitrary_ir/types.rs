@@ -10,7 +10,7 @@ use super::facts::{availability, condition};
 use super::names;
 use super::values;
 
-/// Widths in bits. Most of them have a type in Rust or in the runtime, and some have none.
+/// Widths in bits. Most widths have a type in Rust or in the runtime, and some have none.
 const WIDTHS: [u8; 18] = [8, 16, 32, 64, 8, 16, 32, 24, 40, 48, 56, 1, 2, 5, 12, 15, 17, 63];
 
 const TIMES: [TimeFormat; 8] = [

@@ -1,6 +1,6 @@
 //! Diagnostics for code-scanning services and editors, as SARIF 2.1.0.
 //!
-//! The structures and fields have the names of the OASIS standard. Fields that Lexibus does not use are omitted.
+//! The structures and fields have the names that the OASIS standard defines. Fields that Lexibus does not use are omitted.
 
 use std::collections::BTreeMap;
 
@@ -134,9 +134,10 @@ struct Replacement<'a> {
 
 /// Returns the diagnostics as a SARIF 2.1.0 log of one run of `lexibus` version `tool_version`.
 ///
-/// The log lists each code that occurs as a rule, in the order of first occurrence. SARIF has no field for notes
-/// without a position or for help without a fix. The message contains them on separate lines. File names become URIs:
-/// relative names stay relative to the working directory, and absolute names become `file:` URIs.
+/// The log declares a SARIF rule for each code that occurs, in the order of first occurrence. SARIF has no field for
+/// notes without a position or for help without a fix. The message contains such notes and help texts on separate
+/// lines. File names become URIs: relative names stay relative to the working directory, and absolute names become
+/// `file:` URIs.
 pub fn document(diagnostics: &[Diagnostic], sources: &[Source], tool_version: &str) -> String {
     let (mut rules, mut indices) = (Vec::new(), BTreeMap::new());
     let mut results = Vec::with_capacity(diagnostics.len());
@@ -150,7 +151,7 @@ pub fn document(diagnostics: &[Diagnostic], sources: &[Source], tool_version: &s
     let run = Run {
         tool: Tool { driver: Driver { name: "lexibus", version: tool_version, rules } },
         column_kind: "unicodeCodePoints",
-        // The longest sequence comes first because readers use the first one that matches.
+        // The longest newline sequence comes first, because readers use the first sequence that matches.
         newline_sequences: ["\r\n", "\n", "\r"],
         results,
     };
@@ -275,7 +276,7 @@ fn percent_encoded(text: &str) -> String {
     encoded
 }
 
-/// Converts `octal-number` to `OctalNumber`.
+/// Converts a name of the form `octal-number` to the form `OctalNumber`.
 fn pascal_case(name: &str) -> String {
     let word = |word: &str| {
         let mut letters = word.chars();

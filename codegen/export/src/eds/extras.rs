@@ -1,7 +1,8 @@
 //! Extension attributes and comments of the device, and the sections of the file that contain them.
 //!
 //! The IR lists the attributes as `section/key`, in the order of the source; those of header sections come first. The
-//! export writes each attribute to its section. The header sections follow the order of their first attributes.
+//! export writes each attribute to its section. The order of the header sections is the order of their first
+//! attributes.
 
 use super::note::{NoteKind, Notes, Subject};
 use super::writer::Writer;
@@ -46,7 +47,7 @@ impl Header {
             Header::DeviceInfo => "DeviceInfo",
             Header::DummyUsage => "DummyUsage",
             Header::Comments => "Comments",
-            // CiA 306 misspells this section name.
+            // CiA 306 misspells the name of the section about commissioning.
             Header::Commissioning => "DeviceComissioning",
             Header::SupportedModules => "SupportedModules",
             Header::ConnectedModules => "ConnectedModules",
@@ -76,7 +77,7 @@ pub(super) struct Extras<'a> {
     pub(super) preamble: Vec<&'a Extension>,
     /// Attributes of header sections, in the order of the source.
     header: Vec<(Header, Extra<'a>)>,
-    /// Attributes of other sections, in the order of the source.
+    /// Attributes of sections that CiA 306 does not define, in the order of the source.
     unknown: Vec<(&'a str, Extra<'a>)>,
 }
 
@@ -111,8 +112,8 @@ impl<'a> Extras<'a> {
         }
     }
 
-    /// Returns the header sections. Sections with extension attributes follow the order of these attributes. The other
-    /// sections keep their position in the standard order.
+    /// Returns the header sections. Sections with extension attributes follow the order of these attributes. Sections
+    /// without extension attributes keep their position in the standard order.
     pub(super) fn order(&self) -> Vec<Header> {
         let mut mentioned: Vec<Header> = Vec::new();
         for (header, _) in &self.header {

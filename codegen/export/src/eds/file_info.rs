@@ -9,7 +9,7 @@ use super::section::Section;
 use super::{Context, Flavour};
 use lexibus_codegen::ir;
 
-/// EDSVersion of a file that is converted from another format. Such a file uses the sections and keys of CiA 306 1.3.
+/// EDSVersion of a file that is converted from another format. A converted file uses the sections and keys of CiA 306 1.3.
 const VERSION: &str = "4.0";
 
 pub(super) fn write(out: &mut Section<'_>, context: &Context<'_>) {

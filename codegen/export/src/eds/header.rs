@@ -8,7 +8,7 @@ use super::writer::Writer;
 use super::{file_info, Context, Flavour};
 use lexibus_codegen::ir::{CanOpenSettings, Catalog, Commissioning, CompactString, DynamicChannel, Group};
 
-/// Writes a header section unless it is empty. If the section is an object list, its objects follow.
+/// Writes a header section unless it is empty. If the section is an object list, also writes the sections of its objects.
 pub(super) fn write<'e>(
     writer: &mut Writer,
     context: &Context<'_>,
@@ -107,7 +107,7 @@ fn number(writer: &mut Writer, key: &'static str, value: Option<u32>) {
 fn dummy_usage(out: &mut Section<'_>, context: &Context<'_>) {
     let Some(canopen) = context.device.canopen.as_deref().filter(|canopen| canopen.dummies_given) else { return };
     let writer = out.open();
-    // Some readers require all types that CiA 306 lists in its examples.
+    // Some readers require a DummyUsage entry for each type that CiA 306 lists in its examples.
     let usual = 1..=7;
     for code in usual.clone() {
         writer.numbered(format_args!("Dummy{code:04X}"), u8::from(canopen.dummies.contains(&code)));
@@ -205,7 +205,7 @@ fn dynamic_channel(writer: &mut Writer, channel: &DynamicChannel, number: i32) {
     }
 }
 
-/// Returns the object list to which an object belongs. Objects below 0x1000 define data types and belong to none.
+/// Returns the object list to which an object belongs. Objects below 0x1000 define data types and belong to no list.
 fn list_of(group: &Group) -> Option<Header> {
     match group.index()? {
         0x0000..=0x0FFF => None,

@@ -1,8 +1,8 @@
 //! Exports a device with objects as an EDS or DCF file (CiA 306). Reading the file gives the same objects again.
 //!
 //! If the source is an EDS, the export contains the repaired facts. The notation of values and the order of sections follow the
-//! standard. Extension attributes and comments stay in their sections. If the source has another format, the export has the facts that
-//! CiA 306 can express. [`Export::notes`] lists the others.
+//! standard. Extension attributes and comments stay in their sections. If the source has another format, the export has the facts
+//! that CiA 306 can express. [`Export::notes`] lists the facts that were left out.
 //!
 //! | file | subject |
 //! |---|---|
@@ -50,13 +50,13 @@ pub enum Flavour {
     Dcf,
 }
 
-/// The notation of REAL32 and REAL64 values. CiA 306 defines none, and tools support different notations.
+/// The notation of REAL32 and REAL64 values. CiA 306 defines no notation for real numbers, and tools support different notations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reals {
-    /// Decimal numbers, as in vendor files and Python's `canopen` library.
+    /// Decimal numbers, as in the files of vendors and in Python's `canopen` library.
     #[default]
     Decimal,
-    /// The bit pattern of IEEE 754 in hexadecimal, as in the tools of lely.
+    /// The IEEE 754 bit pattern in hexadecimal, as in the Lely CANopen tools.
     Pattern,
 }
 
@@ -127,7 +127,7 @@ struct Context<'a> {
     reals: Reals,
     /// Name of the source file.
     file_name: &'a str,
-    /// True if the source is a CiA 306 file, whose spellings and missing facts the export keeps.
+    /// True if the source is a CiA 306 file. The export of such a file keeps its spellings and adds no missing facts.
     is_verbatim: bool,
     /// True if the source describes a CANopen device.
     is_canopen: bool,
@@ -153,7 +153,7 @@ fn objects<'a>(device: &'a Device, derived: &'a [Group]) -> Vec<&'a Group> {
     objects
 }
 
-/// Returns whether this is the first object with its index.
+/// Returns whether `group` is the first object with its index. Adds a note if it is not.
 fn first_of_index(group: &Group, seen: &mut HashSet<Option<u16>>, writer: &mut Writer) -> bool {
     let is_first = seen.insert(group.index());
     if !is_first {

@@ -1,4 +1,4 @@
-//! Values as EDS texts. Reading a text gives the same value again.
+//! Writes values as EDS texts. Reading a written text gives the same value again.
 
 use std::fmt::Write as _;
 

@@ -53,7 +53,7 @@ impl Writer {
         self.entry(key, u8::from(value));
     }
 
-    /// Writes an entry with a text, unless the text is empty. Readers use this text without removing quotation marks.
+    /// Writes an entry with a text, unless the text is empty. Readers of the file do not remove quotation marks from the text.
     pub(super) fn plain(&mut self, key: &'static str, text: &str, subject: Subject<'_>) {
         if !text.is_empty() {
             let text = self.one_line(text, subject);
@@ -61,7 +61,7 @@ impl Writer {
         }
     }
 
-    /// Writes an entry with a name. Readers remove a pair of quotation marks from a name.
+    /// Writes an entry with a name. Readers of the file remove a pair of quotation marks around a name.
     pub(super) fn name(&mut self, key: &'static str, name: &str, subject: Subject<'_>) {
         let name = self.one_line(name, subject);
         self.entry(key, quoted(&name));

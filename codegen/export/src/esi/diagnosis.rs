@@ -5,7 +5,7 @@ use crate::note::{Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{CodeRow, CodeTable, Value};
 
-/// The flags of a message, in the order of the columns.
+/// Names of the flags of a diagnosis message, in the order of the columns of the code table.
 const FLAGS: [&str; 4] = ["DiagClass", "DiagReset", "DiagReaction", "DiagType"];
 
 /// Returns whether a table contains DiagMessages.

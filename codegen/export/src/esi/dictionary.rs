@@ -153,7 +153,7 @@ struct SubItem<'p> {
     name: &'p CompactString,
     ty: &'p CompactString,
     bits: u32,
-    /// Bit offset of the first bit.
+    /// Bit offset of the sub-item.
     offset: u32,
 }
 
@@ -242,7 +242,7 @@ fn added_type(xml: &mut Xml, added: &AddedType, notes: &mut Notes) {
     xml.close();
 }
 
-/// Returns the type name of a PDO entry. The file does not have to define this type.
+/// Returns the type name of a PDO entry. The exported file does not have to define this type.
 pub(super) fn entry_type(types: &Types<'_>, ty: Type) -> Option<CompactString> {
     match ty {
         Type::Named(id) => types.def(ty).map(|_| types.name_of(id.0)),

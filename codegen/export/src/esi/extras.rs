@@ -24,8 +24,8 @@ const OF_TYPE: [&str; 9] = [
 /// Elements of a profile that contain a number.
 const OF_PROFILE: [&str; 2] = ["AddInfo", "SubAddInfo"];
 
-/// Time limits of the state machine and of the mailbox. If the file has one time limit of a list, the schema requires all limits
-/// in that list.
+/// Time limits of the state machine and of the mailbox. If the file contains one of the time limits in a list, the schema
+/// requires all of them.
 const STATE_TIMES: [&str; 4] = ["PreopTimeout", "SafeopOpTimeout", "BackToInitTimeout", "BackToSafeopTimeout"];
 const MAILBOX_TIMES: [&str; 2] = ["RequestTimeout", "ResponseTimeout"];
 
@@ -44,7 +44,7 @@ fn find<'e>(list: &'e [Extension], key: &str) -> Option<&'e Extension> {
     list.iter().find(|extension| extension.key == key)
 }
 
-/// Returns how many extensions of a device the file cannot contain.
+/// Returns the number of a device's extensions that the exported file cannot contain.
 pub(super) fn lost(device: &Device) -> usize {
     let all = device.extensions.as_slice();
     let image = IMAGES.iter().find(|key| find(all, key).is_some());
@@ -52,7 +52,7 @@ pub(super) fn lost(device: &Device) -> usize {
     for extension in all {
         let key = extension.key.as_str();
         let is_known = key == CURRENT || OF_TYPE.contains(&key) || CONTROLLER.contains(&key) || LAST.contains(&key);
-        // The schema allows each of these elements once, and one picture.
+        // The schema allows each known element once, and one picture.
         let is_single = is_known || image.is_some_and(|image| *image == key);
         let is_written = matches!(key, URL | URL_LANGUAGE) || is_single && seen.insert(key);
         lost += usize::from(!is_written);
@@ -154,7 +154,7 @@ pub(super) fn is_of_profile(extension: &Extension) -> bool {
     OF_PROFILE.contains(&extension.key.as_str()) && extension.value.parse::<i32>().is_ok()
 }
 
-/// Writes the elements of a profile that contain other numbers.
+/// Writes the elements of a profile that contain numbers other than the profile number.
 pub(super) fn profile(xml: &mut Xml, list: &[Extension]) {
     for key in OF_PROFILE {
         if let Some(extension) = find(list, key).filter(|extension| is_of_profile(extension)) {

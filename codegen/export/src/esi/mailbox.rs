@@ -16,7 +16,7 @@ const ATTRIBUTES: [(&str, &[&str]); 4] = [
     ("SoE", &["ChannelCount", "DriveFollowsBit3Support"]),
 ];
 
-/// Writes the mailbox of the source. If the source has none, writes the mailbox from the options.
+/// Writes the mailbox of the source. If the source has no mailbox, writes the mailbox that the options describe.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, declared: Option<&Mailbox>) {
     let given = if declared.is_none() { context.options.coe() } else { None };
     let given = given.map(|coe| Mailbox { coe: Some(coe), ..Mailbox::default() });

@@ -2,8 +2,8 @@
 //! objects.
 //!
 //! If the source is an ESI, the export has all its facts in the order that the schema requires. If the source has
-//! another format, the export has the facts that ETG.2000 can express. [`Export::notes`] lists the others. The
-//! [`Options`] supply facts that the schema requires and the source does not have.
+//! another format, the export has the facts that ETG.2000 can express. [`Export::notes`] lists the facts that were left
+//! out. The [`Options`] supply facts that the schema requires and the source does not have.
 //!
 //! | file | subject |
 //! |---|---|

@@ -8,7 +8,7 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Extension, Module};
 
-/// CoE flags of a module. The IR stores them as extensions.
+/// CoE flags of a module, which the IR stores as extensions.
 const COE: [&str; 9] = [
     "CoE@SdoInfo",
     "CoE@PdoAssign",

@@ -4,7 +4,8 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::registers;
 use lexibus_codegen::ir::{Binding, Bus, Buses, Device, Group, Item};
 
-/// Returns the EtherCAT index and sub-index of an item. If the item has none, returns those on CANopen.
+/// Returns the EtherCAT index and sub-index of an item. If the item has no EtherCAT address, returns its CANopen index and
+/// sub-index.
 pub(super) fn address(item: &Item) -> Option<(u16, u8)> {
     let on_ethercat = item.bindings.iter().find_map(|binding| match binding {
         Binding::Object { buses, index, sub_index } if buses.coe => Some((*index, *sub_index)),
@@ -28,8 +29,8 @@ fn is_on_ethercat(device: &Device, item: &Item) -> bool {
     device.ethercat.is_none() || has_address && (buses.is_empty() || buses.contains(Bus::EtherCat))
 }
 
-/// Returns the objects of a device that exist on EtherCAT, including the objects `of_registers`. Objects that exist
-/// only on CANopen and the CAN services of a CANopen device are left out.
+/// Returns the objects of a device that exist on EtherCAT, including the objects in `of_registers`. Objects that exist only
+/// on CANopen, and objects that describe CAN services, are left out.
 pub(super) fn of_device<'g>(device: &'g Device, of_registers: &'g [Group], notes: &mut Notes) -> Vec<&'g Group> {
     let is_canopen_only = device.canopen.is_some() && device.ethercat.is_none();
     let mut objects = all(device.groups.iter().chain(of_registers), notes);

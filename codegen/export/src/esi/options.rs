@@ -38,7 +38,7 @@ options! {
 /// A range of the memory of a slave controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Area {
-    /// Address of its first byte.
+    /// Address of the first byte of the range.
     pub start: u16,
     /// Length in bytes, if given.
     pub length: Option<u16>,

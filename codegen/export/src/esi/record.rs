@@ -7,7 +7,7 @@ use crate::note::{NoteKind, Notes, Subject};
 use lexibus_codegen::ir::{Access, Bus, Documentation, Field, Group, Item, Mappable, ObjectCode, Texts, Type};
 use lexibus_codegen::unique::Unique;
 
-/// The bus whose facts an ESI contains.
+/// The bus that an ESI describes.
 pub(super) const BUS: Bus = Bus::EtherCat;
 
 /// A sub-index of an object that has a record type.
@@ -52,8 +52,8 @@ impl FieldFacts {
     }
 }
 
-/// Returns the display name if it is the only one and in English. ETG.2000 stores it in the object, without other
-/// languages.
+/// Returns the display name of an item that has exactly one display name, in English. ETG.2000 stores the display name in the
+/// object and allows no other languages.
 pub(super) fn display_name(item: &Item) -> Option<&CompactString> {
     match &*item.names {
         [only] if only.language.starts_with("en") => Some(&only.text),
@@ -259,7 +259,7 @@ fn finish(types: &mut Types<'_>, usual: &str, fields: Vec<AddedField>, names: Ve
     Plan { ty, bits, names: Some(names) }
 }
 
-/// Converts state names to the notation of the schema. Adds a note if the schema does not allow them.
+/// Converts state names to the notation of the schema. Adds a note if the schema does not allow the names.
 pub(super) fn check_states(states: &[CompactString], notes: &mut Notes, subject: Subject<'_>) -> Option<String> {
     const KNOWN: [&str; 7] = ["PreOp", "PreOP", "PreOP_SafeOP", "PreOP_OP", "SafeOP", "SafeOP_OP", "OP"];
     let joined = states.join("_");

@@ -21,7 +21,7 @@ pub(super) fn names(
     notes: &mut Notes,
     subject: Subject<'_>,
 ) {
-    // Without a language number, a reader would replace this name with another English name.
+    // If the name has no language number, a reader replaces it with another English name.
     let is_english = |local: &LocalText| language::lcid(&local.language) == Some(language::ENGLISH);
     xml.open(element);
     xml.optional("LcId", others.iter().any(is_english).then_some(language::ENGLISH));

@@ -1,8 +1,8 @@
-//! Data types: the device's types with their names, and additional types for its objects.
+//! The data types of a dictionary: the device's types with their names, and additional types for its objects.
 //!
-//! The file must define all types that it uses, including basic types, because they are keys in the schema of ETG.2000.
-//! The data type of an object with sub-indices has a sub-item for each sub-index. The sub-items contain the access
-//! rights.
+//! The file must define all types that it uses, including basic types, because the schema of ETG.2000 checks that each
+//! type name refers to a definition. The data type of an object with sub-indices has a sub-item for each sub-index. The
+//! sub-items contain the access rights.
 
 use std::collections::HashMap;
 
@@ -200,7 +200,7 @@ pub(super) fn is_self_named(def: &TypeDef, name: &str) -> bool {
     }
 }
 
-/// Returns the basic type with the declared size.
+/// Returns a basic type whose size is replaced with the declared size, if there is one.
 fn sized(ty: Type, bits: Option<u32>) -> Type {
     let Some(bits) = bits.filter(|&bits| bits > 0) else { return ty };
     let bytes = Some(bits / 8).filter(|_| bits % 8 == 0);

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use crate::note::NoteKind;
 use lexibus_codegen::ir::{Item, Type, Value};
 
-/// Child elements of an Info element, and notes on values that it cannot contain.
+/// Child elements of an Info element, and notes on values that the element cannot contain.
 pub(super) type Written = (Vec<(&'static str, String)>, Vec<NoteKind>);
 
 /// Returns the Info child elements of an item: limits and default value. `ty` is the basic type of the item.

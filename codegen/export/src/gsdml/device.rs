@@ -31,7 +31,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     submodule::built_in(xml, context, &device.submodules, Some(settings));
     graphics(xml, attributes);
     elements::ASSETS.write(xml, attributes);
-    // In V1.0 and V2.0, a device access point contains ApplicationRelations if none of its interfaces does.
+    // In the GSDML schemas V1.0 and V2.0, a device access point contains ApplicationRelations if none of its interfaces does.
     let has_relations = !has_interface || attributes.iter().any(|(key, _)| key.starts_with("ApplicationRelations@"));
     if has_relations && context.is_gsdml {
         let relations = submodule::relations(attributes, Some(settings).filter(|_| !has_interface), false);

@@ -44,7 +44,7 @@ pub(super) static OF_INTERFACE: [Element; 4] =
     [leaf("RT_Class3Properties"), leaf("SynchronisationMode"), leaf("TimeSynchronisation"), leaf("ReportingSystem")];
 pub(super) static MEDIA_REDUNDANCY: Element = element("MediaRedundancy", &INTERCONNECTION);
 
-/// The child elements of an ordinary submodule after its pictures.
+/// The child elements of an ordinary submodule that follow its pictures.
 pub(super) static OF_SUBMODULE: [Element; 4] = [
     leaf("IsochroneMode"),
     leaf("SlotCluster"),

@@ -1,5 +1,5 @@
-//! Describes a device of another format as a device access point if it has fixed process images. The data of one
-//! submodule contain the images.
+//! Describes a device of another format as a device access point if it has fixed process images. One submodule contains the
+//! process images as its cyclic data.
 
 use compact_str::{format_compact, CompactString};
 use smallvec::smallvec;
@@ -105,7 +105,7 @@ impl Maker<'_> {
                 options.product_family().as_deref().unwrap_or_default().into(),
             ),
             pnio_version: self.require(options.pnio_version(), "pnio-version").into(),
-            // Slot 0 contains the device access point. There are no other slots.
+            // Slot 0 contains the device access point. The device has no other slots.
             slots: Numbers(smallvec![(0, 0)]),
             dns_name: self.require(options.dns_name(), "dns-name").into(),
             min_device_interval: Some(self.require(options.min_device_interval(), "min-device-interval")),
@@ -299,7 +299,7 @@ fn whole(field: &PdoEntry, image: &ProcessImage, types: &[TypeDef], notes: &mut 
     PdoEntry { ty, ..field.clone() }
 }
 
-/// Returns the basic type of a defined type. Cyclic data cannot contain names of bits or values.
+/// Returns the basic type of a defined type. GSDML cannot describe names of bits or values in cyclic data.
 fn underlying(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     let mut note = None;
     for _ in 0..8 {
@@ -317,7 +317,7 @@ fn underlying(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     (ty, note)
 }
 
-/// Adds one data item for fields that share bytes. The item consists of bits.
+/// Adds one data item, which consists of bits, for fields that share bytes.
 fn bits(
     fields: &mut Vec<PdoEntry>,
     items: &mut Vec<IoItem>,

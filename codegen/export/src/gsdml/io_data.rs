@@ -70,7 +70,7 @@ fn composed(xml: &mut Xml, context: &mut Context<'_>, item: &IoItem, fields: &[P
     xml.flag("Subordinate", item.subordinate, "true");
     xml.attribute("TextId", context.texts.id(&item.name, &item.names));
     if is_bits {
-        // Numbers are big-endian. GSDML numbers their bits from the last byte.
+        // Numbers in cyclic data are big-endian. GSDML counts the bits of a number from its last byte.
         let is_number = item.data_type.starts_with("Unsigned")
             || item.data_type.starts_with("Integer")
             || matches!(item.data_type.as_str(), "V2" | "L2");

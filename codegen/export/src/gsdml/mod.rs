@@ -8,7 +8,6 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | `options` | facts from the caller |
 //! | `options` | facts that the caller gives |
 //! | `elements` | elements whose attributes the IR stores unchanged |
 //! | `device`, `module`, `submodule` | device access points, modules, submodules |
@@ -50,7 +49,7 @@ const VERSION: &str = "2.35";
 /// [`file_name`] returns.
 pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     let options = &TrackedOptions::new(options);
-    // Mark the option `date` as used. The content may not contain the date, but the file name does.
+    // Mark the option `date` as used, because the file name contains the date even if the content of the file does not.
     options.date();
     let (mut notes, mut missing) = (Notes::default(), MissingFacts::default());
     let from_images = match is_gsdml(catalog) {

@@ -16,7 +16,7 @@ pub(super) struct Info<'i> {
     pub(super) order: &'i str,
     pub(super) hardware: &'i str,
     pub(super) software: &'i str,
-    /// Attributes, which include the category and family.
+    /// Attributes of the element, including its category and family.
     pub(super) attributes: &'i Attributes,
 }
 
@@ -36,7 +36,7 @@ impl Info<'_> {
         match self.documentation {
             Some(documentation) => context.texts.documentation(xml, "InfoText", documentation),
             None if context.is_gsdml => {}
-            // The schema requires this text.
+            // The schema requires the element InfoText, so the name replaces a missing text.
             None => {
                 context.texts.text(xml, "InfoText", self.name, self.names);
                 context.notes.add(NoteKind::MissingText, Subject::Named(self.name));

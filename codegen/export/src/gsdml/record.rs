@@ -56,13 +56,13 @@ impl<'m> Menus<'m> {
         Menus { left: menus.iter().map(Some).collect(), by_name }
     }
 
-    /// Removes and returns the menus that contain parameters of a record, and the menus connected with them. The order is that of
+    /// Removes and returns the menus that contain parameters of a record, and the menus connected with them. Keeps the order of
     /// the source.
     fn take(&mut self, group: &'m Group) -> Vec<&'m Menu> {
         let mut menus = BTreeMap::new();
         let mut names: Vec<&str> = group.items.iter().filter_map(id).map(CompactString::as_str).collect();
         while let Some(name) = names.pop() {
-            // Each name is removed after its first use, because following it once is sufficient.
+            // Each name is removed from the map after its first use, because it has to be followed only once.
             for at in self.by_name.remove(name).into_iter().flatten() {
                 if let Some(menu) = self.left.get_mut(at).and_then(Option::take) {
                     names.extend(menu.targets.iter().chain([&menu.id]).map(CompactString::as_str));

@@ -22,7 +22,8 @@ pub(super) struct TextList {
 }
 
 impl TextList {
-    /// Creates a text list. The list starts with source texts to which only unchanged attributes refer.
+    /// Creates a text list. The list starts with those texts of the source that are referred to only by attributes that
+    /// the IR stores unchanged.
     pub(super) fn new(extensions: &[Extension]) -> Self {
         let mut list = TextList::default();
         let mut positions: HashMap<CompactString, usize> = HashMap::new();
@@ -65,7 +66,7 @@ impl TextList {
         id
     }
 
-    /// Adds a text with a new identifier and returns the identifier. No other element refers to this text.
+    /// Adds a text with a new identifier and returns the identifier. No other element refers to the added text.
     pub(super) fn add(&mut self, text: &str, names: &Texts) -> CompactString {
         let id = loop {
             self.next += 1;

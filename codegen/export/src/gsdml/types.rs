@@ -78,8 +78,8 @@ pub(super) fn position(xml: &mut Xml, context: &mut Context<'_>, ty: Type, offse
     }
 }
 
-/// Returns the name of the first type in a chain of definitions that GSDML defines. Otherwise returns the basic type as
-/// an error.
+/// Follows the chain of definitions from a type to the first type that GSDML defines, and returns its name. If GSDML
+/// defines none of the types, returns the basic type as an error.
 fn defined_name(mut ty: Type, types: &[TypeDef]) -> Result<Name<'_>, (Type, Option<NoteKind>)> {
     let mut note = None;
     for _ in 0..MAX_DEPTH {

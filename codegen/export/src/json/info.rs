@@ -56,7 +56,7 @@ pub struct DeviceInfo {
     pub order_code: String,
     /// Number of distinct indices that the file and the dictionary file of the device declare.
     pub objects: usize,
-    /// Number of addressable entries that these files declare, including sub-index 0.
+    /// Number of addressable entries that the file and the dictionary file of the device declare, including sub-index 0.
     pub entries: usize,
     /// Number of registers (items of chapters), for register tables.
     #[serde(skip_serializing_if = "Option::is_none")]

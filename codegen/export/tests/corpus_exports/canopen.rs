@@ -107,8 +107,8 @@ impl Pair {
 fn reason(pair: &Pair, at: (u16, u8), before: Option<&Entry>, after: Option<&Entry>) -> Option<&'static str> {
     let item = pair.item(at)?;
     let Some((before, after)) = before.zip(after) else {
-        // The library supports CompactSubObj only for ARRAY objects. The library creates only the first element and
-        // elements with names.
+        // The library supports CompactSubObj only for ARRAY objects. For such an object, it creates only the first
+        // element and the elements that have names.
         let follows = pair.device().object(at.0).is_some_and(|object| object.origin == item.origin);
         return (before.is_none() && follows).then_some("follows from CompactSubObj");
     };

@@ -1,4 +1,4 @@
-//! Exports all EDS files of the corpus and reads the exports. The IR must not change.
+//! Exports all EDS files of the corpus and reads the exports. An export must have the same IR as its original.
 //!
 //! The comparison ignores positions in the file and facts about the file (name, digest). The exported file must have no
 //! new diagnostics.
@@ -14,7 +14,7 @@ use lexibus_codegen::source::Source;
 use lexibus_export::eds::{export, Export, Flavour};
 use serde_json::Value;
 
-/// Codes of diagnostics that only the export of a file may have, and not the original, with the reason.
+/// Codes of diagnostics that the export of a file may cause although the original does not cause them, with the reason.
 const MAY_APPEAR: [(&str, &str); 0] = [];
 
 /// Removes facts that only a DCF can contain.
@@ -42,7 +42,7 @@ fn exported(compilation: &Compilation, flavour: Flavour) -> Export {
     export(catalog, &catalog.devices[0], flavour).expect("a CANopen device has an EDS")
 }
 
-/// Compares the export of one file in one flavour with its original. Returns the differences.
+/// Compares the export of a file as EDS or DCF with its original. Returns the differences.
 fn check(file: &File, original: &Compilation, flavour: Flavour) -> Vec<String> {
     let options = options();
     let Export { text, .. } = exported(original, flavour);
@@ -99,7 +99,8 @@ fn check_passes(file: &File, text: &str) -> Vec<String> {
     let options = options();
     let (first, second) = (compile(source(file), &options), compile(Source::new("export.dcf", text.into()), &options));
     let findings = |compilation: &Compilation| -> Vec<String> {
-        // The notation of numbers is not in the IR, so the passes cannot produce these diagnostics.
+        // Ignore diagnostics about the notation of the original text, because the IR and therefore the export do not
+        // contain the notation.
         let is_of_the_text = |id: &str| id.starts_with("EDS") || id == "TAB012";
         let findings = compilation.diagnostics.list().iter().filter(|found| !is_of_the_text(found.code.id));
         let mut findings: Vec<String> = findings.map(|found| format!("{} {}", found.code.id, found.message)).collect();

@@ -1,5 +1,5 @@
-//! Exports all ESI files of the corpus and reads the exports. The IR must not change, with the exceptions in this file.
-//! All exports must be valid against ETG's schema, even if the original is not.
+//! Exports all ESI files of the corpus and reads the exports. An export must have the same IR as its original, with the
+//! exceptions in this test. All exports must be valid against ETG's schema, even if the original is not.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -18,7 +18,8 @@ use serde_json::Value;
 fn comparable(before: &mut Value, after: &mut Value) {
     for value in [&mut *before, &mut *after] {
         each_object(value, &mut |fields| {
-            // A description can be part of the object or of its data type.
+            // `described` counts the items that are described in the object and not in its data type. An export may
+            // move a description from one to the other.
             fields.remove("described");
             // The file stores a REAL with 32 bits, although its text can have more digits.
             if let Some(real) = fields.get_mut("real").filter(|real| real.is_f64()) {

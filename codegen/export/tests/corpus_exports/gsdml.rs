@@ -1,5 +1,5 @@
-//! Exports all GSDML files of the corpus and reads the exports. The IR must not change, with the exceptions in this
-//! file. The export of a valid file must be valid against PI's schema.
+//! Exports all GSDML files of the corpus and reads the exports. An export must have the same IR as its original, with
+//! the exceptions in this test. The export of a valid file must be valid against PI's schema.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Tests of exports with all files of the corpus.
+//! Tests the export of all files in the corpus as EDS, DCF, ESI or GSDML.
 
 #[path = "../../../tests/corpus_support/mod.rs"]
 mod corpus_support;

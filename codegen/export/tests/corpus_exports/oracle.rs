@@ -66,9 +66,9 @@ fn is_sub(declaration: &str) -> bool {
     declaration.to_ascii_lowercase().contains("sub")
 }
 
-/// Compares all counts with the oracle. The oracle and the compiler count these special cases in the same way: E24 (`sub`
-/// in upper or lower case), E27 (repeated sections), E33 (sub-indices without an object), E41 (leading zeros), E43 (entries
-/// that CompactSubObj implies without sections) and E70 (entries that CompactPDO implies without sections).
+/// Compares all counts with the oracle. The oracle and the compiler count these special cases in the same way: E24
+/// (capitalization of `sub`), E27 (repeated sections), E33 (sub-indices without an object), E41 (leading zeros), E43
+/// (entries that CompactSubObj implies without sections) and E70 (entries that CompactPDO implies without sections).
 #[test]
 fn objects_and_sub_indices_are_as_many_as_the_oracle_counts() {
     let Some(cases) = cases() else { return };
@@ -95,8 +95,8 @@ fn objects_and_sub_indices_are_as_many_as_the_oracle_counts() {
     );
 }
 
-/// Returns whether the text has the section of a commissioned device (E68). The script treats such a file as a DCF and
-/// other files as EDS.
+/// Returns whether the text has the section of a commissioned device (quirk E68). The script treats such a file as a DCF
+/// and other files as EDS.
 fn e68_commissioned(text: &str) -> bool {
     let names = lines(text).into_iter().filter_map(|(_, line)| Some(header(line)?.0.to_ascii_lowercase()));
     names.into_iter().any(|name| ["devicecomissioning", "devicecommissioning"].contains(&name.as_str()))
@@ -193,8 +193,8 @@ fn other_files_are_rejected_with_one_error_that_names_their_format() {
     assert!(rejected.keys().eq(expected.keys()), "the sample has a file for each code: {rejected:?}");
 }
 
-/// Checks the diagnostics about a text template. Most of its lines look like an EDS; each other line must have a
-/// diagnostic.
+/// Checks the diagnostics about the text template that is part of the corpus. Most lines of the template look like an EDS;
+/// each template directive must have a diagnostic.
 #[test]
 fn lines_of_a_template_are_reported_one_by_one() {
     let Some(cases) = cases() else { return };

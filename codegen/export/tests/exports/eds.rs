@@ -107,7 +107,7 @@ fn an_eds_has_no_configuration() {
     for absent in ["[DeviceComissioning]", "ParameterValue", "NodeID="] {
         assert!(!exported.text.contains(absent), "{absent}");
     }
-    // The two facts are the commissioning of the node and the configured value of 0x2000.
+    // The two facts are the commissioning of the node and the configured value of object 0x2000.
     assert_eq!(notes(&exported)[0], (NoteKind::Configuration, 2, "the device"));
 }
 

@@ -92,7 +92,7 @@ fn note_lines(export: &Export) -> String {
     export.notes.iter().map(|note| format!("{note}\n")).collect()
 }
 
-/// Validates an exported file if a validator is installed. Then reads the file and requires no diagnostics.
+/// Validates an exported file if a validator is installed, and reads the file. Reading must cause no diagnostics.
 fn valid(what: &str, text: &str) -> Catalog {
     if let Some(schema) = Schema::new("esi/EtherCATInfo.xsd") {
         assert_eq!(schema.violations(what, [("export.xml", text.as_bytes())]), Vec::<String>::new());

@@ -8,7 +8,7 @@ use lexibus_codegen::ir::{Catalog, Type};
 use lexibus_codegen::source::Source;
 use lexibus_export::gsdml::{export, file_name, Export, NoteKind, Options, Refusal};
 
-/// The register table of a drive with two process images. Some of their fields share bytes.
+/// The register table of a drive with two process images, in which some fields share bytes.
 const TABLE: &str = r#"
 lexibus = 1
 [device]

@@ -12,7 +12,7 @@ fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", text.into()), &Options::default())
 }
 
-/// Compiles the first example in the documentation of register tables, which is a complete device.
+/// Tests the counts for the first example in the documentation of register tables, which is a complete device.
 #[test]
 fn info_of_the_worked_example() {
     let (_, block) = examples().swap_remove(0);

@@ -1,5 +1,5 @@
-//! Checks that a comparison reports changes of all facts in the intermediate representation. A list contains the
-//! exceptions with reasons.
+//! Checks that a comparison reports changes of all facts in the intermediate representation. [`UNREPORTED`] lists the
+//! exceptions, with reasons.
 //!
 //! The test changes the leaves of the serialized representation: numbers, texts, truth values, alternatives, list
 //! elements and optional parts. Of the leaves with the same path, only some are changed, in the smallest descriptions.
@@ -49,7 +49,7 @@ fn unreported(pattern: &str) -> Option<&'static str> {
     UNREPORTED.iter().map(|(end, _)| *end).find(|end| is_part(end))
 }
 
-/// Returns whether no part of a value is reported, because each part is on the list or equal to its default.
+/// Returns whether no part of a value is reported, because each part is in [`UNREPORTED`] or equal to its default.
 fn is_unreported(value: &Value, pattern: &str) -> bool {
     let is_part_unreported = |part: &Value, pattern: &str| is_default(part) || is_unreported(part, pattern);
     match value {
@@ -73,8 +73,8 @@ fn is_default(value: &Value) -> bool {
     }
 }
 
-/// Names of enumeration variants without content, in types whose other variants have content. The test can only change
-/// other variants to these.
+/// Names of enumeration variants without content, in types whose other variants have content. The test can change other
+/// variants to these variants, but not the reverse.
 const ALONE: [&str; 5] =
     ["/axes/rules/*/step", "/groups/*/kind", "/shape/bit_field/fields/*/meaning", "/request/*", "/reply/*"];
 
@@ -149,9 +149,9 @@ struct Tally {
     reported: usize,
     /// Entries of [`UNREPORTED`] that apply to a changed leaf.
     listed: BTreeSet<&'static str>,
-    /// Example of a change for each path without a report.
+    /// For each path without a reported change, an example of a change.
     missed: BTreeMap<String, String>,
-    /// Example of a change for each path whose changes are all invalid. Removals of required parts are not included.
+    /// For each path whose changes are all invalid, an example of a change. Removals of required parts are not included.
     invalid: BTreeMap<String, String>,
 }
 
@@ -178,7 +178,7 @@ impl Tally {
             leaf.replace(json, before);
             if let Ok(changed) = changed {
                 is_changed = true;
-                // A changed value can give an equal catalog if the representation omits the value.
+                // If the JSON representation omits a value, changing it results in an equal catalog.
                 if changed != description.catalog {
                     self.compare(description, &changed, leaf, example);
                 }

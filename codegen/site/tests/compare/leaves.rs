@@ -62,7 +62,7 @@ impl Leaf {
 
 fn collect(value: &Value, path: &mut Vec<Key>, leaves: &mut Vec<Leaf>) {
     match value {
-        // A missing value cannot be changed. Removing the value tests the reverse of adding it.
+        // A missing value is not a leaf. The test covers the addition of a value by its reverse: it removes values that exist.
         Value::Null => return,
         Value::Array(list) => {
             for (position, part) in list.iter().enumerate() {
@@ -133,7 +133,7 @@ fn numbers(number: &serde_json::Number) -> Vec<Value> {
 /// Returns a changed text, or the other variant names if the text is a variant name.
 fn texts(text: &str, variants: &[String]) -> Vec<Value> {
     match variants.is_empty() {
-        // JSON has no NaN or infinity, so the representation stores them as texts.
+        // JSON has no NaN or infinity, so the representation stores these numbers as texts.
         true => vec![Value::from(format!("{text}x")), Value::from(2.5)],
         false => variants.iter().map(|other| Value::from(other.as_str())).collect(),
     }

@@ -132,7 +132,7 @@ fn each_transition_of_cia_402_has_an_arrow() {
     let page = pages.iter().find(|page| page.path.ends_with("states-and-procedures.html")).expect("the state machine");
     let start = page.text.find("<svg class=\"states\"").expect("the diagram");
     let diagram = &page.text[start..start + page.text[start..].find("</svg>").expect("its end")];
-    // Transition 13 has any state as its source.
+    // Transition 13 can start in any state.
     assert!(diagram.contains(">any state<"), "{diagram}");
     assert_eq!(diagram.matches("marker-end").count(), 16);
     let labels = diagram.split("<text class=\"").skip(1).filter_map(|text| text.split_once('>')?.1.split('<').next());

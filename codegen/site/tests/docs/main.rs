@@ -1,4 +1,4 @@
-//! Tests the documentation in both formats.
+//! Tests the documentation that `lexibus docs` writes as HTML and as Markdown.
 
 #[path = "../../../tests/corpus_support/mod.rs"]
 mod corpus_support;

@@ -1,4 +1,4 @@
-//! Support for the tests of documentation formats.
+//! Helpers for the tests of documentation: they create pages, and check links and markup.
 
 #![allow(dead_code, reason = "each test needs a part of it")]
 
@@ -60,7 +60,7 @@ pub fn values<'p>(text: &'p str, attribute: &str) -> Vec<&'p str> {
 ///
 /// # Panics
 ///
-/// If a link is invalid or an id occurs twice.
+/// Panics if a link is invalid or an id occurs twice.
 pub fn html_links(pages: &[Page]) -> usize {
     let mut ids: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for page in pages {
@@ -81,7 +81,7 @@ pub fn html_links(pages: &[Page]) -> usize {
 ///
 /// # Panics
 ///
-/// If a link is invalid or an id occurs twice.
+/// Panics if a link is invalid or an id occurs twice.
 pub fn markdown_links(all: &[Page]) -> usize {
     let mut ids: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
     let mut links = Vec::new();
@@ -111,7 +111,7 @@ fn follow(page: &Page, link: &str, has: impl Fn(&str, &str) -> Option<bool>) {
     assert!(anchor.is_empty() || is_there, "{}: {path} has no {anchor}", page.path);
 }
 
-/// The visible parts of a Markdown page, parsed like GitHub and `mdBook` do.
+/// The visible parts of a Markdown page, parsed as GitHub and `mdBook` do.
 #[derive(Default)]
 pub struct Seen {
     pub links: Vec<String>,
@@ -155,7 +155,7 @@ fn placed(pages: &[Page]) {
 ///
 /// # Panics
 ///
-/// If a description adds an HTML element.
+/// Panics if a description adds an HTML element.
 pub fn html_markup(all: &[Page]) {
     placed(all);
     for page in all.iter().filter(|page| page.path.ends_with(".html")) {
@@ -170,11 +170,11 @@ pub fn html_markup(all: &[Page]) {
     }
 }
 
-/// Checks that descriptions do not add markup to Markdown pages. The pages are parsed like GitHub and `mdBook` do.
+/// Checks that descriptions do not add markup to Markdown pages. The pages are parsed as GitHub and `mdBook` do.
 ///
 /// # Panics
 ///
-/// If a description adds markup.
+/// Panics if a description adds markup.
 pub fn markdown_markup(all: &[Page]) {
     placed(all);
     for (page, seen) in pages(all) {
