@@ -14,6 +14,9 @@ use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
 use super::Page;
 
+/// File name and title of a page.
+type PageLink = (String, String);
+
 /// The file name of a folder's first page, without extension.
 pub(super) const FIRST: &str = "index";
 
@@ -47,7 +50,7 @@ impl Frameset {
     }
 
     /// Returns the pages before and after `file`.
-    pub fn neighbors(&self, file: &str) -> (Option<&(String, String)>, Option<&(String, String)>) {
+    pub fn neighbors(&self, file: &str) -> (Option<&PageLink>, Option<&PageLink>) {
         let Some(at) = self.position(file) else { return (None, None) };
         (at.checked_sub(1).and_then(|at| self.get(at)), self.get(at + 1))
     }
@@ -57,7 +60,7 @@ impl Frameset {
         self.device_pages.position(file).or_else(shared)
     }
 
-    fn get(&self, at: usize) -> Option<&(String, String)> {
+    fn get(&self, at: usize) -> Option<&PageLink> {
         self.device_pages.get(at).or_else(|| self.shared.get(at.checked_sub(self.device_pages.count())?))
     }
 
