@@ -506,21 +506,21 @@ pub mod types {
     /// | 0 | [`SynchronousAcyclic`](Self::SynchronousAcyclic) | The PDO is transmitted at the next SYNC after an event. |
     /// | 1 to 240 | [`Unknown`](Self::Unknown) | synchronous cyclic. The PDO is transmitted after this number of SYNC messages. |
     /// | 241 to 251 | [`Unknown`](Self::Unknown) | reserved. This value is reserved. Do not use it. |
-    /// | 252 | [`RemoteRequestSynchronous`](Self::RemoteRequestSynchronous) | remote request, synchronous. The PDO is sampled at SYNC, and transmitted on a remote frame. |
-    /// | 253 | [`RemoteRequest`](Self::RemoteRequest) | The PDO is sampled and transmitted on a remote frame. |
-    /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | The PDO is transmitted on events that the manufacturer defines. |
-    /// | 255 | [`EventOfTheProfile`](Self::EventOfTheProfile) | The PDO is transmitted on events that the device profile defines. |
+    /// | 252 | [`RemoteRequestSynchronous`](Self::RemoteRequestSynchronous) | remote request, synchronous. The PDO is sampled at SYNC, and transmitted when a remote frame requests it. |
+    /// | 253 | [`RemoteRequest`](Self::RemoteRequest) | The PDO is sampled and transmitted when a remote frame requests it. |
+    /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | The PDO is transmitted after events that the manufacturer defines. |
+    /// | 255 | [`EventOfTheProfile`](Self::EventOfTheProfile) | The PDO is transmitted after events that the device profile defines. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TransmitType {
         /// 0: synchronous acyclic. The PDO is transmitted at the next SYNC after an event.
         SynchronousAcyclic,
-        /// 252: remote request, synchronous. The PDO is sampled at SYNC, and transmitted on a remote frame.
+        /// 252: remote request, synchronous. The PDO is sampled at SYNC, and transmitted when a remote frame requests it.
         RemoteRequestSynchronous,
-        /// 253: remote request. The PDO is sampled and transmitted on a remote frame.
+        /// 253: remote request. The PDO is sampled and transmitted when a remote frame requests it.
         RemoteRequest,
-        /// 254: event of the manufacturer. The PDO is transmitted on events that the manufacturer defines.
+        /// 254: event of the manufacturer. The PDO is transmitted after events that the manufacturer defines.
         EventOfTheManufacturer,
-        /// 255: event of the profile. The PDO is transmitted on events that the device profile defines.
+        /// 255: event of the profile. The PDO is transmitted after events that the device profile defines.
         EventOfTheProfile,
         /// A number that no other variant represents.
         Unknown(u8),
@@ -581,7 +581,7 @@ pub mod types {
     /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | 1: the target position is relative; 0: the target position is absolute. |
     /// | 6 | [`in_velocity().reference_ramp()`](ControlwordInVelocity::reference_ramp) |  |
     /// | 7 | [`fault_reset`](Self::fault_reset) | The device reacts to the rising edge. |
-    /// | 8 | [`halt`](Self::halt) | 1 stops the axis with the reaction of the halt option code (0x605D). |
+    /// | 8 | [`halt`](Self::halt) | 1 stops the axis with the reaction that the halt option code (0x605D) selects. |
     /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the previous target at the profile velocity, then moves to the new target. |
     /// | 10 | reserved | The value 0 is written. |
     /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
@@ -645,7 +645,7 @@ pub mod types {
         pub const fn with_fault_reset(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
-        /// Bit 8: halt. 1 stops the axis with the reaction of the halt option code (0x605D).
+        /// Bit 8: halt. 1 stops the axis with the reaction that the halt option code (0x605D) selects.
         pub const fn halt(self) -> bool {
             rt::bits16::flag(self.0, 0x100)
         }
@@ -1559,7 +1559,7 @@ pub mod types {
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
     /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
-    /// | 30 | [`generates`](Self::generates) | The device transmits SYNC. |
+    /// | 30 | [`generates`](Self::generates) | The device transmits SYNC messages. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct SyncIdentifier(u32);
     impl SyncIdentifier {
@@ -1593,7 +1593,7 @@ pub mod types {
         pub const fn with_extended(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
-        /// Bit 30: generates. The device transmits SYNC.
+        /// Bit 30: generates. The device transmits SYNC messages.
         pub const fn generates(self) -> bool {
             rt::bits32::flag(self.0, 0x40000000)
         }
@@ -1719,8 +1719,8 @@ pub mod types {
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
-    /// | 0–15 | [`minor`](Self::minor) | Minor revision number; it changes if a new revision has the same behavior on the bus. |
-    /// | 16–31 | [`major`](Self::major) | Major revision number; it changes if a new revision has another behavior on the bus. |
+    /// | 0–15 | [`minor`](Self::minor) | Minor revision number; it changes if a new revision does not change the behavior of the device on … |
+    /// | 16–31 | [`major`](Self::major) | Major revision number; it changes if the behavior of the device on the bus changes. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct RevisionNumber(u32);
     impl RevisionNumber {
@@ -1736,7 +1736,7 @@ pub mod types {
         pub const fn raw(self) -> u32 {
             self.0
         }
-        /// Bits 15 to 0: minor. Minor revision number; it changes if a new revision has the same behavior on the bus.
+        /// Bits 15 to 0: minor. Minor revision number; it changes if a new revision does not change the behavior of the device on the bus.
         pub const fn minor(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF) as u16
         }
@@ -1745,7 +1745,7 @@ pub mod types {
         pub const fn with_minor(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
-        /// Bits 31 to 16: major. Major revision number; it changes if a new revision has another behavior on the bus.
+        /// Bits 31 to 16: major. Major revision number; it changes if the behavior of the device on the bus changes.
         pub const fn major(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF0000) as u16
         }

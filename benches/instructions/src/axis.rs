@@ -369,7 +369,7 @@ pub mod types {
     /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | 1: the target position is relative; 0: the target position is absolute. |
     /// | 6 | [`in_velocity().reference_ramp()`](ControlwordInVelocity::reference_ramp) |  |
     /// | 7 | [`fault_reset`](Self::fault_reset) | The device reacts to the rising edge. |
-    /// | 8 | [`halt`](Self::halt) | 1 stops the axis with the reaction of the halt option code (0x605D). |
+    /// | 8 | [`halt`](Self::halt) | 1 stops the axis with the reaction that the halt option code (0x605D) selects. |
     /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the previous target at the profile velocity, then moves to the new target. |
     /// | 10 | reserved | The value 0 is written. |
     /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
@@ -433,7 +433,7 @@ pub mod types {
         pub const fn with_fault_reset(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
-        /// Bit 8: halt. 1 stops the axis with the reaction of the halt option code (0x605D).
+        /// Bit 8: halt. 1 stops the axis with the reaction that the halt option code (0x605D) selects.
         pub const fn halt(self) -> bool {
             rt::bits16::flag(self.0, 0x100)
         }

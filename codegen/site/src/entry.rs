@@ -101,7 +101,6 @@ impl Row {
     /// Returns whether there are facts to show below the row.
     pub fn has_more(&self) -> bool {
         !self.facts.is_empty()
-            || !self.requests.is_empty()
             || !self.translations.is_empty()
             || !self.elsewhere.is_empty()
             || !self.doubts.is_empty()
