@@ -17,6 +17,7 @@ use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST};
 use super::process::{self, About, Frame};
 use super::protocol::{self, Protocol};
 use super::references::{self, Targets};
+use super::revisions;
 use super::search::{Entry, Index};
 use super::Page;
 use lexibus_codegen::backend::rust;
@@ -122,8 +123,9 @@ impl Folder {
         // The first module page links to all module pages.
         self.shared = Rc::new(Links::new(self.listed.shared.clone(), files.len().min(1)..files.len()));
         let spoken = languages_of_modules(catalog);
-        for device in &catalog.devices {
-            self.device(device, catalog, is_alone, &spoken);
+        let previous = revisions::previous(catalog);
+        for (at, device) in catalog.devices.iter().enumerate() {
+            self.device(device, previous.get(&at).copied(), catalog, &spoken);
         }
         let title =
             self.listed.devices.first().filter(|_| is_alone).map_or(title, |device| device.title.as_str()).to_owned();
@@ -143,6 +145,12 @@ impl Folder {
         }
     }
 
+    /// Adds a page to the index, with an entry for the page itself.
+    fn index_page(&mut self, file: &str, kind: &'static str, title: &str, words: &str) {
+        self.index.page(file, kind);
+        self.index.entry(&Entry { words, ..index_entry("", "", title) });
+    }
+
     fn page(&mut self, frame: &Frameset, file: &str, content: Content<'_>) {
         self.pages.push(Page::new(file, self.format.page(frame, file, content)));
     }
@@ -152,7 +160,9 @@ impl Folder {
         self.files.file(title) + self.format.ending()
     }
 
-    fn device(&mut self, device: &Device, catalog: &Catalog, is_alone: bool, spoken: &BTreeSet<&str>) {
+    /// Writes the pages of a device. `previous` is its previous revision.
+    fn device(&mut self, device: &Device, previous: Option<&Device>, catalog: &Catalog, spoken: &BTreeSet<&str>) {
+        let is_alone = catalog.devices.len() == 1;
         let title = title(device);
         let name = if is_alone { FIRST.to_owned() } else { self.files.file(&title) };
         let first = name.clone() + self.format.ending();
@@ -163,6 +173,9 @@ impl Folder {
         let ranked = parts.assumptions(&first);
         let assumptions = (!ranked.is_empty()).then(|| self.file(&format!("{prefix}Assumptions")));
         pages.extend(assumptions.clone().map(|file| (file, "Assumptions".to_owned())));
+        let revision = previous.map(|previous| revisions::revision(catalog, previous, device));
+        let changes = revision.as_ref().map(|revision| (self.file(&format!("{prefix}Changes")), revision.title()));
+        pages.extend(changes.clone());
         let mut links = vec![(first.clone(), "Overview".to_owned())];
         links.extend(pages.iter().cloned());
         self.last = Rc::new(Links::new(links, 1..1 + parts.areas.len()));
@@ -172,15 +185,20 @@ impl Folder {
         if let Some(file) = &assumptions {
             self.page(&frame, file, Content::Assumptions(&ranked));
         }
+        if let (Some((file, _)), Some(revision)) = (&changes, &revision) {
+            self.page(&frame, file, Content::Changes(revision));
+        }
         self.page(&frame, &first, Content::Overview(&parts.overview, &contents(device, &parts)));
-        self.index.page(&first, &title);
+        let listed = Listed::new(device, title, first, pages);
+        self.index.device(&listed.title, &listed.words());
+        self.index_page(&listed.path, "device", &listed.title, &listed.words());
         for area in &parts.areas {
             self.page(&frame, &area.file, Content::Area(area));
-            self.index.page(&area.file, &title);
+            self.index_page(&area.file, "", &area.title, "");
             index_area(&mut self.index, area);
         }
         self.further(device, &parts, &frame);
-        self.listed.devices.push(Listed { title, vendor: device.identity.vendor_name.to_string(), path: first, pages });
+        self.listed.devices.push(listed);
     }
 
     /// Collects the parts of a device and determines their pages.
@@ -235,14 +253,14 @@ impl Folder {
         if let Some(file) = &parts.process {
             let sync_managers = process::sync_managers(&device.process_data);
             self.page(frame, file, Content::Process(&parts.frames, &sync_managers));
-            self.index.page(file, &frame.title);
+            self.index_page(file, "PDO", "Process data", "");
             for frame in &parts.frames {
                 self.index.entry(&index_entry(&frame.anchor, &frame.anchor, &frame.title));
             }
         }
         if let Some((file, protocol)) = &parts.protocol {
             self.page(frame, file, Content::Protocol(protocol));
-            self.index.page(file, &frame.title);
+            self.index_page(file, "", "Messages", "");
             for message in &protocol.messages {
                 let words = message.facts.first().map_or("", String::as_str);
                 let entry = index_entry(&message.anchor, "message", &message.name);
@@ -251,7 +269,7 @@ impl Folder {
         }
         if let Some((file, behaviour)) = &parts.behaviour {
             self.page(frame, file, Content::Machines(behaviour));
-            self.index.page(file, &frame.title);
+            self.index_page(file, "", "States and procedures", "");
             for machine in &behaviour.machines {
                 for state in &machine.states {
                     let entry = index_entry(&state.anchor, "state", &state.name);
@@ -265,10 +283,10 @@ impl Folder {
         }
         if let Some((file, tables)) = &parts.codes {
             self.page(frame, file, Content::Codes(tables));
-            self.index.page(file, &frame.title);
-            for row in tables.iter().flat_map(|table| &table.rows) {
+            self.index_page(file, "code", "Codes", "");
+            for (table, row) in tables.iter().flat_map(|table| table.rows.iter().map(move |row| (table, row))) {
                 let entry = index_entry(&row.anchor, &row.number, &row.name);
-                let words = format!("{} {}", row.cells.join(" "), row.facts);
+                let words = format!("{} {} {}", table.title, row.cells.join(" "), row.facts);
                 self.index.entry(&Entry { names: &row.names, words: &words, ..entry });
             }
         }
@@ -288,9 +306,12 @@ impl Folder {
     }
 
     fn module_pages(&mut self, all: &[ModuleModel], files: &[(String, String)], frame: &Frameset) {
-        for ((file, _), modules) in files.iter().zip(all.chunks(modules::PAGE)) {
+        if !files.is_empty() {
+            self.index.device(&frame.title, "");
+        }
+        for ((file, title), modules) in files.iter().zip(all.chunks(modules::PAGE)) {
             self.page(frame, file, Content::Modules(modules));
-            self.index.page(file, &frame.title);
+            self.index_page(file, "module", title, "");
             for module in modules {
                 let words = module.facts.first().map_or("", String::as_str);
                 self.index.entry(&Entry {
@@ -353,6 +374,22 @@ fn index_rows(index: &mut Index, rows: &[Row]) {
             let entry = index_entry(&row.anchor, number, &row.name);
             index.entry(&Entry { names: &row.names, unit: &row.unit, words, ..entry });
         }
+        index_parts(index, row);
+    }
+}
+
+/// Adds the bit fields and named values of a row. Their numbers, such as `bit 4`, are relative to the row, whose entry precedes them.
+fn index_parts(index: &mut Index, row: &Row) {
+    let mut part = |number: &str, name: &str, names: &[(String, String)]| {
+        if !name.is_empty() {
+            index.entry(&Entry { names, ..index_entry(number, number, name) });
+        }
+    };
+    for field in row.bits.iter().flat_map(|bits| &bits.fields) {
+        part(&format!("bit {}", field.bits), &field.name, &field.names);
+    }
+    for label in &row.labels {
+        part(&format!("value {}", label.number), &label.name, &label.names);
     }
 }
 

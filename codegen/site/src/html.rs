@@ -13,6 +13,7 @@ use super::overview::{Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages};
 use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
+use super::revisions::Revision;
 use super::Page;
 
 /// The style sheet of the pages.
@@ -53,6 +54,7 @@ templates! {
     ModulesPage = "modules.html" { modules: &'p [ModuleModel], grids: &'p Grids }
     AssumptionsPage = "assumptions.html" { ranked: &'p [Ranked<'p>] }
     DiagnosticsPage = "diagnostics.html" { diagnostics: &'p [ShownDiagnostic] }
+    ChangesPage = "changes.html" { revision: &'p Revision }
     ListPage = "list.html" { devices: &'p [Listed], root: &'p str, index: &'p str }
 }
 
@@ -96,6 +98,7 @@ impl Pages for Html {
             }
             Content::Assumptions(ranked) => written(&AssumptionsPage { frame, file, ranked }),
             Content::Diagnostics(diagnostics) => written(&DiagnosticsPage { frame, file, diagnostics }),
+            Content::Changes(revision) => written(&ChangesPage { frame, file, revision }),
             Content::List { devices, root, index } => written(&ListPage { frame, file, devices, root, index }),
         }
     }

@@ -43,6 +43,7 @@ mod pages;
 mod process;
 mod protocol;
 mod references;
+mod revisions;
 mod search;
 mod tools;
 mod words;
@@ -132,7 +133,8 @@ impl Site {
         let format = self.format.pages();
         let frame = Frameset { title: "Devices".to_owned(), ..Frameset::default() };
         let file = self.format.first_page();
-        let devices: Vec<Listed> = self.catalogs.iter().flat_map(ListedCatalog::in_site).collect();
+        let mut devices: Vec<Listed> = self.catalogs.iter().flat_map(ListedCatalog::in_site).collect();
+        pages::sort(&mut devices);
         // If there is only one catalog, its index already contains all entries.
         let index = match self.catalogs.as_slice() {
             [only] => only.folder.as_str(),

@@ -16,6 +16,7 @@ use super::overview::{Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST};
 use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
+use super::revisions::Revision;
 use super::Page;
 use lexibus_codegen::facts::markdown;
 
@@ -61,6 +62,7 @@ templates! {
     ModulesPage = "markdown/modules.md" { modules: &'p [ModuleModel] }
     AssumptionsPage = "markdown/assumptions.md" { ranked: &'p [Ranked<'p>] }
     DiagnosticsPage = "markdown/diagnostics.md" { diagnostics: &'p [ShownDiagnostic] }
+    ChangesPage = "markdown/changes.md" { revision: &'p Revision }
     ListPage = "markdown/list.md" { title: &'p str, devices: &'p [Listed], links: PageLinks<'p> }
     SummaryPage = "markdown/summary.md" { catalogs: &'p [ListedCatalog] }
 }
@@ -114,6 +116,7 @@ impl Pages for Markdown {
             Content::Modules(modules) => written(&ModulesPage { modules }),
             Content::Assumptions(ranked) => written(&AssumptionsPage { ranked }),
             Content::Diagnostics(diagnostics) => written(&DiagnosticsPage { diagnostics }),
+            Content::Changes(revision) => written(&ChangesPage { revision }),
             Content::List { devices, .. } => written(&ListPage { title, devices, links: &links }),
         }
     }

@@ -12,7 +12,11 @@ use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
 use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
+use super::revisions::Revision;
 use super::Page;
+use lexibus_codegen::facts;
+use lexibus_codegen::facts::number::hex32;
+use lexibus_codegen::ir::Device;
 
 /// File name and title of a page.
 type PageLink = (String, String);
@@ -86,16 +90,65 @@ pub(super) struct ListedCatalog {
 pub(super) struct Listed {
     pub title: String,
     pub vendor: String,
+    pub order_code: String,
+    /// Product code and revision number, as hexadecimal numbers.
+    pub product_code: String,
+    pub revision: String,
+    revision_number: u32,
+    pub buses: String,
+    /// Numbers of the device profiles.
+    pub profiles: String,
+    /// Name of the description file without extension.
+    pub file: String,
     /// Path of the device's first page.
     pub path: String,
     /// File names and titles of the device's other pages.
-    pub pages: Vec<(String, String)>,
+    pub pages: Vec<PageLink>,
+}
+
+impl Listed {
+    pub fn new(device: &Device, title: String, path: String, pages: Vec<PageLink>) -> Self {
+        let identity = &device.identity;
+        let hex = |number: Option<u32>| number.map(hex32).unwrap_or_default();
+        let order_code = identity.order_code.as_str();
+        Listed {
+            vendor: identity.vendor_name.to_string(),
+            order_code: if order_code == title { String::new() } else { order_code.to_owned() },
+            product_code: hex(identity.product_code),
+            revision: hex(identity.revision_number),
+            revision_number: identity.revision_number.unwrap_or_default(),
+            buses: facts::device::buses(device),
+            profiles: device.profiles.iter().map(u32::to_string).collect::<Vec<_>>().join(", "),
+            file: String::new(),
+            title,
+            path,
+            pages,
+        }
+    }
+
+    /// Returns the words that the search finds the device by, apart from its title.
+    pub fn words(&self) -> String {
+        let words = [&self.order_code, &self.vendor, &self.product_code, &self.revision, &self.buses];
+        words.map(String::as_str).join(" ")
+    }
+}
+
+/// Sorts devices by vendor and title, newest revision first.
+pub(super) fn sort(devices: &mut [Listed]) {
+    devices.sort_by_cached_key(|device| {
+        let texts = [&device.vendor, &device.title, &device.order_code].map(|text| text.to_lowercase());
+        (texts, std::cmp::Reverse(device.revision_number), device.file.clone())
+    });
 }
 
 impl ListedCatalog {
     /// Returns the devices. The paths of their first pages are relative to the site.
     pub fn in_site(&self) -> impl Iterator<Item = Listed> + '_ {
-        self.devices.iter().map(|device| Listed { path: format!("{}{}", self.folder, device.path), ..device.clone() })
+        self.devices.iter().map(|device| Listed {
+            path: format!("{}{}", self.folder, device.path),
+            file: self.title.clone(),
+            ..device.clone()
+        })
     }
 }
 
@@ -111,6 +164,7 @@ pub(super) enum Content<'p> {
     Modules(&'p [ModuleModel]),
     Assumptions(&'p [Ranked<'p>]),
     Diagnostics(&'p [ShownDiagnostic]),
+    Changes(&'p Revision),
     /// A list of devices, in a catalog or in the site.
     List {
         devices: &'p [Listed],

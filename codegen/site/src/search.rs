@@ -10,10 +10,12 @@ use super::words::one_line as line;
 /// Number of characters at the start of a description that are searchable.
 const WORDS: usize = 80;
 
-/// The search index of a catalog or site.
+/// A search index.
 #[derive(Debug, Default)]
 pub(super) struct Index {
-    /// Pages, each with the title of its device and its entries.
+    /// Title and further searchable words of each device: vendor, order code, identity.
+    devices: Vec<(String, String)>,
+    /// Pages of the devices with their entries.
     pages: Vec<Page>,
     numbers: Texts,
     /// Searchable texts: name, names in other languages, unit, and the start of the description. Tabs separate these
@@ -24,7 +26,10 @@ pub(super) struct Index {
 #[derive(Debug)]
 struct Page {
     path: String,
-    title: String,
+    /// Position of the device in the list of devices.
+    device: usize,
+    /// What the entries of the page are, such as `state`. The text is empty for items, which have addresses.
+    kind: &'static str,
     entries: Vec<IndexedEntry>,
 }
 
@@ -68,9 +73,15 @@ impl Texts {
 }
 
 impl Index {
-    /// Adds a page. Entries that are added later belong to this page.
-    pub fn page(&mut self, path: &str, title: &str) {
-        self.pages.push(Page { path: path.to_owned(), title: title.to_owned(), entries: Vec::new() });
+    /// Adds a device. Pages that are added later belong to this device. `words` are found together with each entry of the device.
+    pub fn device(&mut self, title: &str, words: &str) {
+        self.devices.push((line(title), line(words)));
+    }
+
+    /// Adds a page of the last device. Entries that are added later belong to this page.
+    pub fn page(&mut self, path: &str, kind: &'static str) {
+        let device = self.devices.len().saturating_sub(1);
+        self.pages.push(Page { path: path.to_owned(), device, kind, entries: Vec::new() });
     }
 
     /// Adds an entry to the last page.
@@ -94,9 +105,12 @@ impl Index {
             number: numbers[entry.number],
             text: texts[entry.text],
         };
+        let first = self.devices.len();
+        self.devices.extend(other.devices.iter().cloned());
         self.pages.extend(other.pages.iter().map(|page| Page {
             path: format!("{folder}/{}", page.path),
-            title: page.title.clone(),
+            device: first + page.device,
+            kind: page.kind,
             entries: page.entries.iter().map(indexed).collect(),
         }));
     }
@@ -104,13 +118,15 @@ impl Index {
     /// Returns the index as a script. Texts are JSON strings, so the browser does not execute them.
     pub fn script(&self) -> String {
         let json = |text: &str| serde_json::to_string(text).unwrap_or_default();
-        let pages: Vec<String> =
-            self.pages.iter().map(|page| format!("[{},{}]", json(&page.path), json(&page.title))).collect();
+        let devices = self.devices.iter().map(|(title, words)| format!("[{},{}]", json(title), json(words)));
+        let devices = devices.collect::<Vec<_>>().join(",");
+        let pages = self.pages.iter().map(|page| format!("[{},{},{}]", json(&page.path), page.device, json(page.kind)));
+        let pages = pages.collect::<Vec<_>>().join(",");
         let anchors: Vec<&str> =
             self.pages.iter().flat_map(|page| &page.entries).map(|entry| entry.anchor.as_str()).collect();
         let lists = [&self.numbers.all.join("\n"), &self.texts.all.join("\n"), &anchors.join("\n")];
         let lists = lists.map(|list| json(list)).join(",\n");
-        let mut script = format!("lexibusIndex([{}],\n{lists},\n[", pages.join(","));
+        let mut script = format!("lexibusIndex([{devices}],\n[{pages}],\n{lists},\n[");
         for (at, page) in self.pages.iter().enumerate() {
             script.push_str(if at == 0 { "[" } else { ",[" });
             for (at, entry) in page.entries.iter().enumerate() {
@@ -134,13 +150,16 @@ mod tests {
     #[test]
     fn indices_are_joined() {
         let (mut one, mut all) = (Index::default(), Index::default());
-        one.page("a.html", "A");
+        one.device("A", "Vendor");
+        one.page("a.html", "");
         one.entry(&entry("0x6040", "Control\nword"));
         one.entry(&entry("word", "first"));
-        all.page("x.html", "X");
+        all.device("X", "");
+        all.page("x.html", "state");
         all.entry(&entry("0x6040", "first"));
         all.add(&one, "folder");
-        let expected = r#"lexibusIndex([["x.html","X"],["folder/a.html","A"]],
+        let expected = r#"lexibusIndex([["X",""],["A","Vendor"]],
+[["x.html",0,"state"],["folder/a.html",1,""]],
 "0x6040",
 "first\t\t\tTakes commands\nControl word\t\t\tTakes commands",
 "\n\nword",

@@ -1,13 +1,26 @@
 //! Titles of devices, and modules that slots accept.
 
 use super::number::hex32;
-use crate::ir::{Device, Fit};
+use super::words::bus_names;
+use crate::ir::{Bus, Device, Fit};
 
 /// Returns the title of a device: its name, product name, order code or identifier. The text is empty if the description contains
 /// none of these texts.
 pub fn title(device: &Device) -> &str {
     let names = [&device.name, &device.identity.product_name, &device.identity.order_code, &device.id];
     names.into_iter().find(|name| !name.trim().is_empty()).map_or("", |name| name.as_str())
+}
+
+/// Returns the names of the buses of a device: `CANopen and Modbus`.
+pub fn buses(device: &Device) -> String {
+    let buses = [
+        (device.canopen.is_some(), Bus::CanOpen),
+        (device.ethercat.is_some(), Bus::EtherCat),
+        (device.profinet.is_some(), Bus::Profinet),
+        (!device.modbus.is_empty(), Bus::Modbus),
+        (device.framing.is_some(), Bus::Serial),
+    ];
+    bus_names(buses.into_iter().filter(|(has, _)| *has).map(|(_, bus)| bus).collect())
 }
 
 /// Returns the modules that a slot accepts: `module 0x00000539`, `modules of the class IO`.

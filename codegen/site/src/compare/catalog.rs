@@ -15,11 +15,20 @@ use lexibus_codegen::ir::{Catalog, Device, Family, Graphic, LocalText, Module, S
 /// then all others. Each of these groups has the order of the old description.
 pub fn compare(old: &Catalog, new: &Catalog) -> Vec<Change> {
     let mut comparison = Comparison::new(old, new);
-    compare_devices(&old.devices, &new.devices, &mut comparison);
+    all_devices(&old.devices, &new.devices, &mut comparison);
     compare_modules(&old.modules, &new.modules, &mut comparison);
     compare_submodules(&old.submodules, &new.submodules, &mut comparison);
     shared(old, new, &mut comparison);
     types::compare_unused(&mut comparison);
+    let mut changes = comparison.changes;
+    changes.sort_by_key(|change| change.judgement.class());
+    changes
+}
+
+/// Compares two revisions of a device in one description. The changes have the same order as those of [`compare`].
+pub fn compare_devices(catalog: &Catalog, old: &Device, new: &Device) -> Vec<Change> {
+    let mut comparison = Comparison::new(catalog, catalog);
+    comparison.in_types(&old.types, &new.types, |comparison| devices::compare(old, new, comparison));
     let mut changes = comparison.changes;
     changes.sort_by_key(|change| change.judgement.class());
     changes
@@ -41,7 +50,7 @@ fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
 
 /// Compares the devices. If both descriptions have exactly one device, these two are compared. Otherwise devices are
 /// paired by product code, name and identifier.
-fn compare_devices<'a>(old: &'a [Device], new: &'a [Device], comparison: &mut Comparison<'a>) {
+fn all_devices<'a>(old: &'a [Device], new: &'a [Device], comparison: &mut Comparison<'a>) {
     let is_one = old.len() == 1 && new.len() == 1;
     let key = |device: &Device| format!("{:?} {} {}", device.identity.product_code, title(device), device.id);
     let key = |device: &Device| if is_one { String::new() } else { key(device) };

@@ -42,5 +42,5 @@ mod slots;
 mod texts;
 mod types;
 
-pub use catalog::compare;
+pub use catalog::{compare, compare_devices};
 pub use change::{Change, Class, Effect, Judgement, Summary};

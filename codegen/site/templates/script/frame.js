@@ -105,3 +105,10 @@ tree?.addEventListener("keydown", ({ key }) => {
   menu.click();
   menu.focus();
 });
+
+// Shows the devices that contain all typed words, and their number.
+byId("devices")?.addEventListener("input", ({ target }) => {
+  const words = plain(target.value).split(/\s+/).filter(Boolean), rows = [...document.querySelectorAll(".devices tbody tr")];
+  for (const row of rows) row.hidden = !words.every((word) => plain(row.textContent).includes(word));
+  byId("shown").textContent = String(rows.filter((row) => !row.hidden).length);
+});

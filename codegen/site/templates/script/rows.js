@@ -40,8 +40,20 @@ for (const button of document.querySelectorAll("button.unfold")) {
 function unfoldTarget() {
   let id = location.hash.slice(1);
   try { id = decodeURIComponent(id); } catch { /* The address is not UTF-8 and stays as it is. */ }
-  const row = byId(id)?.closest(".items > tbody");
-  if (row && foldable.includes(row)) unfold(row, true);
+  const [, owner, kind, number] = id.match(/^(.*)\.(bit|value)-([^.]+)$/) ?? [];
+  const row = (byId(id) ?? byId(owner))?.closest(".items > tbody");
+  if (!row || !foldable.includes(row)) return;
+  unfold(row, true);
+  const part = byId(id) ? undefined : partOf(row, kind, number);
+  part?.classList.add("target");
+  part?.scrollIntoView({ block: "center" });
+}
+
+// Returns the line of a bit field or the term of a named value.
+function partOf(row, kind, number) {
+  const numbered = (cell) => cell.textContent.split(" ")[0] === number;
+  if (kind === "value") return [...row.querySelectorAll(":scope > .more > td > dl > dt")].find(numbered);
+  return [...row.querySelectorAll(".fields > tbody > tr")].find((line) => numbered(line.cells[0]));
 }
 addEventListener("hashchange", unfoldTarget);
 

@@ -1,13 +1,14 @@
 // The search.
-// The index of a site or of one device: pages with their titles, numbers, texts and anchors. An entry refers to a page, a number
-// and a text, and has an anchor. A text contains name, names in other languages, unit and description.
+// The index of a site or of one device: devices with their titles and further words, pages with their device and kind, numbers, texts
+// and anchors. An entry refers to a page, a number and a text, and has an anchor; the entry of a whole page has no number. A text
+// contains name, names in other languages, unit and description.
 let pages = [], titles = [], numbers = [], texts = [], anchors = [], isLoading = false, isLoaded = false;
 // For each entry, the positions of its page, number and text in these lists.
-let pageAt, numberAt, textAt;
+let pageAt, numberAt, textAt, ownerAt;
 
-function lexibusIndex(list, numberLines, textLines, anchorLines, entries) {
-  pages = list.map(([path, title]) => ({ path, title }));
-  titles = list.map(([, title]) => plain(title));
+function lexibusIndex(devices, pageList, numberLines, textLines, anchorLines, entries) {
+  pages = pageList.map(([path, device, kind]) => ({ path, device, kind, title: devices[device][0] }));
+  titles = devices.map((words) => plain(words.join(" ")));
   numbers = numberLines.split("\n").map(numberFrom);
   texts = textLines.split("\n").map((line) => ({ fields: line.split("\t"), plain: plain(line).split("\t") }));
   anchors = anchorLines.split("\n");
@@ -16,10 +17,16 @@ function lexibusIndex(list, numberLines, textLines, anchorLines, entries) {
   for (const [page, pairs] of entries.entries()) {
     for (let next = 0; next < pairs.length; next += 2, at++) [pageAt[at], numberAt[at], textAt[at]] = [page, pairs[next], pairs[next + 1]];
   }
+  // A bit or value belongs to the item before it.
+  ownerAt = new Uint32Array(anchors.length);
+  for (let entry = 1; entry < anchors.length; entry++) ownerAt[entry] = isPart(entry) ? ownerAt[entry - 1] : entry;
   isLoaded = true;
   lead();
   search();
 }
+
+// Numbers of bits and values, which are parts of an item.
+const PART = /^(bit|value) /;
 
 // Parses a number such as `0x6040:01`, `register 12–13 (wire 11–12)` or `0x6100 to 0x61FF`. Returns its text and its ranges.
 function numberFrom(text) {
@@ -27,6 +34,7 @@ function numberFrom(text) {
     const [, first, last] = plain(text).match(pattern) || [];
     return { first: Number(first), last: Number(last ?? first) };
   };
+  if (PART.test(text)) return { text, plain: plain(text), ranges: [] };
   const printed = range(/^(?:[a-z_ ]+ )?(0x[0-9a-f]+|[0-9]+)(?:(?: to |–)(0x[0-9a-f]+|[0-9]+))?/);
   return { text, plain: plain(text), ranges: [printed, range(/\(wire (0x[0-9a-f]+|[0-9]+)(?:–(0x[0-9a-f]+|[0-9]+))?\)/)] };
 }
@@ -43,15 +51,23 @@ function load() {
   document.head.append(script);
 }
 
+// Returns the notations of a word: `6040h` and `6040` can mean `0x6040`, `2020:1` means `0x2020:01`.
+function notations(word) {
+  const [, index, sub] = word.match(/^(?:0x)?([0-9a-f]{1,4})h?(?::(?:0x)?([0-9a-f]{1,2})h?)?$/) ?? [];
+  if (index === undefined) return [word];
+  return [word, "0x" + index.padStart(4, "0") + (sub === undefined ? "" : ":" + sub.padStart(2, "0"))];
+}
+
 // Returns the numbers that a word can mean. A word of four hexadecimal digits can be an index without `0x`.
 function values(word) {
   const all = /^(0x[0-9a-f]+|[0-9]+)$/.test(word) ? [Number(word)] : [];
-  return /^[0-9a-f]{4}$/.test(word) ? [...all, parseInt(word, 16)] : all;
+  const [, digits] = word.match(/^([0-9a-f]{4}|[0-9a-f]{1,8}(?=h$))h?$/) ?? [];
+  return digits === undefined ? all : [...all, parseInt(digits, 16)];
 }
 
 // Returns how well a number matches a word, in points. Returns 0 if the number does not contain the word.
-function numberPoints(number, { word, hex, values }) {
-  if (number.plain === word || number.plain === hex) return 150;
+function numberPoints(number, { word, notations, values }) {
+  if (notations.includes(number.plain)) return 150;
   for (const { first, last } of number.ranges) {
     if (values.includes(first)) return number.plain.includes(":") ? 90 : 100;
     if (values.some((value) => first < value && value <= last)) return 60;
@@ -82,35 +98,72 @@ const known = new Map();
 function pointsOf(word) {
   if (!known.has(word)) {
     if (known.size > 20) known.clear();
-    const query = { word, hex: "0x" + word, values: values(word) };
-    known.set(word, {
-      numbers: each(numbers, (number) => numberPoints(number, query)),
-      texts: each(texts, (text) => textPoints(text.plain, word)),
-      titles: each(titles, (title) => Number(title.includes(word))),
-    });
+    const exact = pointsOfExact(word);
+    const isFound = word.length < 4 || Object.values(exact).some((points) => points.some(Boolean));
+    known.set(word, isFound ? exact : pointsOfSimilar(word) ?? exact);
   }
   return known.get(word);
+}
+
+function pointsOfExact(word) {
+  const query = { word, notations: notations(word), values: values(word) };
+  return {
+    numbers: each(numbers, (number) => numberPoints(number, query)),
+    texts: each(texts, (text) => textPoints(text.plain, word)),
+    titles: each(titles, (title) => Number(title.includes(word))),
+  };
+}
+
+// Returns the points for the words of the index that differ from a word by one typing error. Returns nothing if there is none.
+function pointsOfSimilar(word) {
+  const all = similarWords(word).map(pointsOfExact);
+  return all.length ? all.reduce((sum, points) => {
+    for (const [list, values] of Object.entries(points)) values.forEach((value, at) => { sum[list][at] = Math.max(sum[list][at], value); });
+    return sum;
+  }) : undefined;
+}
+
+let vocabulary;
+const MOST_SIMILAR = 5;
+
+function similarWords(word) {
+  vocabulary ??= new Set([...texts.map((text) => text.plain.join(" ")), ...titles].join(" ").match(/[\p{L}\p{N}]{3,}/gu));
+  const similar = [];
+  for (const known of vocabulary) {
+    if (Math.abs(known.length - word.length) <= 1 && isSimilar(known, word) && similar.push(known) === MOST_SIMILAR) break;
+  }
+  return similar;
+}
+
+// Returns whether two different words differ by one letter: added, removed, replaced, or exchanged with the next one.
+function isSimilar(one, other) {
+  let start = 0;
+  while (one[start] === other[start]) start++;
+  const rest = (text, from) => text.slice(start + from);
+  return rest(one, 1) === rest(other, 1) || rest(one, 1) === rest(other, 0) || rest(one, 0) === rest(other, 1)
+    || one[start] === other[start + 1] && one[start + 1] === other[start] && rest(one, 2) === rest(other, 2);
 }
 
 // Maximum number of results.
 const MOST = 50;
 
-// Adds the points for a word to the sum of each entry. The sum becomes -1 if neither the entry nor the title of its page contains the word.
+// Adds the points for a word to the sum of each entry. The sum becomes -1 if neither the entry nor its device has the word.
 function add({ numbers, texts, titles }, sums) {
   for (let entry = 0; entry < sums.length; entry++) {
     const points = numbers[numberAt[entry]] + texts[textAt[entry]];
-    sums[entry] = sums[entry] < 0 || points === 0 && titles[pageAt[entry]] === 0 ? -1 : sums[entry] + points;
+    sums[entry] = sums[entry] < 0 || points === 0 && titles[pages[pageAt[entry]].device] === 0 ? -1 : sums[entry] + points;
   }
 }
 
-// Returns the entries that match all words. The best entries come first, and equal entries have the order of the index. Entries whose
-// page title alone matches are left out.
+// Returns the entries that match all words. The best entries come first: those whose name is the whole query, then by points; equal
+// entries have the order of the index. Entries are left out if only their device matches.
 function matches(query) {
-  const words = plain(query).split(/\s+/).filter(Boolean), best = [];
+  const wanted = plain(query).trim(), words = wanted.split(/\s+/).filter(Boolean), best = [];
   if (!words.length || !isLoaded) return best;
   const sums = new Int32Array(anchors.length);
   for (const word of words) add(pointsOf(word), sums);
   for (let entry = 0, minimum = 0; entry < sums.length; entry++) {
+    if (sums[entry] > 0 && texts[textAt[entry]].plain[0] === wanted) sums[entry] += 300;
     if (sums[entry] > minimum) minimum = insert(best, { points: sums[entry], entry });
   }
   // A row has one entry per address. Only the best entry of a row is shown.
@@ -126,8 +179,15 @@ function insert(best, match) {
   return best.length === 4 * MOST ? best[best.length - 1].points : 0;
 }
 
-const anchorOf = (entry) => anchors[entry] || numbers[numberAt[entry]].text;
-const linkOf = (entry) => folder + pages[pageAt[entry]].path + "#" + encodeURIComponent(anchorOf(entry));
+const isPart = (entry) => PART.test(numbers[numberAt[entry]].text);
+const anchorOf = (entry) => {
+  const own = anchors[entry] || numbers[numberAt[entry]].text;
+  return isPart(entry) ? `${anchorOf(ownerAt[entry])}.${own.replace(" ", "-").replace(/ .*/, "")}` : own;
+};
+const linkOf = (entry) => {
+  const anchor = anchorOf(entry);
+  return folder + pages[pageAt[entry]].path + (anchor && "#" + encodeURIComponent(anchor));
+};
 
 let selected = 0;
 const announcement = document.createElement("p");
@@ -137,9 +197,11 @@ found.after(announcement);
 function search() {
   const list = matches(input.value);
   found.replaceChildren(...list.map((entry, at) => {
-    const [name, names, unit] = texts[textAt[entry]].fields, page = pages[pageAt[entry]];
-    const more = element("small", { textContent: [names, unit, page.title].filter(Boolean).join(" · ") });
-    const link = element("a", { role: "option", id: "found-" + at, href: linkOf(entry), tabIndex: -1 }, numbers[numberAt[entry]].text + " " + name + " ", more);
+    const [name, names, unit] = texts[textAt[entry]].fields, page = pages[pageAt[entry]], number = numbers[numberAt[entry]].text;
+    const owner = isPart(entry) ? [numbers[numberAt[ownerAt[entry]]].text, texts[textAt[ownerAt[entry]]].fields[0]].join(" ") : "";
+    const kind = number || page.kind === "device" ? page.kind : "page";
+    const more = element("small", { textContent: [owner, kind, names, unit, page.title].filter(Boolean).join(" · ") });
+    const link = element("a", { role: "option", id: "found-" + at, href: linkOf(entry), tabIndex: -1 }, `${number} ${name} `.trimStart(), more);
     return element("li", { role: "presentation" }, link);
   }));
   found.hidden = !list.length;
@@ -190,17 +252,20 @@ document.addEventListener("keydown", (event) => {
   input.select();
 });
 
+// Returns the address of the item that has a bit or value: `0x6041` of `0x6041.bit-3`.
+const withoutPart = (address) => address.replace(/\.(bit|value)-[^.]+$/, "");
+
 // Returns the address in the URL if this page does not have it.
 function missingAddress() {
   let address = location.hash.slice(1);
   try { address = decodeURIComponent(address); } catch { /* The address is not UTF-8 and stays as it is. */ }
-  return document.getElementById(address) ? "" : plain(address);
+  return byId(address) || byId(withoutPart(address)) ? "" : plain(address);
 }
 
 // Opens the page that contains the address. If an entry has no separate row, opens the row of its object.
 function lead() {
   const address = missingAddress();
-  for (const candidate of address ? [address, address.split(":")[0]] : []) {
+  for (const candidate of address ? [address, withoutPart(address), address.split(":")[0]] : []) {
     const entry = anchors.findIndex((_, entry) => plain(anchorOf(entry)) === candidate);
     if (entry < 0) continue;
     location.replace(linkOf(entry));

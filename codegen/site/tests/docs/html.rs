@@ -20,7 +20,7 @@ fn the_search_finds_the_entries_of_pages() {
     for text in ["KP_VEL\\t", "\\nCmdTraj\\tPosizionamento", "\\noverheated\\tALOVERHEATED\\t"] {
         assert!(index.contains(text), "{text}");
     }
-    assert!(index.starts_with("lexibusIndex([[\"index.html\",\"HSD Motor\"],"));
+    assert!(index.starts_with("lexibusIndex([[\"HSD Motor\",\""));
     assert!(index.contains("\\nparameter 0x0105\\n"));
 }
 
