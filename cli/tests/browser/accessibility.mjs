@@ -1,6 +1,6 @@
 // Tests pages of every kind with axe-core: names, labels, headings, roles and contrast, in both themes and on a phone.
 import assert from "node:assert/strict";
-import { axe, Window, withBrowser } from "./browser.mjs";
+import { axe, pagesOf, Window, withBrowser } from "./browser.mjs";
 
 const DESKTOP = { width: 1280, height: 800 }, PHONE = { width: 390, height: 844 };
 
@@ -11,14 +11,18 @@ const PAGES = [
 ];
 
 const [site] = process.argv.slice(2);
+const pages = process.env.LEXIBUS_LANE === "full" ? pagesOf(site) : PAGES;
 await withBrowser(async (browser) => {
   for (const colorScheme of ["light", "dark"]) {
     for (const viewport of colorScheme === "light" ? [DESKTOP, PHONE] : [DESKTOP]) {
       const window = await Window.open(browser, site, { colorScheme, viewport });
-      for (const place of PAGES) {
+      for (const place of pages) {
         await window.go(place);
         await examine(window.page, `${place}, ${colorScheme}, ${viewport.width} wide`);
       }
+      await window.go("eco/parameters.html");
+      await window.page.locator(".unfold").click();
+      await examine(window.page, `unfolded details, ${colorScheme}, ${viewport.width} wide`);
       await window.go("eco/index.html");
       await window.search("speed");
       await examine(window.page, `the search, ${colorScheme}, ${viewport.width} wide`);

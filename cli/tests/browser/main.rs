@@ -30,7 +30,7 @@ fn the_search_finds_what_is_typed_and_leads_there() {
 
 #[test]
 fn tasks_of_a_commissioning_engineer_need_few_keys() {
-    run("tasks.mjs", || [sites::drives()]);
+    run("tasks.mjs", || [sites::drives(), sites::terminals()]);
 }
 
 #[test]

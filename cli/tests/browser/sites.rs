@@ -45,6 +45,37 @@ pub fn alone() -> PathBuf {
     documented("alone", &["demo-drive.eds"])
 }
 
+/// Returns a site with EtherCAT terminals, one of them in two revisions.
+pub fn terminals() -> PathBuf {
+    let entry = |ty: &str, bits: u8| {
+        format!(
+            "<Entry><Index>#x7010</Index><SubIndex>1</SubIndex><BitLen>{bits}</BitLen><Name>Set counter value</Name>\
+             <DataType>{ty}</DataType></Entry>"
+        )
+    };
+    let device = |product: &str, revision: &str, name: &str, entry: String| {
+        format!(
+            "<Device Physics=\"YY\"><Type ProductCode=\"{product}\" RevisionNo=\"{revision}\">{name}</Type><Name>{name}</Name>\
+             <GroupType>Terminals</GroupType><RxPdo Fixed=\"1\"><Index>#x1600</Index><Name>Outputs</Name>{entry}</RxPdo></Device>"
+        )
+    };
+    let devices = [
+        device("#x04C22C52", "#x00110000", "T1218 counter", entry("UINT", 16)),
+        device("#x04C22C52", "#x00120000", "T1218 counter", entry("UDINT", 32)),
+        device("#x03F03052", "#x00100000", "T1008 inputs", entry("USINT", 8)),
+    ];
+    let text = format!(
+        "<EtherCATInfo><Vendor><Id>#x77</Id><Name>Example Terminals</Name></Vendor><Descriptions><Groups><Group>\
+         <Type>Terminals</Type><Name>Terminals</Name></Group></Groups><Devices>{}</Devices></Descriptions></EtherCATInfo>",
+        devices.concat()
+    );
+    let (source, site) = (folder("terminals-source"), folder("terminals"));
+    let path = source.join("terminals.xml");
+    std::fs::write(&path, text).expect("a temporary file");
+    lexibus(|command| command.arg("docs").arg(&path).arg("--out").arg(&site), &[0]);
+    site
+}
+
 /// Returns a site with 2,000 registers of eight fields each.
 pub fn large() -> PathBuf {
     let field = |at: usize| {

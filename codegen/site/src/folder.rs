@@ -6,6 +6,7 @@ use std::rc::Rc;
 use super::anchor::Names;
 use super::area::{self, Area};
 use super::assumptions::{AmbiguitySources, Ranked};
+use super::builder;
 use super::codes::{self, Codes};
 use super::diagnostics::ShownDiagnostics;
 use super::entry::{Known, Row};
@@ -14,7 +15,7 @@ use super::machines;
 use super::modules::{self, ModuleModel};
 use super::overview::{self, Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST};
-use super::process::{self, About, Frame};
+use super::process::{self, About, ProcessPart};
 use super::protocol::{self, Protocol};
 use super::references::{self, Targets};
 use super::revisions;
@@ -45,7 +46,7 @@ pub(super) struct Folder {
 struct Parts {
     overview: Overview,
     areas: Vec<Area>,
-    frames: Vec<Frame>,
+    data: ProcessPart,
     process: Option<String>,
     protocol: Option<(String, Protocol)>,
     behaviour: Option<(String, machines::Behaviour)>,
@@ -58,7 +59,7 @@ impl Parts {
         let sources = AmbiguitySources {
             overview: (first, &self.overview.doubts),
             areas: &self.areas,
-            process: self.process.as_deref().map(|file| (file, self.frames.as_slice())),
+            process: self.process.as_deref().map(|file| (file, self.data.frames.as_slice())),
             protocol: self.protocol.as_ref().map(|(file, protocol)| (file.as_str(), protocol)),
             behaviour: self.behaviour.as_ref().map(|(file, behaviour)| (file.as_str(), behaviour)),
             codes: self.codes.as_ref().map(|(file, tables)| (file.as_str(), tables.as_slice())),
@@ -77,7 +78,7 @@ impl Parts {
     fn link(&mut self, device: &Device) {
         let pages = references::Pages {
             areas: &self.areas,
-            frames: (self.process.as_deref(), &self.frames),
+            frames: (self.process.as_deref(), &self.data.frames),
             behaviour: page(&self.behaviour),
             protocol: page(&self.protocol),
         };
@@ -85,7 +86,7 @@ impl Parts {
         for row in self.areas.iter_mut().flat_map(|area| &mut area.sections).flat_map(|section| &mut section.rows) {
             row.relations = targets.relations(row.id, &referrers);
         }
-        for entry in self.frames.iter_mut().flat_map(|frame| &mut frame.entries) {
+        for entry in self.data.frames.iter_mut().flat_map(|frame| &mut frame.entries) {
             entry.target = targets.item(entry.item).map(|link| link.target.clone()).unwrap_or_default();
         }
         if let Some((_, behaviour)) = &mut self.behaviour {
@@ -198,6 +199,10 @@ impl Folder {
             index_area(&mut self.index, area);
         }
         self.further(device, &parts, &frame);
+        let assumptions = assumptions.map(|file| (file, "Assumptions".to_owned()));
+        for (file, title) in assumptions.into_iter().chain(changes) {
+            self.index_page(&file, "", &title, "");
+        }
         self.listed.devices.push(listed);
     }
 
@@ -242,7 +247,7 @@ impl Folder {
             behaviour: further(behaviour.is_some(), "States and procedures").zip(behaviour),
             codes: further(!tables.is_empty(), "Codes").map(|file| (file, tables)),
             areas,
-            frames,
+            data: ProcessPart { frames, builder: builder::data(device, &calls, &rust::pdo_names(device)) },
         };
         parts.link(device);
         (parts, pages)
@@ -252,9 +257,9 @@ impl Folder {
     fn further(&mut self, device: &Device, parts: &Parts, frame: &Frameset) {
         if let Some(file) = &parts.process {
             let sync_managers = process::sync_managers(&device.process_data);
-            self.page(frame, file, Content::Process(&parts.frames, &sync_managers));
+            self.page(frame, file, Content::Process(&parts.data, &sync_managers));
             self.index_page(file, "PDO", "Process data", "");
-            for frame in &parts.frames {
+            for frame in &parts.data.frames {
                 self.index.entry(&index_entry(&frame.anchor, &frame.anchor, &frame.title));
             }
         }
@@ -341,13 +346,14 @@ fn link_parts(modules: &mut [ModuleModel], files: &[(String, String)]) {
 }
 
 fn contents(device: &Device, parts: &Parts) -> Contents {
-    let of_frame = |(file, frame): (&String, &Frame)| (format!("{file}#{}", frame.anchor), frame.title.clone());
+    let of_frame =
+        |(file, frame): (&String, &process::Frame)| (format!("{file}#{}", frame.anchor), frame.title.clone());
     Contents {
         areas: parts.areas.iter().map(|area| (area.file.clone(), area.title.clone(), area.count())).collect(),
         frames: parts
             .process
             .iter()
-            .flat_map(|file| parts.frames.iter().map(move |frame| (file, frame)))
+            .flat_map(|file| parts.data.frames.iter().map(move |frame| (file, frame)))
             .map(of_frame)
             .collect(),
         slots: modules::slots(device),

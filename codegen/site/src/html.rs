@@ -11,7 +11,7 @@ use super::machines::Behaviour;
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages};
-use super::process::{Frame, SyncManager};
+use super::process::{ProcessPart, SyncManager};
 use super::protocol::Protocol;
 use super::revisions::Revision;
 use super::Page;
@@ -26,6 +26,7 @@ const SCRIPT: &str = concat!(
     include_str!("../templates/script/value.js"),
     include_str!("../templates/script/requests.js"),
     include_str!("../templates/script/decoder.js"),
+    include_str!("../templates/script/builder.js"),
     include_str!("../templates/script/machines.js"),
     include_str!("../templates/script/search.js"),
     include_str!("../templates/script/start.js"),
@@ -47,7 +48,7 @@ macro_rules! templates {
 templates! {
     OverviewPage = "overview.html" { overview: &'p Overview, contents: &'p Contents }
     AreaPage = "area.html" { area: &'p Area, grids: &'p Grids }
-    ProcessPage = "process.html" { frames: &'p [Frame], sync_managers: &'p [SyncManager] }
+    ProcessPage = "process.html" { part: &'p ProcessPart, sync_managers: &'p [SyncManager] }
     ProtocolPage = "protocol.html" { protocol: &'p Protocol, grids: &'p Grids }
     CodesPage = "codes.html" { tables: &'p [Codes] }
     MachinesPage = "machines.html" { behaviour: &'p Behaviour }
@@ -82,7 +83,7 @@ impl Pages for Html {
                 let grids = &grids_of_rows(&area.sections);
                 written(&AreaPage { frame, file, area, grids })
             }
-            Content::Process(frames, sync_managers) => written(&ProcessPage { frame, file, frames, sync_managers }),
+            Content::Process(part, sync_managers) => written(&ProcessPage { frame, file, part, sync_managers }),
             Content::Protocol(protocol) => {
                 let messages = protocol.messages.iter();
                 let parts = messages.flat_map(|message| message.request.iter().chain(&message.reply));

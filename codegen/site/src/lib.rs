@@ -25,6 +25,7 @@ mod anchor;
 mod area;
 mod assumptions;
 mod bits;
+mod builder;
 mod cell;
 mod codes;
 pub mod compare;

@@ -109,7 +109,7 @@ impl Pages for Markdown {
                 written(&OverviewPage { title, overview, contents, links: &links })
             }
             Content::Area(area) => written(&AreaPage { area }),
-            Content::Process(frames, sync_managers) => written(&ProcessPage { frames, sync_managers }),
+            Content::Process(part, sync_managers) => written(&ProcessPage { frames: &part.frames, sync_managers }),
             Content::Protocol(protocol) => written(&ProtocolPage { protocol }),
             Content::Codes(tables) => written(&CodesPage { tables }),
             Content::Machines(behaviour) => written(&MachinesPage { behaviour }),

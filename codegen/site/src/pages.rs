@@ -10,7 +10,7 @@ use super::links::Links;
 use super::machines::Behaviour;
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
-use super::process::{Frame, SyncManager};
+use super::process::{ProcessPart, SyncManager};
 use super::protocol::Protocol;
 use super::revisions::Revision;
 use super::Page;
@@ -157,7 +157,7 @@ impl ListedCatalog {
 pub(super) enum Content<'p> {
     Overview(&'p Overview, &'p Contents),
     Area(&'p Area),
-    Process(&'p [Frame], &'p [SyncManager]),
+    Process(&'p ProcessPart, &'p [SyncManager]),
     Protocol(&'p Protocol),
     Codes(&'p [Codes]),
     Machines(&'p Behaviour),

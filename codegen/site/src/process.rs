@@ -21,6 +21,14 @@ const HEIGHT: u32 = 40;
 /// Maximum number of rows in a drawing. The list below the drawing contains all entries.
 const MOST_ROWS: usize = 64;
 
+/// The process data of a device.
+#[derive(Debug, Default)]
+pub(super) struct ProcessPart {
+    pub frames: Vec<Frame>,
+    /// Data of the PDO builder as JSON, if a mapping can be changed.
+    pub builder: Option<String>,
+}
+
 /// A PDO or process image, as a page shows it.
 #[derive(Debug, Default)]
 pub(super) struct Frame {

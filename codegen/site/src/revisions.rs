@@ -22,9 +22,12 @@ impl Revision {
     }
 }
 
+/// Vendor and product code of a device.
+type Product = (Option<u32>, u32);
+
 /// Returns the previous revision of each device, by position. Devices with the same vendor, product code and revision have none.
 pub(super) fn previous(catalog: &Catalog) -> HashMap<usize, &Device> {
-    let mut products: HashMap<(Option<u32>, u32), Vec<(u32, usize)>> = HashMap::new();
+    let mut products: HashMap<Product, Vec<(u32, usize)>> = HashMap::new();
     for (at, device) in catalog.devices.iter().enumerate() {
         let identity = &device.identity;
         if let (Some(product), Some(revision)) = (identity.product_code, identity.revision_number) {

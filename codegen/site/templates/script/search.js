@@ -53,7 +53,7 @@ function load() {
 
 // Returns the notations of a word: `6040h` and `6040` can mean `0x6040`, `2020:1` means `0x2020:01`.
 function notations(word) {
-  const [, index, sub] = word.match(/^(?:0x)?([0-9a-f]{1,4})h?(?::(?:0x)?([0-9a-f]{1,2})h?)?$/) ?? [];
+  const [, index, sub] = word.match(/^(?:0x)?([0-9a-f]{4}|[0-9a-f]{1,4}(?=[h:]))h?(?::(?:0x)?([0-9a-f]{1,2})h?)?$/) ?? [];
   if (index === undefined) return [word];
   return [word, "0x" + index.padStart(4, "0") + (sub === undefined ? "" : ":" + sub.padStart(2, "0"))];
 }
@@ -72,15 +72,20 @@ function numberPoints(number, { word, notations, values }) {
     if (values.includes(first)) return number.plain.includes(":") ? 90 : 100;
     if (values.some((value) => first < value && value <= last)) return 60;
   }
-  return number.plain.includes(word) ? 20 : 0;
+  if (!number.plain.includes(word)) return 0;
+  return word.length > 2 ? 20 : 1;
 }
+
+const isLetter = (letter) => letter !== undefined && /[\p{L}\p{N}]/u.test(letter);
+const isWhole = (text, at, length) => !isLetter(text[at - 1]) && !isLetter(text[at + length]);
 
 // Returns the points of a text for a word. A whole unit counts more than a part of a name: `v` is part of most names.
 function textPoints([name, names, unit, description], word) {
   let points = 0;
   if (name === word) points += 100;
   if (name.startsWith(word)) points += 30;
-  if (name.includes(word)) points += 10;
+  const at = name.indexOf(word);
+  if (at >= 0) points += isWhole(name, at, word.length) ? 35 : 10;
   if (names.includes(word)) points += 8;
   if (unit === word) points += 50;
   return points || Number([unit, description].some((field) => field?.includes(word)));

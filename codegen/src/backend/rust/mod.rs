@@ -112,6 +112,12 @@ pub fn calls(device: &Device) -> HashMap<ItemId, Vec<String>> {
     objects::calls(&context).map(|(entry, path)| (entry.id, calls_of(&context, entry.item, &path))).collect()
 }
 
+/// Returns the names of the PDO structs, by the index of the mapping object.
+pub fn pdo_names(device: &Device) -> HashMap<u16, String> {
+    let context = model::context(Scope::of_device(device), &RustOptions::default(), "");
+    context.names.pdos.iter().map(|named| (named.pdo.mapping_index, named.name.clone())).collect()
+}
+
 /// Returns the calls that read and write an item: first in its physical unit, then as raw value.
 fn calls_of(context: &Context<'_>, item: &Item, path: &str) -> Vec<String> {
     let (suffix, other) = match item.quantity.as_ref().and_then(|quantity| quantity.scale.as_ref()) {

@@ -1,0 +1,70 @@
+//! Data of the PDO builder: the PDOs of a CANopen device with a changeable mapping, and the objects that can be mapped.
+
+use std::collections::HashMap;
+
+use serde_json::{json, Value as Json};
+
+use super::entry::Calls;
+use lexibus_codegen::facts::{address, pdo, types};
+use lexibus_codegen::ir::{Device, Direction, Item, ItemId, ObjectBuses, Pdo, PdoEntryKind, Value, MAX_PDO_SUBS};
+
+/// Returns the data as JSON, or `None` if no mapping can be changed. `names` contains the names of the PDO structs, by the index of the
+/// mapping object.
+pub(super) fn data(device: &Device, calls: &Calls, names: &HashMap<u16, String>) -> Option<String> {
+    let granularity = device.canopen.as_deref()?.granularity;
+    if granularity == Some(0) {
+        return None;
+    }
+    let pdos: Vec<Json> = device.process_data.pdos.iter().filter_map(|pdo| self::pdo(device, pdo, names)).collect();
+    let groups = (0..).zip(&device.groups).flat_map(|(position, group)| group.items_at(position));
+    let objects: Vec<Json> = groups.filter_map(|(id, item)| object(device, id, item, calls)).collect();
+    let data = json!({ "granularity": granularity.unwrap_or(1), "pdos": pdos, "objects": objects });
+    (!pdos.is_empty() && !objects.is_empty()).then(|| data.to_string())
+}
+
+fn pdo(device: &Device, pdo: &Pdo, names: &HashMap<u16, String>) -> Option<Json> {
+    let communication = pdo.communication.as_ref()?;
+    let mapping = device.object(pdo.mapping_index)?;
+    let is_writable = |sub: u8| mapping.sub(sub).is_some_and(|item| item.access.writable());
+    let entries = (1..=u8::MAX).take_while(|sub| is_writable(*sub)).count().min(MAX_PDO_SUBS);
+    if pdo.fixed || pdo.is_virtual || !is_writable(0) || entries == 0 {
+        return None;
+    }
+    let mapped = pdo.entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding);
+    let mapped: Vec<[u32; 2]> = mapped.map(|entry| [u32::from(entry.index), u32::from(entry.sub_index)]).collect();
+    let (cob_id, of_node) = match communication.cob_id.as_ref()? {
+        Value::Int(id) => (*id, false),
+        Value::NodeId(offset) => (*offset, true),
+        _ => return None,
+    };
+    Some(json!({
+        "title": pdo::title(pdo, pdo::buses(device)),
+        "tx": pdo.direction == Direction::Transmit,
+        "mapping": pdo.mapping_index,
+        "communication": communication.writable.contains(&1).then_some(communication.index),
+        "cobId": u32::try_from(cob_id).ok()?,
+        "ofNode": of_node,
+        "entries": entries,
+        "mapped": mapped,
+        "name": names.get(&pdo.mapping_index),
+    }))
+}
+
+/// Returns an object that can be mapped: index, sub-index, bits, address and name, whether it can be mapped into RPDOs and TPDOs, and its
+/// path in Rust.
+fn object(device: &Device, id: ItemId, item: &Item, calls: &Calls) -> Option<Json> {
+    let (index, sub_index) = item.object()?;
+    let mappable = item.mappable;
+    if !(mappable.rpdo || mappable.tpdo) || item.bindings.iter().all(|binding| !on_canopen(binding)) {
+        return None;
+    }
+    let bits = types::basic(&device.types, item.ty).bits()?;
+    let call = calls.get(&id).and_then(|calls| calls.first()).map_or("", String::as_str);
+    let path = call.trim_start_matches("device.").rsplit_once("().").map_or("", |(path, _)| path).replace("().", "::");
+    let name = format!("{} {}", address::object(index, sub_index), item.name);
+    Some(json!([index, sub_index, bits, name.trim(), mappable.rpdo, mappable.tpdo, path]))
+}
+
+fn on_canopen(binding: &lexibus_codegen::ir::Binding) -> bool {
+    matches!(binding, lexibus_codegen::ir::Binding::Object { buses: ObjectBuses { canopen: true, .. }, .. })
+}

@@ -1,0 +1,86 @@
+// The PDO builder: the reader chooses objects, and copies the SDOs that write the mapping (CiA 301, 7.5.2.36).
+
+// Returns the SDO downloads that map objects into a PDO: index, sub-index and bytes of each.
+function mappingWrites(pdo, objects, node) {
+  const cobId = BigInt(pdo.cobId) + (pdo.ofNode ? BigInt(node) : 0n), disabled = 1n << 31n;
+  const communication = (value) => pdo.communication ? [[pdo.communication, 1, littleEndian(value, 4)]] : [];
+  const mapped = objects.map(([index, sub, bits], at) => [pdo.mapping, at + 1, littleEndian(BigInt(index) << 16n | BigInt(sub) << 8n | BigInt(bits), 4)]);
+  return [
+    ...communication(cobId | disabled), [pdo.mapping, 0, [0]], ...mapped, [pdo.mapping, 0, [objects.length]],
+    ...communication(cobId & ~disabled),
+  ];
+}
+
+// Returns why a mapping is invalid; an empty text if it is valid.
+function mappingProblem(pdo, objects, granularity) {
+  const bits = objects.reduce((sum, object) => sum + object[2], 0);
+  const uneven = objects.find((object) => object[2] % granularity);
+  if (objects.length > pdo.entries) return `${objects.length} objects, but the mapping object has ${pdo.entries} entries`;
+  if (bits > 64) return `${bits} bits, but a PDO has at most 64`;
+  return uneven ? `${uneven[3]} has ${uneven[2]} bits, which is not a multiple of ${granularity}` : "";
+}
+
+function pdoBuilder(place) {
+  const data = JSON.parse(place.content.textContent), mapped = new Map(data.objects.map((object) => [`${object[0]}:${object[1]}`, object]));
+  const choice = element("select", { ariaLabel: "PDO" }, ...data.pdos.map((pdo, at) => element("option", { value: at, textContent: pdo.title })));
+  const adding = element("input", { type: "text", className: "raw", placeholder: "Index or name", ariaLabel: "Object to map" });
+  const options = element("datalist", { id: "mappable-objects" }), list = element("ol", { className: "mapping" });
+  adding.setAttribute("list", options.id);
+  const shown = element("output", {}), results = element("dl", {});
+  let objects = [];
+  const pdo = () => data.pdos[Number(choice.value)];
+  const candidates = () => data.objects.filter((object) => pdo().tx ? object[5] : object[4]);
+  const button = (text, label, act) => {
+    const created = element("button", { type: "button", textContent: text });
+    if (label) created.setAttribute("aria-label", label);
+    created.addEventListener("click", () => { act(); show(); });
+    return created;
+  };
+  const line = (object, at) => element("li", {}, `${object[3]} (${object[2]} bits) `,
+    button("↑", `Move ${object[3]} up`, () => { if (at) objects.splice(at - 1, 2, object, objects[at - 1]); }),
+    button("×", `Remove ${object[3]}`, () => objects.splice(at, 1)));
+  const result = (title, text) => {
+    const code = element("code", { textContent: text });
+    return [element("dt", { textContent: title }), element("dd", {}, code, " ", copyButton(code))];
+  };
+  const show = () => {
+    list.replaceChildren(...objects.map(line));
+    options.replaceChildren(...candidates().map((object) => element("option", { value: object[3] })));
+    const problem = mappingProblem(pdo(), objects, data.granularity), bits = objects.reduce((sum, object) => sum + object[2], 0);
+    shown.textContent = problem || `${bits / 8} of 8 bytes, ${objects.length} of ${pdo().entries} entries`;
+    shown.classList.toggle("wrong", problem !== "");
+    const writes = problem || !objects.length ? [] : mappingWrites(pdo(), objects, node.value), cobId = hex(0x600 + node.value, 3);
+    const sdos = writes.flatMap(([index, sub, bytes]) => sdoDownload([index & 0xFF, index >> 8, sub], bytes).map((data) => `${cobId}  ${bytesText(data)}`));
+    const lines = writes.map(([index, sub, bytes]) => `node.sdo.download(0x${hex(index, 4)}, ${sub}, ${python(bytes)})`);
+    const rust = `lexibus::pdo! {\n    pub struct Mapping: device::pdo::${pdo().name} { ${objects.map((object) => object[6]).join(", ")} }\n}`;
+    results.replaceChildren(...writes.length ? [
+      ...result("SDO downloads (COB-ID, data)", sdos.join("\n")), ...result("canopen", lines.join("\n")), ...pdo().name ? result("Rust", rust) : [],
+    ] : []);
+  };
+  const node = keptNumber("node", "Node-ID", 1, 127, show);
+  const start = () => {
+    objects = pdo().mapped.map(([index, sub]) => mapped.get(`${index}:${sub}`)).filter(Boolean);
+    show();
+  };
+  choice.addEventListener("change", start);
+  // An object is added when its name is chosen from the list, or by Enter for the first one that contains the typed text.
+  const add = (object) => {
+    if (!object) return;
+    objects.push(object);
+    adding.value = "";
+    show();
+  };
+  adding.addEventListener("input", () => add(candidates().find((object) => object[3] === adding.value)));
+  adding.addEventListener("keydown", (event) => {
+    if (event.key !== "Enter" || !adding.value.trim()) return;
+    event.preventDefault();
+    const typed = plain(adding.value.trim());
+    add(candidates().find((object) => plain(object[3]).includes(typed)));
+  });
+  place.replaceWith(element("div", { className: "tools builder" },
+    element("p", {}, element("label", {}, "PDO ", choice), node.label, button("Clear", "", () => { objects = []; })),
+    list, element("p", {}, element("label", {}, "Map ", adding), shown), options, results));
+  start();
+}
+
+if (byId("mappable")) pdoBuilder(byId("mappable"));
