@@ -79,7 +79,7 @@ const TASKS = {
     await reader.type("0x1231");
     assert.equal(await drive.locator("output").innerText(), "ready_to_switch_on");
     assert.deepEqual(await drive.locator("svg .state.on").allTextContents(), ["ready_to_switch_on"]);
-    assert.ok((await drive.locator(".next li").allInnerTexts()).includes("operation_enabled: switch_on (0x0007)"));
+    assert.ok((await drive.locator(".next li").allInnerTexts()).includes("operation_enabled: switch_on (0x0007), then enable_operation (0x000F)"));
   }],
   "Which byte of the PROFINET image carries the alarm code of the Eco?": [16, async (reader) => {
     await reader.find("eco alarm_code", "alarm_code");

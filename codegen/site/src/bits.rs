@@ -47,6 +47,8 @@ pub(super) struct Field {
     pub facts: String,
     pub values: Vec<Label>,
     pub is_reserved: bool,
+    /// True if the field has this meaning only while a condition holds.
+    pub is_conditional: bool,
     /// True if the flag is set while its bit is 0.
     pub is_inverted: bool,
 }
@@ -112,7 +114,7 @@ fn field(types: &[TypeDef], entry: &BitFieldEntry) -> Field {
     let mut facts = Vec::new();
     let mut values = Vec::new();
     match &entry.meaning {
-        BitMeaning::Flag { inverted: true } => facts.push("Set while 0.".to_owned()),
+        BitMeaning::Flag { inverted: true } => facts.push("Active while the bit is 0.".to_owned()),
         BitMeaning::Reserved { write: Some(bit) } => facts.push(format!("Reserved, {}.", u8::from(*bit))),
         BitMeaning::Reserved { write: None } => facts.push("Reserved.".to_owned()),
         BitMeaning::Enumeration(id) => {
@@ -126,8 +128,8 @@ fn field(types: &[TypeDef], entry: &BitFieldEntry) -> Field {
         facts.push(format!("While {}.", words::PLAIN.holds(condition)));
     }
     facts.extend(entry.trigger.map(|trigger| match trigger {
-        Trigger::Rising => "Acts on the change from 0 to 1.".to_owned(),
-        Trigger::Falling => "Acts on the change from 1 to 0.".to_owned(),
+        Trigger::Rising => "Acts on a rising edge.".to_owned(),
+        Trigger::Falling => "Acts on a falling edge.".to_owned(),
         Trigger::Toggle => "Acts on every change.".to_owned(),
         Trigger::SelfClearing => "The device clears the bit.".to_owned(),
     }));
@@ -140,6 +142,7 @@ fn field(types: &[TypeDef], entry: &BitFieldEntry) -> Field {
         names: words::names(&entry.names),
         facts: facts.join(" "),
         values,
+        is_conditional: entry.when.is_some(),
         is_reserved: matches!(entry.meaning, BitMeaning::Reserved { .. }),
         is_inverted: matches!(entry.meaning, BitMeaning::Flag { inverted: true }),
     }

@@ -48,6 +48,8 @@ pub(super) struct Row {
     pub rust: Vec<String>,
     /// Conversion to physical values, for the script of the page.
     pub scale: String,
+    /// Raw values that can be written, for the script of the page.
+    pub writable: String,
     /// Addresses for requests, for the script of the page.
     pub requests: String,
     pub bits: Option<Bits>,
@@ -193,6 +195,7 @@ impl Rows<'_> {
             relations: Vec::new(),
             rust: self.known.calls.get(&id).cloned().unwrap_or_default(),
             scale: tools::scale(item),
+            writable: tools::range(item),
             requests: tools::addresses(item, self.known.modbus),
             bits: drawn,
             labels,

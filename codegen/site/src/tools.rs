@@ -1,7 +1,7 @@
 //! Attributes of a row for the script of the page, which converts values and shows requests.
 
 use lexibus_codegen::facts::register;
-use lexibus_codegen::ir::{Binding, Item, ModbusTable, RegisterBinding, RegisterSpace, Scale};
+use lexibus_codegen::ir::{Binding, Item, ModbusTable, RegisterBinding, RegisterSpace, Scale, Value};
 
 /// Returns the conversion from raw values to physical values: `0.01 0` (scale factor and offset), or `/25000000` (numerator of a
 /// reciprocal). The text is empty if the two values are equal, or if the conversion needs other values.
@@ -11,6 +11,24 @@ pub(super) fn scale(item: &Item) -> String {
         Some(Scale::Reciprocal { numerator }) => format!("/{numerator}"),
         _ => String::new(),
     }
+}
+
+/// Returns the raw values that can be written: `1..99`, or several ranges separated by blanks. A missing number means no limit. The text
+/// is empty if all values of the type can be written, or if a limit is not a number.
+pub(super) fn range(item: &Item) -> String {
+    let number = |value: Option<&Value>| match value {
+        None => Some(String::new()),
+        Some(value @ (Value::Int(_) | Value::Real(_))) => Some(value.to_string()),
+        Some(_) => None,
+    };
+    let range = |low: Option<&Value>, high: Option<&Value>| Some(format!("{}..{}", number(low)?, number(high)?));
+    let limits = &item.limits;
+    let ranges: Option<Vec<String>> = match (limits.allowed.as_slice(), &limits.low, &limits.high) {
+        ([], None, None) => None,
+        ([], low, high) => range(low.as_ref(), high.as_ref()).map(|range| vec![range]),
+        (allowed, ..) => allowed.iter().map(|(first, last)| range(Some(first), Some(last))).collect(),
+    };
+    ranges.unwrap_or_default().join(" ")
 }
 
 /// Returns the addresses of an item for requests, separated by `;`.

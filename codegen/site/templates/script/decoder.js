@@ -16,13 +16,16 @@ function fieldControl(line, field, change) {
   const cell = line.insertCell(1);
   cell.dataset.control = "";
   if (line.matches(".reserved")) return (value) => { cell.textContent = String(value); };
+  // A field with a condition can have another meaning, depending on another item.
+  const on = line.matches(".conditional") ? "maybe" : "on";
   if (field.bits === 1 && !field.labels.length) {
-    const box = element("input", { type: "checkbox", ariaLabel: name });
+    const box = element("input", { type: "checkbox", ariaLabel: name }), bit = element("span", {});
     box.addEventListener("change", () => change(box.checked ? 1n : 0n));
-    cell.append(box);
+    cell.append(box, bit);
     return (value) => {
       box.checked = value === 1n;
-      line.classList.toggle("on", box.checked !== line.matches(".inverted"));
+      bit.textContent = value === undefined ? "" : String(value);
+      line.classList.toggle(on, value !== undefined && box.checked !== line.matches(".inverted"));
     };
   }
   const type = { bits: field.bits };
@@ -34,15 +37,15 @@ function fieldControl(line, field, change) {
   });
   cell.append(number);
   return (value) => {
-    if (document.activeElement !== number) number.value = String(value);
-    line.classList.toggle("on", value !== 0n);
+    if (document.activeElement !== number) number.value = value === undefined ? "" : String(value);
+    line.classList.toggle(on, value !== undefined && value !== 0n);
     mark(field.labels, value);
   };
 }
 
-// Highlights the named value. Returns its name.
+// Highlights the named value; none if there is no number. Returns its name.
 function mark(labels, number) {
-  const found = labels.find(({ first, last }) => first <= number && number <= last);
+  const found = number === undefined ? undefined : labels.find(({ first, last }) => first <= number && number <= last);
   for (const label of labels) {
     label.term.classList.toggle("on", label === found);
     label.term.nextElementSibling.classList.toggle("on", label === found);
@@ -56,7 +59,7 @@ function fieldOf(line) {
   return { first: BigInt(first ?? last), bits: first === undefined ? 1 : last - first + 1, labels: labelsOf(line.querySelector("dl")) };
 }
 
-// Calls `changed` with the raw value of the decoder whenever it changes.
+// Calls `changed` with the raw value of the decoder whenever it changes; without a value if it is invalid or out of range.
 function decoder(row, type, changed) {
   const scale = scaleOf(row), unit = row.rows[0].cells[6].textContent, name = row.rows[0].cells[1].querySelector("b").textContent;
   const raw = element("input", { type: "text", className: "raw", placeholder: "0x… or decimal", ariaLabel: `Raw value of ${name}` });
@@ -66,20 +69,28 @@ function decoder(row, type, changed) {
   const fields = [...row.querySelectorAll(":scope > .more > td > .fields > tbody > tr")].map((line) => {
     const field = fieldOf(line), mask = ((1n << BigInt(field.bits)) - 1n) << field.first;
     const show = fieldControl(line, field, (value) => set(current & ~mask | value << field.first));
-    return (all) => show((all & mask) >> field.first);
+    return (all) => show(all === undefined ? undefined : (all & mask) >> field.first);
   });
   let current = 0n;
   const set = (value, source) => {
-    for (const field of [raw, physical]) field.setAttribute("aria-invalid", String(value === undefined && field === source));
-    if (value === undefined) return;
+    const number = value === undefined ? undefined : numberOf(type, value), isAllowed = value !== undefined && isInRange(row, number);
+    for (const field of [raw, physical]) field.setAttribute("aria-invalid", String(!isAllowed && field === source && field.value !== ""));
+    if (value === undefined) {
+      for (const field of [raw, physical]) if (field !== source) field.value = "";
+      shown.textContent = source.value === "" ? "" : `not a number of the type ${row.rows[0].cells[2].textContent}`;
+      mark(labels, undefined);
+      for (const field of fields) field(undefined);
+      changed(undefined);
+      return;
+    }
     current = value;
-    const number = numberOf(type, value);
     if (source !== raw) raw.value = type.isReal || scale ? String(number) : hexOf(type, value);
     if (scale && source !== physical) physical.value = shortNumber(scale.physical(Number(number)));
     const label = type.isReal ? "" : mark(labels, number);
-    shown.textContent = [String(number), hexOf(type, value), label].filter(Boolean).join(" = ");
+    const name = labels.length && !label ? "no named value" : label;
+    shown.textContent = [String(number), hexOf(type, value), name].filter(Boolean).join(" = ") + (isAllowed ? "" : ": outside of the range");
     for (const field of fields) field(value);
-    changed(value);
+    changed(isAllowed ? value : undefined);
   };
   raw.addEventListener("input", () => set(rawFrom(raw.value, type), raw));
   physical.addEventListener("input", () => set(rawOfPhysical(scale, type, physical.value), physical));

@@ -95,10 +95,11 @@ const menu = byId("menu");
 menu?.addEventListener("click", () => {
   const isOpen = root.classList.toggle("menu");
   menu.setAttribute("aria-expanded", String(isOpen));
-  if (isOpen) byId("filter").focus();
+  if (isOpen) byId("close").focus();
 });
-tree?.addEventListener("click", ({ target }) => {
-  if (target.closest("a") && root.classList.contains("menu")) menu.click();
+document.addEventListener("click", ({ target }) => {
+  const isInside = target.closest("#tree, #menu") && !target.closest("#tree a, #close");
+  if (!isInside && root.classList.contains("menu")) menu.click();
 });
 tree?.addEventListener("keydown", ({ key }) => {
   if (key !== "Escape" || !root.classList.contains("menu")) return;
@@ -110,5 +111,5 @@ tree?.addEventListener("keydown", ({ key }) => {
 byId("devices")?.addEventListener("input", ({ target }) => {
   const words = plain(target.value).split(/\s+/).filter(Boolean), rows = [...document.querySelectorAll(".devices tbody tr")];
   for (const row of rows) row.hidden = !words.every((word) => plain(row.textContent).includes(word));
-  byId("shown").textContent = String(rows.filter((row) => !row.hidden).length);
+  byId("shown").textContent = `${rows.filter((row) => !row.hidden).length} devices`;
 });

@@ -11,14 +11,14 @@ const namedRows = (section, kind) => [...section.querySelectorAll(`.${kind} tr[i
   return { row, name: row.cells[0].querySelector("b").textContent, pattern: patternOf(row.cells[1].textContent) };
 });
 
-// Returns the first step of the shortest path to each state. The reactions to a fault, which can start in any state, are no way to a state.
+// Returns the commands of the shortest path to each state. The reactions to a fault, which can start in any state, are no way to a state.
 function nextSteps(transitions, from) {
-  const steps = new Map([[from, undefined]]), queue = [from];
+  const steps = new Map([[from, []]]), queue = [from];
   for (const state of queue) {
     for (const { source, to, command } of transitions) {
       if (source === "any state" && command === "automatic") continue;
       if ((source !== state && source !== "any state") || steps.has(to)) continue;
-      steps.set(to, state === from ? { command } : steps.get(state));
+      steps.set(to, [...steps.get(state), command]);
       queue.push(to);
     }
   }
@@ -35,11 +35,12 @@ function stateFinder(section) {
   const type = { bits: Math.max(...states.map(({ pattern }) => pattern.bits)) };
   const input = element("input", { type: "text", className: "status", placeholder: "0x… or decimal", ariaLabel: "Status value" });
   const shown = element("output", {}), list = element("ul", { className: "next" });
-  const describe = ([state, { command }]) => {
+  const named = (command) => {
+    if (command === "automatic") return "wait";
     const pattern = commands.find(({ name }) => name === command)?.pattern;
-    const value = pattern ? ` (${hexOf({ bits: pattern.bits }, pattern.value)})` : "";
-    return element("li", {}, element("b", { textContent: state }), command === "automatic" ? ": wait, no command is needed" : `: ${command}${value}`);
+    return pattern ? `${command} (${hexOf({ bits: pattern.bits }, pattern.value)})` : command;
   };
+  const describe = ([state, steps]) => element("li", {}, element("b", { textContent: state }), ": " + steps.map(named).join(", then "));
   input.addEventListener("input", () => {
     const raw = rawFrom(input.value, type);
     input.setAttribute("aria-invalid", String(raw === undefined && input.value !== ""));
@@ -51,7 +52,7 @@ function stateFinder(section) {
     list.replaceChildren(...steps.map(describe));
     title.hidden = !steps.length;
   });
-  const title = element("p", { textContent: "Next command to each state:", hidden: true });
+  const title = element("p", { textContent: "Commands to each other state. The values have 0 in all bits that do not belong to the command:", hidden: true });
   const label = element("label", {}, "Status value ", input);
   section.querySelector("svg.states, h3").closest(".wide, h3").before(element("div", { className: "tools" }, element("p", {}, label, shown), title, list));
 }

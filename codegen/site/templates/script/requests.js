@@ -37,12 +37,12 @@ function objectRequests([index, sub, buses], { canRead, canWrite, bytes, node })
   const path = `0x${hex(number, 4)}, ${entry}`, lines = [];
   const cobId = hex(0x600 + node, 3), frame = (data) => `${cobId}  ${bytesText(data)}`;
   if (buses.includes("c")) {
-    if (canRead) lines.push(["SDO upload (COB-ID, data)", frame([0x40, ...head, 0, 0, 0, 0])], ["canopen", `node.sdo.upload(${path})`]);
-    if (canWrite) lines.push(["SDO download (COB-ID, data)", sdoDownload(head, bytes).map(frame).join("\n")], ["canopen", `node.sdo.download(${path}, ${python(bytes)})`]);
+    if (canRead) lines.push(["SDO upload (COB-ID, data)", frame([0x40, ...head, 0, 0, 0, 0])], ["canopen read", `node.sdo.upload(${path})`]);
+    if (canWrite) lines.push(["SDO download (COB-ID, data)", sdoDownload(head, bytes).map(frame).join("\n")], ["canopen write", `node.sdo.download(${path}, ${python(bytes)})`]);
   }
   if (buses.includes("e")) {
-    if (canRead) lines.push(["pysoem", `slave.sdo_read(${path})`]);
-    if (canWrite) lines.push(["pysoem", `slave.sdo_write(${path}, ${python(bytes)})`]);
+    if (canRead) lines.push(["pysoem read", `slave.sdo_read(${path})`]);
+    if (canWrite) lines.push(["pysoem write", `slave.sdo_write(${path}, ${python(bytes)})`]);
   }
   return lines;
 }
@@ -55,11 +55,11 @@ function modbusRequests([table, address, count, flags, functions], { canRead, ca
   const accepted = functions.split("/").map(Number), [read, method] = READS[table], lines = [];
   const rtu = (data) => bytesText(withCrc([unit, ...data]));
   if (canRead && accepted.includes(read)) {
-    lines.push(["Modbus RTU read", rtu([read, ...head, ...size])], ["pymodbus", `client.${method}(${start}, count=${words}, device_id=${unit})`]);
+    lines.push(["Modbus RTU read", rtu([read, ...head, ...size])], ["pymodbus read", `client.${method}(${start}, count=${words}, device_id=${unit})`]);
   }
   const isBit = table === "c", isPart = flags.includes("p");
   if (isBit && canWrite && accepted.includes(5)) {
-    lines.push(["Modbus RTU write", rtu([5, ...head, raw ? 0xFF : 0, 0])], ["pymodbus", `client.write_coil(${start}, ${raw ? "True" : "False"}, device_id=${unit})`]);
+    lines.push(["Modbus RTU write", rtu([5, ...head, raw ? 0xFF : 0, 0])], ["pymodbus write", `client.write_coil(${start}, ${raw ? "True" : "False"}, device_id=${unit})`]);
   }
   if (isBit || isPart || !canWrite) return lines;
   const fill = flags.includes("x") && bytes.at(-1) & 0x80 ? 0xFF : 0;
@@ -67,9 +67,9 @@ function modbusRequests([table, address, count, flags, functions], { canRead, ca
   const ordered = (flags.includes("l") ? low : low.reverse()).map((word) => flags.includes("s") ? (word & 0xFF) << 8 | word >> 8 : word);
   const data = ordered.flatMap((word) => [word >> 8, word & 0xFF]), list = ordered.map((word) => `0x${hex(word, 4)}`);
   if (words === 1 && accepted.includes(6)) {
-    lines.push(["Modbus RTU write", rtu([6, ...head, ...data])], ["pymodbus", `client.write_register(${start}, ${list[0]}, device_id=${unit})`]);
+    lines.push(["Modbus RTU write", rtu([6, ...head, ...data])], ["pymodbus write", `client.write_register(${start}, ${list[0]}, device_id=${unit})`]);
   } else if (accepted.includes(16)) {
-    lines.push(["Modbus RTU write", rtu([16, ...head, ...size, data.length, ...data])], ["pymodbus", `client.write_registers(${start}, [${list.join(", ")}], device_id=${unit})`]);
+    lines.push(["Modbus RTU write", rtu([16, ...head, ...size, data.length, ...data])], ["pymodbus write", `client.write_registers(${start}, [${list.join(", ")}], device_id=${unit})`]);
   }
   return lines;
 }
@@ -97,6 +97,7 @@ function requests(row, type) {
   // Without a value there are no write requests, so that nobody copies a request that writes 0.
   let raw;
   const show = () => {
+    hint.textContent = isWritable && raw === undefined ? "Enter a raw value within the range for write requests." : "";
     const canWrite = isWritable && raw !== undefined, bytes = canWrite ? littleEndian(raw, Math.ceil(type.bits / 8)) : [];
     const lines = addresses.flatMap(([kind, ...address]) => KINDS[kind](address, { canRead, canWrite, bytes, raw, node: node.value, unit: unit.value }));
     list.replaceChildren(...lines.flatMap(([title, text]) => {
@@ -108,7 +109,7 @@ function requests(row, type) {
   if (!addresses.length) return () => {};
   const has = (kind, text = "") => addresses.some((address) => address[0] === kind && address.join(" ").includes(text));
   const choices = [has("o", "c") && node.label, has("m") && unit.label].filter(Boolean);
-  const hint = isWritable ? "Enter a raw value for write requests." : "";
+  const hint = element("span", {});
   const details = element("details", { className: "tools requests" }, element("summary", { textContent: "Requests" }), element("p", {}, ...choices, hint), list);
   details.addEventListener("toggle", show);
   row.querySelector(":scope > .more > td").append(details);

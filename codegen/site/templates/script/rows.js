@@ -57,6 +57,12 @@ function partOf(row, kind, number) {
 }
 addEventListener("hashchange", unfoldTarget);
 
+// The description moves to the details, where it has more space.
+completions.push((row) => {
+  const description = row.querySelector(":scope > tr:not(.more) > td > span");
+  if (description) row.querySelector(":scope > .more > td").prepend(element("p", { textContent: description.textContent }));
+});
+
 completions.push((row) => {
   for (const code of row.querySelectorAll("p > code:only-child")) code.after(" ", copyButton(code));
 });

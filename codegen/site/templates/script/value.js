@@ -57,6 +57,12 @@ function rawOfPhysical(scale, type, text) {
   return type.isReal ? rawOfReal(type, number) : rawFrom(String(BigInt(Math.round(number))), type);
 }
 
+// Returns whether a number can be written to the item of a row, according to its range.
+function isInRange(row, number) {
+  const ranges = (row.dataset.range ?? "").split(" ").filter(Boolean).map((range) => range.split(".."));
+  return !ranges.length || ranges.some(([low, high]) => (low === "" || Number(low) <= Number(number)) && (high === "" || Number(number) <= Number(high)));
+}
+
 // Removes the rounding errors of a floating-point number.
 const shortNumber = (number) => String(Number(number.toPrecision(12)));
 

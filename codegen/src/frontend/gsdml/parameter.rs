@@ -61,7 +61,7 @@ impl<'a> Reader<'a, '_> {
         }
         if matches!(location.data_type, Some(DataType::String(_))) {
             // Blanks around the default value of a string belong to the string.
-            [given] = self.attributes_with_blanks(tag, ["DefaultValue"])?;
+            given = self.attribute_with_blanks(tag, "DefaultValue")?;
         }
         item.default = self.default_value(&given, location.number(), location.bits);
         item.at.default = given.span;

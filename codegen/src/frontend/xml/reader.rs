@@ -114,6 +114,13 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         self.select(tag, names, given, |reader, attribute| reader.unknown_attribute(tag, attribute))
     }
 
+    /// Returns the value of an attribute with surrounding blanks. The other attributes of the element have been read before.
+    pub fn attribute_with_blanks(&mut self, tag: &Tag<'a>, name: &str) -> Read<Given<'a>> {
+        let given = |reader: &mut Self, attribute: &_| Given::of_attribute(attribute, reader.diagnostics);
+        let [given] = self.select(tag, [name], given, |_, _| {})?;
+        Ok(given)
+    }
+
     /// Returns the values of the attributes `names`, in this order. Adds all other attributes to `others`.
     pub fn attributes_and_others<const N: usize>(
         &mut self,
