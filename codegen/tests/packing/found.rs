@@ -20,6 +20,8 @@ enum TypeKind {
 /// A type found in the text: its name and the modules that contain it.
 struct Found<'t> {
     modules: Vec<&'t str>,
+    /// Modules that contain the definition of a type that several modules share.
+    shared: Option<Vec<&'t str>>,
     name: &'t str,
     kind: TypeKind,
 }
@@ -38,7 +40,7 @@ pub struct Counts {
 impl Counts {
     /// Counts the types in `found`. Checks that the counts agree with the number of functions in `text`.
     fn of(found: &[Found<'_>], text: &str, name: &str) -> Self {
-        let of = |kind: TypeKind| found.iter().filter(|one| one.kind == kind).count();
+        let of = |kind: TypeKind| found.iter().filter(|one| one.kind == kind && one.shared.is_none()).count();
         let lines = |part: &str| text.lines().filter(|line| line.contains(part)).count();
         let (process_data, records, messages) =
             (of(TypeKind::ProcessData), of(TypeKind::Record), of(TypeKind::Message));
@@ -80,6 +82,7 @@ pub fn checks(name: &str, text: &str, catalog: &Catalog) -> (Vec<String>, Counts
     let expected = layouts::all(catalog);
     let with_layout = found.iter().filter(|one| one.kind != TypeKind::Message).count();
     assert_eq!(with_layout, expected.len(), "{name}: the number of types and of layouts");
+    let found = in_order(found, &expected, &indices(text));
     let mut expected = expected.iter();
     let check = |one: &Found<'_>| {
         let path = one.path();
@@ -91,11 +94,12 @@ pub fn checks(name: &str, text: &str, catalog: &Catalog) -> (Vec<String>, Counts
             return messages.call(&title, one.name, &format!("MODULE::{path}"), has_node);
         }
         let layout = expected.next().expect("a layout for each type");
-        let fields = structs.get(&path).map(Vec::as_slice).unwrap_or_default();
+        let fields = structs.get(&one.definition()).map(Vec::as_slice).unwrap_or_default();
         assert_eq!(one.kind == TypeKind::Record, layout.is_record, "{title}");
         assert_eq!(fields.len(), layout.fields(), "{title}: {fields:?}");
         counts.fields += fields.len();
-        let view = views.check(&one.modules, one.name, fields).filter(|_| one.kind == TypeKind::ProcessData);
+        let view = views.check(&one.modules, one.name, fields);
+        let view = view.filter(|_| one.kind == TypeKind::ProcessData && one.shared.is_none());
         counts.views += usize::from(view.is_some());
         one.check(&title, layout, fields) + &view.unwrap_or_default()
     };
@@ -106,7 +110,12 @@ pub fn checks(name: &str, text: &str, catalog: &Catalog) -> (Vec<String>, Counts
 
 impl Found<'_> {
     fn path(&self) -> String {
-        self.modules.iter().chain([&self.name]).copied().collect::<Vec<_>>().join("::")
+        path(&self.modules, self.name)
+    }
+
+    /// Returns the path of the definition.
+    fn definition(&self) -> String {
+        path(self.shared.as_ref().unwrap_or(&self.modules), self.name)
     }
 
     /// Returns the statement that checks process data or a record.
@@ -137,7 +146,8 @@ impl Found<'_> {
             _ => match (ty.strip_prefix("rt::"), ty.strip_prefix("super::")) {
                 (Some(name), _) => format!("lexibus::{}::from_raw(raw)", bare(name)),
                 (None, Some(name)) => {
-                    let outer = &self.modules[..self.modules.len() - 1];
+                    let modules = self.shared.as_ref().unwrap_or(&self.modules);
+                    let outer = &modules[..modules.len() - 1];
                     let path = ["MODULE"].iter().chain(outer).chain([&name]).copied().collect::<Vec<_>>().join("::");
                     match name.starts_with("pdo::") {
                         true => format!("{path}::unpack(&filled(raw, {path}::LEN)).expect(\"a PDO\")"),
@@ -151,10 +161,70 @@ impl Found<'_> {
     }
 }
 
+fn path(modules: &[&str], name: &str) -> String {
+    modules.iter().copied().chain([name]).collect::<Vec<_>>().join("::")
+}
+
+/// Returns the index of the mapping object of each PDO, by the path of its struct.
+fn indices(text: &str) -> HashMap<String, u16> {
+    let (mut indices, mut owner) = (HashMap::new(), "");
+    each_line(text, |modules, code| {
+        if let Some(name) = code.strip_prefix("impl rt::Pdo for ").and_then(|rest| rest.strip_suffix(" {")) {
+            owner = name;
+        } else if let Some(index) = code.strip_prefix("const INDEX: u16 = 0x").and_then(|rest| rest.strip_suffix(';')) {
+            indices.insert(path(modules, owner), u16::from_str_radix(index, 16).expect("an index"));
+        }
+    });
+    indices
+}
+
+/// Returns the types in the order of their layouts. A module imports the PDOs that it shares with another module before it defines its
+/// own, so PDOs of such a module are found by their index.
+fn in_order<'t>(found: Vec<Found<'t>>, layouts: &[Layout], indices: &HashMap<String, u16>) -> Vec<Found<'t>> {
+    let (mut ordered, mut rest, mut layouts) = (Vec::new(), found.into_iter().peekable(), layouts.iter());
+    while let Some(first) = rest.next() {
+        let mut group = vec![first];
+        while let Some(next) = rest.next_if(|next| next.modules == group[0].modules) {
+            group.push(next);
+        }
+        let of_group = layouts.by_ref().take(group.iter().filter(|one| one.kind != TypeKind::Message).count());
+        for layout in of_group.filter(|_| group.iter().any(|one| one.shared.is_some())).collect::<Vec<_>>() {
+            let number = layout.number.map(|(_, number)| number);
+            let at = group.iter().position(|one| indices.get(&one.definition()).copied() == number);
+            let at = at.expect("a PDO with the index of the layout");
+            ordered.push(group.remove(at));
+        }
+        ordered.append(&mut group);
+    }
+    ordered
+}
+
+/// Returns the PDOs that a line of a module imports from another module, with the modules that define them.
+fn imported<'t>(modules: &[&'t str], code: &'t str) -> Vec<Found<'t>> {
+    let import = code.strip_prefix("pub use super::super::").and_then(|rest| rest.strip_suffix(';'));
+    let Some((module, names)) =
+        import.filter(|_| modules.last() == Some(&"pdo")).and_then(|rest| rest.split_once("::pdo::"))
+    else {
+        return Vec::new();
+    };
+    let outer = &modules[..modules.len() - 2];
+    let shared: Vec<&str> = outer.iter().copied().chain([module, "pdo"]).collect();
+    let names = names.trim_matches(['{', '}']).split(", ");
+    names
+        .map(|name| Found {
+            modules: modules.to_vec(),
+            shared: Some(shared.clone()),
+            name,
+            kind: TypeKind::ProcessData,
+        })
+        .collect()
+}
+
 /// Returns all types in `text` that are packed and unpacked.
 fn all(text: &str) -> Vec<Found<'_>> {
     let (mut found, mut owner) = (Vec::new(), "");
     each_line(text, |modules, code| {
+        found.extend(imported(modules, code));
         if let Some(name) = code.strip_prefix("impl ").and_then(|rest| rest.strip_suffix(" {")) {
             owner = name;
         }
@@ -164,7 +234,7 @@ fn all(text: &str) -> Vec<Found<'_>> {
             None if code.contains("fn encode(&self) -> Result<[") => (owner, TypeKind::Record),
             None => return,
         };
-        found.push(Found { modules: modules.to_vec(), name, kind });
+        found.push(Found { modules: modules.to_vec(), shared: None, name, kind });
     });
     found
 }

@@ -79,12 +79,16 @@ fn the_book_is_built_and_its_links_lead_somewhere() {
 fn every_file_is_a_chapter_and_its_examples_are_compiled() {
     let summary = fs::read_to_string(docs().join("src/SUMMARY.md")).expect("the summary");
     let tests = fs::read_to_string(docs().join("lib.rs")).expect("the list of chapters");
+    let files = fs::read_dir(docs().join("src")).expect("the chapters");
+    let files = files.map(|entry| entry.expect("a chapter").file_name().to_string_lossy().into_owned());
+    let (chapters, pictures): (Vec<String>, Vec<String>) = files.partition(|name| name.ends_with(".md"));
+    let text = |name: &String| fs::read_to_string(docs().join("src").join(name)).expect("a chapter");
+    for picture in pictures {
+        let is_used = chapters.iter().any(|chapter| text(chapter).contains(&format!("]({picture})")));
+        assert!(is_used, "no chapter shows {picture}");
+    }
     let mut count = 0;
-    for entry in fs::read_dir(docs().join("src")).expect("the chapters") {
-        let name = entry.expect("a chapter").file_name().to_string_lossy().into_owned();
-        if name == "SUMMARY.md" {
-            continue;
-        }
+    for name in chapters.into_iter().filter(|name| name != "SUMMARY.md") {
         assert!(summary.contains(&format!("]({name})")), "{name} is not in SUMMARY.md");
         assert!(tests.contains(&format!("include_str!(\"src/{name}\")")), "{name} is not in lib.rs");
         count += 1;
