@@ -3,7 +3,6 @@
 
 use std::collections::VecDeque;
 
-use super::machines::{number, ANY_STATE};
 use lexibus_codegen::ir::{StateMachine, Transition};
 
 /// Width and height of a state's box in pixels, and distance from one box to the next.
@@ -19,6 +18,9 @@ const LETTER: u32 = 7;
 
 /// Horizontal distance of a straight arrow from the middle of the column.
 const ASIDE: u32 = 30;
+
+/// Name of the source state of transitions from any state.
+pub(super) const ANY_STATE: &str = "any state";
 
 /// A diagram in which states are boxes and transitions are arrows.
 #[derive(Debug)]
@@ -95,6 +97,11 @@ pub(super) fn diagram(machine: &StateMachine) -> Option<Diagram> {
     };
     let arrows = edges.iter().enumerate().filter_map(arrow).collect();
     Some(Diagram { width: left + WIDTH + right, height: top(boxes.len()) - PITCH + HEIGHT + 8, boxes, arrows })
+}
+
+/// Returns the label of a transition in the list and diagram: its number, or its position if it has no number.
+pub(super) fn number(position: usize, transition: &Transition) -> String {
+    transition.number.map_or_else(|| (position + 1).to_string(), |number| number.to_string())
 }
 
 fn position(machine: &StateMachine, name: &str) -> Option<usize> {

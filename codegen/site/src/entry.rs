@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::diagnostics::{ShownDiagnostic, ShownDiagnostics};
-use super::references::Relation;
+use super::link::Relation;
 use super::tools;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::words::{capital, row_of, sentence, ALLOWED_SHOWN};

@@ -90,7 +90,7 @@ impl Parts {
             entry.target = targets.item(entry.item).map(|link| link.target.clone()).unwrap_or_default();
         }
         if let Some((_, behaviour)) = &mut self.behaviour {
-            machines::link(behaviour, device, &targets);
+            targets.link(behaviour);
         }
     }
 }

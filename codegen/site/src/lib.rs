@@ -35,6 +35,7 @@ mod entry;
 mod folder;
 mod format;
 mod html;
+mod link;
 mod links;
 mod machines;
 mod markdown;

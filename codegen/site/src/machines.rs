@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use super::anchor::Names;
-use super::diagram::{self, Diagram};
+use super::diagram::{self, number, Diagram, ANY_STATE};
 use super::entry::{self, Doubt};
-use super::references::{Link, Targets};
+use super::link::Link;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::{pattern, types};
 use lexibus_codegen::ir::{
@@ -14,9 +14,6 @@ use lexibus_codegen::ir::{
 
 /// Name of the command of transitions that need no command.
 const AUTOMATIC: &str = "automatic";
-
-/// Name of the source state of transitions from any state.
-pub(super) const ANY_STATE: &str = "any state";
 
 /// A state machine, as a page shows it.
 #[derive(Debug)]
@@ -107,19 +104,6 @@ pub(super) fn behaviour(device: &Device, manual: &Manual) -> Option<Behaviour> {
     (!machines.is_empty() || !sequences.is_empty()).then_some(Behaviour { machines, sequences })
 }
 
-/// Adds the links to the items of the state machines and procedures.
-pub(super) fn link(behaviour: &mut Behaviour, device: &Device, targets: &Targets<'_>) {
-    for (machine, shown) in device.machines.iter().zip(&mut behaviour.machines) {
-        let items = [machine.status_item.id, machine.control_item.id];
-        shown.items = items.into_iter().filter_map(|item| targets.item(item).cloned()).collect();
-    }
-    for (procedure, shown) in device.procedures.iter().zip(&mut behaviour.sequences) {
-        for (step, shown) in procedure.steps.iter().zip(&mut shown.steps) {
-            shown.item = step.item().and_then(|item| targets.item(item.id)).cloned();
-        }
-    }
-}
-
 fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut Names) -> Machine {
     let width = |item: &ItemRef, patterns: &[Pattern]| {
         let item = device.referred(item);
@@ -163,11 +147,6 @@ fn named(pattern: &Pattern, width: u32, anchor: String) -> Named {
         bits,
         facts: PLAIN.description(pattern.documentation.as_deref()).join(" "),
     }
-}
-
-/// Returns the label of a transition in the list and diagram: its number, or its position if it has no number.
-pub(super) fn number(position: usize, transition: &Transition) -> String {
-    transition.number.map_or_else(|| (position + 1).to_string(), |number| number.to_string())
 }
 
 fn transition_row(position: usize, transition: &Transition) -> TransitionRow {

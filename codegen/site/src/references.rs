@@ -3,32 +3,13 @@
 use std::collections::HashMap;
 
 use super::area::Area;
+use super::link::{Link, Relation};
 use super::machines::Behaviour;
 use super::process::Frame;
 use super::protocol::Protocol;
 use lexibus_codegen::facts::referrers::{Referrer, Referrers};
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{Binding, Device, ItemId, ItemRef, Type, TypeDef, TypeId};
-
-/// Maximum number of links of one relation.
-const MOST: usize = 20;
-
-/// A link to an element.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Link {
-    pub title: String,
-    /// File and anchor of the element.
-    pub target: String,
-}
-
-/// The elements that have the same relation to an item, such as the PDOs that map it.
-#[derive(Debug)]
-pub(super) struct Relation {
-    pub title: &'static str,
-    pub links: Vec<Link>,
-    /// Number of further elements.
-    pub others: usize,
-}
 
 /// Links to the elements of a device.
 pub(super) struct Targets<'d> {
@@ -90,6 +71,19 @@ impl<'d> Targets<'d> {
     /// Returns the link to an item, if a page shows it.
     pub fn item(&self, id: Option<ItemId>) -> Option<&Link> {
         self.items.get(&id?)
+    }
+
+    /// Adds the links to the items of the state machines and procedures.
+    pub fn link(&self, behaviour: &mut Behaviour) {
+        for (machine, shown) in self.device.machines.iter().zip(&mut behaviour.machines) {
+            let items = [machine.status_item.id, machine.control_item.id];
+            shown.items = items.into_iter().filter_map(|item| self.item(item).cloned()).collect();
+        }
+        for (procedure, shown) in self.device.procedures.iter().zip(&mut behaviour.sequences) {
+            for (step, shown) in procedure.steps.iter().zip(&mut shown.steps) {
+                shown.item = step.item().and_then(|item| self.item(item.id)).cloned();
+            }
+        }
     }
 
     fn refers(&self, items: impl IntoIterator<Item = &'d ItemRef>) -> Vec<Link> {
@@ -164,19 +158,4 @@ struct Related {
 /// Returns the link of an element of a list. Each link has the position of its element.
 fn at<T>(list: &[T], element: &T, links: &[Link]) -> Option<Link> {
     links.get(list.iter().position(|other| std::ptr::eq(other, element))?).cloned()
-}
-
-impl Relation {
-    /// Creates a relation without repeated links. Returns `None` if there are no links.
-    fn new(title: &'static str, links: Vec<Link>) -> Option<Self> {
-        let mut unique: Vec<Link> = Vec::new();
-        links.into_iter().for_each(|link| {
-            if !unique.contains(&link) {
-                unique.push(link);
-            }
-        });
-        let others = unique.len().saturating_sub(MOST);
-        unique.truncate(MOST);
-        (!unique.is_empty()).then_some(Relation { title, links: unique, others })
-    }
 }
