@@ -50,7 +50,7 @@ fn main() -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(FAILED),
         Err(Failure::Output(error)) => {
-            // Print no message about a closed pipe, because nobody would read it. The exit code still reports the failure.
+            // Print no message about a closed pipe, because the message would not be read. The exit code still reports the failure.
             if error.kind() != std::io::ErrorKind::BrokenPipe {
                 say(&format!("error: cannot write the output: {error}"));
             }

@@ -89,7 +89,7 @@ impl Builder {
         self
     }
 
-    /// Sets an option of a register table. An option stands for a choice that the manual of the device leaves open.
+    /// Sets an option of a register table. An option is a choice that the manual of the device leaves open.
     pub fn option(mut self, name: impl Into<String>, choice: impl Into<String>) -> Self {
         self.options.choices.push((name.into(), choice.into()));
         self

@@ -5,19 +5,22 @@ use std::collections::HashMap;
 use serde_json::{json, Value as Json};
 
 use super::entry::Calls;
+use lexibus_codegen::backend::rust::Usage;
 use lexibus_codegen::facts::{address, pdo, types};
-use lexibus_codegen::ir::{Device, Direction, Item, ItemId, ObjectBuses, Pdo, PdoEntryKind, Value, MAX_PDO_SUBS};
+use lexibus_codegen::ir::{
+    Binding, Device, Direction, Item, ItemId, ObjectBuses, Pdo, PdoEntryKind, Value, MAX_PDO_SUBS,
+};
 
-/// Returns the data as JSON, or `None` if no mapping can be changed. `names` contains the names of the PDO structs, by the index of the
-/// mapping object.
-pub(super) fn data(device: &Device, calls: &Calls, names: &HashMap<u16, String>) -> Option<String> {
+/// Returns the data as JSON, or `None` if no mapping can be changed.
+pub(super) fn data(device: &Device, usage: &Usage) -> Option<String> {
     let granularity = device.canopen.as_deref()?.granularity;
     if granularity == Some(0) {
         return None;
     }
-    let pdos: Vec<Json> = device.process_data.pdos.iter().filter_map(|pdo| self::pdo(device, pdo, names)).collect();
+    let pdos: Vec<Json> =
+        device.process_data.pdos.iter().filter_map(|pdo| self::pdo(device, pdo, &usage.pdos)).collect();
     let groups = (0..).zip(&device.groups).flat_map(|(position, group)| group.items_at(position));
-    let objects: Vec<Json> = groups.filter_map(|(id, item)| object(device, id, item, calls)).collect();
+    let objects: Vec<Json> = groups.filter_map(|(id, item)| object(device, id, item, &usage.calls)).collect();
     let data = json!({ "granularity": granularity.unwrap_or(1), "pdos": pdos, "objects": objects });
     (!pdos.is_empty() && !objects.is_empty()).then(|| data.to_string())
 }
@@ -65,6 +68,6 @@ fn object(device: &Device, id: ItemId, item: &Item, calls: &Calls) -> Option<Jso
     Some(json!([index, sub_index, bits, name.trim(), mappable.rpdo, mappable.tpdo, path]))
 }
 
-fn on_canopen(binding: &lexibus_codegen::ir::Binding) -> bool {
-    matches!(binding, lexibus_codegen::ir::Binding::Object { buses: ObjectBuses { canopen: true, .. }, .. })
+fn on_canopen(binding: &Binding) -> bool {
+    matches!(binding, Binding::Object { buses: ObjectBuses { canopen: true, .. }, .. })
 }

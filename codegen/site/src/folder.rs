@@ -214,12 +214,12 @@ impl Folder {
         manual: &Manual,
         prefix: &str,
     ) -> (Parts, Vec<(String, String)>) {
-        let calls = rust::calls(device);
+        let usage = rust::usage(device);
         let known = Known {
             manual,
             doubts: &device.doubts,
             modbus: &device.modbus,
-            calls: &calls,
+            calls: &usage.calls,
             diagnostics: &self.diagnostics,
         };
         let mut areas = area::areas(&device.groups, &device.types, known, &mut self.files, prefix);
@@ -247,7 +247,7 @@ impl Folder {
             behaviour: further(behaviour.is_some(), "States and procedures").zip(behaviour),
             codes: further(!tables.is_empty(), "Codes").map(|file| (file, tables)),
             areas,
-            data: ProcessPart { frames, builder: builder::data(device, &calls, &rust::pdo_names(device)) },
+            data: ProcessPart { frames, builder: builder::data(device, &usage) },
         };
         parts.link(device);
         (parts, pages)

@@ -244,7 +244,7 @@ fn structs(text: &str) -> HashMap<String, Vec<(&str, &str)>> {
     let (mut structs, mut current): (HashMap<String, Vec<_>>, _) = (HashMap::new(), None);
     each_line(text, |modules, code| {
         if let Some(name) = code.strip_prefix("pub struct ") {
-            let path = modules.iter().copied().chain([bare(name)]).collect::<Vec<_>>().join("::");
+            let path = path(modules, bare(name));
             current = code.ends_with('{').then_some(path);
         } else if code == "}" {
             current = None;

@@ -39,10 +39,6 @@ function pdoBuilder(place) {
   const line = (object, at) => element("li", {}, `${object[3]} (${object[2]} bits) `,
     button("↑", `Move ${object[3]} up`, () => { if (at) objects.splice(at - 1, 2, object, objects[at - 1]); }),
     button("×", `Remove ${object[3]}`, () => objects.splice(at, 1)));
-  const result = (title, text) => {
-    const code = element("code", { textContent: text });
-    return [element("dt", { textContent: title }), element("dd", {}, code, " ", copyButton(code))];
-  };
   const show = () => {
     list.replaceChildren(...objects.map(line));
     options.replaceChildren(...candidates().map((object) => element("option", { value: object[3] })));
@@ -53,9 +49,8 @@ function pdoBuilder(place) {
     const sdos = writes.flatMap(([index, sub, bytes]) => sdoDownload([index & 0xFF, index >> 8, sub], bytes).map((data) => `${cobId}  ${bytesText(data)}`));
     const lines = writes.map(([index, sub, bytes]) => `node.sdo.download(0x${hex(index, 4)}, ${sub}, ${python(bytes)})`);
     const rust = `lexibus::pdo! {\n    pub struct Mapping: device::pdo::${pdo().name} { ${objects.map((object) => object[6]).join(", ")} }\n}`;
-    results.replaceChildren(...writes.length ? [
-      ...result("SDO downloads (COB-ID, data)", sdos.join("\n")), ...result("canopen", lines.join("\n")), ...pdo().name ? result("Rust", rust) : [],
-    ] : []);
+    const all = [["SDO downloads (COB-ID, data)", sdos.join("\n")], ["canopen", lines.join("\n")], ...pdo().name ? [["Rust", rust]] : []];
+    results.replaceChildren(...writes.length ? all.flatMap(copyable) : []);
   };
   const node = keptNumber("node", "Node-ID", 1, 127, show);
   const start = () => {

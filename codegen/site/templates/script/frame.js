@@ -11,6 +11,12 @@ const element = (tag, properties, ...children) => {
   return created;
 };
 
+// Returns the address in the URL. An address that is not UTF-8 stays as it is.
+function addressOfUrl() {
+  const address = location.hash.slice(1);
+  try { return decodeURIComponent(address); } catch { return address; }
+}
+
 // Returns a text without capitals and accents, which the search ignores.
 const plain = (text) => text.replace(/[\u00c0-\u024f]/g, (letter) => letter.normalize("NFD")[0]).toLowerCase();
 

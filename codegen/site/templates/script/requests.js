@@ -1,6 +1,5 @@
 // Requests that read and write the item of a row, ready to copy: bytes on each bus, and lines of Python.
 
-const hex = (number, digits) => number.toString(16).toUpperCase().padStart(digits, "0");
 const bytesText = (bytes) => bytes.map((byte) => hex(byte, 2)).join(" ");
 
 // Returns the bytes of a raw value, least significant byte first.
@@ -89,21 +88,24 @@ function keptNumber(key, label, first, last, change) {
   return { label: element("label", {}, `${label} `, input), get value() { return Number(input.value); } };
 }
 
+// Returns a term and a definition that can be copied.
+function copyable([title, text]) {
+  const code = element("code", { textContent: text });
+  return [element("dt", { textContent: title }), element("dd", {}, code, " ", copyButton(code))];
+}
+
 // Adds the requests to the details of a row. Returns a function that shows the requests for a raw value.
 function requests(row, type) {
   const addresses = (row.dataset.at ?? "").split(";").filter(Boolean).map((address) => address.split(" "));
   const access = row.rows[0].cells[3].textContent, list = element("dl", {});
   const canRead = !/^wo/.test(access), isWritable = /^[rw]*w/.test(access) && Boolean(type);
-  // Without a value there are no write requests, so that nobody copies a request that writes 0.
+  // Without a value there are no write requests, because a copied request would write 0.
   let raw;
   const show = () => {
     hint.textContent = isWritable && raw === undefined ? "Enter a raw value within the range for write requests." : "";
     const canWrite = isWritable && raw !== undefined, bytes = canWrite ? littleEndian(raw, Math.ceil(type.bits / 8)) : [];
     const lines = addresses.flatMap(([kind, ...address]) => KINDS[kind](address, { canRead, canWrite, bytes, raw, node: node.value, unit: unit.value }));
-    list.replaceChildren(...lines.flatMap(([title, text]) => {
-      const code = element("code", { textContent: text });
-      return [element("dt", { textContent: title }), element("dd", {}, code, " ", copyButton(code))];
-    }));
+    list.replaceChildren(...lines.flatMap(copyable));
   };
   const node = keptNumber("node", "Node-ID", 1, 127, () => show()), unit = keptNumber("unit", "Modbus unit", 1, 247, () => show());
   if (!addresses.length) return () => {};

@@ -38,8 +38,7 @@ for (const button of document.querySelectorAll("button.unfold")) {
 
 // Unfolds the row of the address.
 function unfoldTarget() {
-  let id = location.hash.slice(1);
-  try { id = decodeURIComponent(id); } catch { /* The address is not UTF-8 and stays as it is. */ }
+  const id = addressOfUrl();
   const [, owner, kind, number] = id.match(/^(.*)\.(bit|value)-([^.]+)$/) ?? [];
   const row = (byId(id) ?? byId(owner))?.closest(".items > tbody");
   if (!row || !foldable.includes(row)) return;

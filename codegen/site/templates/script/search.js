@@ -34,7 +34,7 @@ function numberFrom(text) {
     const [, first, last] = plain(text).match(pattern) || [];
     return { first: Number(first), last: Number(last ?? first) };
   };
-  if (PART.test(text)) return { text, plain: plain(text), ranges: [] };
+  if (PART.test(text)) return { text, plain: plain(text), ranges: [], isPart: true };
   const printed = range(/^(?:[a-z_ ]+ )?(0x[0-9a-f]+|[0-9]+)(?:(?: to |–)(0x[0-9a-f]+|[0-9]+))?/);
   return { text, plain: plain(text), ranges: [printed, range(/\(wire (0x[0-9a-f]+|[0-9]+)(?:–(0x[0-9a-f]+|[0-9]+))?\)/)] };
 }
@@ -184,7 +184,7 @@ function insert(best, match) {
   return best.length === 4 * MOST ? best[best.length - 1].points : 0;
 }
 
-const isPart = (entry) => PART.test(numbers[numberAt[entry]].text);
+const isPart = (entry) => numbers[numberAt[entry]].isPart;
 const anchorOf = (entry) => {
   const own = anchors[entry] || numbers[numberAt[entry]].text;
   return isPart(entry) ? `${anchorOf(ownerAt[entry])}.${own.replace(" ", "-").replace(/ .*/, "")}` : own;
@@ -262,8 +262,7 @@ const withoutPart = (address) => address.replace(/\.(bit|value)-[^.]+$/, "");
 
 // Returns the address in the URL if this page does not have it.
 function missingAddress() {
-  let address = location.hash.slice(1);
-  try { address = decodeURIComponent(address); } catch { /* The address is not UTF-8 and stays as it is. */ }
+  const address = addressOfUrl();
   return byId(address) || byId(withoutPart(address)) ? "" : plain(address);
 }
 

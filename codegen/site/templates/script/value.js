@@ -36,7 +36,8 @@ function rawFrom(text, type) {
 // Returns the number of a raw value, with its sign.
 const numberOf = (type, raw) => type.isReal ? realFrom(type, raw) : type.isSigned ? BigInt.asIntN(type.bits, raw) : raw;
 
-const hexOf = (type, raw) => "0x" + raw.toString(16).toUpperCase().padStart(Math.ceil(type.bits / 4), "0");
+const hex = (number, digits) => number.toString(16).toUpperCase().padStart(digits, "0");
+const hexOf = (type, raw) => "0x" + hex(raw, Math.ceil(type.bits / 4));
 
 // Returns the scale of a row: functions from numbers to physical values and back. Returns nothing if there is none.
 function scaleOf(row) {

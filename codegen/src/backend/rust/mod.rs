@@ -106,16 +106,20 @@ fn header(file: &FileInfo) -> String {
     )
 }
 
-/// Returns the Rust calls that read and write each item of a device, such as `device.identity().vendor_id().read()?`.
-pub fn calls(device: &Device) -> HashMap<ItemId, Vec<String>> {
-    let context = model::context(Scope::of_device(device), &RustOptions::default(), "");
-    objects::calls(&context).map(|(entry, path)| (entry.id, calls_of(&context, entry.item, &path))).collect()
+/// The names of a device's elements in the generated code, for documentation.
+pub struct Usage {
+    /// Rust calls that read and write each item, such as `device.identity().vendor_id().read()?`.
+    pub calls: HashMap<ItemId, Vec<String>>,
+    /// Names of the PDO structs, by the index of the mapping object.
+    pub pdos: HashMap<u16, String>,
 }
 
-/// Returns the names of the PDO structs, by the index of the mapping object.
-pub fn pdo_names(device: &Device) -> HashMap<u16, String> {
+/// Returns the names of a device's elements in the generated code.
+pub fn usage(device: &Device) -> Usage {
     let context = model::context(Scope::of_device(device), &RustOptions::default(), "");
-    context.names.pdos.iter().map(|named| (named.pdo.mapping_index, named.name.clone())).collect()
+    let calls = objects::calls(&context).map(|(entry, path)| (entry.id, calls_of(&context, entry.item, &path)));
+    let pdos = context.names.pdos.iter().map(|named| (named.pdo.mapping_index, named.name.clone()));
+    Usage { calls: calls.collect(), pdos: pdos.collect() }
 }
 
 /// Returns the calls that read and write an item: first in its physical unit, then as raw value.

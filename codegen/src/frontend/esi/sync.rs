@@ -70,7 +70,7 @@ pub(super) fn sync_manager<'a>(
     Ok(())
 }
 
-/// Determines the purpose of each sync manager from its text, or else from the PDOs that name it, or else from its
+/// Determines the purpose of each sync manager from its text, otherwise from the PDOs that name it, otherwise from its
 /// control byte or position.
 pub(super) fn settle(
     reader: &mut Reader<'_, '_>,
