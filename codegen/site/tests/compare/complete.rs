@@ -15,7 +15,7 @@ mod seed;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use crate::leaves::{Leaf, Mutator};
+use crate::leaves::{mutations, Leaf};
 use arbitrary_ir::bytes::Bytes;
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::Catalog;
@@ -157,21 +157,21 @@ struct Tally {
 
 impl Tally {
     /// Changes the leaves of a description until each path has at most `most` changed leaves in all descriptions.
-    fn add(&mut self, description: &Description, most: usize, mutator: &mut Mutator) {
+    fn add(&mut self, description: &Description, most: usize) {
         assert_eq!(compare(&description.catalog, &description.catalog), [], "{} differs from itself", description.name);
         let mut json = description.json.clone();
         for leaf in Leaf::all(&description.json) {
             let count = self.paths.entry(leaf.pattern()).or_default();
             *count += 1;
             if *count <= most {
-                self.leaf(description, &leaf, &mut json, mutator);
+                self.leaf(description, &leaf, &mut json);
             }
         }
     }
 
-    fn leaf(&mut self, description: &Description, leaf: &Leaf, json: &mut Value, mutator: &mut Mutator) {
+    fn leaf(&mut self, description: &Description, leaf: &Leaf, json: &mut Value) {
         let mut is_changed = false;
-        for change in mutator.mutations(leaf, json) {
+        for change in mutations(leaf, json) {
             let example = format!("{} to {change} at {} of {}", leaf.value(json), leaf.pointer(), description.name);
             let before = leaf.replace(json, change);
             let changed = Catalog::deserialize(&*json);
@@ -211,9 +211,9 @@ impl Tally {
 #[test]
 fn a_change_of_every_leaf_is_reported() {
     let most = if lane::is_full() { 4 } else { 1 };
-    let (mut tally, mut mutator) = (Tally::default(), Mutator::default());
+    let mut tally = Tally::default();
     for description in descriptions() {
-        tally.add(&description, most, &mut mutator);
+        tally.add(&description, most);
     }
     let Tally { paths, changes, reported, listed, missed, invalid } = tally;
     println!("{} paths, {changes} changes, {reported} reported", paths.len());

@@ -1,7 +1,5 @@
 //! Finds and changes the leaves of a JSON value.
 
-use std::collections::HashMap;
-
 use lexibus_codegen::ir::Catalog;
 use serde::Deserialize;
 use serde_json::Value;
@@ -83,42 +81,28 @@ fn collect(value: &Value, path: &mut Vec<Key>, leaves: &mut Vec<Leaf>) {
     leaves.push(Leaf { path: path.clone() });
 }
 
-/// Creates changed values for leaves.
-#[derive(Default)]
-pub struct Mutator {
-    /// Names of the enumeration variants at each path.
-    variants: HashMap<String, Vec<String>>,
+/// Returns values that differ from the value of a leaf. Some of these values can be invalid.
+pub fn mutations(leaf: &Leaf, root: &mut Value) -> Vec<Value> {
+    let value = leaf.value(root).clone();
+    let mut others = candidates(&value, leaf, root);
+    others.retain(|other| *other != value);
+    others
 }
 
-impl Mutator {
-    /// Returns values that differ from the value of a leaf. Some of these values can be invalid.
-    pub fn mutations(&mut self, leaf: &Leaf, root: &mut Value) -> Vec<Value> {
-        let value = leaf.value(root).clone();
-        let mut others = self.candidates(&value, leaf, root);
-        others.retain(|other| *other != value);
-        others
-    }
-
-    fn candidates(&mut self, value: &Value, leaf: &Leaf, root: &mut Value) -> Vec<Value> {
-        match value {
-            Value::Bool(value) => vec![Value::Bool(!value)],
-            Value::Number(number) => numbers(number),
-            Value::String(text) => texts(text, self.variants(leaf, root)),
-            Value::Array(list) => shorter(list),
-            Value::Object(fields) => {
-                let mut others = vec![Value::Null];
-                if let [content] = fields.values().collect::<Vec<_>>().as_slice() {
-                    others.extend(alternatives(content, self.variants(leaf, root)));
-                }
-                others
+fn candidates(value: &Value, leaf: &Leaf, root: &mut Value) -> Vec<Value> {
+    match value {
+        Value::Bool(value) => vec![Value::Bool(!value)],
+        Value::Number(number) => numbers(number),
+        Value::String(text) => texts(text, &variants(&leaf.pointer(), root)),
+        Value::Array(list) => shorter(list),
+        Value::Object(fields) => {
+            let mut others = vec![Value::Null];
+            if let [content] = fields.values().collect::<Vec<_>>().as_slice() {
+                others.extend(alternatives(content, &variants(&leaf.pointer(), root)));
             }
-            Value::Null => Vec::new(),
+            others
         }
-    }
-
-    /// Returns the variant names of the enumeration at a leaf. Returns an empty list if the leaf is not an enumeration.
-    fn variants(&mut self, leaf: &Leaf, root: &mut Value) -> &[String] {
-        self.variants.entry(leaf.pattern()).or_insert_with(|| variants(&leaf.pointer(), root))
+        Value::Null => Vec::new(),
     }
 }
 
@@ -139,7 +123,8 @@ fn texts(text: &str, variants: &[String]) -> Vec<Value> {
     }
 }
 
-/// Returns the variant names that the deserializer lists in its error message about an unknown name.
+/// Returns the variant names of the enumeration at a leaf, which the deserializer lists in its error message about an
+/// unknown name. Returns an empty list if the leaf is not an enumeration.
 fn variants(pointer: &str, root: &mut Value) -> Vec<String> {
     let target = root.pointer_mut(pointer).expect("a leaf");
     let before = std::mem::replace(target, Value::from("no alternative"));

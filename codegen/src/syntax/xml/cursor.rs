@@ -69,6 +69,9 @@ impl<'a> Cursor<'a> {
                     return self.finish().map(|()| None);
                 }
                 [b'<', b'/', ..] => return self.end_tag(start).map(Some),
+                [b'<', b'?', b'>', ..] => {
+                    return Err(malformed(self.span(start, start + 3), "this processing instruction has no name"));
+                }
                 [b'<', b'?', ..] => {
                     self.skip_to("?>", start, 2, "this processing instruction has no closing `?>`")?;
                 }

@@ -136,6 +136,8 @@ fn what_is_not_well_formed_is_told_at_its_place() {
     malformed("<r><a>x", "x");
     malformed("<r", "<");
     malformed("<r><!-- ", "<");
+    malformed("<r/><?x ", "<");
+    malformed("<?><r/>?>", "<?>");
     malformed("<r><![CDATA[ ", "<");
     malformed("<r a=\"1", "<");
     malformed("<>", "<>");

@@ -43,6 +43,15 @@ pub(in crate::backend::rust) struct Variant {
     pub value: i128,
 }
 
+impl Enumeration {
+    /// Returns the minimum and maximum of the primitive integer that holds a value.
+    pub(super) fn range(&self) -> Option<(i128, i128)> {
+        let bits = self.native.get(1..)?.parse().ok()?;
+        let ty = if self.native.starts_with('i') { Type::Integer(bits) } else { Type::Unsigned(bits) };
+        ty.integer_range()
+    }
+}
+
 impl<'a> Values<'a> {
     /// Creates the enumerations that occur among the types `used`.
     pub(super) fn new(types: &'a [TypeDef], used: impl Iterator<Item = Type>, options: &RustOptions) -> Self {

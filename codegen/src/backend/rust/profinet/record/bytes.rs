@@ -90,16 +90,20 @@ pub(super) fn value_of(field: &Field<'_>, bytes: &[u8]) -> Doc {
             _ => real64(f64::from_bits(bits)),
         });
     }
-    let Some((low, high)) = field.range() else {
+    let Some(range) = field.enumeration.map_or_else(|| field.range(), Enumeration::range) else {
         let (milliseconds, days) = (bits >> 16 & 0x0FFF_FFFF, bits & 0xFFFF);
         return call!(seq![field.rust_type(), "::new"], milliseconds, days);
     };
-    let bits = i128::from(bits);
-    let value = if bits > high { bits - (high - low + 1) } else { bits };
+    let value = wrapped(bits, range);
     match field.enumeration {
         Some(enumeration) => enumeration_value(enumeration, value),
         None => Doc::from(value.to_string()),
     }
+}
+
+/// Returns the value that an integer with this minimum and maximum has if its bits are `bits`. Excess bits are ignored.
+fn wrapped(bits: u64, (low, high): (i128, i128)) -> i128 {
+    (i128::from(bits) - low).rem_euclid(high - low + 1) + low
 }
 
 fn enumeration_value(enumeration: &Enumeration, value: i128) -> Doc {
@@ -124,5 +128,21 @@ fn real64(value: f64) -> String {
         None if value.is_nan() => "f64::NAN".to_owned(),
         None if value > 0.0 => "f64::INFINITY".to_owned(),
         None => "f64::NEG_INFINITY".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::Type;
+
+    #[test]
+    fn bits_as_integers() {
+        let wrapped = |bits, ty: Type| wrapped(bits, ty.integer_range().unwrap());
+        assert_eq!(wrapped(255, Type::Unsigned(8)), 255);
+        assert_eq!(wrapped(255, Type::Integer(8)), -1);
+        assert_eq!(wrapped(0x17F, Type::Integer(8)), 127, "the type of an enumeration can be narrower than its field");
+        assert_eq!(wrapped(u64::MAX, Type::Integer(64)), -1);
+        assert_eq!(wrapped(u64::MAX, Type::Unsigned(64)), i128::from(u64::MAX));
     }
 }

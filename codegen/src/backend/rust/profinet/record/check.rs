@@ -4,7 +4,8 @@ use super::Parameter;
 use crate::backend::rust::code::{call, seq, slice, Doc};
 use crate::backend::rust::literal;
 use crate::backend::rust::profinet::field::Field;
-use crate::ir::{Limits, Type, Value};
+use crate::backend::rust::profinet::values::Enumeration;
+use crate::ir::{Limits, Value};
 
 /// Returns the minimum and maximum of each allowed range.
 pub(super) fn ranges(limits: &Limits) -> Vec<(Option<Value>, Option<Value>)> {
@@ -64,7 +65,7 @@ fn reals(allowed: &[(Option<Value>, Option<Value>)], bits: u32) -> Option<Vec<St
 fn integers(allowed: &[(Option<Value>, Option<Value>)], field: &Field<'_>) -> Option<Vec<String>> {
     let (low, high) = field.range()?;
     // An enumeration's type may have fewer bits than the field.
-    let (low, high) = match field.enumeration.and_then(|enumeration| native_range(enumeration.native)) {
+    let (low, high) = match field.enumeration.and_then(Enumeration::range) {
         Some((low_native, high_native)) => (low.max(low_native), high.min(high_native)),
         None => (low, high),
     };
@@ -85,11 +86,4 @@ fn integers(allowed: &[(Option<Value>, Option<Value>)], field: &Field<'_>) -> Op
         list = vec![(low, high)];
     }
     Some(list.iter().map(|(first, last)| format!("({first}, {last})")).collect())
-}
-
-/// Returns the minimum and maximum of a primitive integer.
-fn native_range(name: &str) -> Option<(i128, i128)> {
-    let bits = name.get(1..)?.parse().ok()?;
-    let ty = if name.starts_with('i') { Type::Integer(bits) } else { Type::Unsigned(bits) };
-    ty.integer_range()
 }
