@@ -1,6 +1,7 @@
 //! `lexibus docs`: writes a documentation site, or Markdown pages.
 
-use std::path::Path;
+use std::collections::{HashMap, HashSet};
+use std::path::{Path, PathBuf};
 
 use lexibus_codegen::output::write_if_changed;
 use lexibus_site::{Format, Page, Site};
@@ -22,9 +23,18 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
         return reporter.finish();
     }
     let mut site = Site::new(format);
-    let put = |pages: &[Page], reporter: &mut Reporter| {
+    let names = Names::new(&inputs::sorted(&docs.inputs)?);
+    // A second reading costs little, compared with writing the pages.
+    inputs::each_by_path(&docs.inputs, &options, |input, compilation| {
+        let catalog = compilation.catalog.as_ref().filter(|_| compilation.is_usable());
+        catalog.into_iter().for_each(|catalog| site.announce(names.of(input), catalog));
+        Ok(())
+    })?;
+    let mut written = HashSet::new();
+    let mut put = |pages: &[Page], reporter: &mut Reporter| {
         for page in pages {
             let path = docs.out.join(&page.path);
+            written.insert(path.clone());
             let error = if docs.check { difference(&path, &page.text) } else { write(&path, page).err() };
             if let Some(error) = error {
                 reporter.error(&error);
@@ -33,12 +43,73 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     };
     inputs::each_by_path(&docs.inputs, &options, |input, compilation| {
         reporter.report(&compilation)?;
-        let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        put(&site.add_compilation(&stem, &compilation), &mut reporter);
+        put(&site.add_compilation(names.of(input), &compilation), &mut reporter);
         Ok(())
     })?;
     put(&site.finish(), &mut reporter);
+    for path in stale(&docs.out, &written) {
+        let error = match docs.check {
+            true => Some(format!("{} is not part of this documentation any more", path.display())),
+            false => remove(&docs.out, &path).err(),
+        };
+        error.iter().for_each(|error| reporter.error(error));
+    }
     reporter.finish()
+}
+
+/// The names of the descriptions: file names without extension, or whole paths if several files have the same name.
+struct Names(HashMap<PathBuf, String>);
+
+impl Names {
+    fn new(files: &[PathBuf]) -> Self {
+        let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let mut counts: HashMap<String, usize> = HashMap::new();
+        files.iter().for_each(|path| *counts.entry(stem(path)).or_default() += 1);
+        let name = |path: &PathBuf| match counts[&stem(path)] {
+            1 => stem(path),
+            _ => path.display().to_string(),
+        };
+        Names(files.iter().map(|path| (path.clone(), name(path))).collect())
+    }
+
+    fn of(&self, path: &Path) -> &str {
+        self.0.get(path).map_or("", String::as_str)
+    }
+}
+
+/// Returns the pages in the folder that an earlier run wrote, but not this run.
+fn stale(folder: &Path, written: &HashSet<PathBuf>) -> Vec<PathBuf> {
+    let mut stale = Vec::new();
+    let entries = std::fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
+    for path in entries {
+        // Do not follow links, which can lead out of the folder.
+        let is_link = path.symlink_metadata().is_ok_and(|data| data.is_symlink());
+        if path.is_dir() && !is_link {
+            stale.extend(self::stale(&path, written));
+        } else if !is_link && !written.contains(&path) && was_written(&path) {
+            stale.push(path);
+        }
+    }
+    stale.sort();
+    stale
+}
+
+/// Returns whether `lexibus docs` wrote a file.
+fn was_written(path: &Path) -> bool {
+    let page = Page { path: path.to_string_lossy().into_owned(), text: String::new() };
+    std::fs::read(path).is_ok_and(|bytes| page.replaces(&String::from_utf8_lossy(&bytes)))
+}
+
+/// Removes a page, and the folders that are empty without it.
+fn remove(root: &Path, path: &Path) -> Result<(), String> {
+    std::fs::remove_file(path).map_err(|error| format!("cannot remove {}: {error}", path.display()))?;
+    for folder in path.ancestors().skip(1).take_while(|folder| *folder != root) {
+        // Folders with other files stay.
+        if std::fs::remove_dir(folder).is_err() {
+            break;
+        }
+    }
+    Ok(())
 }
 
 /// Returns an error if the folder contains files, unless one of them is the first page of a site that `lexibus docs` wrote.

@@ -33,10 +33,15 @@ pub(super) fn each_by_path(
     options: &Options,
     use_it: impl FnMut(&Path, Compilation) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
+    compile_all(sorted(inputs)?, inputs, options, use_it)
+}
+
+/// Returns the input files in the order of their paths, without duplicates.
+pub(super) fn sorted(inputs: &Inputs) -> Result<Vec<PathBuf>, Failure> {
     let mut files = files(&inputs.paths)?;
     files.sort();
     files.dedup();
-    compile_all(files, inputs, options, use_it)
+    Ok(files)
 }
 
 fn compile_all(

@@ -599,11 +599,22 @@ fn a_site_of_documentation() {
     let output = lexibus(&["docs", DEMO, COUPLER, "--out", &out.to_string_lossy()]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     let read = |path: &str| std::fs::read_to_string(out.join(path)).unwrap_or_else(|_| panic!("{path}"));
-    assert!(read("index.html").contains("href=\"demo-drive/index.html\""));
-    assert!(read("demo-drive/profile-objects.html").contains("id=\"0x6040\""));
+    assert!(read("index.html").contains("href=\"./lexibus/demo-drive-0x00004021/0x00010000/index.html\""));
+    assert!(read("lexibus/demo-drive-0x00004021/0x00010000/profile-objects.html").contains("id=\"0x6040\""));
     for shared in ["site.css", "site.js", "search.js"] {
         assert!(!read(shared).is_empty());
     }
+    // Pages of an earlier call are removed. Other files stay.
+    let coupler = std::fs::read_dir(&out).expect("a folder").filter_map(|entry| Some(entry.ok()?.path()));
+    let coupler = coupler.filter(|path| path.is_dir() && !path.ends_with("lexibus")).collect::<Vec<_>>();
+    assert_eq!(coupler.len(), 1, "{coupler:?}");
+    std::fs::write(coupler[0].join("notes.html"), "<title>My notes</title>").expect("a file");
+    let call = |further: &[&str]| lexibus(&[&["docs", DEMO, "--out", &out.to_string_lossy()], further].concat());
+    let output = call(&["--check"]);
+    assert!(code(&output) == 1 && err(&output).contains("modules.html is not part of"), "{}", err(&output));
+    assert_eq!(code(&call(&[])), 0);
+    assert_eq!(std::fs::read_dir(&coupler[0]).expect("a folder").count(), 1, "only the notes");
+    assert_eq!(code(&call(&["--check"])), 0);
     // A missing output folder and an output that cannot be written are errors.
     let file = file(&folder, "occupied", "");
     assert_eq!(code(&lexibus(&["docs", DEMO, "--out", &file])), 1);
@@ -623,8 +634,13 @@ fn pages_of_markdown() {
     assert_eq!(code(&call(&[])), 0);
     assert_eq!(code(&call(&["--check"])), 0);
     let summary = std::fs::read_to_string(out.join("SUMMARY.md")).expect("a summary");
-    assert!(summary.contains("\n- [Demo Drive](demo-drive/index.md)\n  - [Communication objects]"), "{summary}");
-    let page = out.join("demo-drive/profile-objects.md");
+    assert!(
+        summary.contains(
+            "\n- [Demo Drive](lexibus/demo-drive-0x00004021/0x00010000/index.md)\n  - [Communication objects]"
+        ),
+        "{summary}"
+    );
+    let page = out.join("lexibus/demo-drive-0x00004021/0x00010000/profile-objects.md");
     std::fs::write(&page, "<!-- Written by lexibus docs -->\n# Old\n").expect("a page");
     let output = call(&["--check"]);
     assert_eq!(code(&output), 1);

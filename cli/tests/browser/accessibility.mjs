@@ -5,9 +5,9 @@ import { axe, pagesOf, Window, withBrowser } from "./browser.mjs";
 const DESKTOP = { width: 1280, height: 800 }, PHONE = { width: 390, height: 844 };
 
 const PAGES = [
-  "index.html", "eco/index.html", "eco/process-data.html", "eco/states-and-procedures.html", "eco/parameters.html", "hsd-sm137-sm140/codes.html",
-  "hsd-sm137-sm140/states-and-procedures.html", "aec-vector-step/alarms-and-warnings.html", "kollmorgen-akd/messages.html",
-  "kollmorgen-akd/profile-objects.html#0x6040",
+  "index.html", "vendor-0x0000078f/eco/no-revision/index.html", "vendor-0x0000078f/eco/no-revision/process-data.html", "vendor-0x0000078f/eco/no-revision/states-and-procedures.html", "vendor-0x0000078f/eco/no-revision/parameters.html", "hsd-s-p-a/hsd-motor/no-revision/codes.html",
+  "hsd-s-p-a/hsd-motor/no-revision/states-and-procedures.html", "aec-s-r-l/vector-step/no-revision/alarms-and-warnings.html", "kollmorgen/akd/no-revision/messages.html",
+  "kollmorgen/akd/no-revision/profile-objects.html#0x6040",
 ];
 
 const [site] = process.argv.slice(2);
@@ -20,10 +20,10 @@ await withBrowser(async (browser) => {
         await window.go(place);
         await examine(window.page, `${place}, ${colorScheme}, ${viewport.width} wide`);
       }
-      await window.go("eco/parameters.html");
+      await window.go("vendor-0x0000078f/eco/no-revision/parameters.html");
       await window.page.locator(".unfold").click();
       await examine(window.page, `unfolded details, ${colorScheme}, ${viewport.width} wide`);
-      await window.go("eco/index.html");
+      await window.go("vendor-0x0000078f/eco/no-revision/index.html");
       await window.search("speed");
       await examine(window.page, `the search, ${colorScheme}, ${viewport.width} wide`);
       window.clean();

@@ -5,21 +5,23 @@ import { Window, withBrowser } from "./browser.mjs";
 const [site, alone] = process.argv.slice(2);
 await withBrowser(async (browser) => {
   const window = await Window.open(browser, site);
-  await leads(window, "aec-vector-step/index.html#0x6040", "aec-vector-step/profile-objects.html#0x6040");
-  await leads(window, "aec-vector-step/codes.html#0x6040", "aec-vector-step/profile-objects.html#0x6040");
+  await leads(window, "aec-s-r-l/vector-step/no-revision/index.html#0x6040", "aec-s-r-l/vector-step/no-revision/profile-objects.html#0x6040");
+  await leads(window, "aec-s-r-l/vector-step/no-revision/codes.html#0x6040", "aec-s-r-l/vector-step/no-revision/profile-objects.html#0x6040");
   // The first entry is in the row of its object, and the second entry has a separate row.
-  await leads(window, "aec-vector-step/index.html#0x6040:00", "aec-vector-step/profile-objects.html#0x6040");
-  await leads(window, "aec-vector-step/index.html#0x1403:01", "aec-vector-step/communication-objects.html#0x1403:01");
-  await leads(window, "aec-vector-step/index.html#0x607a", "aec-vector-step/profile-objects.html#0x607A");
-  await leads(window, "hsd-sm137-sm140/index.html#KP_VEL", "hsd-sm137-sm140/parameters.html#KP_VEL");
-  await leads(window, "index.html#Renc1pulse", "aec-vector-step/encoder-1.html#Renc1pulse");
+  await leads(window, "aec-s-r-l/vector-step/no-revision/index.html#0x6040:00", "aec-s-r-l/vector-step/no-revision/profile-objects.html#0x6040");
+  await leads(window, "aec-s-r-l/vector-step/no-revision/index.html#0x1403:01", "aec-s-r-l/vector-step/no-revision/communication-objects.html#0x1403:01");
+  await leads(window, "aec-s-r-l/vector-step/no-revision/index.html#0x607a", "aec-s-r-l/vector-step/no-revision/profile-objects.html#0x607A");
+  await leads(window, "hsd-s-p-a/hsd-motor/no-revision/index.html#KP_VEL", "hsd-s-p-a/hsd-motor/no-revision/parameters.html#KP_VEL");
+  await leads(window, "index.html#Renc1pulse", "aec-s-r-l/vector-step/no-revision/encoder-1.html#Renc1pulse");
+  // The page of the newest revision keeps the address.
+  await leads(window, "kollmorgen/akd/latest/index.html#0x6040", "kollmorgen/akd/no-revision/profile-objects.html#0x6040");
   await changes(window);
   await stays(window);
   window.clean();
   await window.close();
 
   const other = await Window.open(browser, alone);
-  await leads(other, "index.html#0x6040", "demo-drive/profile-objects.html#0x6040");
+  await leads(other, "index.html#0x6040", "demo-drive-0x00004021/0x00010000/profile-objects.html#0x6040");
   other.clean();
 });
 
@@ -31,7 +33,7 @@ async function leads(window, from, to) {
 
 // Changes the address of an open page to a row of another page.
 async function changes(window) {
-  const page = await window.go("kollmorgen-akd/index.html");
+  const page = await window.go("kollmorgen/akd/no-revision/index.html");
   await page.evaluate(() => { location.hash = "#0x6040"; });
   await page.waitForURL(/profile-objects\.html#0x6040$/);
 }
@@ -39,8 +41,8 @@ async function changes(window) {
 // Checks that an unknown address opens no other page and causes no error.
 async function stays(window) {
   for (const hash of ["#0xDEAD", "#%", "#%FF%FE", "#<script>", "#", "#content"]) {
-    const page = await window.go("eco/index.html" + hash);
+    const page = await window.go("vendor-0x0000078f/eco/no-revision/index.html" + hash);
     await page.waitForTimeout(300);
-    assert.ok(page.url().includes("eco/index.html"), `${hash} leads to ${page.url()}`);
+    assert.ok(page.url().includes("vendor-0x0000078f/eco/no-revision/index.html"), `${hash} leads to ${page.url()}`);
   }
 }

@@ -12,10 +12,10 @@ const { chromium } = load("playwright-core");
 // Source code of axe-core, which is run within a page.
 export const axe = load("axe-core").source;
 
-// Returns the paths of the pages of a site.
+// Returns the paths of the pages of a site, except those that only lead to the newest revision.
 export function pagesOf(site) {
   const all = readdirSync(site, { recursive: true }).map((file) => file.split(path.sep).join("/"));
-  return all.filter((file) => file.endsWith(".html")).sort();
+  return all.filter((file) => file.endsWith(".html") && !file.includes("/latest/")).sort();
 }
 
 // Returns all elements of `list` in the full lane, and every `step`-th element in the fast lane.

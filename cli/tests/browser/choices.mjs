@@ -11,14 +11,14 @@ await withBrowser(async (browser) => {
 
 async function themes(browser, system, other) {
   const window = await Window.open(browser, site, { colorScheme: system });
-  const page = await window.go("eco/index.html");
+  const page = await window.go("vendor-0x0000078f/eco/no-revision/index.html");
   assert.equal(await brightness(page), system);
   for (const theme of [other, system, other]) {
     await page.locator("#theme").focus();
     await page.keyboard.press("Enter");
     assert.equal(await brightness(page), theme);
   }
-  await window.go("kollmorgen-akd/codes.html");
+  await window.go("kollmorgen/akd/no-revision/codes.html");
   assert.equal(await brightness(page), other, "the choice does not persist");
   window.clean();
   await window.close();
@@ -26,7 +26,7 @@ async function themes(browser, system, other) {
 
 async function languages(browser) {
   const window = await Window.open(browser, site);
-  const page = await window.go("aec-vector-step/encoder-1.html");
+  const page = await window.go("aec-s-r-l/vector-step/no-revision/encoder-1.html");
   const row = page.locator("tbody[id=Renc1pulse] td").first();
   const shown = async () => (await row.locator("b:visible, i:visible").allInnerTexts()).join(" ");
   const choose = (language) => page.locator("#language").selectOption(language);
@@ -35,7 +35,7 @@ async function languages(browser) {
   assert.equal(await shown(), "Renc1pulse");
   await choose("it");
   assert.equal(await shown(), "Impulsi giro encoder 1");
-  await window.go("aec-vector-step/position-registers.html");
+  await window.go("aec-s-r-l/vector-step/no-revision/position-registers.html");
   assert.equal(await page.locator("#language").inputValue(), "it", "the choice does not persist");
   const named = await page.locator("tbody[id] > tr:first-child > td:nth-child(2)").allInnerTexts();
   assert.ok(named.length > 5 && named.every((name) => name.trim()), `a name is missing: ${named}`);

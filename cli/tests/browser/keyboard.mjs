@@ -18,7 +18,7 @@ await withBrowser(async (browser) => {
 });
 
 async function order(window) {
-  const page = await window.go("kollmorgen-akd/profile-objects.html");
+  const page = await window.go("kollmorgen/akd/no-revision/profile-objects.html");
   const path = await page.locator(".path a").allTextContents();
   const links = await page.locator("#tree a").allTextContents();
   const rows = await page.locator("main .items th").evaluateAll((cells) => cells.flatMap((cell) => [...cell.querySelectorAll("button, a")].map((item) => item.textContent || item.title)));
@@ -43,7 +43,7 @@ async function order(window) {
 
 // The keyboard unfolds one row and all rows, and folds them again.
 async function unfolds(window) {
-  const page = await window.go("kollmorgen-akd/profile-objects.html");
+  const page = await window.go("kollmorgen/akd/no-revision/profile-objects.html");
   const shown = () => page.locator(".items .more:visible").count();
   const all = await page.locator(".items .more").count();
   assert.equal(await shown(), 0);
@@ -57,12 +57,12 @@ async function unfolds(window) {
     await page.keyboard.press("Space");
     assert.equal(await shown(), count);
   }
-  await window.go("kollmorgen-akd/profile-objects.html#0x6041");
+  await window.go("kollmorgen/akd/no-revision/profile-objects.html#0x6041");
   assert.ok(await page.locator("[id='0x6041'] .more").isVisible(), "the row of the address is unfolded");
 }
 
 async function skips(window) {
-  const page = await window.go("kollmorgen-akd/profile-objects.html");
+  const page = await window.go("kollmorgen/akd/no-revision/profile-objects.html");
   await page.keyboard.press("Tab");
   await page.keyboard.press("Enter");
   await page.keyboard.press("Tab");
@@ -71,7 +71,7 @@ async function skips(window) {
 
 // Checks that arrow keys scroll content that is wider than a phone.
 async function scrolls(window) {
-  const page = await window.go("eco/states-and-procedures.html");
+  const page = await window.go("vendor-0x0000078f/eco/no-revision/states-and-procedures.html");
   const box = page.locator(".wide[tabindex='0']").first();
   await box.focus();
   await page.keyboard.press("ArrowRight");

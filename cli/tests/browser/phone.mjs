@@ -7,7 +7,7 @@ await withBrowser(async (browser) => {
   for (const width of [390, 320]) {
     const window = await Window.open(browser, site, { viewport: { width, height: 700 }, isMobile: true, hasTouch: true });
     let boxes = 0;
-    for (const place of sampled(pagesOf(site), 8)) {
+    for (const place of sampled(pagesOf(site), 3)) {
       const page = await window.go(place);
       // The browser lays out content only when it becomes visible.
       const seen = await page.evaluate(() => {

@@ -6,7 +6,7 @@ const [site] = process.argv.slice(2);
 await withBrowser(async (browser) => {
   for (const colorScheme of ["light", "dark"]) {
     const window = await Window.open(browser, site, { colorScheme, viewport: { width: 718, height: 1000 } });
-    const page = await window.go("aec-vector-step/profile-objects.html");
+    const page = await window.go("aec-s-r-l/vector-step/no-revision/profile-objects.html");
     await page.locator("#theme").click();
     await page.emulateMedia({ media: "print" });
     const seen = await page.evaluate(() => {

@@ -5,14 +5,14 @@ import { Window, withBrowser } from "./browser.mjs";
 
 const PICTURES = [
   ["devices", "index.html"],
-  ["overview", "eco/index.html"],
-  ["bits", "aec-vector-step/profile-objects.html#0x6041"],
-  ["registers", "eco/parameters.html"],
-  ["process-data", "eco/process-data.html"],
-  ["machines", "aec-vector-step/states-and-procedures.html"],
-  ["messages", "hsd-sm137-sm140/messages.html#CmdTraj"],
-  ["codes", "hsd-sm137-sm140/codes.html"],
-  ["search", "eco/index.html", "speed"],
+  ["overview", "vendor-0x0000078f/eco/no-revision/index.html"],
+  ["bits", "aec-s-r-l/vector-step/no-revision/profile-objects.html#0x6041"],
+  ["registers", "vendor-0x0000078f/eco/no-revision/parameters.html"],
+  ["process-data", "vendor-0x0000078f/eco/no-revision/process-data.html"],
+  ["machines", "aec-s-r-l/vector-step/no-revision/states-and-procedures.html"],
+  ["messages", "hsd-s-p-a/hsd-motor/no-revision/messages.html#CmdTraj"],
+  ["codes", "hsd-s-p-a/hsd-motor/no-revision/codes.html"],
+  ["search", "vendor-0x0000078f/eco/no-revision/index.html", "speed"],
 ];
 
 const [site, folder] = process.argv.slice(2);

@@ -4,29 +4,29 @@ import { Window, withBrowser } from "./browser.mjs";
 
 // Test cases: the page, the typed text, the expected first result, and the page that Enter opens.
 const FOUND = [
-  ["aec-vector-step/index.html", "0x6040", /^0x6040 Controlword/, "aec-vector-step/profile-objects.html#0x6040"],
-  ["aec-vector-step/index.html", "6040", /^0x6040 Controlword/, "aec-vector-step/profile-objects.html#0x6040"],
-  ["aec-vector-step/index.html", "24640", /^0x6040 Controlword/, "aec-vector-step/profile-objects.html#0x6040"],
-  ["aec-vector-step/index.html", "0x1403:01", /^0x1403:01 /, "aec-vector-step/communication-objects.html#0x1403:01"],
-  ["aec-vector-step/index.html", "rposact", /^0x2000:01 Rposact/, "aec-vector-step/position-registers.html#Rposact"],
-  ["aec-vector-step/codes.html", "impulsi giro encoder 1", /^0x4729:01 Renc1pulse Impulsi giro/, "aec-vector-step/encoder-1.html#Renc1pulse"],
-  ["hsd-sm137-sm140/index.html", "0x0105", /^parameter 0x0105 KP_VEL/, "hsd-sm137-sm140/parameters.html#KP_VEL"],
-  ["hsd-sm137-sm140/index.html", "261", /^parameter 0x0105 KP_VEL/, "hsd-sm137-sm140/parameters.html#KP_VEL"],
-  ["hsd-sm137-sm140/parameters.html", "velocita e della coppia", /^message Poll theoretical position Richiesta/, "hsd-sm137-sm140/messages.html#Poll_theoretical_position"],
-  ["hsd-sm137-sm140/index.html", "low_level maximum current V", /^low_level 0x0005 KIQDLIMAX V · HSD Motor$/, "hsd-sm137-sm140/low-level-parameters.html#KIQDLIMAX"],
-  ["hsd-sm137-sm140/index.html", "overheated", /^0x0001 overheated code · ALOVERHEATED/, "hsd-sm137-sm140/codes.html#alarm-0x0001"],
+  ["aec-s-r-l/vector-step/no-revision/index.html", "0x6040", /^0x6040 Controlword/, "aec-s-r-l/vector-step/no-revision/profile-objects.html#0x6040"],
+  ["aec-s-r-l/vector-step/no-revision/index.html", "6040", /^0x6040 Controlword/, "aec-s-r-l/vector-step/no-revision/profile-objects.html#0x6040"],
+  ["aec-s-r-l/vector-step/no-revision/index.html", "24640", /^0x6040 Controlword/, "aec-s-r-l/vector-step/no-revision/profile-objects.html#0x6040"],
+  ["aec-s-r-l/vector-step/no-revision/index.html", "0x1403:01", /^0x1403:01 /, "aec-s-r-l/vector-step/no-revision/communication-objects.html#0x1403:01"],
+  ["aec-s-r-l/vector-step/no-revision/index.html", "rposact", /^0x2000:01 Rposact/, "aec-s-r-l/vector-step/no-revision/position-registers.html#Rposact"],
+  ["aec-s-r-l/vector-step/no-revision/codes.html", "impulsi giro encoder 1", /^0x4729:01 Renc1pulse Impulsi giro/, "aec-s-r-l/vector-step/no-revision/encoder-1.html#Renc1pulse"],
+  ["hsd-s-p-a/hsd-motor/no-revision/index.html", "0x0105", /^parameter 0x0105 KP_VEL/, "hsd-s-p-a/hsd-motor/no-revision/parameters.html#KP_VEL"],
+  ["hsd-s-p-a/hsd-motor/no-revision/index.html", "261", /^parameter 0x0105 KP_VEL/, "hsd-s-p-a/hsd-motor/no-revision/parameters.html#KP_VEL"],
+  ["hsd-s-p-a/hsd-motor/no-revision/parameters.html", "velocita e della coppia", /^message Poll theoretical position Richiesta/, "hsd-s-p-a/hsd-motor/no-revision/messages.html#Poll_theoretical_position"],
+  ["hsd-s-p-a/hsd-motor/no-revision/index.html", "low_level maximum current V", /^low_level 0x0005 KIQDLIMAX V · HSD Motor$/, "hsd-s-p-a/hsd-motor/no-revision/low-level-parameters.html#KIQDLIMAX"],
+  ["hsd-s-p-a/hsd-motor/no-revision/index.html", "overheated", /^0x0001 overheated code · ALOVERHEATED/, "hsd-s-p-a/hsd-motor/no-revision/codes.html#alarm-0x0001"],
   // The next texts are codes as printed in the manual or in one of its cells, and register numbers that the manual prints next to an index.
-  ["kollmorgen-akd/index.html", "F125", /^F125 synchronization lost/, "kollmorgen-akd/codes.html#faults-F125"],
-  ["eco/index.html", "0x8700 synchronization", /^34 synchronization timed out/, "eco/codes.html#ethercat_alarms-34"],
-  ["aec-vector-step/index.html", "register 63", /^register 63–64 Rvel/, "aec-vector-step/motion-parameters.html#Rvel"],
-  ["eco/index.html", "32848", /^register R80 \(wire 0x8050\) mechatronic_80/, "eco/registers.html#mechatronic_80"],
-  ["eco/index.html", "0x8050", /^register R80 \(wire 0x8050\) mechatronic_80/, "eco/registers.html#mechatronic_80"],
-  ["kollmorgen-akd/index.html", "valore di comando di velocità", /^0x60FF Velocity command value/, "kollmorgen-akd/profile-objects.html#0x60FF"],
+  ["kollmorgen/akd/no-revision/index.html", "F125", /^F125 synchronization lost/, "kollmorgen/akd/no-revision/codes.html#faults-F125"],
+  ["vendor-0x0000078f/eco/no-revision/index.html", "0x8700 synchronization", /^34 synchronization timed out/, "vendor-0x0000078f/eco/no-revision/codes.html#ethercat_alarms-34"],
+  ["aec-s-r-l/vector-step/no-revision/index.html", "register 63", /^register 63–64 Rvel/, "aec-s-r-l/vector-step/no-revision/motion-parameters.html#Rvel"],
+  ["vendor-0x0000078f/eco/no-revision/index.html", "32848", /^register R80 \(wire 0x8050\) mechatronic_80/, "vendor-0x0000078f/eco/no-revision/registers.html#mechatronic_80"],
+  ["vendor-0x0000078f/eco/no-revision/index.html", "0x8050", /^register R80 \(wire 0x8050\) mechatronic_80/, "vendor-0x0000078f/eco/no-revision/registers.html#mechatronic_80"],
+  ["kollmorgen/akd/no-revision/index.html", "valore di comando di velocità", /^0x60FF Velocity command value/, "kollmorgen/akd/no-revision/profile-objects.html#0x60FF"],
   // The code 0x8642 is within a range of codes.
-  ["eco/index.html", "0x8642", /^0x8000 to 0x8FFF monitoring/, "eco/codes.html#emergency-0x8000_to_0x8FFF"],
+  ["vendor-0x0000078f/eco/no-revision/index.html", "0x8642", /^0x8000 to 0x8FFF monitoring/, "vendor-0x0000078f/eco/no-revision/codes.html#emergency-0x8000_to_0x8FFF"],
   // The first page searches all devices. One of the words is the name of the device.
-  ["index.html", "akd 60ff", /^0x60FF Velocity command value .*AKD$/, "kollmorgen-akd/profile-objects.html#0x60FF"],
-  ["index.html", "KP_VEL", /^parameter 0x0105 KP_VEL .*HSD Motor$/, "hsd-sm137-sm140/parameters.html#KP_VEL"],
+  ["index.html", "akd 60ff", /^0x60FF Velocity command value .*AKD$/, "kollmorgen/akd/no-revision/profile-objects.html#0x60FF"],
+  ["index.html", "KP_VEL", /^parameter 0x0105 KP_VEL .*HSD Motor$/, "hsd-s-p-a/hsd-motor/no-revision/parameters.html#KP_VEL"],
 ];
 
 const [site] = process.argv.slice(2);
@@ -65,7 +65,7 @@ async function landed(window, what) {
 
 // Checks that a unit finds the registers with that unit, independent of their names.
 async function units(window) {
-  await window.go("eco/index.html");
+  await window.go("vendor-0x0000078f/eco/no-revision/index.html");
   const found = await window.search("rpm");
   const counted = found.filter((entry) => entry.endsWith(" rpm · Eco"));
   assert.ok(counted.length >= 8 && counted.some((entry) => entry.startsWith("0x606C:00 velocity_actual_value")), found.join("\n"));
@@ -73,7 +73,7 @@ async function units(window) {
 
 // Checks that arrow keys select a result, that the selection is announced, and that Escape or leaving the field closes the list.
 async function arrows(window) {
-  const page = await window.go("eco/index.html");
+  const page = await window.go("vendor-0x0000078f/eco/no-revision/index.html");
   const found = await window.search("homing");
   assert.ok(found.length > 3);
   const chosen = () => page.evaluate(() => [
@@ -97,7 +97,7 @@ async function arrows(window) {
 }
 
 async function nothing(window) {
-  const page = await window.go("eco/index.html");
+  const page = await window.go("vendor-0x0000078f/eco/no-revision/index.html");
   assert.deepEqual(await window.search("no such thing"), []);
   assert.equal(await page.getByRole("status").innerText(), "Nothing found.");
   assert.ok(await page.locator("#found").isHidden());

@@ -5,7 +5,7 @@ import { Window, withBrowser } from "./browser.mjs";
 const [site] = process.argv.slice(2);
 await withBrowser(async (browser) => {
   const window = await Window.open(browser, site);
-  const page = await window.go("eco/registers.html");
+  const page = await window.go("vendor-0x0000078f/eco/no-revision/registers.html");
   const failed = await page.evaluate(() => {
     const failed = [], check = (holds, ...what) => { if (!holds) failed.push(what.map(String).join(" ")); };
     const random = (bits) => BigInt.asUintN(bits, crypto.getRandomValues(new BigUint64Array(1))[0]);

@@ -52,15 +52,9 @@ struct Part<'g> {
     groups: Vec<(u32, &'g Group)>,
 }
 
-/// Returns the pages for these groups. The file names of the pages begin with `prefix`.
-pub(super) fn areas(
-    groups: &[Group],
-    types: &[TypeDef],
-    known: Known<'_>,
-    files: &mut Names,
-    prefix: &str,
-) -> Vec<Area> {
-    parts(groups).iter().flat_map(|part| pages(part, types, known, files, prefix)).collect()
+/// Returns the pages for these groups.
+pub(super) fn areas(groups: &[Group], types: &[TypeDef], known: Known<'_>, files: &mut Names) -> Vec<Area> {
+    parts(groups).iter().flat_map(|part| pages(part, types, known, files)).collect()
 }
 
 /// Returns the parts of a device: one for each chapter and process image, and one for each range of objects (CiA 301
@@ -98,7 +92,7 @@ fn range_of(index: u16) -> &'static str {
     }
 }
 
-fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names, prefix: &str) -> Vec<Area> {
+fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names) -> Vec<Area> {
     let mut names = Names::default();
     let mut sections: Vec<Section> = Vec::new();
     let mut areas: Vec<Vec<Section>> = Vec::new();
@@ -135,7 +129,7 @@ fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names
             about.and_then(|group| PLAIN.manual_entry(known.manual, "", group.documentation.as_deref(), &group.names)),
         );
         Area {
-            file: files.file(&format!("{prefix}{}", part.title)),
+            file: files.file(&part.title),
             title,
             facts,
             doubts: about.map(|group| entry::doubts(&group.doubts, known.manual)).unwrap_or_default(),

@@ -1,8 +1,10 @@
-//! Writes the pages of a catalog to a folder.
+//! Writes the pages of a catalog. Each device has a folder. The pages that several devices share are in a folder of the
+//! description.
 
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
+use super::addresses::Addresses;
 use super::anchor::Names;
 use super::area::{self, Area};
 use super::assumptions::{AmbiguitySources, Ranked};
@@ -14,11 +16,11 @@ use super::links::Links;
 use super::machines;
 use super::modules::{self, ModuleModel};
 use super::overview::{self, Contents, Overview};
-use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST};
+use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST, ROOT};
 use super::process::{self, About, ProcessPart};
 use super::protocol::{self, Protocol};
 use super::references::{self, Targets};
-use super::revisions;
+use super::revisions::{Changes, Previous};
 use super::search::{Entry, Index};
 use super::Page;
 use lexibus_codegen::backend::rust;
@@ -26,20 +28,35 @@ use lexibus_codegen::facts::referrers::Referrers;
 use lexibus_codegen::facts::{self, pdo, words};
 use lexibus_codegen::ir::{Catalog, Device, Documentation, Group, Manual, Texts};
 
-/// The writer of the folder that contains the pages of a catalog.
-pub(super) struct Folder {
+/// The writer of a catalog's pages.
+pub(super) struct Folder<'a> {
     pub format: &'static dyn Pages,
+    addresses: &'a Addresses,
+    /// Name of the description.
+    name: String,
+    /// Folder of the pages that the devices share, relative to the site's folder. A description of one device has only the folder
+    /// of this device.
+    pub home: String,
+    /// Folder of the pages that are being written, and their names.
+    open: String,
     files: Names,
+    /// Pages with paths relative to the site's folder.
     pub pages: Vec<Page>,
     pub index: Index,
     pub listed: ListedCatalog,
     diagnostics: ShownDiagnostics,
-    /// File name and title of the list of devices, if there are several.
-    list: Option<(String, String)>,
-    /// Links to pages that all devices share.
-    shared: Rc<Links>,
     /// Links to the pages of the device that was written last.
     last: Rc<Links>,
+    /// Pages with the changes since a revision that another description contains.
+    pub changes: Vec<Changes>,
+}
+
+/// Links that all pages of a folder have.
+struct Common {
+    /// Relative path and title of the list of devices, if there are several.
+    list: Option<(String, String)>,
+    /// Links to the pages that the devices share.
+    shared: Rc<Links>,
 }
 
 /// The contents of a device's pages, and the file names of these pages.
@@ -95,65 +112,101 @@ impl Parts {
     }
 }
 
-impl Folder {
-    pub fn new(format: &'static dyn Pages, diagnostics: ShownDiagnostics) -> Self {
-        let mut files = Names::default();
-        files.file(FIRST);
+impl<'a> Folder<'a> {
+    pub fn new(
+        format: &'static dyn Pages,
+        addresses: &'a Addresses,
+        name: &str,
+        diagnostics: ShownDiagnostics,
+    ) -> Self {
         Folder {
             format,
-            files,
+            addresses,
+            name: name.to_owned(),
+            home: String::new(),
+            open: String::new(),
+            files: Names::default(),
             pages: Vec::new(),
             index: Index::default(),
-            listed: ListedCatalog::default(),
+            listed: ListedCatalog { title: name.to_owned(), ..ListedCatalog::default() },
             diagnostics,
-            list: None,
-            shared: Rc::default(),
             last: Rc::default(),
+            changes: Vec::new(),
         }
     }
 
-    /// Writes all pages of the catalog. `title` is the title of the catalog.
-    pub fn catalog(&mut self, title: &str, catalog: &Catalog) {
-        let is_alone = catalog.devices.len() == 1;
-        self.list = (!is_alone).then(|| (format!("{FIRST}{}", self.format.ending()), title.to_owned()));
+    /// Begins the pages of a folder.
+    fn open(&mut self, folder: String) {
+        self.open = folder;
+        self.files = Names::default();
+        self.files.file(FIRST);
+    }
+
+    /// Writes all pages of the catalog.
+    pub fn catalog(&mut self, catalog: &Catalog) {
+        let only = match catalog.devices.as_slice() {
+            [device] => Some(device),
+            _ => None,
+        };
+        self.home = match only {
+            Some(device) => self.addresses.device(device, &(self.name.clone(), 0)),
+            None => self.addresses.shared(&self.name),
+        };
+        self.open(self.home.clone());
         // The device pages link to the shared pages, so the file names of the shared pages are determined first.
         let (modules, files) = self.modules(catalog);
         let diagnostics = (!self.diagnostics.list.is_empty()).then(|| self.file("Diagnostics"));
-        self.listed.shared.extend(files.iter().cloned());
-        self.listed.shared.extend(diagnostics.iter().map(|file| (file.clone(), "Diagnostics".to_owned())));
+        let first = format!("{FIRST}{}", self.format.ending());
+        let mut shared = files.clone();
+        shared.extend(diagnostics.iter().map(|file| (file.clone(), "Diagnostics".to_owned())));
         // The first module page links to all module pages.
-        self.shared = Rc::new(Links::new(self.listed.shared.clone(), files.len().min(1)..files.len()));
-        let spoken = languages_of_modules(catalog);
-        let previous = revisions::previous(catalog);
-        for (at, device) in catalog.devices.iter().enumerate() {
-            self.device(device, previous.get(&at).copied(), catalog, &spoken);
+        let many = files.len().min(1)..files.len();
+        let list = only.is_none().then(|| (first.clone(), self.name.clone()));
+        let here = Common { list, shared: Rc::new(Links::new(shared, many)) };
+        let languages_of_modules = languages_of_modules(catalog);
+        if let Some(device) = only {
+            self.device((0, device), catalog, &languages_of_modules, &here);
+        } else {
+            let there = here.from(&format!("{ROOT}/{}/", self.home));
+            for (at, device) in catalog.devices.iter().enumerate() {
+                self.open(self.addresses.device(device, &(self.name.clone(), at)));
+                self.device((at, device), catalog, &languages_of_modules, &there);
+            }
+            self.open(self.home.clone());
         }
-        let title =
-            self.listed.devices.first().filter(|_| is_alone).map_or(title, |device| device.title.as_str()).to_owned();
-        let device_pages = if is_alone { self.last.clone() } else { Rc::default() };
-        let languages = languages(&catalog.devices, &spoken);
-        let list = self.list.clone();
-        let frame = Frameset { title, list, device_pages, shared: self.shared.clone(), languages };
+        self.listed.first = format!("{}/{first}", self.home);
+        self.listed.shared =
+            here.shared.all().map(|(file, title)| (format!("{}/{file}", self.home), title.clone())).collect();
+        let title = only.map_or_else(|| self.name.clone(), title);
+        let device_pages = if only.is_some() { self.last.clone() } else { Rc::default() };
+        let frame = self.frame(title, device_pages, &here, languages(&catalog.devices, &languages_of_modules));
         self.module_pages(&modules, &files, &frame);
         if let Some(file) = &diagnostics {
-            let text = self.format.page(&frame, file, Content::Diagnostics(&self.diagnostics.list));
-            self.pages.push(Page::new(file, text));
+            let list = std::mem::take(&mut self.diagnostics.list);
+            self.page(&frame, file, Content::Diagnostics(&list));
         }
-        if let Some((file, _)) = self.list.clone() {
-            let list = Content::List { devices: &self.listed.devices, root: "..", index: "" };
-            let text = self.format.page(&frame, &file, list);
-            self.pages.push(Page::new(&file, text));
+        if only.is_none() {
+            let devices = std::mem::take(&mut self.listed.devices);
+            self.page(&frame, &first, Content::List(&devices));
+            self.listed.devices = devices;
         }
+    }
+
+    /// Returns what the pages of a device or description have in common.
+    fn frame(&self, title: String, device_pages: Rc<Links>, common: &Common, languages: Vec<String>) -> Frameset {
+        let (list, shared) = (common.list.clone(), common.shared.clone());
+        Frameset { title, list, device_pages, shared, languages, root: ROOT, index: format!("{}/", self.home) }
     }
 
     /// Adds a page to the index, with an entry for the page itself.
     fn index_page(&mut self, file: &str, kind: &'static str, title: &str, words: &str) {
-        self.index.page(file, kind);
+        self.index.page(&format!("{}/{file}", self.open), kind);
         self.index.entry(&Entry { words, ..index_entry("", "", title) });
     }
 
     fn page(&mut self, frame: &Frameset, file: &str, content: Content<'_>) {
-        self.pages.push(Page::new(file, self.format.page(frame, file, content)));
+        let text = self.format.page(frame, file, content);
+        self.pages.push(Page { path: format!("{}/{file}", self.open), text });
     }
 
     /// Returns an unused file name for `title`.
@@ -161,38 +214,49 @@ impl Folder {
         self.files.file(title) + self.format.ending()
     }
 
-    /// Writes the pages of a device. `previous` is its previous revision.
-    fn device(&mut self, device: &Device, previous: Option<&Device>, catalog: &Catalog, spoken: &BTreeSet<&str>) {
-        let is_alone = catalog.devices.len() == 1;
+    /// Writes the pages of a device at this position in its catalog.
+    fn device(
+        &mut self,
+        (at, device): (usize, &Device),
+        catalog: &Catalog,
+        languages_of_modules: &BTreeSet<&str>,
+        common: &Common,
+    ) {
         let title = title(device);
-        let name = if is_alone { FIRST.to_owned() } else { self.files.file(&title) };
-        let first = name.clone() + self.format.ending();
-        let prefix = if is_alone { String::new() } else { format!("{name}-") };
+        let first = format!("{FIRST}{}", self.format.ending());
         let manual = words::manual(device);
         let overview = overview::overview(device, catalog.files.first(), &manual);
-        let (parts, mut pages) = self.parts(device, overview, &manual, &prefix);
+        let (parts, mut pages) = self.parts(device, overview, &manual);
         let ranked = parts.assumptions(&first);
-        let assumptions = (!ranked.is_empty()).then(|| self.file(&format!("{prefix}Assumptions")));
+        let assumptions = (!ranked.is_empty()).then(|| self.file("Assumptions"));
         pages.extend(assumptions.clone().map(|file| (file, "Assumptions".to_owned())));
-        let revision = previous.map(|previous| revisions::revision(catalog, previous, device));
-        let changes = revision.as_ref().map(|revision| (self.file(&format!("{prefix}Changes")), revision.title()));
+        let previous = Previous::of(self.addresses, device);
+        let changes = previous.as_ref().map(|previous| (self.file("Changes"), previous.title()));
         pages.extend(changes.clone());
         let mut links = vec![(first.clone(), "Overview".to_owned())];
         links.extend(pages.iter().cloned());
         self.last = Rc::new(Links::new(links, 1..1 + parts.areas.len()));
-        let languages = languages(std::slice::from_ref(device), spoken);
-        let (device_pages, shared) = (self.last.clone(), self.shared.clone());
-        let frame = Frameset { title: title.clone(), list: self.list.clone(), device_pages, shared, languages };
+        let languages = languages(std::slice::from_ref(device), languages_of_modules);
+        let frame = Rc::new(self.frame(title.clone(), self.last.clone(), common, languages));
         if let Some(file) = &assumptions {
             self.page(&frame, file, Content::Assumptions(&ranked));
         }
-        if let (Some((file, _)), Some(revision)) = (&changes, &revision) {
-            self.page(&frame, file, Content::Changes(revision));
+        if let (Some((file, _)), Some(previous)) = (&changes, previous) {
+            let key = (self.name.clone(), at);
+            self.changes.push(Changes {
+                previous,
+                key,
+                frame: frame.clone(),
+                folder: self.open.clone(),
+                file: file.clone(),
+            });
         }
         self.page(&frame, &first, Content::Overview(&parts.overview, &contents(device, &parts)));
-        let listed = Listed::new(device, title, first, pages);
+        let path = |file: &str| format!("{}/{file}", self.open);
+        let pages = pages.into_iter().map(|(file, title)| (path(&file), title)).collect();
+        let listed = Listed::new(catalog, device, &self.name, title, path(&first), pages);
         self.index.device(&listed.title, &listed.words());
-        self.index_page(&listed.path, "device", &listed.title, &listed.words());
+        self.index_page(&first, "device", &listed.title, &listed.words());
         for area in &parts.areas {
             self.page(&frame, &area.file, Content::Area(area));
             self.index_page(&area.file, "", &area.title, "");
@@ -207,13 +271,7 @@ impl Folder {
     }
 
     /// Collects the parts of a device and determines their pages.
-    fn parts(
-        &mut self,
-        device: &Device,
-        overview: Overview,
-        manual: &Manual,
-        prefix: &str,
-    ) -> (Parts, Vec<(String, String)>) {
+    fn parts(&mut self, device: &Device, overview: Overview, manual: &Manual) -> (Parts, Vec<(String, String)>) {
         let usage = rust::usage(device);
         let known = Known {
             manual,
@@ -222,13 +280,13 @@ impl Folder {
             calls: &usage.calls,
             diagnostics: &self.diagnostics,
         };
-        let mut areas = area::areas(&device.groups, &device.types, known, &mut self.files, prefix);
+        let mut areas = area::areas(&device.groups, &device.types, known, &mut self.files);
         for area in &mut areas {
             area.file += self.format.ending();
         }
         let mut pages: Vec<_> = areas.iter().map(|area| (area.file.clone(), area.title.clone())).collect();
         let mut further = |has: bool, title: &str| {
-            let file = has.then(|| self.file(&format!("{prefix}{title}")));
+            let file = has.then(|| self.file(title));
             pages.extend(file.clone().map(|file| (file, title.to_owned())));
             file
         };
@@ -329,6 +387,14 @@ impl Folder {
                 }
             }
         }
+    }
+}
+
+impl Common {
+    /// Returns these links for pages from which `path` leads to the linked pages.
+    fn from(&self, path: &str) -> Self {
+        let moved = |(file, title): &(String, String)| (format!("{path}{file}"), title.clone());
+        Common { list: self.list.as_ref().map(moved), shared: Rc::new(self.shared.moved(moved)) }
     }
 }
 

@@ -55,9 +55,27 @@ templates! {
     ModulesPage = "modules.html" { modules: &'p [ModuleModel], grids: &'p Grids }
     AssumptionsPage = "assumptions.html" { ranked: &'p [Ranked<'p>] }
     DiagnosticsPage = "diagnostics.html" { diagnostics: &'p [ShownDiagnostic] }
-    ChangesPage = "changes.html" { revision: &'p Revision }
-    ListPage = "list.html" { devices: &'p [Listed], root: &'p str, index: &'p str }
+    ChangesPage = "changes.html" { revision: &'p Revision<'p> }
+    ListPage = "list.html" { devices: &'p [Listed] }
 }
+
+impl ListPage<'_> {
+    /// Returns whether the device at a position is the first of its vendor and family.
+    fn begins_group(&self, at: &usize) -> bool {
+        let group = |at: usize| self.devices.get(at).map(Listed::group);
+        at.checked_sub(1).is_none_or(|before| group(before) != group(*at))
+    }
+}
+
+#[derive(Template)]
+#[template(path = "latest.html")]
+struct LatestPage<'p> {
+    title: &'p str,
+    target: &'p str,
+}
+
+/// The script of [`LatestPage`].
+const LATEST: &str = include_str!("../templates/script/latest.js");
 
 /// Renders a template. Rendering cannot fail because the templates contain no fallible expressions.
 fn written(template: &impl Template) -> String {
@@ -100,8 +118,12 @@ impl Pages for Html {
             Content::Assumptions(ranked) => written(&AssumptionsPage { frame, file, ranked }),
             Content::Diagnostics(diagnostics) => written(&DiagnosticsPage { frame, file, diagnostics }),
             Content::Changes(revision) => written(&ChangesPage { frame, file, revision }),
-            Content::List { devices, root, index } => written(&ListPage { frame, file, devices, root, index }),
+            Content::List(devices) => written(&ListPage { frame, file, devices }),
         }
+    }
+
+    fn redirection(&self, title: &str, target: &str) -> Option<String> {
+        Some(written(&LatestPage { title, target }))
     }
 
     fn of_catalog(&self, search: &dyn Fn() -> String) -> Vec<Page> {
@@ -109,7 +131,8 @@ impl Pages for Html {
     }
 
     fn of_site(&self, _: &[ListedCatalog], search: Option<&dyn Fn() -> String>) -> Vec<Page> {
-        let mut pages = vec![Page::new("site.css", STYLE.to_owned()), Page::new("site.js", SCRIPT.to_owned())];
+        let files = [("site.css", STYLE), ("site.js", SCRIPT), ("latest.js", LATEST)];
+        let mut pages: Vec<Page> = files.iter().map(|(path, text)| Page::new(path, (*text).to_owned())).collect();
         pages.extend(search.map(|search| Page::new("search.js", search())));
         pages
     }

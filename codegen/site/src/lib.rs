@@ -21,6 +21,7 @@
 
 #![forbid(unsafe_code)]
 
+mod addresses;
 mod anchor;
 mod area;
 mod assumptions;
@@ -35,6 +36,7 @@ mod entry;
 mod folder;
 mod format;
 mod html;
+mod latest;
 mod link;
 mod links;
 mod machines;
@@ -50,13 +52,14 @@ mod search;
 mod tools;
 mod words;
 
-use anchor::Names;
+use addresses::Addresses;
 use diagnostics::ShownDiagnostics;
 use folder::Folder;
 pub use format::Format;
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::ir::Catalog;
 use pages::{Content, Frameset, Listed, ListedCatalog};
+use revisions::Revisions;
 use search::Index;
 
 /// A file of the documentation.
@@ -94,7 +97,8 @@ impl Page {
 #[derive(Debug, Default)]
 pub struct Site {
     format: Format,
-    folders: Names,
+    addresses: Addresses,
+    revisions: Revisions,
     index: Index,
     catalogs: Vec<ListedCatalog>,
 }
@@ -105,7 +109,18 @@ impl Site {
         Site { format, ..Site::default() }
     }
 
-    /// Returns the pages of a catalog. The pages are in a folder whose name is created from `name`.
+    /// Announces a catalog that will be added. The site then knows all revisions of a product and all descriptions of a
+    /// revision before it writes the first page, so that neither links nor folders depend on the order of the catalogs.
+    ///
+    /// Each catalog has its own name. Add every catalog that is announced.
+    pub fn announce(&mut self, name: &str, catalog: &Catalog) {
+        if !self.addresses.has(name) {
+            self.addresses.add(name, catalog);
+        }
+    }
+
+    /// Returns the pages of a catalog with this name, such as the name of its file. Each device has a folder for its vendor, its
+    /// product and its revision.
     pub fn add(&mut self, name: &str, catalog: &Catalog) -> Vec<Page> {
         self.folder(name, catalog, ShownDiagnostics::default())
     }
@@ -117,36 +132,38 @@ impl Site {
     }
 
     fn folder(&mut self, name: &str, catalog: &Catalog, diagnostics: ShownDiagnostics) -> Vec<Page> {
-        let folder = self.folders.file(name);
-        let mut catalog_folder = Folder::new(self.format.pages(), diagnostics);
-        catalog_folder.catalog(name, catalog);
-        self.index.add(&catalog_folder.index, &folder);
-        catalog_folder.pages.extend(catalog_folder.format.of_catalog(&|| catalog_folder.index.script()));
-        self.catalogs.push(ListedCatalog {
-            title: name.to_owned(),
-            folder: format!("{folder}/"),
-            ..catalog_folder.listed
-        });
-        catalog_folder.pages.into_iter().map(|page| Page { path: format!("{folder}/{}", page.path), ..page }).collect()
+        self.announce(name, catalog);
+        let format = self.format.pages();
+        let mut folder = Folder::new(format, &self.addresses, name, diagnostics);
+        folder.catalog(catalog);
+        let Folder { home, mut pages, index, listed, changes, .. } = folder;
+        let shared = format.of_catalog(&|| index.script()).into_iter();
+        pages.extend(shared.map(|page| Page { path: format!("{home}/{}", page.path), ..page }));
+        pages.extend(self.revisions.add(name, catalog, changes, &self.addresses, format));
+        self.index.add(&index);
+        self.catalogs.push(listed);
+        pages
     }
 
     /// Returns the pages that all catalogs share: the list of devices and the support files of the format.
     pub fn finish(self) -> Vec<Page> {
         let format = self.format.pages();
-        let frame = Frameset { title: "Devices".to_owned(), ..Frameset::default() };
         let file = self.format.first_page();
-        let mut devices: Vec<Listed> = self.catalogs.iter().flat_map(ListedCatalog::in_site).collect();
+        let mut devices: Vec<Listed> =
+            self.catalogs.iter().flat_map(|catalog| catalog.devices.iter().cloned()).collect();
         pages::sort(&mut devices);
         // If there is only one catalog, its index already contains all entries.
         let index = match self.catalogs.as_slice() {
-            [only] => only.folder.as_str(),
-            _ => "",
+            [only] => only.first.rsplit_once('/').map(|(folder, _)| format!("{folder}/")).unwrap_or_default(),
+            _ => String::new(),
         };
-        let list = format.page(&frame, &file, Content::List { devices: &devices, root: ".", index });
+        let frame = Frameset { title: "Devices".to_owned(), root: ".", index, ..Frameset::default() };
+        let list = format.page(&frame, &file, Content::List(&devices));
         let script = || self.index.script();
-        let search: Option<&dyn Fn() -> String> = if index.is_empty() { Some(&script) } else { None };
+        let search: Option<&dyn Fn() -> String> = if frame.index.is_empty() { Some(&script) } else { None };
         let mut pages = vec![Page { path: file, text: list }];
         pages.extend(format.of_site(&self.catalogs, search));
+        pages.extend(latest::pages(&devices, format));
         pages
     }
 }

@@ -21,6 +21,11 @@ impl Links {
         Links { list, many, positions }
     }
 
+    /// Returns the same links with changed file names or titles.
+    pub fn moved(&self, change: impl Fn(&(String, String)) -> (String, String)) -> Links {
+        Links::new(self.list.iter().map(change).collect(), self.many.clone())
+    }
+
     /// Returns the file names and titles of all pages.
     pub fn all(&self) -> impl Iterator<Item = &(String, String)> {
         self.list.iter()

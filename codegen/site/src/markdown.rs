@@ -63,8 +63,8 @@ templates! {
     ModulesPage = "markdown/modules.md" { modules: &'p [ModuleModel] }
     AssumptionsPage = "markdown/assumptions.md" { ranked: &'p [Ranked<'p>] }
     DiagnosticsPage = "markdown/diagnostics.md" { diagnostics: &'p [ShownDiagnostic] }
-    ChangesPage = "markdown/changes.md" { revision: &'p Revision }
-    ListPage = "markdown/list.md" { title: &'p str, devices: &'p [Listed], links: PageLinks<'p> }
+    ChangesPage = "markdown/changes.md" { revision: &'p Revision<'p> }
+    ListPage = "markdown/list.md" { title: &'p str, root: &'p str, devices: &'p [Listed], links: PageLinks<'p> }
     SummaryPage = "markdown/summary.md" { catalogs: &'p [ListedCatalog] }
 }
 
@@ -118,8 +118,12 @@ impl Pages for Markdown {
             Content::Assumptions(ranked) => written(&AssumptionsPage { ranked }),
             Content::Diagnostics(diagnostics) => written(&DiagnosticsPage { diagnostics }),
             Content::Changes(revision) => written(&ChangesPage { revision }),
-            Content::List { devices, .. } => written(&ListPage { title, devices, links: &links }),
+            Content::List(devices) => written(&ListPage { title, root: frame.root, devices, links: &links }),
         }
+    }
+
+    fn redirection(&self, _: &str, _: &str) -> Option<String> {
+        None
     }
 
     fn of_catalog(&self, _: &dyn Fn() -> String) -> Vec<Page> {
@@ -188,15 +192,10 @@ mod tests {
         let pages = (0..1000).map(|at| (format!("modules-{at}.md"), format!("Modules {at}"))).collect();
         let frame = Frameset {
             title: "Coupler".to_owned(),
-            list: None,
-            device_pages: Rc::default(),
             shared: Rc::new(Links::new(pages, 0..1000)),
-            languages: Vec::new(),
+            ..Frameset::default()
         };
-        let linked = |file: &str| {
-            let list = Content::List { devices: &[], root: "", index: "" };
-            Markdown.page(&frame, file, list).matches("](modules-").count()
-        };
+        let linked = |file: &str| Markdown.page(&frame, file, Content::List(&[])).matches("](modules-").count();
         assert_eq!(linked("index.md"), 1000);
         assert_eq!(linked("drive.md"), 21);
     }

@@ -1,5 +1,6 @@
 //! The interface that each documentation format implements. A format writes the text of each kind of page.
 
+use std::cmp::Reverse;
 use std::rc::Rc;
 
 use super::area::Area;
@@ -16,7 +17,7 @@ use super::revisions::Revision;
 use super::Page;
 use lexibus_codegen::facts;
 use lexibus_codegen::facts::number::hex32;
-use lexibus_codegen::ir::Device;
+use lexibus_codegen::ir::{Catalog, Device};
 
 /// File name and title of a page.
 type PageLink = (String, String);
@@ -37,7 +38,14 @@ pub(super) struct Frameset {
     pub shared: Rc<Links>,
     /// Languages in which the pages show names.
     pub languages: Vec<String>,
+    /// Relative path from the page to the site's folder.
+    pub root: &'static str,
+    /// Folder of the search index relative to the site's folder, with a trailing `/`. It is empty for the index of the site.
+    pub index: String,
 }
+
+/// Relative path from the pages of a device or description to the site's folder.
+pub(super) const ROOT: &str = "../../..";
 
 impl Frameset {
     /// Returns the file names and titles of all pages.
@@ -78,10 +86,10 @@ impl Frameset {
 #[derive(Debug, Default)]
 pub(super) struct ListedCatalog {
     pub title: String,
-    /// Folder of the catalog, with a trailing `/`.
-    pub folder: String,
+    /// Path of the first page, relative to the site's folder.
+    pub first: String,
     pub devices: Vec<Listed>,
-    /// File names and titles of the pages that all devices share.
+    /// Paths and titles of the pages that all devices share.
     pub shared: Vec<(String, String)>,
 }
 
@@ -90,6 +98,7 @@ pub(super) struct ListedCatalog {
 pub(super) struct Listed {
     pub title: String,
     pub vendor: String,
+    pub family: String,
     pub order_code: String,
     /// Product code and revision number, as hexadecimal numbers.
     pub product_code: String,
@@ -100,56 +109,64 @@ pub(super) struct Listed {
     pub profiles: String,
     /// Name of the description file without extension.
     pub file: String,
-    /// Path of the device's first page.
+    /// Path of the device's first page, relative to the site's folder.
     pub path: String,
-    /// File names and titles of the device's other pages.
+    /// Paths and titles of the device's other pages.
     pub pages: Vec<PageLink>,
 }
 
 impl Listed {
-    pub fn new(device: &Device, title: String, path: String, pages: Vec<PageLink>) -> Self {
+    pub fn new(
+        catalog: &Catalog,
+        device: &Device,
+        file: &str,
+        title: String,
+        path: String,
+        pages: Vec<PageLink>,
+    ) -> Self {
         let identity = &device.identity;
         let hex = |number: Option<u32>| number.map(hex32).unwrap_or_default();
         let order_code = identity.order_code.as_str();
         Listed {
             vendor: identity.vendor_name.to_string(),
+            family: facts::device::family(catalog, device).to_owned(),
             order_code: if order_code == title { String::new() } else { order_code.to_owned() },
             product_code: hex(identity.product_code),
             revision: hex(identity.revision_number),
             revision_number: identity.revision_number.unwrap_or_default(),
             buses: facts::device::buses(device),
             profiles: device.profiles.iter().map(u32::to_string).collect::<Vec<_>>().join(", "),
-            file: String::new(),
+            file: file.to_owned(),
             title,
             path,
             pages,
         }
     }
 
+    /// Returns the vendor and the family.
+    pub fn group(&self) -> String {
+        let texts = [self.vendor.as_str(), self.family.as_str()];
+        texts.into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join(" – ")
+    }
+
+    /// Returns a key that sorts newer revisions first, and several descriptions of a revision by name.
+    pub fn age(&self) -> (Reverse<u32>, &str) {
+        (Reverse(self.revision_number), &self.file)
+    }
+
     /// Returns the words that the search finds the device by, apart from its title.
     pub fn words(&self) -> String {
-        let words = [&self.order_code, &self.vendor, &self.product_code, &self.revision, &self.buses];
+        let words = [&self.order_code, &self.vendor, &self.family, &self.product_code, &self.revision, &self.buses];
         words.map(String::as_str).join(" ")
     }
 }
 
-/// Sorts devices by vendor and title, newest revision first.
+/// Sorts devices by vendor, family and title, newest revision first.
 pub(super) fn sort(devices: &mut [Listed]) {
     devices.sort_by_cached_key(|device| {
-        let texts = [&device.vendor, &device.title, &device.order_code].map(|text| text.to_lowercase());
-        (texts, std::cmp::Reverse(device.revision_number), device.file.clone())
+        let texts = [&device.vendor, &device.family, &device.title, &device.order_code].map(|text| text.to_lowercase());
+        (texts, Reverse(device.revision_number), device.file.clone())
     });
-}
-
-impl ListedCatalog {
-    /// Returns the devices. The paths of their first pages are relative to the site.
-    pub fn in_site(&self) -> impl Iterator<Item = Listed> + '_ {
-        self.devices.iter().map(|device| Listed {
-            path: format!("{}{}", self.folder, device.path),
-            file: self.title.clone(),
-            ..device.clone()
-        })
-    }
 }
 
 /// The content of a page.
@@ -164,15 +181,9 @@ pub(super) enum Content<'p> {
     Modules(&'p [ModuleModel]),
     Assumptions(&'p [Ranked<'p>]),
     Diagnostics(&'p [ShownDiagnostic]),
-    Changes(&'p Revision),
+    Changes(&'p Revision<'p>),
     /// A list of devices, in a catalog or in the site.
-    List {
-        devices: &'p [Listed],
-        /// Relative path from the page to the site's folder.
-        root: &'p str,
-        /// Folder of the search index if it differs from the folder of the page.
-        index: &'p str,
-    },
+    List(&'p [Listed]),
 }
 
 /// An output format, which writes the text of each page.
@@ -183,6 +194,10 @@ pub(super) trait Pages {
     fn front(&self) -> &'static str;
     /// Returns the text of the page `file`. `frame` contains its title and links.
     fn page(&self, frame: &Frameset, file: &str, content: Content<'_>) -> String;
+
+    /// Returns the text of a page that leads to `target`, the newest revision of a product. Returns `None` if the format has no such
+    /// pages.
+    fn redirection(&self, title: &str, target: &str) -> Option<String>;
 
     /// Returns the files that the pages of one catalog share.
     fn of_catalog(&self, search: &dyn Fn() -> String) -> Vec<Page>;

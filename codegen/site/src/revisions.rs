@@ -1,51 +1,99 @@
-//! Changes between adjacent revisions of a device.
+//! Changes between adjacent revisions of a device. Both revisions can be in one description or in two.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
+use std::rc::Rc;
 
+use super::addresses::{Addresses, DeviceKey};
 use super::compare::{compare_devices, Change, Summary};
+use super::pages::{Content, Frameset, Pages};
+use super::Page;
 use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{Catalog, Device};
 
-/// The changes from one revision of a device to the next, as a page shows them.
+/// The previous revision of a device.
 #[derive(Debug)]
-pub(super) struct Revision {
+pub(super) struct Previous {
+    key: DeviceKey,
     /// Revision numbers, as hexadecimal numbers.
     pub old: String,
     pub new: String,
-    pub changes: Vec<Change>,
-    pub summary: Summary,
 }
 
-impl Revision {
+impl Previous {
+    pub fn of(addresses: &Addresses, device: &Device) -> Option<Self> {
+        let (old, key) = addresses.previous(device)?;
+        let new = device.identity.revision_number.map(hex32).unwrap_or_default();
+        Some(Previous { key: key.clone(), old: hex32(*old), new })
+    }
+
     pub fn title(&self) -> String {
         format!("Changes since revision {}", self.old)
     }
 }
 
-/// Vendor and product code of a device.
-type Product = (Option<u32>, u32);
-
-/// Returns the previous revision of each device, by position. Devices with the same vendor, product code and revision have none.
-pub(super) fn previous(catalog: &Catalog) -> HashMap<usize, &Device> {
-    let mut products: HashMap<Product, Vec<(u32, usize)>> = HashMap::new();
-    for (at, device) in catalog.devices.iter().enumerate() {
-        let identity = &device.identity;
-        if let (Some(product), Some(revision)) = (identity.product_code, identity.revision_number) {
-            products.entry((identity.vendor_id, product)).or_default().push((revision, at));
-        }
-    }
-    let mut previous = HashMap::new();
-    for revisions in products.values_mut() {
-        revisions.sort_unstable();
-        let pairs = revisions.windows(2).filter(|pair| pair[0].0 != pair[1].0);
-        previous.extend(pairs.filter_map(|pair| Some((pair[1].1, catalog.devices.get(pair[0].1)?))));
-    }
-    previous
+/// The changes from one revision of a device to the next, as a page shows them.
+#[derive(Debug)]
+pub(super) struct Revision<'p> {
+    pub of: &'p Previous,
+    pub changes: Vec<Change>,
+    pub summary: Summary,
 }
 
-/// Compares a device with its previous revision.
-pub(super) fn revision(catalog: &Catalog, old: &Device, new: &Device) -> Revision {
-    let number = |device: &Device| device.identity.revision_number.map(hex32).unwrap_or_default();
-    let changes = compare_devices(catalog, old, new);
-    Revision { old: number(old), new: number(new), summary: Summary::of(&changes), changes }
+/// A page of changes that is written when both descriptions are known.
+#[derive(Debug)]
+pub(super) struct Changes {
+    pub previous: Previous,
+    pub key: DeviceKey,
+    pub frame: Rc<Frameset>,
+    pub folder: String,
+    pub file: String,
+}
+
+/// Catalogs whose devices have revisions in descriptions that were not added yet, and the pages that wait for these descriptions.
+#[derive(Debug, Default)]
+pub(super) struct Revisions {
+    added: HashSet<String>,
+    kept: Vec<(String, Catalog)>,
+    waiting: Vec<Changes>,
+}
+
+impl Revisions {
+    /// Adds a catalog and its pages of changes. Returns the pages whose two descriptions are known now.
+    pub fn add(
+        &mut self,
+        name: &str,
+        catalog: &Catalog,
+        changes: Vec<Changes>,
+        addresses: &Addresses,
+        format: &dyn Pages,
+    ) -> Vec<Page> {
+        self.added.insert(name.to_owned());
+        let mut pages = Vec::new();
+        for changes in std::mem::take(&mut self.waiting).into_iter().chain(changes) {
+            let find = |key: &DeviceKey| {
+                let kept = self.kept.iter().find(|(kept, _)| *kept == key.0).map(|(_, catalog)| catalog);
+                let catalog = if key.0 == name { catalog } else { kept? };
+                Some((catalog, catalog.devices.get(key.1)?))
+            };
+            match find(&changes.previous.key).zip(find(&changes.key)) {
+                Some((old, new)) => pages.push(changes.page(format, old, new)),
+                None => self.waiting.push(changes),
+            }
+        }
+        let is_needed = |catalog: &Catalog| addresses.partners(catalog).any(|partner| !self.added.contains(partner));
+        self.kept.retain(|(_, catalog)| is_needed(catalog));
+        if is_needed(catalog) {
+            self.kept.push((name.to_owned(), catalog.clone()));
+        }
+        pages
+    }
+}
+
+impl Changes {
+    fn page(&self, format: &dyn Pages, old: (&Catalog, &Device), new: (&Catalog, &Device)) -> Page {
+        let changes = compare_devices(old, new);
+        let revision = Revision { of: &self.previous, summary: Summary::of(&changes), changes };
+        let text = format.page(&self.frame, &self.file, Content::Changes(&revision));
+        Page { path: format!("{}/{}", self.folder, self.file), text }
+    }
 }

@@ -78,7 +78,7 @@ impl Index {
         self.devices.push((line(title), line(words)));
     }
 
-    /// Adds a page of the last device. Entries that are added later belong to this page.
+    /// Adds a page of the last device. `path` is relative to the site's folder. Entries that are added later belong to this page.
     pub fn page(&mut self, path: &str, kind: &'static str) {
         let device = self.devices.len().saturating_sub(1);
         self.pages.push(Page { path: path.to_owned(), device, kind, entries: Vec::new() });
@@ -96,8 +96,8 @@ impl Index {
         }
     }
 
-    /// Adds the pages and entries of another index. `folder` is the folder of these pages.
-    pub fn add(&mut self, other: &Index, folder: &str) {
+    /// Adds the pages and entries of another index.
+    pub fn add(&mut self, other: &Index) {
         let numbers: Vec<usize> = other.numbers.all.iter().map(|number| self.numbers.position(number)).collect();
         let texts: Vec<usize> = other.texts.all.iter().map(|text| self.texts.position(text)).collect();
         let indexed = |entry: &IndexedEntry| IndexedEntry {
@@ -108,7 +108,7 @@ impl Index {
         let first = self.devices.len();
         self.devices.extend(other.devices.iter().cloned());
         self.pages.extend(other.pages.iter().map(|page| Page {
-            path: format!("{folder}/{}", page.path),
+            path: page.path.clone(),
             device: first + page.device,
             kind: page.kind,
             entries: page.entries.iter().map(indexed).collect(),
@@ -157,9 +157,9 @@ mod tests {
         all.device("X", "");
         all.page("x.html", "state");
         all.entry(&entry("0x6040", "first"));
-        all.add(&one, "folder");
+        all.add(&one);
         let expected = r#"lexibusIndex([["X",""],["A","Vendor"]],
-[["x.html",0,"state"],["folder/a.html",1,""]],
+[["x.html",0,"state"],["a.html",1,""]],
 "0x6040",
 "first\t\t\tTakes commands\nControl word\t\t\tTakes commands",
 "\n\nword",

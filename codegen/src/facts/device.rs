@@ -2,13 +2,26 @@
 
 use super::number::hex32;
 use super::words::bus_names;
-use crate::ir::{Bus, Device, Fit};
+use crate::ir::{Bus, Catalog, Device, Fit};
 
 /// Returns the title of a device: its name, product name, order code or identifier. The text is empty if the description contains
 /// none of these texts.
 pub fn title(device: &Device) -> &str {
     let names = [&device.name, &device.identity.product_name, &device.identity.order_code, &device.id];
     names.into_iter().find(|name| !name.trim().is_empty()).map_or("", |name| name.as_str())
+}
+
+/// Returns the name of the device's family. The text is empty if the description states none.
+pub fn family<'d>(catalog: &'d Catalog, device: &'d Device) -> &'d str {
+    let group = device.ethercat.as_ref().map(|settings| &settings.group).filter(|group| !group.is_empty());
+    if let Some(group) = group {
+        let named = catalog.families.iter().find(|family| family.id == *group && !family.name.is_empty());
+        return named.map_or(group, |family| &family.name);
+    }
+    device.profinet.as_ref().map_or("", |settings| match settings.family.1.as_str() {
+        "" => settings.family.0.as_str(),
+        product => product,
+    })
 }
 
 /// Returns the names of the buses of a device: `CANopen and Modbus`.

@@ -25,9 +25,12 @@ pub fn compare(old: &Catalog, new: &Catalog) -> Vec<Change> {
     changes
 }
 
-/// Compares two revisions of a device in one description. The changes have the same order as those of [`compare`].
-pub fn compare_devices(catalog: &Catalog, old: &Device, new: &Device) -> Vec<Change> {
-    let mut comparison = Comparison::new(catalog, catalog);
+/// Compares two revisions of a device, each with its catalog. The changes have the same order as those of [`compare`].
+pub fn compare_devices(
+    (old_catalog, old): (&Catalog, &Device),
+    (new_catalog, new): (&Catalog, &Device),
+) -> Vec<Change> {
+    let mut comparison = Comparison::new(old_catalog, new_catalog);
     comparison.in_types(&old.types, &new.types, |comparison| devices::compare(old, new, comparison));
     let mut changes = comparison.changes;
     changes.sort_by_key(|change| change.judgement.class());

@@ -39,8 +39,8 @@ function numberFrom(text) {
   return { text, plain: plain(text), ranges: [printed, range(/\(wire (0x[0-9a-f]+|[0-9]+)(?:–(0x[0-9a-f]+|[0-9]+))?\)/)] };
 }
 
-// The folder of the index if it differs from that of the page.
-const folder = root.dataset.index || "";
+// The folder of the site, and the folder of the index.
+const site = root.dataset.root + "/", folder = site + (root.dataset.index || "");
 const input = byId("search"), found = byId("found");
 
 function load() {
@@ -191,7 +191,7 @@ const anchorOf = (entry) => {
 };
 const linkOf = (entry) => {
   const anchor = anchorOf(entry);
-  return folder + pages[pageAt[entry]].path + (anchor && "#" + encodeURIComponent(anchor));
+  return site + pages[pageAt[entry]].path + (anchor && "#" + encodeURIComponent(anchor));
 };
 
 let selected = 0;

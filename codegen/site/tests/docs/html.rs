@@ -15,7 +15,8 @@ fn all_links_are_valid() {
 #[test]
 fn the_search_finds_the_entries_of_pages() {
     let pages = files(Format::Html, &["dictionaries/hsd-sm137-sm140.toml"]);
-    let index = &pages.iter().find(|page| page.path == "hsd-sm137-sm140/search.js").expect("an index").text;
+    let index =
+        &pages.iter().find(|page| page.path == "hsd-s-p-a/hsd-motor/no-revision/search.js").expect("an index").text;
     // Search for a parameter, the Italian name of a message, and a code.
     for text in ["KP_VEL\\t", "\\nCmdTraj\\tPosizionamento", "\\noverheated\\tALOVERHEATED\\t"] {
         assert!(index.contains(text), "{text}");
@@ -79,7 +80,7 @@ fn a_page_of_registers() {
                  control = { reg = 2, type = \"u8\", access = \"rw\", bits = { 0 = \"on\", \"3-2\" = { name = \"mode\", values = { 1 = \"slow\" } } }, \
                  doubt = { says = \"Two tables differ\", chose = \"the first\", why = \"it has more\" } }\n";
     let pages = site(Format::Html, vec![("pump".to_owned(), Source::new("pump.toml", table.into()))]);
-    let page = pages.iter().find(|page| page.path == "pump/control.html").expect("the chapter");
+    let page = pages.iter().find(|page| page.path.ends_with("/control.html")).expect("the chapter");
     let (_, content) = page.text.split_once("<main").expect("the content");
     insta::assert_snapshot!(content);
 }
@@ -90,21 +91,46 @@ fn repairs_stand_where_they_matter() {
                [2000]\nParameterName=Gain\nDataType=6\nAccessType=rw\nDefaultValue=012\n\
                [2001]\nParameterName=Level\nDataType=6\nAccessType=ro\n";
     for (format, page, all) in [
-        (Format::Html, "pump/manufacturer-objects.html", "pump/diagnostics.html"),
-        (Format::Markdown, "pump/manufacturer-objects.md", "pump/diagnostics.md"),
+        (Format::Html, "/manufacturer-objects.html", "/diagnostics.html"),
+        (Format::Markdown, "/manufacturer-objects.md", "/diagnostics.md"),
     ] {
         let pages = site(format, vec![("pump".to_owned(), Source::new("pump.eds", eds.into()))]);
-        let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
+        let text =
+            |end: &str| &pages.iter().find(|page| page.path.ends_with(end)).unwrap_or_else(|| panic!("{end}")).text;
         let (gain, level) = text(page).split_once("id=\"0x2001\"").expect("two objects");
         assert!(gain.contains("Repaired") && gain.contains("(pump.eds:11:14, EDS020)"), "{gain}");
         assert!(!level.contains("Repaired"), "{level}");
         assert!(text(all).contains("EDS020"), "{}", text(all));
-        let first = pages.iter().find(|page| page.path.starts_with("pump/index") || page.path == "pump/index.md");
-        assert!(first.expect("a page with the name of the first page").text.contains(all.trim_start_matches("pump/")));
+        let first = pages.iter().find(|page| page.path.contains("/no-revision/index."));
+        assert!(first.expect("the first page").text.contains(all.trim_start_matches('/')));
     }
     // If a file has no diagnostics, its documentation has no page of diagnostics.
     let pages = files(Format::Html, &["dictionaries/demo-drive.eds"]);
     assert!(pages.iter().all(|page| !page.path.ends_with("diagnostics.html")));
+}
+
+#[test]
+fn revisions_in_two_files_are_compared() {
+    let eds = |revision: u32, access: &str| {
+        format!(
+            "[DeviceInfo]\nVendorName=Maker\nVendorNumber=5\nProductName=Pump\nProductNumber=7\nRevisionNumber={revision}\n\
+             [ManufacturerObjects]\nSupportedObjects=1\n1=0x2000\n\
+             [2000]\nParameterName=Gain\nDataType=6\nAccessType={access}\n"
+        )
+    };
+    // The order of the files does not matter.
+    let source = |name: &str, text: String| (name.to_owned(), Source::new(format!("{name}.eds"), text.into()));
+    let (old, new) = (source("old", eds(1, "rw")), source("new", eds(2, "ro")));
+    for sources in [vec![old.clone(), new.clone()], vec![new, old]] {
+        let pages = site(Format::Html, sources);
+        let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
+        let changes = text("maker/pump-0x00000007/0x00000002/changes.html");
+        assert!(changes.contains("<td>access<td>rw<td>ro"), "{changes}");
+        assert!(text("maker/pump-0x00000007/0x00000002/index.html").contains("Changes since revision 0x00000001"));
+        assert!(text("maker/pump-0x00000007/latest/index.html").contains("href=\"../0x00000002/index.html\""));
+        assert!(pages.iter().all(|page| page.path != "maker/pump-0x00000007/0x00000001/changes.html"));
+        html_links(&pages);
+    }
 }
 
 #[test]
@@ -115,13 +141,16 @@ fn languages_of_modules_can_be_chosen() {
     let source = || vec![("drive".to_owned(), Source::new("drive.xml", text.clone().into()))];
     let pages = site(Format::Html, source());
     let markdown = site(Format::Markdown, source());
-    let page = markdown.iter().find(|page| page.path == "drive/modules.md").expect("the modules");
+    let page = markdown.iter().find(|page| page.path.ends_with("/modules.md")).expect("the modules");
     assert!(page.text.contains(" Standard telegram 1 *Standardtelegramm 1*\n"), "{}", page.text);
-    let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
-    for path in ["drive/index.html", "drive/modules.html"] {
+    let text = |end: &str| {
+        let mut found = pages.iter().filter(|page| page.path.ends_with(end) && !page.path.contains("/latest/"));
+        &found.next().unwrap_or_else(|| panic!("{end}")).text
+    };
+    for path in ["/index.html", "/modules.html"] {
         assert!(text(path).contains("<option>de</option>"), "{path}");
     }
-    let modules = text("drive/modules.html");
+    let modules = text("/modules.html");
     assert!(modules.contains("<i lang=\"de\">"), "names");
     assert!(modules.contains("<p lang=\"de\">"), "descriptions");
 }
@@ -145,7 +174,7 @@ fn each_transition_of_cia_402_has_an_arrow() {
 #[test]
 fn the_search_has_printed_and_wire_addresses() {
     let pages = files(Format::Html, &["tests/ui/tables/printed-and-wire-addresses/input.toml"]);
-    let index = pages.iter().find(|page| page.path == "input/search.js").expect("the index");
+    let index = pages.iter().find(|page| page.path.ends_with("/no-revision/search.js")).expect("the index");
     for number in ["register 40101 (wire 100)", "register 40102–40103 (wire 101–102)", "coil 7 (wire 6)"] {
         assert!(index.text.contains(number), "{number}: {}", index.text);
     }

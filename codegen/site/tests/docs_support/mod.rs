@@ -18,8 +18,13 @@ use root::root;
 /// Returns the pages of a site that documents `sources`.
 pub fn site(format: Format, sources: Vec<(String, Source)>) -> Vec<Page> {
     let (mut site, mut pages) = (Site::new(format), Vec::new());
-    for (name, source) in sources {
-        let pages_of_source = site.add_compilation(&name, &check(source, &Options::default()));
+    let compiled: Vec<_> =
+        sources.into_iter().map(|(name, source)| (name, check(source, &Options::default()))).collect();
+    for (name, compilation) in &compiled {
+        site.announce(name, compilation.catalog.as_ref().expect("a catalog"));
+    }
+    for (name, compilation) in &compiled {
+        let pages_of_source = site.add_compilation(name, compilation);
         assert!(!pages_of_source.is_empty(), "{name}");
         pages.extend(pages_of_source);
     }
@@ -101,12 +106,17 @@ pub fn markdown_links(all: &[Page]) -> usize {
 /// Checks a link. `has` returns whether a page has an id, or `None` if the page does not exist.
 fn follow(page: &Page, link: &str, has: impl Fn(&str, &str) -> Option<bool>) {
     let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
-    let folder = page.path.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
-    let path = match file.strip_prefix("../") {
-        Some(path) => path.to_owned(),
-        None if file.is_empty() => page.path.clone(),
-        None => format!("{folder}{}", file.trim_start_matches("./")),
-    };
+    let mut steps: Vec<&str> = page.path.split('/').collect();
+    if !file.is_empty() {
+        steps.pop();
+    }
+    for step in file.split('/').filter(|step| !matches!(*step, "" | ".")) {
+        match step {
+            ".." => drop(steps.pop().expect("a folder of the site")),
+            _ => steps.push(step),
+        }
+    }
+    let path = steps.join("/");
     let is_there = has(&path, anchor).unwrap_or_else(|| panic!("{}: there is no {path}", page.path));
     assert!(anchor.is_empty() || is_there, "{}: {path} has no {anchor}", page.path);
 }

@@ -1,0 +1,204 @@
+//! The folders of devices. The folder of a device depends on its identity, and never on the order in which a site writes
+//! its devices, so that links to a device stay valid.
+
+use std::collections::{BTreeMap, HashMap};
+
+use lexibus_codegen::facts;
+use lexibus_codegen::facts::number::hex32;
+use lexibus_codegen::ir::{Catalog, Device};
+
+/// Maximum number of characters of a folder name, apart from the number that distinguishes longer names.
+const LONGEST: usize = 60;
+
+/// A device of a site: the name of its description, and its position in this description.
+pub(super) type DeviceKey = (String, usize);
+
+/// Vendor and product code of a device.
+type Product = (Option<u32>, u32);
+
+/// Revision numbers of the devices of a product.
+type Revisions = Vec<(u32, DeviceKey)>;
+
+/// The addresses of the devices of a site, and their previous revisions.
+#[derive(Debug, Default)]
+pub(super) struct Addresses {
+    /// Devices by the folder of their product and the name of their revision's folder.
+    devices: BTreeMap<(String, String), Vec<DeviceKey>>,
+    products: HashMap<Product, Revisions>,
+    /// Folder of the pages that the devices of a description share.
+    shared: HashMap<String, String>,
+}
+
+impl Addresses {
+    /// Adds the devices of a description.
+    pub fn add(&mut self, name: &str, catalog: &Catalog) {
+        for (at, device) in catalog.devices.iter().enumerate() {
+            let (identity, key) = (&device.identity, (name.to_owned(), at));
+            if let (Some(product), Some(revision)) = (identity.product_code, identity.revision_number) {
+                self.products.entry((identity.vendor_id, product)).or_default().push((revision, key.clone()));
+            }
+            let revision = identity.revision_number.map_or_else(|| "no-revision".to_owned(), folder_of_number);
+            self.devices.entry((product(device), revision)).or_default().push(key);
+        }
+        let vendor = catalog.devices.first().map_or_else(|| "unknown-vendor".to_owned(), vendor);
+        self.shared.insert(name.to_owned(), format!("{vendor}/_files/{}", folder_name(name)));
+    }
+
+    /// Returns whether the devices of a description were added.
+    pub fn has(&self, name: &str) -> bool {
+        self.shared.contains_key(name)
+    }
+
+    /// Returns the folder of a device, relative to the folder of the site.
+    pub fn device(&self, device: &Device, key: &DeviceKey) -> String {
+        let revision = device.identity.revision_number.map_or_else(|| "no-revision".to_owned(), folder_of_number);
+        let of = (product(device), revision);
+        let keys = self.devices.get(&of).map_or(&[][..], Vec::as_slice);
+        let folder = format!("{}/{}", of.0, of.1);
+        if keys.len() < 2 {
+            return folder;
+        }
+        match keys.iter().filter(|other| other.0 == key.0).position(|other| other == key) {
+            None | Some(0) => format!("{folder}-{}", folder_name(&key.0)),
+            Some(number) => format!("{folder}-{}-{}", folder_name(&key.0), number + 1),
+        }
+    }
+
+    /// Returns the folder of the pages that the devices of a description share.
+    pub fn shared(&self, name: &str) -> String {
+        self.shared.get(name).cloned().unwrap_or_default()
+    }
+
+    /// Returns the previous revision of a device. If several descriptions contain it, returns the first by name.
+    pub fn previous(&self, device: &Device) -> Option<&(u32, DeviceKey)> {
+        let number = device.identity.revision_number?;
+        let older = self.revisions(device)?.iter().filter(|(other, _)| *other < number);
+        older.max_by(|one, other| (one.0, &other.1).cmp(&(other.0, &one.1)))
+    }
+
+    /// Returns the names of the descriptions that contain revisions of the same devices.
+    pub fn partners<'a>(&'a self, catalog: &'a Catalog) -> impl Iterator<Item = &'a str> {
+        let revisions = catalog.devices.iter().filter_map(|device| self.revisions(device)).flatten();
+        revisions.map(|(_, (name, _))| name.as_str())
+    }
+
+    fn revisions(&self, device: &Device) -> Option<&Revisions> {
+        self.products.get(&(device.identity.vendor_id, device.identity.product_code?))
+    }
+}
+
+/// Returns the folder of a device's vendor.
+fn vendor(device: &Device) -> String {
+    let identity = &device.identity;
+    match (identity.vendor_name.trim(), identity.vendor_id) {
+        ("", None) => "unknown-vendor".to_owned(),
+        ("", Some(id)) => format!("vendor-{}", folder_of_number(id)),
+        (name, _) => folder_name(name),
+    }
+}
+
+/// Returns the folder of a device's product in the folder of its vendor. The folder contains the product code, because
+/// products can have equal names.
+pub(super) fn product(device: &Device) -> String {
+    let title = folder_name(facts::device::title(device));
+    match device.identity.product_code {
+        Some(code) => format!("{}/{title}-{}", vendor(device), folder_of_number(code)),
+        None => format!("{}/{title}", vendor(device)),
+    }
+}
+
+fn folder_of_number(number: u32) -> String {
+    hex32(number).to_lowercase()
+}
+
+/// Returns a folder name for a text: lowercase letters, digits and `-`. If the name does not contain all letters of the text, it
+/// ends with a checksum, so that different texts have different names.
+fn folder_name(text: &str) -> String {
+    let mut name = slug(text);
+    let is_complete =
+        name.len() <= LONGEST && text.chars().all(|letter| letter.is_ascii() || !letter.is_alphanumeric());
+    if is_complete && !name.is_empty() {
+        return name;
+    }
+    name.truncate(LONGEST);
+    // FNV-1a.
+    let checksum = text.bytes().fold(0x811C_9DC5_u32, |sum, byte| (sum ^ u32::from(byte)).wrapping_mul(0x0100_0193));
+    format!("{}{}{checksum:08x}", name.trim_end_matches('-'), if name.is_empty() { "" } else { "-" })
+}
+
+/// Returns a text as lowercase letters, digits and `-`.
+pub(super) fn slug(text: &str) -> String {
+    let mut name = String::new();
+    for letter in text.chars().flat_map(char::to_lowercase) {
+        match letter {
+            'a'..='z' | '0'..='9' => name.push(letter),
+            _ if name.ends_with('-') || name.is_empty() => {}
+            _ => name.push('-'),
+        }
+    }
+    name.truncate(name.trim_end_matches('-').len());
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn catalog(devices: &[(&str, Option<u32>, Option<u32>)]) -> Catalog {
+        let device = |(name, code, revision): &(&str, Option<u32>, Option<u32>)| {
+            let mut device = Device { name: (*name).into(), ..Device::default() };
+            device.identity.vendor_name = "Maker & Sons".into();
+            (device.identity.product_code, device.identity.revision_number) = (*code, *revision);
+            device
+        };
+        Catalog { devices: devices.iter().map(device).collect(), ..Catalog::default() }
+    }
+
+    fn folders(addresses: &Addresses, name: &str, catalog: &Catalog) -> Vec<String> {
+        let folder = |(at, device)| addresses.device(device, &(name.to_owned(), at));
+        catalog.devices.iter().enumerate().map(folder).collect()
+    }
+
+    #[test]
+    fn folders_do_not_depend_on_the_order_of_descriptions() {
+        let first = catalog(&[("Drive 1", Some(7), Some(1)), ("Table", None, None), ("Drive 1", Some(7), Some(2))]);
+        let second = catalog(&[("Drive 1", Some(7), Some(1)), ("Drive 1", Some(7), Some(1)), ("Pump", None, None)]);
+        let (mut one, mut other) = (Addresses::default(), Addresses::default());
+        one.add("x", &first);
+        assert_eq!(
+            folders(&one, "x", &first),
+            [
+                "maker-sons/drive-1-0x00000007/0x00000001",
+                "maker-sons/table/no-revision",
+                "maker-sons/drive-1-0x00000007/0x00000002"
+            ]
+        );
+        one.add("Y y", &second);
+        other.add("Y y", &second);
+        other.add("x", &first);
+        for (name, catalog) in [("x", &first), ("Y y", &second)] {
+            assert_eq!(folders(&one, name, catalog), folders(&other, name, catalog));
+        }
+        assert_eq!(
+            folders(&one, "Y y", &second),
+            [
+                "maker-sons/drive-1-0x00000007/0x00000001-y-y",
+                "maker-sons/drive-1-0x00000007/0x00000001-y-y-2",
+                "maker-sons/pump/no-revision"
+            ]
+        );
+        let previous = one.previous(&first.devices[2]);
+        assert_eq!(previous, Some(&(1, ("Y y".to_owned(), 0))));
+        assert_eq!(previous, other.previous(&first.devices[2]));
+        assert_eq!(one.previous(&first.devices[0]), None);
+    }
+
+    #[test]
+    fn folder_names_of_different_texts_differ() {
+        assert_eq!(folder_name("Kollmorgen AKD™ / 2"), "kollmorgen-akd-2");
+        assert_eq!(folder_name("../../etc/passwd"), "etc-passwd");
+        assert_ne!(folder_name("伺服"), folder_name("电机"));
+        assert_ne!(folder_name(&"x".repeat(99)), folder_name(&"x".repeat(98)));
+        assert!(folder_name(&"x".repeat(99)).len() < 70 && !folder_name("?").is_empty());
+    }
+}
