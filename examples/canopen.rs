@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     move_to(&mut drive, id, 100_000)
 }
 
-/// Brings the drive step by step to the state Operation enabled.
+/// Brings the drive step by step to the state "Operation enabled".
 fn enable(drive: &mut Drive) -> Result<(), Box<dyn Error>> {
     for _ in 0..MOST_STEPS {
         let state = drive.statusword().read()?.state().ok_or("the statusword has no valid state")?;
@@ -49,10 +49,10 @@ fn enable(drive: &mut Drive) -> Result<(), Box<dyn Error>> {
             Step::Reached => return Ok(()),
             Step::Command(command) => drive.controlword().write(Controlword::new().with_command(command))?,
             Step::Wait => {}
-            Step::Unreachable => return Err("no command leads to Operation enabled".into()),
+            Step::Unreachable => return Err("no command leads to the state \"Operation enabled\"".into()),
         }
     }
-    Err("the drive doesn't reach Operation enabled".into())
+    Err("the drive doesn't reach the state \"Operation enabled\"".into())
 }
 
 /// Moves the drive with process data. RPDO 2 contains the target position, and TPDO 2 the actual position. Both are

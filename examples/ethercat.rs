@@ -1,4 +1,4 @@
-//! Moves an EtherCAT drive, starting in the state Init. Uses typed objects, a PDO assignment and process data.
+//! Moves an EtherCAT drive, starting in the state "Init". Uses typed objects, a PDO assignment and process data.
 //!
 //! `cargo run --example ethercat --features std,ethercat,macros`
 //!
@@ -50,7 +50,7 @@ async fn main() -> Result<(), Box<dyn Error>> {
 }
 
 async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
-    // Go from Init to Pre-Operational.
+    // Go from the state "Init" to "Pre-Operational".
     let group = maindevice.init_single_group::<SUBDEVICES, PROCESS_DATA>(ethercat_now).await?;
     let found = group.iter(maindevice).position(|subdevice| is_a(&subdevice, &servo::IDENTITY));
     let position = found.ok_or("there is no demo servo")?;
@@ -71,7 +71,7 @@ async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
     let assignment = Assignment::<8>::by_default(&servo::DEVICE)?;
     drive.client().configure(assignment.startup()).await?;
 
-    // Go to Safe-Operational and Operational.
+    // Go to the states "Safe-Operational" and "Operational".
     let group = group.into_op(maindevice).await?;
     let cycle = Cycle::of(maindevice, &group);
     let subdevice = group.subdevice(maindevice, position)?;

@@ -1,5 +1,5 @@
-//! Accesses a drive on Modbus TCP. A register table describes the drive. Run it with `cargo run --example modbus
-//! --features macros,modbus`.
+//! Accesses a drive on Modbus TCP. A register table describes the drive. Run the example with `cargo run --example
+//! modbus --features macros,modbus`.
 //!
 //! The drive is simulated by a `tokio-modbus` server in this process. It has the registers of
 //! `examples/inverter.toml`.
@@ -24,7 +24,8 @@ lexibus::dictionary! {
 #[path = "../tests/support/modbus_server.rs"]
 mod server;
 
-// The values of a cycle are only consistent if a single request reads them. This is checked at compile time.
+// The values of a cycle are consistent only if a single request reads them. This assertion checks the number of
+// requests at compile time.
 const _: () = {
     let cycle = [
         objects::SPEED.location().modbus,
@@ -39,8 +40,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let device = Device::new(simulated());
     let server = Server::start(&device, Framing::Tcp)?;
 
-    // Code for a real drive starts here. `MODBUS` contains the limits of the drive's requests.
-    // The link discards replies that are too late.
+    // Code for a real drive starts here. `MODBUS` contains the limits of the drive's requests. The link discards late
+    // replies.
     let link = BlockingLink::tcp(server.address(), Slave(1), Duration::from_secs(5))?;
     let client = ModbusClient::new(link).with_limits(inverter::MODBUS);
     let mut drive = Inverter::new(client);

@@ -90,7 +90,7 @@ fn turn(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
         drive.cycle(&outputs, &mut inputs)?;
         let read = axis.read::<Inputs>(&inputs)?;
         if !read.provider.is_good() || !axis.consumer(&inputs).is_good() {
-            return Err("the drive doesn't take part".into());
+            return Err("the drive doesn't exchange valid data".into());
         }
         let Inputs { operation_enabled, nist_a, .. } = read.data;
         println!("cycle {cycle}: enabled {operation_enabled}, {} % of the reference speed", f32::from(nist_a) / 163.84);

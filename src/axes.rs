@@ -55,8 +55,8 @@ pub enum AxisStep {
 }
 
 impl Axes {
-    /// Returns the address of the first axis' `object` on axis `axis` (from 1). Shared objects and objects outside all
-    /// ranges have the same address on every axis.
+    /// Returns the address that `object`, an object of the first axis, has on axis `axis`. Axis numbers start at 1.
+    /// Shared objects and objects outside all ranges have the same address on every axis.
     ///
     /// Returns `None` if the axis doesn't exist or doesn't have the object. With [`AxisStep::SubIndex`], only the
     /// objects at sub-index 1 belong to an axis.

@@ -6,8 +6,8 @@ use core::fmt;
 /// bits that belong to no field follow in hexadecimal. Generated code calls this function.
 ///
 /// `layout` is the name of the type, followed by `name:mask` for every field, separated by spaces. Masks are
-/// hexadecimal. A mask of one bit is a flag, a mask of several bits is a number. `!name:mask` is a flag that is set if
-/// its bit is 0. `?name:mask` formats the next element of `values` instead of the bits.
+/// hexadecimal. A mask of one bit stands for a flag, and a mask of several bits for a number. `!name:mask` is a flag
+/// that is set if its bit is 0. `?name:mask` formats the next element of `values` instead of the bits.
 ///
 /// # Errors
 ///

@@ -42,9 +42,8 @@ pub enum Error<E> {
         /// Object of the first axis.
         object: Object,
     },
-    /// A value to write is outside the item's declared range, or doesn't fit its type on this bus; nothing was sent.
-    /// The variant also means that a value that was read has more bits on the bus than in the item, and doesn't fit the
-    /// item's type.
+    /// In a write, the value is outside the item's declared range or doesn't fit the item's type on this bus. Nothing
+    /// was sent. In a read, the value has more bits on the bus than in the item, and doesn't fit the item's type.
     OutOfRange(OutOfRange),
     /// The device sent, or the caller passed, the wrong number of bytes.
     Length(LengthError),

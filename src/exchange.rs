@@ -169,8 +169,8 @@ pub trait ParameterMessages {
 /// Client for a device with a request and reply protocol. Messages are sent through the exchange `X`. `N` is the length
 /// of the longest message in bytes.
 ///
-/// The client implements [`Client`] of [`Serial`], or [`AsyncClient`], if `M` implements [`ParameterMessages`]. The
-/// client implements [`MessageClient`] if `M` is a [`Station`].
+/// The client implements [`Client`] or [`AsyncClient`] for the bus [`Serial`] if `M` implements [`ParameterMessages`].
+/// The client implements [`MessageClient`] if `M` is a [`Station`].
 #[derive(Clone, Debug)]
 pub struct Parameters<X, M, const N: usize> {
     exchange: X,

@@ -1,4 +1,4 @@
-//! State machines: computes the shortest path from one state to another.
+//! State machines, and the shortest path from one state to another.
 
 /// A transition of a device's state machine. States are represented by numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -174,8 +174,8 @@ impl Register {
         }
     }
 
-    /// Returns the number of words in the first address that precede the value. For example, the lower half of a 32-bit
-    /// register is the second word if the most significant word comes first.
+    /// Returns how many words of the first address precede the value. For example, the lower half of a 32-bit register
+    /// is the second word if the most significant word comes first.
     pub(crate) const fn skipped(&self) -> usize {
         match self.order {
             WordOrder::HighFirst => (self.addresses() as usize * self.step() as usize) - self.count as usize,

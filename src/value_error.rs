@@ -24,7 +24,7 @@ impl LengthError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct OutOfRange;
 
-/// Text contains characters that its type doesn't allow, or the bytes are not a valid text.
+/// A text contains characters that its type doesn't allow, or the bytes are not a valid text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TextError;
 

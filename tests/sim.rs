@@ -165,8 +165,8 @@ fn a_frame_has_64_bits_on_can_only() {
     let mut client = device.client::<CanOpen>();
     clear.iter().chain(&map).try_for_each(|write| write.send(&mut client)).unwrap();
     assert_eq!(count.send(&mut client), abort(AbortCode::PDO_LENGTH));
-    // EtherCAT has no COB-IDs. On EtherCAT, the abort code for a write of mapping entries before sub-index 0 is cleared
-    // differs from the code on CANopen.
+    // EtherCAT has no COB-IDs. If mapping entries are written before sub-index 0 is cleared, the abort codes on
+    // EtherCAT and CANopen differ.
     let mut device = vector();
     let mut client = device.client::<CoE>();
     assert_eq!(map[0].send(&mut client), abort(AbortCode(0x0601_0003)));
@@ -693,7 +693,7 @@ mod frames {
         }
         let node = drive.client();
         node.nmt(NmtCommand::Start).unwrap();
-        // TPDO 1 is event-driven. The node sends this TPDO as soon as it enters the state Operational.
+        // TPDO 1 is event-driven. The node sends this TPDO as soon as it enters the state "Operational".
         let first = receive(node.port(), 0x185);
         assert_eq!(pdo::TxPdo1::unpack(first.data()).unwrap().statusword.state(), Some(State::OperationEnabled));
         let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0x1F), target_position: -70_000 };

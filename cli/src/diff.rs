@@ -42,7 +42,7 @@ pub(super) fn run(diff: &Diff) -> Result<bool, Failure> {
     Ok(summary.api == 0 && summary.wire == 0)
 }
 
-/// Returns the last class of changes to show, in the order of severity.
+/// Returns the least severe class of changes to show.
 fn last_class(shown: Shown) -> Class {
     match shown {
         Shown::Breaking => Class::Breaking,

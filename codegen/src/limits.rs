@@ -36,8 +36,8 @@ pub const MAX_MACHINE_ROWS: usize = 2_048;
 /// Maximum length in bytes of a register-table row, including inherited facts, whose copies are not counted.
 pub const MAX_FREE_ROW_BYTES: usize = 4096;
 
-/// Each copy of a longer row counts as one of [`MAX_DERIVED_ITEMS`] for each of this number of bytes above
-/// [`MAX_FREE_ROW_BYTES`].
+/// In each copy of a row, this number of bytes beyond [`MAX_FREE_ROW_BYTES`] counts as one more of
+/// [`MAX_DERIVED_ITEMS`].
 pub const ROW_BYTES_PER_ITEM: usize = 1024;
 
 /// Maximum number of copied bytes for each byte of the file. In usual files, only one object uses each type, so that little is

@@ -434,7 +434,7 @@ fn unescaped(text: &str) -> String {
     text.replace("&amp;", "&")
 }
 
-/// Returns the texts of each language by their identifiers. `""` is the primary language.
+/// Returns the texts of each language by their identifiers. The key `""` means the primary language.
 fn text_lists(text: &str) -> BTreeMap<&str, BTreeMap<&str, String>> {
     let mut lists: BTreeMap<&str, BTreeMap<&str, String>> = BTreeMap::new();
     for (open, close) in [("<PrimaryLanguage", "</PrimaryLanguage"), ("<Language", "</Language")] {

@@ -503,8 +503,8 @@ impl Comparison<'_> {
         }
     }
 
-    /// Compares and counts a value like `hold`. Values that CompactSubObj implies are counted separately, because one line
-    /// describes many of them.
+    /// Compares and counts a value in the same way as `hold`. Values that CompactSubObj implies are counted separately,
+    /// because one line describes many of them.
     fn hold_in<T: PartialEq + Debug>(&mut self, target: Target<'_>, fact: &Fact, ours: &T, theirs: Option<&T>) {
         match target.compact && target.item.is_some() && theirs == Some(ours) {
             true => self.tally.compact += 1,

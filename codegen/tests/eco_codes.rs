@@ -306,7 +306,7 @@ fn bits_of_the_vendor_in_words_of_402_are_the_printed_ones() {
             let field = fields(device(&compilation), name).iter().find(|field| field.offset == bit).expect("a bit");
             assert!(cites(field.documentation.as_deref(), line), "line {line}");
             assert!(!matches!(field.meaning, BitMeaning::Reserved { .. }), "line {line}");
-            // The manual states for one bit of the controlword that a transition from 0 to 1 has the effect.
+            // For one bit of the controlword, the manual states that the transition from 0 to 1 triggers the effect.
             let is_edge = manual[line - 1].contains("transizione da 0 a 1") && name == "Controlword";
             assert_eq!(field.trigger == Some(Trigger::Rising), is_edge, "line {line}");
         }

@@ -88,8 +88,8 @@ fn references_are_links() {
         (
             "tests/data/press.toml",
             &[
-                "    /// Constant: [`objects::CONTROL`]. Type of the value: [`Control`](types::Control).",
-                "    /// View of [`Control`] with the bits that are defined while [mode](super::objects::MODE) is press (1).",
+                "    /// Constant: [`objects::CONTROL`]. Value type: [`Control`](types::Control).",
+                "    /// View of [`Control`] with the bits that are defined while [mode](super::objects::MODE) is \"press\" (1).",
                 "    /// States of ram, read from [status](super::objects::STATUS).",
                 "    /// | [`Ready`](Self::Ready) | `xxxx xxxx xxxx x001` |",
                 "    /// Physical value = raw × 0.5 / [gain](GAIN) N, 0x200C:01, Modbus 12 (holding; wire address 12; FC 3), INTEGER16, read-only.",
@@ -178,7 +178,7 @@ fn no_text_breaks_out_of_its_cell() {
     assert_eq!(bits.iter().map(Vec::len).collect::<Vec<_>>(), [3; 4], "{bits:#?}");
     assert_eq!(bits[0][2], r"x || y. `|` \| $[`mode`] &lt;script&gt; &amp;#124; https://x.y.");
     assert!(bits[2][2].contains("enum.StatusM.html"), "the values of a field are linked: {bits:#?}");
-    assert_eq!(bits[3][1..], ["reserved", "The value 0 is written."]);
+    assert_eq!(bits[3][1..], ["reserved", "A write to an item sets the value 0."]);
 }
 
 /// Time limit for running rustdoc on corpus files.

@@ -61,7 +61,7 @@ use syn::LitStr;
 ///
 /// Diagnostics are reported at the path argument and quote the line of the description. A macro on stable Rust cannot
 /// report warnings, so a warning appears as the use of a deprecated constant. If your crate denies warnings, put
-/// `#[allow(deprecated)]` on the module. Cargo and editors detect changes of the description file.
+/// `#[allow(deprecated)]` on the module. Cargo and editors detect changes to the description file.
 #[proc_macro]
 pub fn dictionary(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     let call = syn::parse_macro_input!(input as Call);

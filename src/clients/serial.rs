@@ -27,7 +27,7 @@
 //!
 //! # Timeouts
 //!
-//! A blocking stream determines how long a read may last, and its timeout error becomes the error of the exchange.
+//! A blocking stream has its own timeout for reads. If a read times out, the exchange returns the error of the stream.
 //! [`SerialLine::with_time`] limits the time of the whole exchange, even if noise arrives continuously. Async streams
 //! have no timeout, so an async line needs a timer:
 //!
@@ -49,8 +49,8 @@
 //! A frame does not identify the request to which it replies. After a timeout, an invalid reply or a dropped exchange,
 //! the next exchange first discards the late reply. Before its request, the next exchange waits until a frame arrives,
 //! a read of the stream times out, or the timeout of the line has expired. A blocking line can discard late replies
-//! only if reads of the stream time out, an async line only if it has a timer. If the stream implements
-//! `embedded_io::ReadReady`, [`SerialLine::draining`] discards repeated replies as well.
+//! only if reads of the stream time out. An async line can discard late replies only if the line has a timer. If the
+//! stream implements `embedded_io::ReadReady`, [`SerialLine::draining`] discards repeated replies as well.
 
 use core::error;
 use core::fmt;

@@ -25,8 +25,8 @@ pub struct ClockMode {
 pub struct ClockTime {
     /// Constant part of the time in ns.
     pub nanoseconds: i32,
-    /// Factor of the cycle time. A negative factor divides the cycle time by its absolute value. The value 0 means that
-    /// the time doesn't depend on the cycle time.
+    /// Factor of the cycle time. A negative factor divides the cycle time by the absolute value of the factor. The
+    /// value 0 means that the time doesn't depend on the cycle time.
     pub factor: i32,
 }
 

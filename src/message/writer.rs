@@ -51,7 +51,7 @@ impl fmt::Display for WriteError {
         match self {
             Self::OutOfRange(error) => error.fmt(f),
             Self::Length(error) => error.fmt(f),
-            Self::NoMessage => f.write_str("the protocol has no message for that"),
+            Self::NoMessage => f.write_str("the protocol has no message for this access"),
         }
     }
 }

@@ -62,7 +62,7 @@ impl<const N: usize> Reading<N> {
     }
 
     /// Returns the item of the current request if the request reads only this item. A request for one item reads the
-    /// item in the same way as outside of a block.
+    /// item in the same way as a request outside a block.
     fn only_item(&self) -> Option<usize> {
         let mut items = (0..N).filter(|&at| self.plan.request_of()[at] == self.answered);
         items.next().filter(|_| items.next().is_none())

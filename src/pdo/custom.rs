@@ -90,7 +90,7 @@ impl<F, D, const WORD: u32> Mapped for Mappable<F, D, WORD> {
     const WORD: u32 = WORD;
 }
 
-/// This trait is implemented for objects that can be mapped into PDOs of direction `D`.
+/// Marks objects that can be mapped into PDOs of direction `D`.
 #[diagnostic::on_unimplemented(
     message = "this object cannot be mapped into a PDO of direction `{D}`",
     label = "the device allows it only in the other direction",

@@ -1,7 +1,8 @@
 //! Big-endian fields in a byte string.
 //!
-//! A bit field is a part of a big-endian number, which consists of all bytes with bits of the field. Bit 0 is the least
-//! significant bit of the last byte. A read beyond the end of the data returns 0. A write beyond the end has no effect.
+//! A bit field is a part of a big-endian number. This number consists of all bytes that contain bits of the field. Bit
+//! 0 is the least significant bit of the last byte. A read beyond the end of the data returns 0. A write beyond the end
+//! has no effect.
 
 use crate::pdo::{mask, sign_extend};
 use crate::time::{TimeDifference, TimeOfDay};
@@ -257,7 +258,7 @@ mod tests {
             let short = &mut written[..((shift + width).div_ceil(8)) as usize];
             let before = short.to_vec();
             put_number(short, 1, shift, width, !value);
-            assert_eq!(short, before, "a field that isn't all there is left alone: {shift} {width}");
+            assert_eq!(short, before, "a write beyond the end changes nothing: {shift} {width}");
         }
     }
 

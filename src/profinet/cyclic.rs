@@ -16,8 +16,9 @@ const CYCLE: Duration = Duration::from_millis(1);
 
 /// A client for the items in the cyclic data of one submodule.
 ///
-/// `Cyclic` implements [`Client`] or [`AsyncClient`] of [`ProcessImage`] over the [`ImageClient`] `I`. `O` contains the
-/// output frame and `N` the input frame: arrays, vectors or borrowed bytes.
+/// `Cyclic` implements [`Client`] for the bus [`ProcessImage`] if `I` is an [`ImageClient`], and [`AsyncClient`] if `I`
+/// is an [`AsyncImageClient`]. `O` is the type of the output frame and `N` the type of the input frame: an array, a
+/// vector or borrowed bytes.
 ///
 /// Outputs keep the values that were written last. The caller sets the status of the outputs, for example with
 /// [`Plan::set_status`](super::Plan::set_status). Each access exchanges the frames once. When a write returns, the data

@@ -1,4 +1,4 @@
-//! Items of which a bus accepts only some values.
+//! Items for which a bus accepts only some values.
 
 use super::{ReadRoute, Route, WriteRoute};
 use crate::bus::{Bus, Object};

@@ -1,5 +1,5 @@
-//! Windows: indirect access to values, of which each has a number. A client writes the number of a value to one
-//! address, and accesses the value at another address.
+//! Windows: indirect access to numbered values. A client writes the number of a value to one address, and accesses the
+//! value at another address.
 
 use core::time::Duration;
 

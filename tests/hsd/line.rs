@@ -53,11 +53,11 @@ fn motor(node: u32) -> HsdMotor<Parameters<Line, Protocol, MAX_DATA>> {
 fn the_sample_of_the_documentation() -> Result<(), Box<dyn std::error::Error>> {
     let port = served(Duration::from_secs(5));
     let line = SerialLine::<_, _, 140>::new(FromStd::new(port), messages::FRAMING);
-    let mut motor = HsdMotor::on(line, 5); // the device with number 5; `on` has no number where none is sent
+    let mut motor = HsdMotor::on(line, 5); // 5 is the device number; `on` takes no number if requests contain none
     motor.cmd_traj(100_000).send()?; // or `send_async().await?`
-    let mut positions = motor.cmd_get_pos().select()?; // decides what later polls mean
-    while !positions.poll_position().send()?.is_complete() {} // of replies with the field that `completion` polls
-    motor.kp_vel().write_scaled(1.5)?; // a parameter, through the messages of its space
+    let mut positions = motor.cmd_get_pos().select()?; // selects what later polls return
+    while !positions.poll_position().send()?.is_complete() {} // `is_complete` checks the field that `completion` names
+    motor.kp_vel().write_scaled(1.5)?; // writes a parameter with the messages of its parameter space
     motor.cmd_chg_par_n(&[objects::KP_VEL.setting(150)?, objects::LOW_SLIM.setting(-5)?]).send()?;
 
     let (guide, own) = (include_str!("../../docs/src/serial.md"), include_str!("line.rs"));

@@ -1,6 +1,6 @@
 //! Declares pairs of equivalent functions and calls them.
 
-/// Input of the functions. A frame consists of pseudo-random bytes.
+/// Input of both functions: pseudo-random bytes.
 pub type Frame = [u8; 32];
 
 /// A pair of equivalent functions.

@@ -57,7 +57,7 @@ impl<'a> Contestant<'a> {
     }
 }
 
-/// The rounds of a program that have been measured so far.
+/// Rounds that were measured so far for one program.
 struct Progress {
     repetitions: u32,
     times: Vec<Duration>,

@@ -25,7 +25,7 @@ const FAMILIES: [(&str, &str); 11] = [
 /// section.
 pub fn catalogue() -> String {
     let mut text = String::from(
-        "# The catalogue of codes\n\nThis page is the output of `lexibus explain --format markdown`. \
+        "# The catalog of codes\n\nThis page is the output of `lexibus explain --format markdown`. \
          [Diagnostics](diagnostics.md) explains classes and levels, and how to set a level. \
          Each family lists errors first, then repairs, then lints.\n\n\
          | codes | subject |\n|---|---|\n",

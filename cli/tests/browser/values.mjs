@@ -1,4 +1,5 @@
-// The conversions of the decoder are inverse to each other, and reject what does not fit. Frames are those of the standards.
+// Tests that the decoder's conversions are inverse to each other and reject values that do not fit. The frames must have the
+// form that the standards define.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
@@ -33,7 +34,7 @@ await withBrowser(async (browser) => {
   });
   assert.deepEqual(failed, []);
   const frames = await page.evaluate(() => ({
-    // The example of the Modbus standard: read 2 registers from 107 of unit 17.
+    // The example of the Modbus standard: reads 3 registers from address 107 of unit 17.
     modbus: bytesText(withCrc([0x11, 0x03, 0x00, 0x6B, 0x00, 0x03])),
     expedited: sdoDownload([0x40, 0x60, 0x00], [0x0F, 0x00]).map(bytesText),
     segmented: sdoDownload([0x10, 0x20, 0x01], [1, 2, 3, 4, 5, 6, 7, 8]).map(bytesText),

@@ -16,7 +16,7 @@ fn events(bytes: &[u8]) -> usize {
     walk(bytes, |_| 0)
 }
 
-/// Counts all events like `events`. Also splits the attributes of each tag, without decoding them.
+/// Counts all events in the same way as `events`. Also splits the attributes of each tag, without decoding them.
 fn attributes(bytes: &[u8]) -> usize {
     walk(bytes, |tag| tag.attributes().flatten().map(|attribute| attribute.value.len()).sum())
 }

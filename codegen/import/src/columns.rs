@@ -99,7 +99,7 @@ fields! {
     ]
     /// Divisor of the raw value.
     Divisor "divisor" ["divisor" "divider" "divide" "divide by" "gain" "teiler" "divisore" "guadagno"]
-    /// Decimal exponent of the scale factor, or a reference to the register that contains it.
+    /// Decimal exponent of the scale factor, or a reference to the register that contains the exponent.
     Exponent "exponent" ["sf" "exponent" "scale exponent" "power of ten" "sunssf" "esponente"]
     /// Number of decimal places of the value.
     Decimals "decimals" [

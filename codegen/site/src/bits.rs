@@ -90,7 +90,7 @@ fn drawing(types: &[TypeDef], fields: &[BitFieldEntry], bits: u32) -> Bits {
         rows.push(Row { first, bits: last - first, top, cells });
         last = first;
     }
-    // The list has the name of each field. A drawing without any name adds nothing.
+    // Omit a drawing without any name, because the list contains the names of all fields.
     if rows.iter().flat_map(|row: &Row| &row.cells).all(|cell| cell.label.is_empty()) {
         rows.clear();
     }

@@ -53,8 +53,9 @@ fn pdo(device: &Device, pdo: &Pdo, names: &HashMap<u16, String>) -> Option<Json>
     }))
 }
 
-/// Returns an object that can be mapped: index, sub-index, bits, address and name, whether it can be mapped into RPDOs and TPDOs, and its
-/// path in Rust.
+/// Returns the data of an object that can be mapped: index, sub-index, length in bits, address and name as one text,
+/// two flags (mappable into RPDOs, mappable into TPDOs), and path in Rust. Returns `None` if no PDO on CANopen can map
+/// the object.
 fn object(device: &Device, id: ItemId, item: &Item, calls: &Calls) -> Option<Json> {
     let (index, sub_index) = item.object()?;
     let mappable = item.mappable;

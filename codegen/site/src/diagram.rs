@@ -108,7 +108,7 @@ fn position(machine: &StateMachine, name: &str) -> Option<usize> {
     machine.states.iter().position(|state| state.name == name)
 }
 
-/// Returns the edges between states. The position of any state follows the positions of the states.
+/// Returns the edges between states. The pseudo-state "any state" has the position after the last state.
 fn edges(machine: &StateMachine) -> Vec<Edge> {
     let from = |transition: &Transition| match &transition.from {
         Some(name) => position(machine, name),
@@ -169,12 +169,12 @@ impl Edge {
     }
 }
 
-/// Returns the row of each state that has an arrow. A state is below the states that lead to it first.
+/// Returns the row of each state that has an arrow. States are sorted by their ranks.
 fn rows(any: usize, first: usize, edges: &[Edge]) -> Vec<Option<usize>> {
     let pairs: Vec<(usize, usize)> = edges.iter().map(|edge| (edge.from, edge.to)).collect();
     let ranks = ranks(any + 1, first, &pairs);
     let mut order: Vec<usize> = (0..=any).filter(|at| pairs.iter().any(|(from, to)| from == at || to == at)).collect();
-    // Any state is directly above the first state that it leads to.
+    // The pseudo-state "any state" is directly above the first state that it leads to.
     let target = pairs.iter().filter(|(from, _)| *from == any).map(|(_, to)| (ranks[*to], *to)).min();
     let key = |at: &usize| match target {
         Some((rank, to)) if *at == any => (rank, to, 0),
@@ -222,8 +222,9 @@ impl Ports {
         let mut offsets = vec![[0; 2]; edges.len()];
         for lanes in lanes {
             for state in 0..rows.len() {
-                // Lanes that lead up are above those that lead down. Among the former the nearest is the highest, among the latter the
-                // lowest, so that arrows do not cross near the box.
+                // Lanes that lead up are above those that lead down. Of the lanes that lead up, the nearest is the
+                // highest. Of the lanes that lead down, the nearest is the lowest. Arrows therefore do not cross near
+                // the box.
                 let mut ports: Vec<(bool, i64, usize, usize)> = Vec::new();
                 for (at, edge) in edges.iter().enumerate() {
                     let Some(lane) = lanes[at].map(i64::from) else { continue };

@@ -28,7 +28,7 @@ struct Page {
     path: String,
     /// Position of the device in the list of devices.
     device: usize,
-    /// What the entries of the page are, such as `state`. The text is empty for items, which have addresses.
+    /// Kind of the entries on the page, such as `state`. The text is empty for items, which have addresses.
     kind: &'static str,
     entries: Vec<IndexedEntry>,
 }

@@ -7,8 +7,8 @@ use crate::ir::{Item, Storage};
 use crate::source::Span;
 use crate::text::brief;
 
-/// Reports items whose access rights contradict their storage, PDO mapping or writable values. In 52 files of the test corpus,
-/// read-only items can be mapped into RPDOs.
+/// Reports items whose access rights contradict their storage, PDO mapping or writable values. Such conflicts occur in
+/// real files: in 52 files of the test corpus, read-only items can be mapped into RPDOs.
 pub(super) fn conflicts(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         for (span, problem) in contradictions(item).into_iter().flatten() {

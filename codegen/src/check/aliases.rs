@@ -25,7 +25,8 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the location of the fact that differs, if an overlay states this fact. Otherwise, returns the location of the row.
+/// Returns the location of the reference, type or limit that an overlay states. If no overlay states any of them,
+/// returns the location of the row.
 fn difference_span(item: &Item, alias: &ItemRef) -> Span {
     let row = item.origin.span;
     let facts = [alias.span, item.at.ty, item.at.low, item.at.high];
@@ -55,7 +56,8 @@ fn replacement(device: &Device, item: &Item, diagnostics: &mut Diagnostics) {
 fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
     let mut found = Vec::new();
     let types = (owner.basic(one.ty), owner.basic(other.ty));
-    // A part of a value, such as the lower half, has other limits and names than the whole value.
+    // One item contains only a part of the value, such as its lower half, which has other limits and names than the
+    // whole value.
     if types.0.bits().zip(types.1.bits()).is_some_and(|(one, other)| one < other) {
         return found;
     }
@@ -151,7 +153,7 @@ fn meanings(one: &Shape, other: &Shape) -> Option<String> {
         _ => return Some("one is an enumeration and the other is a bit field".to_owned()),
     };
     let only: Vec<String> = one.symmetric_difference(&other).map(range).collect();
-    (!only.is_empty()).then(|| format!("only one of them names {}", numbered(what, &only)))
+    (!only.is_empty()).then(|| format!("only one of them has names for {}", numbered(what, &only)))
 }
 
 fn range(range: &(i128, i128)) -> String {

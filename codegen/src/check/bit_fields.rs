@@ -68,7 +68,8 @@ fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Di
     }
 }
 
-/// Returns whether two meanings of bits never apply together, or one meaning is a special case of the other.
+/// Returns whether two meanings of bits never apply together, or one meaning is a special case of the other. Meanings
+/// that depend on different items count as distinct.
 pub(super) fn are_distinct(one: &BitFieldEntry, other: &BitFieldEntry) -> bool {
     let by_condition = match (&one.when, &other.when) {
         (None, None) => false,
@@ -78,7 +79,7 @@ pub(super) fn are_distinct(one: &BitFieldEntry, other: &BitFieldEntry) -> bool {
     by_condition || apart(one.availability.as_deref(), other.availability.as_deref())
 }
 
-/// Returns whether one value of the item to which two conditions refer can meet both conditions.
+/// Returns whether the same value can meet both conditions. Both conditions must refer to the same item.
 fn both_hold(one: &Condition, other: &Condition) -> bool {
     let shared = one.mask.unwrap_or(u64::MAX) & other.mask.unwrap_or(u64::MAX);
     let agree = |left: &Value, right: &Value| match (left.as_int(), right.as_int()) {

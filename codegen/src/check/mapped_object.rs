@@ -96,8 +96,8 @@ impl Mapped {
     }
 }
 
-/// Returns the reason why an item cannot be mapped into PDOs of a direction: its access rights, or a PDO mapping in the other
-/// direction only.
+/// Returns the reason why an item cannot be mapped into PDOs with this direction. Either the access rights of the item
+/// prevent the mapping, or the item can be mapped only in the other direction.
 pub(super) fn wrong_direction(item: &Item, direction: Direction) -> Option<String> {
     let (access, mappable, name) = (Mappable::by_access(item.access), item.mappable, pdo_name(direction));
     let (is_accessible, other) = match direction {

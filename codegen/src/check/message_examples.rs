@@ -100,8 +100,7 @@ impl<'a> Frame<'a> {
         let problem = match field {
             MessageField::Constant(expected) => {
                 let found = self.bytes.get(range.start / 8..range.end / 8).unwrap_or_default();
-                (found != expected)
-                    .then(|| format!("has the hex bytes {} instead of the constant {}", hex(found), hex(expected)))
+                (found != expected).then(|| format!("has {} instead of the constant {}", hex(found), hex(expected)))
             }
             MessageField::Value(value) => return self.value(value, number(self.bytes, range, &value.byte_order)),
             MessageField::Echo { field, bytes } => self.echo(field, *bytes, range),
@@ -124,7 +123,7 @@ impl<'a> Frame<'a> {
         let (found, sent) = (found.get(..count)?, sent.get(..count)?);
         (found != sent).then(|| {
             format!(
-                "has the hex bytes {} as the copy of the request bytes from byte {first} on, but the request has {}",
+                "has {} as the copy of the request bytes from byte {first} on, but the request has {}",
                 hex(found),
                 hex(sent)
             )
@@ -137,9 +136,9 @@ impl<'a> Frame<'a> {
         let mut problems = Vec::new();
         let signed = signed(self.owner, item, number);
         if let Some(expected) = fixed(item).filter(|&only| signed.is_some_and(|signed| signed != only)) {
-            problems.push(format!("has {number:#X} in `{name}`, whose value is always {expected:#X}"));
+            problems.push(format!("has {number:#X} in the field `{name}`, whose value is always {expected:#X}"));
         } else if let Some(limit) = signed.and_then(|signed| beyond(item, signed)) {
-            problems.push(format!("has {number:#X} in `{name}`, whose {limit}"));
+            problems.push(format!("has {number:#X} in the field `{name}`, whose {limit}"));
         }
         if let Some(counted) = value.counts.as_ref().and_then(|from| self.counted(from)) {
             if number != counted as u64 {
@@ -159,7 +158,10 @@ impl<'a> Frame<'a> {
                     Some(true) => Some("is reserved"),
                     Some(false) => None,
                 };
-                problem.map(|why| format!("has {number:#X} in `{name}`, but this value {why}")).into_iter().collect()
+                problem
+                    .map(|why| format!("has {number:#X} in the field `{name}`, but this value {why}"))
+                    .into_iter()
+                    .collect()
             }
             Some(Shape::BitField { fields, .. }) => {
                 let mut problems = Vec::new();
@@ -171,7 +173,7 @@ impl<'a> Frame<'a> {
                             problems.extend(self.meaning(Type::Named(id), &format!("{name}/{}", field.name), bits));
                         }
                         BitMeaning::Reserved { write: Some(set) } if bits != if set { mask } else { 0 } => {
-                            problems.push(format!("sets reserved bits of `{name}` to {bits:#X}"));
+                            problems.push(format!("sets reserved bits of the field `{name}` to {bits:#X}"));
                         }
                         _ => {}
                     }
@@ -205,12 +207,7 @@ impl<'a> Frame<'a> {
         let part = |bytes: &'a [u8], start: usize| bytes.get(start / 8..(start + range.len()) / 8);
         let (found, sent) = (part(self.bytes, range.start)?, part(bytes, start).filter(|_| is_whole)?);
         (found != sent).then(|| {
-            format!(
-                "has the hex bytes {} as the copy of `{}`, but the request has {}",
-                hex(found),
-                brief(field),
-                hex(sent)
-            )
+            format!("has {} as the copy of the field `{}`, but the request has {}", hex(found), brief(field), hex(sent))
         })
     }
 }
@@ -248,7 +245,7 @@ fn signed(owner: Owner<'_>, item: &Item, number: u64) -> Option<i128> {
 }
 
 fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(" ")
+    bytes.iter().map(|byte| format!("0x{byte:02X}")).collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]

@@ -90,7 +90,7 @@ fn lengths(module: &Module, limits: Limits, catalog: &Catalog, diagnostics: &mut
     for (bytes, limit, what) in sums {
         let Some((limit, device)) = limit.filter(|&(limit, _)| bytes > limit) else { continue };
         let message = format!(
-            "the module has {} of {what}, but a device that accepts the module allows at most {limit}",
+            "the module has {} of {what}, but a device that accepts the module allows at most {limit} bytes",
             count_of(bytes, "byte")
         );
         diagnostics.push(noted(codes::IO_LENGTH.at(module.origin.span, message), catalog.devices.get(device)));
@@ -112,7 +112,7 @@ fn records(submodule: &Submodule, limit: Limit, devices: &[Device], diagnostics:
     };
     for group in submodule.records.iter().filter(|group| length(group) > limit) {
         let message =
-            format!("the record has {} bytes, but a device with this record accepts at most {limit}", length(group));
+            format!("the record has {} bytes, but a device that uses it accepts at most {limit} bytes", length(group));
         diagnostics.push(noted(codes::RECORD_SIZE.at(group.origin.span, message), devices.get(device)));
     }
 }

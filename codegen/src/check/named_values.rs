@@ -31,7 +31,7 @@ struct Check<'a, 'd> {
     diagnostics: &'d mut Diagnostics,
 }
 
-/// A default value, limit or other integer of an item, with the noun for it in diagnostics.
+/// A default value, limit or other integer of an item, with its noun for diagnostics.
 #[derive(Clone, Copy)]
 struct Number {
     what: &'static str,
@@ -164,13 +164,13 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Reports a value that sets bits without a meaning, or that sets fields to values without a name.
+    /// Reports a value that sets unnamed bits, or that sets fields to unnamed or reserved values.
     fn known(&mut self, fields: &[BitFieldEntry], number: Number, bits: u64) {
         let Number { what, span, .. } = number;
         let named = fields.iter().fold(0, |all, field| all | field.mask());
         if bits & !named != 0 && named != 0 {
             let (unnamed, name) = (bits & !named, brief(&self.definition.name));
-            let message = format!("the {what} {bits:#X} sets the bits {unnamed:#X}, which `{name}` does not name");
+            let message = format!("the {what} {bits:#X} sets the bits {unnamed:#X}, which have no name in `{name}`");
             self.report(&codes::RESERVED_BITS, span, message);
         }
         for field in always(fields) {
@@ -304,7 +304,7 @@ mod tests {
         });
         let expected = [
             ("TAB019", "the fixed value 0x5 clears bit 8 (reserved) of `Mode`".to_owned()),
-            ("TAB019", "the fixed value 0x5 sets the bits 0x4, which `Mode` does not name".to_owned()),
+            ("TAB019", "the fixed value 0x5 sets the bits 0x4, which have no name in `Mode`".to_owned()),
         ];
         assert_eq!(constant, expected);
     }

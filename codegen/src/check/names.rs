@@ -30,12 +30,12 @@ pub(super) fn name_span(item: &Item) -> Span {
     item.at.name.or(item.origin.span)
 }
 
-/// Returns whether an item has a meaning, that is, whether it is not a reserved sub-index.
+/// Returns whether an item is anything except a reserved sub-index, which has no meaning.
 pub(super) fn has_meaning(item: &&Item) -> bool {
     !item.is_reserved
 }
 
-/// Reports duplicate names in a bit field or enumeration. Elements that never exist together may share a name.
+/// Reports duplicate names in a bit field or enumeration. Bits or values that never exist together may share a name.
 fn meanings(definition: &TypeDef, diagnostics: &mut Diagnostics) {
     let duplicate: Option<(&str, String, String)> = match &definition.shape {
         Shape::BitField { fields, .. } => {

@@ -79,7 +79,7 @@ fn names(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     }
     let mut items = described_items(group).filter(|item| item.name.is_empty());
     let Some(first) = items.next() else { return };
-    // One diagnostic covers all unnamed elements of an object, because there can be hundreds of them.
+    // One diagnostic covers all unnamed sub-indices of an object, because there can be hundreds of them.
     let others = more(items.count(), |others| format!(" (and {} of the object)", count_of(others, "other")));
     nameless(first.at.name.or(first.origin.span), format!("0x{index:04X} sub-index {:#x}{others}", sub_of(first)));
 }

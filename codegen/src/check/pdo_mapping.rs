@@ -201,7 +201,7 @@ impl Mapping<'_, '_> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Compares the number of described PDOs with the number in the file header, and this number with object 0x1004.
+    /// Compares the number of PDOs in the file header with the number of described PDOs, and with object 0x1004.
     fn counts(&mut self) {
         let device = self.context.device;
         let described = PdoObjects::numbers(device, self.direction).len();

@@ -50,7 +50,7 @@ fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
         let outside = value.as_int().is_some_and(|value| mask != u64::MAX && value & !i128::from(mask) != 0);
         outside.then(|| {
             format!(
-                "has the value {value} for `{}` & {mask:#X}, but {value} has bits outside of this mask",
+                "has the value {value} for `{}` with the mask {mask:#X}, but {value} has bits outside of this mask",
                 brief(name)
             )
         })
@@ -87,7 +87,7 @@ fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     let signed = ty.bits().filter(|&bits| ty.is_signed() && bits <= 64 && number >> (bits - 1) == 1);
     let number = signed.map_or(number, |bits| number - (1i128 << bits));
     if ty.integer_range().is_some_and(|(low, high)| number < low || number > high) {
-        return Some(format!("whose type is {ty}"));
+        return Some(format!("but its type {ty} cannot hold this value"));
     }
     let (low, high) = item.limits.integers();
     let are_ordered = low.zip(high).is_none_or(|(low, high)| low <= high);
@@ -106,8 +106,8 @@ fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     }
 }
 
-/// Reports PDOs that a procedure maps but does not assign, or assigns without a description. Also reports COB-IDs that a
-/// procedure writes to a PDO although another PDO has them by default.
+/// Reports PDOs that a procedure maps but does not assign, and PDOs that it assigns although the source does not
+/// describe them. Also reports COB-IDs that a procedure writes to a PDO although another PDO has them by default.
 fn assignments(device: &Device, procedure: &Procedure, diagnostics: &mut Diagnostics) {
     let (mut mapped, mut assigned_to) = (BTreeMap::new(), [BTreeSet::new(), BTreeSet::new()]);
     let name = brief(&procedure.name);

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use super::Code;
 use crate::source::{FileId, Span};
 
-/// Spans in which a code is not reported, sorted for each file and code. As end of each span, the list stores the maximum end of
-/// this span and all spans before it.
+/// Spans in which a code is not reported, sorted for each file and code. As the end of each span, the list stores the
+/// maximum end of this span and all previous spans.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Allowed(HashMap<(FileId, &'static str), Vec<(u32, u32)>>);
 

@@ -1,4 +1,4 @@
-//! Catalogue of diagnostic codes, with identifier, name, class, default level and explanation of each.
+//! Catalog of diagnostic codes: identifier, name, class, default level and explanation of each code.
 //!
 //! A published code keeps its meaning. The identifier of a retired code is never reused.
 
@@ -96,7 +96,7 @@ macro_rules! codes {
             };
         )*
 
-        /// All codes, in the order of the catalogue.
+        /// All codes, in the order of the catalog.
         pub static CODES: &[&Code] = &[$(&$constant),*];
     };
 }
@@ -127,8 +127,8 @@ codes! {
         that this is the right file."
     EDS003 JUNK_LINE Repair Warn "a line is neither a section header, an entry nor a comment"
         "CiA 306 defines section headers, `Key=Value` entries and comment lines that start with `;`. Any other line is \
-        often a wrapped value, a merge marker or an include of another tool. Lexibus skips the line. Delete the line, \
-        or join it with the value that it continues."
+        often a wrapped value, a merge marker or an include directive of another tool. Lexibus skips the line. Delete \
+        the line, or join it with the value that it continues."
     EDS004 ENTRY_OUTSIDE_SECTION Repair Warn "an entry is above the first section"
         "An entry belongs to the section above it, so an entry without a section has no meaning. Lexibus skips the \
         entry. Move the entry below a section header."
@@ -170,8 +170,8 @@ codes! {
         "The value of this key has a fixed form, such as a number, but more text follows it. Lexibus ignores the text, \
         and also the suffix of a C literal, as in `50u`. Delete the text."
     EDS016 QUOTED_VALUE Repair Warn "a text is in quotation marks"
-        "CiA 306 writes texts without quotation marks. Tools that follow the standard show the quotation marks as part \
-        of the name. Lexibus removes one pair of quotation marks. Delete the quotation marks."
+        "In CiA 306, texts have no quotation marks. Tools that follow the standard show the quotation marks as part of \
+        the name. Lexibus removes one pair of quotation marks. Delete the quotation marks."
     EDS020 OCTAL_NUMBER Repair Warn "a number with a leading zero is octal"
         "In CiA 306, as in C, `012` is the octal number 10. Few authors intend an octal number. Lexibus follows the \
         standard and reads the number as octal. Write the number in decimal or as `0x…`."
@@ -182,37 +182,38 @@ codes! {
         "The key requires a number in its range: decimal, hexadecimal with `0x`, or a `$NODEID` formula. Lexibus keeps \
         the text or leaves the value out, as the diagnostic says, and derives no number from it. Correct the value."
     EDS023 HEX_SUFFIX Repair Warn "a hexadecimal number has the suffix `h`"
-        "CiA 306 writes hexadecimal numbers with the prefix `0x`. Lexibus reads `1Fh` as 0x1F. Write the prefix, \
-        because other tools may not read the suffix."
+        "In CiA 306, hexadecimal numbers have the prefix `0x`. Lexibus reads `1Fh` as 0x1F. Write the prefix, because \
+        other tools may not read the suffix."
     EDS024 TWOS_COMPLEMENT Repair Warn "a signed value is given as a bit pattern"
-        "The number does not fit the signed data type, but its bits do. Lexibus reads the bits as two's complement: \
-        `0xFFFFFFFF` is -1 for an INTEGER32. Write the negative number."
+        "The number is too large for the signed data type, but fits the unsigned data type of the same length. Lexibus \
+        reads the bits as two's complement: `0xFFFFFFFF` is -1 for an INTEGER32. Write the negative number."
     EDS025 OUT_OF_TYPE Lint Warn "a value does not fit its data type"
         "The data type cannot hold a value that large or small. Lexibus keeps the value in the intermediate \
         representation. Generated code clamps a limit to the type and leaves out a default value. Correct the value or \
         the data type."
     EDS026 REVERSED_NODEID Repair Warn "a formula does not start with `$NODEID`"
-        "CiA 306 requires the form `$NODEID+0x180`. Tools that follow the grammar drop a value in the reverse order. \
-        Lexibus reads the formula as the standard form. Write `$NODEID` first."
+        "CiA 306 requires the form `$NODEID+0x180`. Tools that follow the grammar ignore a formula in the reverse \
+        order. Lexibus reads the formula as the standard form. Write `$NODEID` first."
     EDS027 UNKNOWN_FORMULA Repair Warn "a node-ID formula has an unknown form"
         "CiA 306 defines only sums of `$NODEID` and numbers. Lexibus keeps any other formula as text. Correct the \
-        formula. If it contains another name of the node-ID, declare the name with `--node-id-alias`."
+        formula. If it contains another name for the node-ID, declare the name with `--node-id-alias`."
     EDS028 REAL_FOR_INTEGER Repair Warn "a decimal fraction is given for an integer"
-        "The data type is an integer, but the number has a decimal point. Lexibus drops a fraction of zero: `20.0` is \
-        20. Lexibus keeps any other fraction as text. Write an integer, or correct the data type."
+        "The data type is an integer, but the number has a decimal point. If all decimals are zero, Lexibus drops them \
+        and reads `20.0` as 20. It keeps any other number with a decimal point as text. Write an integer, or correct \
+        the data type."
     EDS029 DECIMAL_COMMA Repair Warn "a real number has a decimal comma"
         "Lexibus reads the comma as the decimal point: `1,5` is 1.5. Other tools may reject the number or drop the \
         digits after the comma. Write a decimal point."
     EDS030 REAL_AS_HEX Repair Warn "a real number has the wrong number of hexadecimal digits"
-        "Lexibus reads exactly 8 digits of a REAL32, or 16 of a REAL64, as the bits of an IEEE 754 number. Lexibus \
-        reads any other number of digits as an integer: `0x02` is 2. Write the number in decimal, or all digits of its \
-        bits."
+        "Lexibus reads a hexadecimal number as an IEEE 754 bit pattern if it has 8 digits for a REAL32, or 16 for a \
+        REAL64. With fewer or more digits, it reads the digits as an integer: `0x02` is 2. Write the number in \
+        decimal, or write all digits of the bit pattern."
     EDS031 DOMAIN_DEFAULT Repair Warn "a domain has a default value"
         "A DOMAIN is a block of data of any length, and has no default value. Lexibus keeps the value as text. Delete \
         the value, or correct the data type."
     EDS032 NOT_BOOLEAN Repair Warn "a flag is neither 0 nor 1"
-        "The key is a flag, such as PDOMapping. Lexibus reads the value by its meaning: `True`, `0x1` and `2` as 1, \
-        `no` as 0. Write 0 or 1, because other tools may read the value differently."
+        "The key is a flag, such as PDOMapping. Lexibus reads `True`, `0x1` and `2` as 1, and `no` as 0. Write 0 or 1, \
+        because other tools may read the value differently."
     EDS033 UNKNOWN_ACCESS Repair Warn "an access type is not one of ro, wo, rw, rwr, rww, const"
         "Lexibus reads `r` as ro and `w` as wo. Lexibus makes items with any other access type read-only, so that \
         generated code never writes them by mistake. Write one of the six access types."
@@ -243,9 +244,9 @@ codes! {
     EDS042 NOT_LISTED Lint Warn "an object is described but not listed"
         "Every object belongs in `[MandatoryObjects]`, `[OptionalObjects]` or `[ManufacturerObjects]`. Many tools read \
         only the objects in these lists. Lexibus keeps the object. Add the object to its list."
-    EDS043 LIST_COUNT Repair Warn "the number of entries of a list is wrong"
-        "SupportedObjects, or a similar key, is the number of entries, which are numbered from 1. Lexibus uses the \
-        entries that exist. Correct the number, because other tools may ignore entries beyond it."
+    EDS043 LIST_COUNT Repair Warn "a list states the wrong number of entries"
+        "SupportedObjects, or a similar key, states the number of entries in the list. The entries are numbered from \
+        1. Lexibus uses the entries that exist. Correct the number, because other tools may ignore entries beyond it."
     EDS044 LISTED_TWICE Lint Warn "an object is listed twice"
         "An object needs only one entry in the object lists. Lexibus ignores the second entry. Delete the second entry."
     EDS045 WRONG_LIST Lint Warn "an object is in the wrong list"
@@ -290,8 +291,8 @@ codes! {
         CompactSubObj. Their keys are sub-indices in decimal. Lexibus keeps this entry as an extension attribute. \
         Correct the key."
     EDS057 NO_SUBS Lint Warn "an ARRAY or RECORD has no sub-indices"
-        "Nothing describes the sub-indices of the object. In an EDS, it has neither sections for them nor \
-        CompactSubObj. The object has no value to read or write. Describe its sub-indices."
+        "The values of an ARRAY or RECORD are in its sub-indices, so this object has no value to read or write. In an \
+        EDS, neither sections nor CompactSubObj describe the sub-indices. Describe them."
     EDS058 NO_SUB0 Lint Warn "sub-index 0 is not described"
         "Every ARRAY and RECORD has a sub-index 0, which holds the highest sub-index (CiA 301, 7.4.3). Tools that \
         count the entries read it first. Lexibus keeps the object without it. Describe sub-index 0 as an UNSIGNED8."
@@ -303,7 +304,7 @@ codes! {
         In such an object, the entries are writable too, or writing 0 clears the list. Lexibus keeps the access \
         rights. This lint is off by default. Compare the access rights with the manual."
     EDS061 IDENTITY_MISMATCH Lint Warn "object 0x1018 contradicts `[DeviceInfo]`"
-        "VendorNumber, ProductNumber and RevisionNumber are the default values of 0x1018, sub-index 1 to 3. A master \
+        "VendorNumber, ProductNumber and RevisionNumber are the default values of 0x1018, sub-indices 1 to 3. A master \
         that checks the identity of a node would reject the device, or accept another one. Lexibus uses \
         `[DeviceInfo]`. Read 0x1018 from the device and correct the file."
     EDS062 MISSING_ENTRY Lint Allow "a mandatory entry is missing"
@@ -333,10 +334,10 @@ codes! {
         has `[SupportedModules]`. Lexibus reads the sections that exist. Add the missing section, because other tools \
         may reject the file."
     EDS070 NOT_ALLOWED_ENTRY Lint Allow "an entry has no meaning in its section"
-        "CiA 306 defines the key, but not for this kind of object. Examples are a DataType of an object with \
-        sub-indices, and a SubNumber of a single value. Lexibus keeps the entry as an extension attribute. This lint \
-        is off by default. Delete the entry, or correct ObjectType."
-    EDS071 HEX_COUNT Lint Warn "the number of entries of a list is hexadecimal"
+        "CiA 306 defines the key, but not for this kind of object. Examples are DataType for an object with \
+        sub-indices, and SubNumber for a single value. Lexibus keeps the entry as an extension attribute. This lint is \
+        off by default. Delete the entry, or correct ObjectType."
+    EDS071 HEX_COUNT Lint Warn "the number of list entries is hexadecimal"
         "Many tools read the number of entries of a list only as decimal, and then see an empty list. Lexibus reads \
         hexadecimal too. Write the number in decimal."
     XML001 MALFORMED_XML Error Deny "the XML is not well-formed"
@@ -347,9 +348,9 @@ codes! {
         so that a small file cannot grow into a large one. Lexibus keeps other references as text. Write the character \
         itself, and `&amp;` for `&`."
     XML003 WRONG_ENCODING Repair Warn "the file is not in its declared encoding"
-        "The XML declaration names an encoding. The default is UTF-8. Lexibus reads bytes that are valid UTF-8 as \
-        UTF-8, whatever is declared. Lexibus reads other bytes in the declared encoding, or as Windows-1252 if that \
-        fails. Bytes without a character in that encoding are lost. Declare the actual encoding."
+        "The XML declaration names an encoding. The default is UTF-8. Lexibus reads a file that is valid UTF-8 as \
+        UTF-8, even if the declaration names another encoding. It reads other files in the declared encoding, or as \
+        Windows-1252 if that fails. Bytes that are invalid in that encoding are lost. Declare the actual encoding."
     XML004 SECOND_ROOT Repair Warn "content follows the root element"
         "A document has one root element, and only comments may follow it. The content is often the rest of an older, \
         longer version of the file. Lexibus ignores the content. Delete the content."
@@ -372,13 +373,13 @@ codes! {
         "The name is neither a DataType of this dictionary nor a base data type of ESI, or the DataType defines only \
         its name. Lexibus keeps the value as raw bytes. Define the type in DataTypes, or use a base data type such as \
         UINT."
-    ESI011 TYPE_ALIAS Lint Allow "a base data type has its name from another standard"
+    ESI011 TYPE_ALIAS Lint Allow "a base data type has the name from another standard"
         "ESI calls the base data types USINT, UINT, UDINT and so on. This file uses the name of the same type in CiA \
         301 or C, such as UNSIGNED16. Lexibus reads the name as the base data type. This lint is off by default. Use \
         the ESI name if another tool requires it."
     ESI012 GUESSED_TYPE Repair Warn "a data type was guessed from the beginning of its name"
-        "The name begins with a base data type (`UINT_hex`), the sizes agree, and nothing else defines the type. \
-        Lexibus uses the base data type. Define the type, or use the name of the base data type."
+        "The name begins with the name of a base data type, as in `UINT_hex`. The sizes agree, and no DataType \
+        has this name. Lexibus uses the base data type. Define the type, or use the name of the base data type."
     ESI013 DUPLICATE_TYPE Repair Warn "two data types have the same name"
         "A reference to this name can mean either type. Lexibus uses the first type, as most tools do. Rename one of \
         the types."
@@ -386,18 +387,20 @@ codes! {
         "The name is missing, or another sub-item of the data type has the same name. Generated code distinguishes the \
         sub-items by sub-index. Give each sub-item a unique name."
     ESI015 ENDLESS_TYPE Repair Warn "a data type contains itself"
-        "A BaseType or SubItem leads back to the data type, or there are too many levels. Lexibus keeps the nested \
-        data as raw bytes. Correct the reference."
+        "A BaseType or SubItem leads back to the data type, or its types are nested too deeply. Lexibus keeps the \
+        nested data as raw bytes. Correct the reference."
     ESI016 MISSING_BASE_TYPE Repair Warn "an enumeration or array has no usable BaseType"
         "BaseType is the integer type of an enumeration, or the element type of an array. Lexibus reads an enumeration \
         without BaseType as an unsigned integer of its BitSize, and keeps an array as raw bytes. Add BaseType."
-    ESI017 ARRAY_BOUNDS Repair Warn "the number of elements of an array is missing or wrong"
+    ESI017 ARRAY_BOUNDS Repair Warn "the number of array elements is missing or wrong"
         "ArrayInfo has LBound and Elements, and BitSize is the size of all elements together. Lexibus derives a \
         missing number of elements from the sizes, and otherwise uses the declared number. An array has at most three \
         dimensions, and Lexibus leaves out further dimensions. Correct ArrayInfo or BitSize."
     ESI018 SUB_ITEM_MISMATCH Repair Warn "the sub-items of an object do not match its data type"
-        "Lexibus finds the sub-item of the data type by name. If the data type has no such name, Lexibus uses the \
-        position. Values may then belong to the wrong sub-index. Use the names of the data type."
+        "Each sub-item of an object gets its sub-index and type from the SubItem with the same name in the data type. \
+        If the data type has no SubItem with this name, or uses a name twice, Lexibus assigns the sub-item by its \
+        position. A value may then belong to the wrong sub-index. Give the sub-items the names that they have in the \
+        data type."
     ESI019 BIT_SIZE Lint Warn "BitSize is not the size of the data type"
         "The size of an object or data type contradicts the type that it consists of. The diagnostic says which size \
         Lexibus uses. Correct BitSize or the type."
@@ -406,22 +409,23 @@ codes! {
         digit was lost."
     ESI021 HEX_LENGTH Lint Warn "DefaultData, MinData or MaxData does not have the length of the type"
         "The bytes are in the order of memory: the least significant byte comes first. Lexibus reads missing bytes as \
-        zeros and drops surplus zeros. Lexibus keeps the value as bytes if there are other surplus bytes. Write as \
-        many bytes as the type has."
+        zeros and ignores surplus bytes that are zero. If another surplus byte exists, Lexibus keeps the whole value \
+        as raw bytes. Write as many bytes as the type has."
     ESI022 ESI_OUT_OF_TYPE Lint Warn "a value does not fit its data type"
         "The data type cannot hold a value that large or small. Lexibus keeps the value in the intermediate \
         representation. Generated code clamps a limit to the type and leaves out a default value. Correct the value or \
         the data type."
     ESI023 VALUE_FORM Repair Warn "a value has the form of another type"
-        "Examples are a fraction for an integer, and a text for a number. Lexibus converts the value if it can mean \
-        only one thing. Otherwise it keeps the value as text. Write the value in the form of its type."
+        "Examples are a fraction for an integer, and a text for a number. Lexibus converts the value if the conversion \
+        is unambiguous. Otherwise, it keeps the value as text. Write the value in the form of its type."
     ESI024 MINUS_ONE Repair Warn "-1 is given for an unsigned integer"
         "In C, -1 becomes an unsigned integer with all bits set. Lexibus reads -1 as that integer. Write the unsigned \
         number."
     ESI025 SUB_ITEM_PLACE Lint Warn "a sub-item shares bits with another sub-item, or exceeds its data type"
-        "BitOffs and BitSize of a sub-item state its position in the whole value. BitSize of the data type states the \
-        length of the whole value. CoE complete access transfers the whole value, so a wrong position mixes up the \
-        sub-items. Lexibus keeps the sub-items. Correct BitOffs or BitSize."
+        "CoE complete access transfers all sub-items of an object in one block. BitOffs and BitSize of a sub-item \
+        state its offset and length in this block. BitSize of the data type is the length of the block. If one of them \
+        is wrong, a master reads the bits of another sub-item. Lexibus keeps the sub-items. Correct BitOffs or \
+        BitSize."
     ESI030 ESI_MISSING_ACCESS Lint Warn "an object has no access rights"
         "The flags of an object or sub-item contain Access: ro, rw or wo. Lexibus makes an item without Access \
         read-only, so that generated code never writes the item by mistake. Add Access."
@@ -434,7 +438,7 @@ codes! {
     ESI033 ESI_MISSING_INDEX Repair Warn "an object, PDO entry or module has no usable index or ident number"
         "An object without an index cannot be addressed. A module without an ident number fits no slot. Lexibus leaves \
         out such objects and modules. Lexibus keeps a PDO entry without an index if the entry has a name and a type, \
-        and otherwise reads the entry as padding. Add the number."
+        and otherwise reads the entry as padding. Add the index or the ident number."
     ESI034 SUB_INDEX_RANGE Repair Warn "an object has more than 255 sub-indices"
         "A sub-index is a number of one byte. Lexibus keeps an array with too many elements as one value, and leaves \
         out a sub-item after sub-index 255. Check the number of elements of the array, which is often wrong."
@@ -442,12 +446,12 @@ codes! {
         "The text of Sm is MBoxOut, MBoxIn, Outputs or Inputs. If Sm has another text, Lexibus derives the purpose \
         from the PDOs that name the sync manager, or from its control byte or position. Write one of the four words."
     ESI041 PDO_WITHOUT_INDEX Repair Warn "a PDO has no index"
-        "Lexibus keeps the entries, but the PDO cannot be assigned to a sync manager. In an old file, Ref of a PDO \
-        names a template: a Pdo with this RefName in Descriptions/Pdos of the same file. Add the index or the \
-        template."
+        "Lexibus keeps the entries, but the PDO cannot be assigned to a sync manager. In an old file, the attribute \
+        Ref of a PDO names a template: the Pdo with this RefName in Descriptions/Pdos of the same file. Add the index \
+        or the template."
     ESI042 DUPLICATE_PDO Lint Warn "two PDOs have the same index"
-        "Some devices offer a PDO on two sync managers, of which only one can be assigned. Lexibus keeps both PDOs. \
-        Correct the index, or allow this code if the device works this way."
+        "Some devices describe a PDO twice, once for each of two sync managers. A master assigns it to only one of \
+        them. Lexibus keeps both PDOs. Correct the index, or allow this code if the device works this way."
     ESI043 UNNAMED_PDO Lint Warn "a PDO has no name"
         "The element Name is mandatory. Generated code names the PDO by its index. Add the name of the PDO."
     ESI044 ENTRY_LENGTH Lint Warn "the length of a PDO entry differs from the length of its data type"
@@ -461,8 +465,8 @@ codes! {
         it references. Lexibus leaves the slot empty. Put the file with the modules next to the description, or \
         correct the slot."
     ESI060 MISSING_IDENTITY Lint Warn "the vendor ID or product code is missing"
-        "A master finds the description of a slave by vendor number, product code and revision. Lexibus reads the file \
-        without the number. Add the Id of the vendor, or the ProductCode of the device."
+        "A master finds the description of a slave by vendor ID, product code and revision. Lexibus reads the file \
+        without the missing number. Add the Id of the vendor, or the ProductCode of the device."
     XDD002 POWERLINK_XDD Error Deny "the file is an Ethernet POWERLINK XDD, not a CANopen XDD"
         "Ethernet POWERLINK uses XDD files with the same outer elements (EPSG 311), but other communication profiles. \
         Lexibus rejects the file. Ask the vendor for the CANopen XDD of the device."
@@ -484,14 +488,15 @@ codes! {
         "An index must be unique in an object list, and a sub-index in its object. Lexibus uses the last definition. \
         Delete the wrong definition."
     XDD008 MISSING_INDEX Repair Warn "an object has no usable index"
-        "An object needs an index and a sub-object a sub-index, in hexadecimal digits. Lexibus leaves out objects and \
-        sub-objects without such a number, because they cannot be addressed. Add the index or sub-index."
+        "An object needs an index, and a sub-object needs a sub-index. Both consist of hexadecimal digits. Lexibus \
+        leaves out objects and sub-objects without such a number, because they cannot be addressed. Add the index or \
+        sub-index."
     GSD001 NOT_A_GSDML Error Deny "the XML is not a GSDML file"
         "A GSDML file has the root element ISO15745Profile, which contains a ProfileBody with an ApplicationProcess. \
         This file has another root element, and Lexibus rejects it. Check that this is the right file."
     GSD002 NO_DEVICE_ACCESS_POINT Lint Warn "a GSDML file describes no device"
-        "Every DeviceAccessPointItem is a device. Without a device, Lexibus has nothing to generate code for. Check \
-        that the file is complete."
+        "Every DeviceAccessPointItem describes one device. Without a device, Lexibus has nothing to generate code for. \
+        Check that the file is complete."
     GSD003 GSDML_FILE_NAME Lint Allow "the name of a GSDML file has the wrong form"
         "Engineering tools look for names such as `GSDML-V2.35-Vendor-Device-20200131.xml`, with the version of the \
         schema after `V`. Some tools reject other names. Lexibus recognizes the file by its content, so this lint is \
@@ -501,7 +506,7 @@ codes! {
         so this lint is off by default. Turn the lint on to find misspelled names."
     GSD005 GSDML_VALUE Repair Warn "the value of an attribute has an unknown form"
         "The schema fixes the form of the attribute, such as a decimal number, `true`, or a list like `1..3 7`. \
-        Lexibus reads a value that can mean only one thing, and leaves out any other value. Correct the value."
+        Lexibus reads the value if it is unambiguous. Otherwise, it leaves the value out. Correct the value."
     GSD006 GSDML_MISSING Repair Warn "a mandatory attribute or element is missing"
         "The schema requires the attribute or element. The diagnostic says what Lexibus assumes instead. Add the \
         attribute or element, because engineering tools may reject the file."
@@ -522,9 +527,9 @@ codes! {
         case-sensitive. Lexibus ignores the reference, so the content of the target is missing. Correct the ID, or add \
         the element."
     GSD012 UNKNOWN_GSDML_TYPE Repair Warn "a data type is unknown"
-        "The name is not a data type of GSDML. Lexibus accepts a name in the wrong case. Lexibus keeps values of any \
-        other type as raw bytes of the given length. Without a length, the value takes no space, and the offsets after \
-        it may be wrong. Correct the data type."
+        "The name is not a data type of GSDML. Lexibus accepts a name in the wrong case. It keeps values of any other \
+        unknown type as raw bytes of the declared length. Without a declared length, the value takes no space, and the \
+        offsets of later data items may be wrong. Correct the data type."
     GSD013 GSDML_DEFAULT Repair Warn "a default value does not have the form of its data type"
         "Numbers are decimal, octets are written as `0x00,0x1F`, and a bit is 0 or 1. Lexibus reads a hexadecimal \
         number, and keeps any other value as text. Correct the value."
@@ -538,18 +543,19 @@ codes! {
         "Writing one parameter changes the other. Lexibus keeps both parameters. Correct the offset or data type of \
         one parameter."
     GSD017 BIT_DATA_ITEM Repair Warn "a named bit does not match its data item"
-        "A BitDataItem names a bit of a data item with UseAsBits. The bit must be within the length of the item and \
-        have only one name. Lexibus leaves out any other bit. It reads the item as bits even if UseAsBits is missing. \
-        Correct the data item."
-    GSD018 IO_LENGTH Lint Warn "a module has more data than its device exchanges"
+        "A BitDataItem names a bit of a data item with UseAsBits. The bit must be within the length of the data item \
+        and have only one name. Otherwise, Lexibus leaves the bit out. Lexibus reads the data item as bits even if \
+        UseAsBits is missing. Correct the data item."
+    GSD018 IO_LENGTH Lint Warn "a module has more data than its device can exchange"
         "MaxInputLength, MaxOutputLength and MaxDataLength limit the data of all submodules, including their status \
         bytes. The device cannot use a module that exceeds these limits. Lexibus keeps the module. Correct the lengths."
     GSD019 RECORD_SIZE Lint Warn "a record is longer than the device accepts"
-        "MaxSupportedRecordSize is the maximum length of a record, 4068 bytes by default. The device rejects a longer \
-        record. Lexibus keeps the record. Correct the Length of the record or MaxSupportedRecordSize."
+        "MaxSupportedRecordSize of a device is the maximum length of its records. The default is 4068 bytes. The \
+        device rejects longer records. Lexibus keeps the record. Correct the Length of the record or \
+        MaxSupportedRecordSize."
     GSD020 SLOT_RANGE Lint Warn "a module is for slots that the device does not have"
-        "PhysicalSlots lists the slots of the device. The other slots that the module names cannot be used. Lexibus \
-        keeps the module. Correct PhysicalSlots or the slots of the module."
+        "PhysicalSlots lists the slots of the device. The module also names slots that are not in this list, so it \
+        cannot be used there. Lexibus keeps the module. Correct PhysicalSlots or the slots of the module."
     GSD021 SUBSLOT_TAKEN Lint Warn "two submodules are fixed in one subslot"
         "A subslot holds one submodule. A VirtualSubmoduleItem without FixedInSubslots is in subslot 1. Lexibus keeps \
         both submodules. Give each built-in submodule a different subslot."
@@ -560,8 +566,9 @@ codes! {
         "The mapping names an index and sub-index that the file does not describe. Lexibus keeps the field as raw \
         bits, or with the type that the PDO entry names. Describe the object, or correct the mapping."
     PDO002 NOT_MAPPABLE Lint Warn "a PDO maps an object that is not mappable"
-        "The description declares that the object cannot be mapped; in an EDS, PDOMapping is 0. A CANopen device \
-        rejects the mapping with abort code 0x06040041. Lexibus keeps the entry. Correct the mapping or the object."
+        "The description declares that the object cannot be mapped, such as with PDOMapping 0 in an EDS. A CANopen \
+        device rejects the mapping with abort code 0x06040041. Lexibus keeps the entry. Correct the mapping or the \
+        object."
     PDO003 WRONG_DIRECTION Lint Warn "a PDO maps an object in a direction that its access rights do not allow"
         "A TPDO carries readable objects (ro, const, rw, rwr), and an RPDO writable ones (wo, rw, rww). In EtherCAT, \
         PdoMapping states the direction. Lexibus keeps the entry. Correct the mapping or the object."
@@ -606,12 +613,12 @@ codes! {
         "Sub-index 0 is the number of mapped objects. This number is greater than the number of entries with a value. \
         Lexibus uses the entries with a value. Correct sub-index 0, or fill the entries."
     PDO017 UNCLEAR_DIRECTION Lint Allow "the access type of a mapped object does not state the PDO direction"
-        "CiA 306 has rwr for objects in a TPDO and rww for objects in an RPDO. Plain rw allows both directions, and a \
-        tool cannot know which one the device means. This lint is off by default. Write rwr or rww if the object can \
-        be mapped in only one direction."
+        "CiA 306 defines rwr for objects in a TPDO and rww for objects in an RPDO. The access type rw allows both \
+        directions, and a tool cannot know which one the device means. This lint is off by default. Write rwr or rww \
+        if the object can be mapped in only one direction."
     PDO018 DEFAULT_PDOS_CONFLICT Lint Warn "two PDOs that exclude each other are both assigned by default"
-        "A PDO with an Sm is assigned by default. This PDO cannot be assigned together with a PDO that it excludes, \
-        and the slave rejects both. Lexibus puts the first PDO into the default process image, and the other PDO stays \
+        "A PDO with the attribute Sm is assigned by default. Both PDOs have Sm, but one excludes the other, so the \
+        slave rejects this assignment. Lexibus puts the first PDO into the default process image. The other PDO stays \
         selectable. Delete Sm of one PDO."
     PDO019 NO_SUCH_SYNC_MANAGER Lint Warn "a PDO is assigned to a sync manager that is not described"
         "Sm of a PDO is the position of an Sm element, counted from 0. Lexibus leaves the PDO out of the default \
@@ -629,8 +636,8 @@ codes! {
         "An RxPDO carries an object that is read-only by SDO, or a TxPDO one that is write-only. Many slaves state the \
         access rights for SDO only, so this lint is off by default. Compare the access rights with the manual."
     PDO024 TOO_MANY_PDOS Lint Warn "a sync manager has more default PDOs than its assignment can hold"
-        "The assignment object of a sync manager has 254 sub-indices, so no master can write a longer list. Generated \
-        code has no `STARTUP`. Assign fewer PDOs by default."
+        "The assignment object of a sync manager has 254 sub-indices, so no master can write a longer list. The \
+        generated code has no constant `STARTUP`. Assign fewer PDOs by default."
     TAB001 REGISTER_FORMULA Lint Warn "the object of a register does not match the rule of its space"
         "The rule of a space derives the object from the register number. This row names another object, or names no \
         object although the neighboring rows do. Lexibus uses the object of the row. One of the two numbers is \
@@ -654,7 +661,7 @@ codes! {
         `\"0x1400..0x1403:1\"`, and bits as `7` or `\"3-2\"`. Lexibus produces no output until all addresses, ranges \
         and bit numbers are correct."
     TAB007 TABLE_DUPLICATE Error Deny "a name or an address occurs twice"
-        "Names of registers become Rust names, and an address has one value. Lexibus produces no output if a name, an \
+        "Names become Rust names, and each address belongs to one row. Lexibus produces no output if a name, an \
         address or an index is not unique. Correct the wrong name, address or index. If the manual has one name for \
         two registers, add a suffix to one of them and a `doubt`."
     TAB008 ROW_WITHOUT_ADDRESS Error Deny "a row has no address"
@@ -676,10 +683,11 @@ codes! {
         zeros, such as `0x0000`. Or an index does not have four digits (`0x20A`), or has no prefix `0x`. Usually a \
         digit was doubled or lost, or the type is wrong. This code also reports the prefix `0X`. Lexibus uses the \
         number. Compare the number with the manual.\n\
-        In an EDS, numbers with exactly the digits of a longer type are reported only if you set a level for this code."
+        In an EDS, numbers with exactly as many digits as a longer type are reported only if you set a level for this \
+        code."
     TAB013 BIT_OUTSIDE_TYPE Lint Warn "a bit is outside of its integer type"
         "The bit field names a bit that the integer does not have. Generated code leaves the field out. The type is \
-        too short, or the manual counts bits from 1. Correct the type or the number of the bit."
+        too short, or the manual counts bits from 1. Correct the type or the bit number."
     TAB014 BITS_OVERLAP Lint Warn "two fields share bits"
         "A bit has one meaning at a time. If the meaning depends on another item, the firmware or the model, state the \
         condition in each field: `when`, `since`, `until` or `models`. Otherwise correct the bits of the wrong field."
@@ -693,10 +701,10 @@ codes! {
         "Two entries of an enumeration or code table have the same number, or their ranges overlap. In a code table, a \
         range may contain narrower ranges, which take precedence. Generated code uses the first name. Correct the \
         number. If the name depends on the firmware or the model, state this in each entry."
-    TAB018 UNNAMED_VALUE Lint Warn "a default value, limit or condition has a value that is reserved or unnamed"
+    TAB018 UNNAMED_VALUE Lint Warn "a default value, limit or condition is a reserved or unnamed value"
         "The enumeration reserves the value, or is closed and does not name it. The code also reports unnamed writable \
-        values, and a limit next to the last named value. In a bit field, it checks the default and fixed values of \
-        each field. Name the value if the manual does, or correct the number."
+        values, and a limit next to the last named value. In a bit field, the lint checks the default and fixed values \
+        of each field. Name the value if the manual does, or correct the number."
     TAB019 RESERVED_BITS Lint Warn "a default value, limit or fixed value sets reserved or unnamed bits"
         "The number sets a bit that is reserved or has no name, or clears a bit that is always set. A limit that sets \
         all bits up to the end of the type or the last named bit is not reported. Correct the number, or name the bits \
@@ -723,7 +731,8 @@ codes! {
     TAB025 MENTIONED_OBJECT Lint Warn "a text mentions an object or item that the table does not have"
         "Lexibus searches documentation, names and effects for objects (`object 0x2010`, `0x1003:1`), registers \
         (`register 10015`) and names of items. A row is missing, or the mention is misprinted. A word is reported as a \
-        misspelled name if it differs from a name by one or two letters. Add the row, or correct the text."
+        misspelled name if it differs from a name by one to three letters, depending on its length. Add the row, or \
+        correct the text."
     TAB026 FIRMWARE_WINDOW Lint Warn "firmware ranges contradict each other"
         "`since` is the first firmware version that has an item, bit, value or message. `until` is the first later \
         version that does not have it. A range is empty, or the replacement of an item appears before or after the \
@@ -739,8 +748,8 @@ codes! {
         meant, as in CiA 402, so this lint is off by default. Otherwise correct the mask or value of one command."
     TAB030 OVERLAY_NO_MATCH Lint Warn "an overlay entry matches nothing"
         "The devices of the overlay have no such object or item, or no row of the overlay uses the definition. A newer \
-        version of the description may have renamed or removed it. Lexibus ignores the entry. Correct or delete the \
-        entry, or add the item with `add = true`."
+        version of the description may have renamed or removed the object or item. Lexibus ignores the entry. Correct \
+        or delete the entry, or add the object with `add = true`."
     TAB031 OVERLAY_NO_CHANGE Lint Warn "an overlay entry changes nothing"
         "The description already contains everything that the entry states. The vendor may have corrected a newer \
         version of the description. Delete the entry."
@@ -750,8 +759,8 @@ codes! {
         overlay."
     TAB033 STEP_IMPOSSIBLE Lint Warn "a step of a procedure is impossible"
         "The step writes a read-only item or a value that the item cannot have, or waits for a value that never \
-        occurs. Or the step assigns the COB-ID of another PDO to a PDO. Lexibus keeps the step. Compare the step with \
-        the manual, and correct the step."
+        occurs. Or the step gives a PDO the COB-ID of another PDO. Lexibus keeps the step. Compare the step with the \
+        manual, and correct the step."
     TAB034 ASSIGNED_PDO_MISSING Lint Warn "an assigned PDO is not described"
         "0x1C12 and 0x1C13 hold the indices of the assigned PDOs. A default value or a step of a procedure writes the \
         index of a PDO that the table does not have. Describe the PDO, or correct the index."
@@ -777,32 +786,33 @@ codes! {
         name was copied from the line above. Generated code adds a number to one of the names. Correct the name.\n\
         In formats other than register tables, this lint runs only if you set a level for this code."
     TAB041 BROKEN_NAME Lint Warn "a name contains a line break or a description, or is a column title"
-        "In a narrow column, the manual breaks a name with a hyphen. The prose of the manual often has the whole name. \
-        Or the cell of a name also contains values (`0 = Stop`) or a sentence. Or a bit has the title of a column, \
+        "In a narrow column, the manual breaks a name with a hyphen. The text of the manual often has the whole name. \
+        Or the cell with the name also contains values (`0 = Stop`) or a sentence. Or a bit has the title of a column, \
         such as `Definition`, because a line of the table is shifted. Write only the name, and the rest as `doc`."
     TAB042 EMPTY_LIMIT Lint Warn "the only limit of a row is the limit of its type"
-        "A minimum of 0, for example, does not restrict an unsigned value. The other cell of the manual is empty, or \
-        its limit was lost. Write both limits, or neither."
+        "A minimum of 0, for example, does not restrict an unsigned value. The manual does not state the other limit, \
+        or the limit was lost. Write both limits, or neither."
     TAB043 SHARED_REGISTERS Lint Warn "two items share registers or bits of one register"
-        "One of the items has the wrong number, or a type that is too long. Lexibus keeps both items. Correct the \
-        wrong item. If the device shows a part of a value in separate registers, declare it with `part`, or with \
-        `same_as` and `allow`."
+        "One of the items has the wrong register number, or a type that is too long. Lexibus keeps both items. Correct \
+        the wrong item. If the device repeats a part of a value in separate registers, declare this with `part`, or \
+        with `same_as` and `allow`."
     TAB044 EXAMPLE_DIFFERS Lint Warn "an example frame contradicts its message"
         "Lexibus compares the requests and replies that the manual prints with the fields of the message. The lint \
         checks the length, constants, echoes, reserved bits and named values. The frame or the field is misprinted. \
         Keep the bytes that the other frames support, and record the ambiguity in `doubt`."
     TAB045 CELLS_TWICE Lint Warn "two codes of a code table have the same cells"
-        "The table declares with `distinct` that no two codes have the same cells. The manual probably repeats a row. \
+        "The table declares with `distinct` that no two codes have identical cells. The manual probably repeats a row. \
         Record the ambiguity in `doubt`, and `allow` this code on the table."
     TAB048 NARROW_WINDOW Lint Warn "an item has more bits than the item through which it is read or written"
-        "The item is read or written through an item with fewer bits, and no other window of the space is wider. The \
-        upper bits are lost. Correct the type of one item, or add a wider window."
-    TAB049 WINDOW_ORDER Lint Warn "a procedure of a window writes the number before the value"
-        "Writing the number starts the transfer, so the device transfers the previous value. In a process image, the \
-        number and the value are sent together, so their order is not checked. Write the value before the number."
+        "All windows of the space transfer fewer bits than the item has, so the upper bits are lost. Correct the type \
+        of one item, or add a wider window."
+    TAB049 WINDOW_ORDER Lint Warn "a procedure writes the parameter number of a window before the value"
+        "Writing the parameter number starts the transfer, so the device transfers the previous value. In a process \
+        image, the parameter number and the value are sent together, so their order is not checked. Write the value \
+        before the parameter number."
     TAB050 QUANTITIES_DIFFER Lint Warn "two items for the same quantity have different default values"
         "`same_quantity` names an item for the same quantity in another scale. For each model, Lexibus compares the \
-        default values as physical values, to a thousandth. If the units differ, it compares machine values \
+        default values as physical values, with a tolerance of 0.1 %. If the units differ, it compares machine values \
         (`[given]`). Correct a default value or a scale."
     TAB051 NUMBER_GAP Lint Allow "a number is missing between consecutive parameters"
         "A row of the manual's table may be missing. Devices often skip numbers, so this lint is off by default. Look \
@@ -810,7 +820,7 @@ codes! {
     TAB052 CONVERSION_DIFFERS Lint Warn "a conversion in the manual contradicts the scale of the item"
         "`conversions` holds raw values and the physical values that the manual gives for them. The scale gives a \
         physical value that differs by more than one raw step. A digit is misprinted, or the scale, a machine value or \
-        the base is wrong. Keep the numbers that fit each other, and add a `doubt`."
+        the base is wrong. Keep the numbers that agree, and add a `doubt`."
     TAB053 OVERLAY_SHARED Lint Warn "an overlay also changes a device that its `for` does not name"
         "`for` in `[overlay]` names some devices. Another device has the same module or submodule, which is described \
         once, so the overlay also changes that device. If this is correct, name the module or the other device in \
@@ -819,7 +829,7 @@ codes! {
         "The escape byte must differ from the start byte and the end byte. All three must be escaped in data, and no \
         escaped byte may be sent as one of them. Otherwise, receivers find the end of a frame at the wrong byte. \
         Compare `[framing]` with the manual, and correct the wrong byte."
-    MSG002 MESSAGE_LENGTH Lint Warn "a message has incomplete bytes or exceeds a frame"
+    MSG002 MESSAGE_LENGTH Lint Warn "a message has incomplete bytes or is too long for a frame"
         "Adjacent fields shorter than a byte must fill whole bytes. The data of a message with all its repetitions \
         must not exceed the maximum number of data bytes in the framing. Correct a length, or the `max` of repeated \
         fields."
@@ -827,9 +837,9 @@ codes! {
         "The device could not distinguish the two requests, so a constant is probably misprinted. Correct the \
         constant. If the meaning depends on an earlier message, declare that message with `after`."
     MSG004 REPLY_OF_ANOTHER Lint Warn "a reply has the constant of another message"
-        "The constant at the start of a reply is also in its request. This constant is in the request of another \
-        message, so the manual's table was probably copied. Compare both tables with the prose, and correct the \
-        constant."
+        "A reply usually begins with a constant of its own request. This reply begins with a constant that is only in \
+        the request of another message, so the manual's table was probably copied. Compare both tables with the prose, \
+        and correct the constant."
     MSG005 ERROR_ALIKE Lint Warn "a reply and its error message can have the same bytes"
         "A client cannot determine from the bytes whether the device answered or refused. Correct a constant. If the \
         device never refuses the request, delete `error`."

@@ -100,7 +100,7 @@ mod tests {
         assert_eq!(text(Value::Int(0x8000_0100), CobId::Time), "0x100, consumed by the device");
         assert_eq!(text(Value::Int(0xC000_0180), CobId::Rpdo), "0x180, disabled, bit 30");
         assert_eq!(text(Value::Int(0x2001_0182), CobId::Tpdo), "0x10182, 29-bit identifier");
-        assert_eq!(text(Value::Int(0x1_0182), CobId::Tpdo), "", "no identifier of 11 bits");
+        assert_eq!(text(Value::Int(0x1_0182), CobId::Tpdo), "", "the identifier has more than 11 bits");
         assert_eq!(text(Value::Int(-1), CobId::Tpdo), "");
         assert_eq!(text(Value::Bool(true), CobId::Tpdo), "");
     }

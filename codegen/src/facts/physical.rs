@@ -219,7 +219,7 @@ mod tests {
         assert_eq!(written(3, 1e-14, 0.0, "m"), "3e-14 m (raw 3)");
         assert_eq!(written(-5, 0.1, 0.0, ""), "-0.5 (raw -5)");
         let (most, digits) = (i128::from(u64::MAX), "1844674407370955161.5 (raw 18446744073709551615)");
-        assert_eq!(written(most, 0.1, 0.0, ""), digits, "no number of 53 bits");
+        assert_eq!(written(most, 0.1, 0.0, ""), digits, "the number needs more than 53 bits");
         assert_eq!(written(most, 1.0, -1.0, ""), "18446744073709551614 (raw 18446744073709551615)");
         let unscaled = Quantity { unit: "ms".into(), ..Quantity::default() };
         assert!(Physical::of(Some(&unscaled)).is_none() && Physical::of(None).is_none());
@@ -240,9 +240,9 @@ mod tests {
         assert_eq!(
             range(Scale::Reciprocal { numerator: 1.0 }, Some(-5), Some(5)),
             "raw -5 … 5",
-            "it has no value at 0"
+            "the physical value of raw 0 is undefined"
         );
-        assert_eq!(range(Scale::Reciprocal { numerator: 1.0 }, Some(0), Some(4)), "raw 0 … 4", "1 / 0 is no number");
+        assert_eq!(range(Scale::Reciprocal { numerator: 1.0 }, Some(0), Some(4)), "raw 0 … 4", "1 / 0 is undefined");
         let by_item = Scale::ByItem { item: "Base".into(), factor: 1.0 };
         assert_eq!(range(by_item, Some(0), Some(4)), "raw 0 … 4");
     }

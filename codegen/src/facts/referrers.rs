@@ -25,7 +25,8 @@ pub enum Referrer<'d> {
     WritableWhen(ItemId),
     /// An item that this item replaces.
     Replaced(ItemId),
-    /// An item with the same value or quantity, the other half of the value, or the number of its elements.
+    /// An item with the same value or quantity, with the other half of the value, or with the number of this item's
+    /// elements.
     Related(ItemId),
 }
 

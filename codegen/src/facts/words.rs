@@ -208,8 +208,7 @@ impl Words<'_> {
         format!("{}{assumed}", access_name(item.access))
     }
 
-    /// Returns a sentence which states that the access rights are an assumption. Returns `None` if the source states the access
-    /// rights.
+    /// Returns the sentence about assumed access rights. Returns `None` if the source states the access rights.
     pub fn access(&self, item: &Item) -> Option<String> {
         let assumed = if item.access.writable() { "read-write" } else { "read-only" };
         item.is_access_assumed()
@@ -373,7 +372,7 @@ impl Words<'_> {
             (None, None, Some(high)) => format!("at most {}", self.value(high)),
         };
         // Limits that depend on the node-ID are only known at run time.
-        Some(if depends_on_node(limits) { text + " (not checked)" } else { text })
+        Some(if depends_on_node(limits) { text + " (depends on the node-ID, not checked)" } else { text })
     }
 
     /// Returns the range: `0 … 5`, `-20.0 … 200.0 °C (raw -200 … 2000)`. The text is empty if the item has no limits. `raw`
@@ -586,7 +585,7 @@ impl Words<'_> {
         let mut sentences = Vec::new();
         for (origin, facts) in groups {
             let replaced = matches!(origin, FactOrigin::Overlay { replaces: true, .. });
-            let instead = if replaced { ", replacing the description" } else { "" };
+            let instead = if replaced { " instead of the description" } else { "" };
             sentences.push(format!(
                 "{} from {}{instead}.",
                 capital(&enumerated(&facts)),

@@ -108,7 +108,7 @@ fn recognized(source: &Source, file: FileId) -> Result<(Format, &'static FrontEn
     found.ok_or_else(|| Box::new(detect::unknown(source, file)))
 }
 
-/// Reads a file with the front end of its format. `node_id_aliases` are further names of `$NODEID`; `choices` are the
+/// Reads a file with the front end of its format. `node_id_aliases` are further names of `$NODEID`. `choices` are the
 /// choices for the options of a register table.
 pub(crate) fn read(
     source: &Source,

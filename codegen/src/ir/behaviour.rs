@@ -197,8 +197,8 @@ pub struct RegisterBinding {
     /// Number of 16-bit words at one register address; 2 if the device has 32-bit registers.
     #[cfg_attr(feature = "serde", serde(default = "one", skip_serializing_if = "is_one"))]
     pub words_per_address: u8,
-    /// True if a value that is shorter than its registers is extended to their length: a signed value with its sign, an unsigned
-    /// value with zeros.
+    /// True if a value that is shorter than its registers is extended to their length. A signed value is extended with
+    /// its sign, and an unsigned value with zeros.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_false"))]
     pub extended: bool,
 }

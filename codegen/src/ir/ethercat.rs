@@ -242,9 +242,9 @@ pub struct SlotRules {
 pub struct ModulePdoGroup {
     /// Alignment of the data of each module in bytes; 0 and 1 = no alignment.
     pub alignment: u16,
-    /// Index of the RPDO of the device before the RPDOs of the modules, if given.
+    /// Index of the device's RxPDO that precedes the RxPDOs of the modules, if given.
     pub rx_pdo: Option<u16>,
-    /// Index of the TPDO of the device before the TPDOs of the modules, if given.
+    /// Index of the device's TxPDO that precedes the TxPDOs of the modules, if given.
     pub tx_pdo: Option<u16>,
 }
 

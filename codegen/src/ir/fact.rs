@@ -91,8 +91,7 @@ impl Fact {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum FactOrigin {
-    /// The description itself. This origin is recorded only for a fact that, according to the description, the item does not
-    /// have.
+    /// The description itself. This origin is recorded only if the description states that the item lacks the fact.
     Stated,
     /// The name that the manual prints. The text of the description only spells out this name.
     PrintedName,
@@ -137,8 +136,8 @@ impl FactOrigin {
         }
     }
 
-    /// Returns whether a fact of this origin replaces a fact of the origin `present`. Of two overlays, the later takes
-    /// precedence; of two standards, the first.
+    /// Returns whether a fact of this origin replaces a fact of the origin `present`. Of two overlays, the later one
+    /// takes precedence. Of two standards, the first one takes precedence.
     pub(crate) fn takes_precedence_over(&self, present: Option<&FactOrigin>) -> bool {
         let Some(present) = present else { return true };
         self.rank() > present.rank() || matches!(self, FactOrigin::Overlay { .. })
@@ -172,7 +171,8 @@ impl FactOrigins {
         FactOrigins(facts.iter().map(|fact| (*fact, FactOrigin::Rule(rule))).collect())
     }
 
-    /// Returns whether a fact of the origin `origin` is used. `is_stated` means that the element already has the fact.
+    /// Returns whether a fact of the origin `origin` may be added or may replace the present fact. `is_stated` means
+    /// that the element already has the fact.
     pub(crate) fn admits(&self, fact: Fact, is_stated: bool, origin: &FactOrigin) -> bool {
         origin.takes_precedence_over(self.get(fact).or(is_stated.then_some(&FactOrigin::Stated)))
     }

@@ -16,7 +16,7 @@ pub struct Message {
     pub request: Vec<MessageField>,
     /// Fields of the reply, in order; empty if the device sends no reply.
     pub reply: Vec<MessageField>,
-    /// The event with which the command is complete.
+    /// The event that completes the command.
     pub completion: Completion,
     /// Approximate reply time in milliseconds, if the source states that the reply is delayed.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
@@ -83,7 +83,7 @@ pub struct MessageExample {
     pub reply_at: Span,
 }
 
-/// The event with which a command is complete.
+/// The event that completes a command.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -100,7 +100,7 @@ pub enum Completion {
         item: ItemRef,
         /// Mask of the bits to compare; `None` = all bits.
         mask: Option<u64>,
-        /// Value that means that the command is complete; `None` = any value except 0.
+        /// Value that indicates completion; `None` = any value except 0.
         value: Option<Value>,
         /// True if the reply to the command itself already has a valid value. Otherwise, the value in that reply can refer to the
         /// previous command.
@@ -142,7 +142,7 @@ pub enum MessageField {
         /// Number of the last copied byte in the request.
         last: u16,
     },
-    /// The code of an item in a parameter space. In a reply, the field is the first code of the request.
+    /// The code of an item in a parameter space. In a reply, the field contains the first code of the request.
     ItemCode {
         /// Name of the parameter space.
         space: CompactString,

@@ -26,11 +26,11 @@ pub struct Slot {
     pub group: Option<u16>,
     /// Increment of the index of a module's objects per slot.
     pub index_increment: u16,
-    /// Increment of the number of a module's PDOs per slot.
+    /// Increment of the index of a module's PDOs per slot.
     pub pdo_increment: u16,
     /// Increment of the index of a module's objects per slot group.
     pub group_index_increment: u16,
-    /// Increment of the number of a module's PDOs per slot group.
+    /// Increment of the index of a module's PDOs per slot group.
     pub group_pdo_increment: u16,
 }
 

@@ -99,7 +99,7 @@ pub enum Direction {
 pub struct Pdo {
     /// Direction of the PDO.
     pub direction: Direction,
-    /// Number of the PDO: counted from 1 on CANopen, otherwise the distance of the mapping object from 0x1600 or 0x1A00.
+    /// Number of the PDO: counted from 1 on CANopen, otherwise the index of the mapping object minus 0x1600 or 0x1A00.
     pub number: u16,
     /// Name of the PDO, if the source has one.
     pub name: CompactString,

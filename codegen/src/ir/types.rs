@@ -297,7 +297,7 @@ pub struct BitFieldEntry {
     pub meaning: BitMeaning,
     /// Condition on another item under which the bits have this meaning, such as the mode of operation.
     pub when: Option<Condition>,
-    /// Event at which the bits take effect, if they do not take effect as long as they are set.
+    /// Event at which the bits take effect; `None` = the bits take effect as long as they are set.
     pub trigger: Option<Trigger>,
     /// Access rights of the bits, if they differ from those of the item.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]

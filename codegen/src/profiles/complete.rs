@@ -41,8 +41,8 @@ impl<'p> Completion<'p> {
     /// or overlay.
     pub(crate) fn device(&mut self, device: &mut Device, is_table: &dyn Fn(FileId) -> bool) {
         self.objects(&mut device.groups, &mut device.types, &mut device.process_data.pdos);
-        // The codes of the profile are left out if the manual lists codes, because both lists may contradict each other.
-        // Diagnosis texts of an ESI are different codes, so they do not conflict.
+        // The codes of the profile are left out if the manual lists codes, because both lists may contradict each
+        // other. The diagnosis texts of an ESI have other codes, which do not conflict with those of the profile.
         let of_manual = |table: &CodeTable| is_table(table.origin.span.file) && !is_from_profile(table);
         let has_codes = device.code_tables.iter().any(of_manual);
         for (table, doubts) in self.profile.codes.iter().filter(|_| !has_codes) {

@@ -44,7 +44,7 @@ pub(crate) struct Described {
     pub subs: Option<(u8, u8)>,
     /// Type of the entries, whose signedness is ignored.
     pub ty: Option<Type>,
-    /// Buses on which the facts apply; `None` = all.
+    /// Buses on which the facts apply; `None` means all buses.
     pub buses: Option<ObjectBuses>,
     /// Type with the names of bits or values, from [`Profile::types`].
     pub meaning: Option<TypeId>,

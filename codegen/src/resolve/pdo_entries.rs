@@ -42,7 +42,7 @@ fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut 
         if !entry.depends_on_slot && !dictionary.items.is_empty() && diagnostics.wants(&codes::MAPPED_OBJECT_MISSING) {
             let message = format!("{} is mapped, but not in the object dictionary", address(entry));
             let found = codes::MAPPED_OBJECT_MISSING.at(entry.origin.span, message);
-            diagnostics.push(found.label("added an object with the facts of the entry"));
+            diagnostics.push(found.label("an object with the name and type of the entry was added"));
         }
         return;
     };

@@ -306,7 +306,7 @@ macro_rules! record {
     }};
 }
 
-/// Minimum number of accepted data per record, and of accepted data that differ from the data before.
+/// Minimum number of accepted values per record, and of accepted values that differ from the previous one.
 const ACCEPTED: usize = 64;
 
 /// Checks a record. Decoding and encoding must keep the bits of all fields, and must set all other bits to those of

@@ -72,7 +72,7 @@ pub enum NmtState {
     Operational,
     /// The node is in Pre-operational. Nodes are configured in this state.
     PreOperational,
-    /// Any other number, which is not a defined state.
+    /// A number that doesn't belong to a defined state.
     Unknown(u8),
 }
 

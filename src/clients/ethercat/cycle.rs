@@ -10,7 +10,7 @@ use ethercrab::{DefaultLock, MainDevice, SubDeviceGroup, SubDeviceState};
 /// Exchanges process data and checks that all SubDevices of a group took part.
 ///
 /// `ethercrab` returns from `tx_rx` without an error if a SubDevice didn't process the datagram, or if a SubDevice left
-/// Operational. The inputs of such a SubDevice keep their values of an earlier cycle.
+/// Operational. The inputs of such a SubDevice keep their values from an earlier cycle.
 ///
 /// ```no_run
 /// use ethercrab::subdevice_group::Op;

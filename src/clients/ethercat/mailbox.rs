@@ -19,12 +19,14 @@ const MANAGERS: u16 = 4;
 /// Length of the registers of a sync manager in bytes.
 const REGISTERS: u16 = 8;
 
-/// Offset of the status register of a sync manager, and its bit for a full mailbox.
+/// Offset of the status register within the registers of a sync manager, and the bit that is set if the mailbox is
+/// full.
 const STATE: u16 = 5;
 const FULL: u8 = 0x08;
 
-/// Offsets of the activate and the PDI control register from the status register, and their bits to request and to
-/// acknowledge the repetition of a message (ETG.1000.4 6.7.3).
+/// Offsets of the activate register and the PDI control register from the status register, and the bit for repetitions
+/// in both registers. In the activate register, the bit requests the repetition of a message. In the PDI control
+/// register, the bit acknowledges the repetition (ETG.1000.4 6.7.3).
 const ACTIVATE: u16 = 1;
 const PDI_CONTROL: u16 = 2;
 const REPEAT: u8 = 0x02;

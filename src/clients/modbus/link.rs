@@ -29,7 +29,7 @@ const GAP: Duration = Duration::from_micros(1750);
 /// Minimum waiting time: the executor must have time to report bytes that have already arrived.
 const TURN: Duration = Duration::from_millis(1);
 
-/// Connection to a device that never mistakes a late reply for the reply to another request.
+/// Connection to a device. The connection never mistakes a late reply for the reply to another request.
 ///
 /// Modbus RTU has no transaction ID, so a reply cannot be matched to its request. After a timeout, an invalid reply or
 /// a dropped call, the link waits before it sends the next request. The link discards the late reply, or it waits until

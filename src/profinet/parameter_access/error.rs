@@ -115,8 +115,8 @@ impl From<LengthError> for ParameterError {
 /// ```
 /// use lexibus::profinet::parameter_access::ErrorNumber;
 ///
-/// assert_eq!(ErrorNumber::LIMITS.to_string(), "0x0002: the value is beyond a limit");
-/// assert_eq!(ErrorNumber(0x65).to_string(), "0x0065: a vendor's own reason");
+/// assert_eq!(ErrorNumber::LIMITS.to_string(), "0x0002: the value is outside its limits");
+/// assert_eq!(ErrorNumber(0x65).to_string(), "0x0065: vendor-specific reason");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ErrorNumber(pub u16);
@@ -144,9 +144,9 @@ macro_rules! numbers {
 numbers! {
     NO_PARAMETER = 0x00, "there is no such parameter";
     NOT_CHANGEABLE = 0x01, "the value cannot be changed";
-    LIMITS = 0x02, "the value is beyond a limit";
+    LIMITS = 0x02, "the value is outside its limits";
     NO_SUBINDEX = 0x03, "there is no such subindex";
-    NO_ARRAY = 0x04, "the parameter is no array";
+    NO_ARRAY = 0x04, "the parameter isn't an array";
     DATA_TYPE = 0x05, "wrong data type";
     RESET_ONLY = 0x06, "the value can only be reset to 0";
     DESCRIPTION_NOT_CHANGEABLE = 0x07, "the element of the description cannot be changed";
@@ -158,14 +158,14 @@ numbers! {
     TOO_LONG = 0x15, "the response is too long";
     ADDRESS = 0x16, "attribute, number of elements, parameter number or subindex isn't allowed";
     FORMAT = 0x17, "the format isn't allowed";
-    VALUE_COUNT = 0x18, "the number of values isn't the number of elements";
+    VALUE_COUNT = 0x18, "the number of values differs from the number of elements";
     NO_AXIS = 0x19, "there is no such axis";
     TEXT_NOT_CHANGEABLE = 0x20, "the text cannot be changed";
 }
 
 impl fmt::Display for ErrorNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let other = if self.0 > 0x64 { "a vendor's own reason" } else { "unknown error number" };
+        let other = if self.0 > 0x64 { "vendor-specific reason" } else { "unknown error number" };
         write!(f, "{:#06X}: {}", self.0, self.text().unwrap_or(other))
     }
 }

@@ -74,7 +74,7 @@ fn what_is_always_there() {
     assert_eq!(places(&plan), [(0, 1, 1), (0, 0x8001, 2), (0, 0x8002, 2)]);
     assert_eq!(plan.module(9).map(|module| module.name), Some("Power"));
     assert_eq!(plan.lengths(), (3, 3), "three submodules without data: a provider and a consumer status each");
-    assert_eq!(Plan::<3>::new(&DAP).unwrap_err(), PlanError::Full, "the power module has a place, too");
+    assert_eq!(Plan::<3>::new(&DAP).unwrap_err(), PlanError::Full, "the power module also counts");
     assert_eq!(plan.dap().module.ident, 0x10);
 }
 

@@ -29,7 +29,7 @@ fn states_and_heartbeat() -> Result<(), Error> {
         device.client().send(&NmtCommand::Start.frame(NodeId::new(NODE + 1)))?;
         device.client().nmt(command)?;
         // An SDO response proves that the node has processed the command. A node of the Python library also answers SDO
-        // requests in the state Stopped.
+        // requests in the state "Stopped".
         assert_eq!(device.heartbeat_time().read()?, 20);
         assert_eq!(script.ask(json!({ "do": "state" })), name);
         // Discard heartbeats that have already arrived.

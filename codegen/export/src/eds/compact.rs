@@ -3,7 +3,7 @@
 use crate::note;
 use lexibus_codegen::ir::{Access, Group, Item, Limits, Mappable, ObjectCode, Type, Value};
 
-/// The name of sub-index 0 in a compact object if the file does not name it (CiA 306).
+/// The default name of sub-index 0 in a compact object (CiA 306).
 const COUNT_NAME: &str = "NrOfObjects";
 
 /// The elements of a compact object.

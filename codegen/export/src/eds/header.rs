@@ -81,7 +81,8 @@ fn device_info(writer: &mut Writer, context: &Context<'_>, objects: &[&Group]) {
     }
 }
 
-/// Returns the declared number of PDOs. If the source declares none, returns the number of mapping objects.
+/// Writes the declared number of PDOs. For devices on other buses without a declared number, writes the number of
+/// mapping objects.
 fn pdo_count(
     writer: &mut Writer,
     key: &'static str,

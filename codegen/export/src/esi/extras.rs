@@ -24,8 +24,8 @@ const OF_TYPE: [&str; 9] = [
 /// Elements of a profile that contain a number.
 const OF_PROFILE: [&str; 2] = ["AddInfo", "SubAddInfo"];
 
-/// Time limits of the state machine and of the mailbox. If the file contains one of the time limits in a list, the schema
-/// requires all of them.
+/// Time limits of the state machine and of the mailbox. If the file contains one time limit of a list, the schema
+/// requires all time limits of this list.
 const STATE_TIMES: [&str; 4] = ["PreopTimeout", "SafeopOpTimeout", "BackToInitTimeout", "BackToSafeopTimeout"];
 const MAILBOX_TIMES: [&str; 2] = ["RequestTimeout", "ResponseTimeout"];
 
@@ -52,7 +52,7 @@ pub(super) fn lost(device: &Device) -> usize {
     for extension in all {
         let key = extension.key.as_str();
         let is_known = key == CURRENT || OF_TYPE.contains(&key) || CONTROLLER.contains(&key) || LAST.contains(&key);
-        // The schema allows each known element once, and one picture.
+        // The schema allows each known element and the picture at most once.
         let is_single = is_known || image.is_some_and(|image| *image == key);
         let is_written = matches!(key, URL | URL_LANGUAGE) || is_single && seen.insert(key);
         lost += usize::from(!is_written);

@@ -56,8 +56,8 @@ fn sync_manager(xml: &mut Xml, manager: &SyncManager) {
 /// Returns the sync managers for the memory areas in the options, with their numbers.
 fn given(context: &Context<'_>) -> Vec<SyncManager> {
     let options = context.options;
-    // The control byte (ETG.1000.4, 6.7.2) selects mailbox or three buffers, the direction, and an interrupt for the
-    // host.
+    // The control byte (ETG.1000.4, 6.7.2) selects the mode (mailbox or three buffers), the direction, and an interrupt
+    // for the host.
     let areas = [
         (SyncManagerPurpose::MailboxOut, 0x26, options.mailbox_out()),
         (SyncManagerPurpose::MailboxIn, 0x22, options.mailbox_in()),

@@ -12,7 +12,7 @@ use lexibus_codegen::ir::{Catalog, Device, Family, Graphic, LocalText, Module, S
 /// Compares two versions of a device description.
 ///
 /// The result begins with changes that break Rust code or the communication. Changes that break the behavior follow,
-/// then all others. Each of these groups has the order of the old description.
+/// then all others. The changes in each of these groups have the order of the old description.
 pub fn compare(old: &Catalog, new: &Catalog) -> Vec<Change> {
     let mut comparison = Comparison::new(old, new);
     all_devices(&old.devices, &new.devices, &mut comparison);

@@ -91,7 +91,7 @@ impl fmt::Display for Judgement {
     }
 }
 
-/// The class of a change, determined by its worst effect. The variants have the order of reports.
+/// The class of a change, determined by its worst effect. Reports list the classes in the order of the variants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Class {
     /// The change breaks Rust code or the communication.

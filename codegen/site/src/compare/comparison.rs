@@ -41,7 +41,7 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// Compares a device, module or submodule with a separate list of types.
+    /// Compares a device, module or submodule that has its own list of types.
     pub fn in_types(&mut self, old: &'a [TypeDef], new: &'a [TypeDef], compare: impl FnOnce(&mut Self)) {
         let outer = (self.types, self.types_owner);
         (self.types, self.types_owner) = ((old, new), self.types_owners);
@@ -257,7 +257,7 @@ pub(super) fn or_default<T: Default, B: Borrow<T>>(
     }
 }
 
-/// Compares a list with the function `compare`, which compares slices.
+/// Returns a rule that passes two lists as slices to `compare`.
 pub(super) fn slice<T, L: Deref<Target = [T]>>(
     compare: impl Fn(&[T], &[T], &mut Comparison<'_>),
 ) -> impl Fn(&L, &L, &mut Comparison<'_>) {
@@ -268,7 +268,7 @@ pub(super) fn slice<T, L: Deref<Target = [T]>>(
 pub(super) struct Elements<T> {
     /// Function that returns the name of an element in reports.
     pub title: fn(&T) -> String,
-    /// Function that returns the first key that pairs elements. An empty key pairs nothing.
+    /// Function that returns the first key that pairs elements. Elements with an empty key are not paired by this key.
     pub name: fn(&T) -> String,
     /// Function that returns the second key, which pairs elements that have no common first key.
     pub position: fn(&T) -> String,

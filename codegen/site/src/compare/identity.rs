@@ -6,7 +6,7 @@ use super::show::ident;
 use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{CompactString, Identity};
 
-/// Compares identities. A program can check the identity, but it does not change any other bytes.
+/// Compares identities. A program can check the identity, but the identity does not affect any other bytes.
 pub(super) fn identity(old: &Identity, new: &Identity, comparison: &mut Comparison<'_>) {
     compare_fields!(Identity, old, new, comparison, {
         vendor_id: fact_as("vendor-ID", Judgement::BEHAVIOR, ident),

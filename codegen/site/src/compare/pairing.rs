@@ -9,7 +9,7 @@ pub(super) type Pair<'a, T> = (Option<&'a T>, Option<&'a T>);
 /// Pairs elements in the order of the old list. Added elements follow at the end.
 ///
 /// First, elements with the same name and position are paired. The remaining elements are paired by unique name, then
-/// by position. Empty names and positions pair nothing.
+/// by position. Elements are never paired by an empty name or position.
 pub(super) fn pairs<'a, T>(
     old: &'a [T],
     new: &'a [T],

@@ -2,7 +2,8 @@
 //! exceptions, with reasons.
 //!
 //! The test changes the leaves of the serialized representation: numbers, texts, truth values, alternatives, list
-//! elements and optional parts. Of the leaves with the same path, only some are changed, in the smallest descriptions.
+//! elements and optional parts. If many leaves have the same path, the test changes only some of them, in the smallest
+//! descriptions.
 
 #[allow(dead_code)]
 #[path = "../../../../tests/support/arbitrary_ir/mod.rs"]

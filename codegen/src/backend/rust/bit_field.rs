@@ -130,7 +130,7 @@ fn title(context: &Context<'_>, condition: &Condition) -> String {
     };
     let numbers = condition.values.iter().map(Value::to_string).collect::<Vec<_>>().join(" or ");
     let item = context.link(&condition.item, DocModule::TYPES).unwrap_or_else(|| docs::escape(&condition.item));
-    format!("while {item} is {} ({numbers})", docs::escape(&names.join(" or ")))
+    format!("while {item} is \"{}\" ({numbers})", docs::escape(&names.join("\" or \"")))
 }
 
 /// Returns the model of the bit field at `position` in the list of types.
@@ -163,7 +163,10 @@ pub(super) fn model(
     let mut docs = docs::of_type(context, position);
     for (bits, number) in [(zeros, 0), (ones, 1)] {
         if bits != 0 {
-            docs.extend([String::new(), format!("The reserved bits {} are written as {number}.", hexadecimal(bits))]);
+            docs.extend([
+                String::new(),
+                format!("A write to an item sets the reserved bits {} to {number}.", hexadecimal(bits)),
+            ]);
         }
     }
     let views = views.iter().zip(&methods).map(|(view, method)| {
@@ -211,7 +214,7 @@ fn table<'f>(entries: &[&BitFieldEntry], fields: impl Iterator<Item = &'f FieldM
     let reserved = |entry: &&BitFieldEntry| {
         let BitMeaning::Reserved { write } = entry.meaning else { return None };
         let written = match write {
-            Some(one) => format!("The value {} is written.", u8::from(one)),
+            Some(one) => format!("A write to an item sets the value {}.", u8::from(one)),
             None => String::new(),
         };
         entry.when.is_none().then(|| (entry.offset, [span(entry), "reserved".to_owned(), written]))

@@ -229,7 +229,7 @@ impl Links {
     pub fn users(&self, position: u32, doc_module: DocModule<'_>) -> String {
         let users = self.users.get(&position).map_or(&[][..], Vec::as_slice);
         let paths = users.iter().filter_map(|id| Some(self.handles.get(id)?.constant.as_str()));
-        sentence("Type of the values of", &paths.collect::<Vec<_>>(), doc_module)
+        sentence("Value type of", &paths.collect::<Vec<_>>(), doc_module)
     }
 
     /// Returns the sentences that link the documentation of an item's accessor to the constant and the type of the
@@ -262,7 +262,7 @@ impl Links {
 
 /// Returns the sentence about the type of an item's values.
 fn values(ty: Option<&str>, doc_module: DocModule<'_>) -> Option<String> {
-    Some(format!("Type of the value: {}.", doc_module.code(&format!("types::{}", ty?))))
+    Some(format!("Value type: {}.", doc_module.code(&format!("types::{}", ty?))))
 }
 
 /// Returns whether a client can access the objects. If a slave has no CoE, its objects are derived from PDOs, and a

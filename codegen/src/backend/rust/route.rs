@@ -160,7 +160,7 @@ pub(super) struct AccessPath<'i> {
     pub resized: Option<u8>,
     /// Allowed values on the bus, and whether the item is signed.
     pub limited: Option<(&'i Limits, bool)>,
-    /// True if the conversion is signed: of the item's integer and the integer on the bus, the narrower one is signed.
+    /// True if the conversion is signed, that is, if the narrower of both integers (item and bus) is signed.
     pub is_signed: bool,
 }
 

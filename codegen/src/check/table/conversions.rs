@@ -1,5 +1,5 @@
-//! Checks example conversions that the manual prints: the printed physical value and that of the raw value may differ by at most
-//! 1 LSB.
+//! Checks example conversions that the manual prints. The printed physical value may differ by at most 1 LSB from the
+//! physical value that the scale determines.
 
 use super::physical;
 use crate::check::context::Context;
@@ -7,7 +7,8 @@ use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Conversion, Device, Item, MachineUnit, Quantity, Scale};
 use crate::text::brief;
 
-/// The number of digits after the first significant digit, enough for a raw value of 16 bits.
+/// The number of digits after the first significant digit. The resulting seven digits are enough for a raw value of 16
+/// bits.
 const DIGITS: f64 = 6.0;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {

@@ -1,12 +1,13 @@
-//! Checks the PDOs of a table, and the defaults of mapping objects without CANopen settings, against the mapped items.
+//! Compares the PDOs of a table with the mapped items. For devices without CANopen settings, also compares the default
+//! values of mapping objects.
 
 use crate::check::context::Context;
 use crate::check::mapped_object::{direction_of, Described, Mapped, CAN_BITS};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Device, Group, Item, Pdo, PdoEntryKind};
 
-/// Reports mapped objects whose facts contradict the PDO mapping. Other checks cover CANopen mapping objects and
-/// EtherCAT.
+/// Reports mapped objects that contradict the PDO mapping, and PDOs that are too long. Other lints check the mapping
+/// objects of CANopen devices. For EtherCAT devices, missing objects and wrong lengths are already reported elsewhere.
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let device = context.device;
     let described = Described::new(device);
@@ -28,7 +29,7 @@ fn length(device: &Device, pdo: &Pdo, diagnostics: &mut Diagnostics) {
     let (bits, index) = (pdo.bits(), pdo.mapping_index);
     let mut report = |message| diagnostics.push(codes::PDO_TOO_LONG.at(pdo.origin.span, message));
     if let Some(max) = pdo.max_bytes.map(|max| u32::from(max) * 8).filter(|&max| bits > max) {
-        report(format!("the PDO 0x{index:04X} has {bits} bits, but at most {max} are allowed"));
+        report(format!("the PDO 0x{index:04X} has {bits} bits, but at most {max} bits are allowed"));
     }
     if device.canopen.is_some() && device.ethercat.is_none() && bits > CAN_BITS {
         report(format!("the PDO 0x{index:04X} has {bits} bits, but a CAN frame has 64"));

@@ -12,8 +12,8 @@ use crate::text::{brief, edit_distance};
 /// are too similar to each other.
 const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
 
-/// Minimum number of item names with the same first letter, from which on the letter counts as a prefix. In addition, nine tenths
-/// of all item names must begin with this letter.
+/// A letter counts as a prefix if at least this number of item names, and at least nine tenths of all item names, begin
+/// with this letter.
 const CONVENTION: usize = 4;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -30,15 +30,15 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
             }
             let suggestion = *known.entry(word).or_insert_with(|| names.suggestion(word));
             let Some(suggestion) = suggestion.filter(|_| reported.insert((text.span, word))) else { continue };
-            let of = if text.of.is_empty() { String::new() } else { format!(" in `{}`", brief(text.of)) };
-            let message = format!("a text mentions `{}`{of}, but no item has this name", brief(word));
+            let of = if text.of.is_empty() { String::new() } else { format!(" of `{}`", brief(text.of)) };
+            let message = format!("a text{of} mentions `{}`, but no item has this name", brief(word));
             let found = codes::MENTIONED_OBJECT.at(text.span, message);
             diagnostics.push(found.help(format!("did you mean `{}`?", brief(suggestion))));
         }
     }
 }
 
-/// The names of the elements in a table.
+/// Names in a table: items, groups, types, procedures and messages.
 struct Names<'a> {
     all: BTreeSet<String>,
     /// Item names that are recognizable as identifiers, such as `targetSpeed`, because they cannot be words of a language.
@@ -68,7 +68,8 @@ impl<'a> Names<'a> {
         if !LETTERS.contains(&letters) || self.all.contains(&lower) {
             return None;
         }
-        // The family of `Rdefinp0` to `Rdefinp15` is called `Rdefinp` or `Rdefinpx`. A plural is not a misspelling.
+        // Texts refer to the registers `Rdefinp0` to `Rdefinp15` as `Rdefinp` or `Rdefinpx`. A plural is not a
+        // misspelling.
         let stem = lower.trim_end_matches(['x', 'n', 's']);
         let of_a_family = self.all.range(stem.to_owned()..).next().is_some_and(|name| name.starts_with(stem));
         if of_a_family || self.all.contains(stem) {

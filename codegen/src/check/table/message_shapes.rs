@@ -12,9 +12,10 @@ use crate::source::Span;
 use crate::text::brief;
 
 const SELECTOR: Problem =
-    "the message in `after` is not sent, has no code, or has data of variable length, so the client cannot remember it";
+    "the message in `after` is not sent, has no generated code, or has data of variable length, so the client cannot \
+     remember it";
 const FIRST: Problem = "`default` needs `after`, the message that selects another answer";
-const NO_REFUSAL: Problem = "the error message has no reply, no code, or data of variable length";
+const NO_REFUSAL: Problem = "the error message has no reply, no generated code, or data of variable length";
 const NO_END: Problem = "no byte marks the end of a frame";
 const UNKNOWN_CHECK: Problem = "the runtime supports only the checks `xor`, `sum`, `lrc` and `crc16`";
 

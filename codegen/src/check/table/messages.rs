@@ -69,8 +69,8 @@ fn length(framed: &Framed<'_>, max: Option<usize>, diagnostics: &mut Diagnostics
     }
 }
 
-/// Reports a reply whose first constant is not in its own request, but in the request of another message whose reply begins with
-/// the same constant.
+/// Reports a reply whose first constant probably belongs to another message. The constant is not in the request of this
+/// message, but in the request of another message whose reply begins with the same constant.
 fn replies_of_others(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let first =
         |framed: &Framed<'_>| framed.reply.constants.first_key_value().map(|(position, byte)| (*position, *byte));

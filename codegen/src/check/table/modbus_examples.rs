@@ -70,10 +70,7 @@ impl Request {
             problems.push(format!("starts at the address 0x{:04X}, which no row has", self.start));
         } else if !of_space().any(|register| self.covers(register)) {
             let quantity = self.quantity;
-            problems.push(format!(
-                "covers {}, but no item ends at the last of these registers",
-                count_of(quantity, "register")
-            ));
+            problems.push(format!("covers {}, but no item ends in the last register", count_of(quantity, "register")));
         }
         if self.function == 16 && bytes.get(6).is_some_and(|count| u16::from(*count) != self.quantity.saturating_mul(2))
         {
@@ -137,7 +134,7 @@ fn ending(bytes: &[u8], length: usize) -> Option<String> {
         Some(2) => {
             let (data, check) = bytes.split_at(length);
             let crc = crc(data).to_le_bytes();
-            (check != crc).then(|| format!("ends with {:02X?}, but the CRC of its bytes is {crc:02X?}", check))
+            (check != crc).then(|| format!("ends with the hexadecimal bytes {:02X?}, but its CRC is {crc:02X?}", check))
         }
         _ => Some(format!("has {} bytes, but its fields need {length}", bytes.len())),
     }

@@ -66,7 +66,7 @@ impl Number {
     }
 }
 
-/// Reads a number or formula. `text` must be trimmed; `aliases` are further names of `$NODEID`.
+/// Reads a number or formula. `text` must be trimmed. `aliases` are further names of `$NODEID`.
 pub fn parse(text: &str, aliases: &[String]) -> Number {
     if let Some(value) = plain(text).filter(|_| aliases.is_empty()) {
         return Number { parsed: Parsed::Int { value: value.into(), hex: is_plain_hex(text) }, quirk: None };

@@ -107,7 +107,7 @@ pub fn unknown_access(text: &str, span: Span, access: Access, help: &str, diagno
 }
 
 /// Compares the announced number of sub-indices, written as `text`, with the number of described sub-indices. Sub-index
-/// 0 is counted; sub-index 0xFF is not counted.
+/// 0 is counted, but sub-index 0xFF is not.
 pub fn sub_number(
     group: &Group,
     announced: i128,

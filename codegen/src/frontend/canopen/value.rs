@@ -147,8 +147,8 @@ impl Converter<'_> {
         let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
         let (Some(digits), Some(bits)) = (digits, ty.bits()) else { return };
         let needed = bits.div_ceil(4) as usize;
-        // Numbers with 2, 4, 8 or 16 digits are reported only if the user explicitly enables this diagnostic, because
-        // many tools write all numbers with 8 digits.
+        // Many tools write all numbers with 8 digits. Numbers with 2, 4, 8 or 16 digits are therefore reported only if
+        // the user explicitly enables this diagnostic.
         let is_usual = matches!(digits.len(), 2 | 4 | 8 | 16) && !self.diagnostics.asks_for(&codes::HEX_DIGITS);
         if digits.len() > needed && !is_usual && digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
             let message = format!("`{}` has {} hexadecimal digits, but {ty} needs {needed}", brief(text), digits.len());

@@ -77,7 +77,8 @@ fn span_of(
     let given = field.sub_index.map(u32::from);
     let Some((element, lower, count)) = types.elements(ty) else { return single(given.unwrap_or(next)) };
     let first = given.unwrap_or_else(|| u32::try_from(lower).unwrap_or(0).max(next));
-    // Array types of ETG.1000.6, and arrays whose elements would overlap the next field, are single values.
+    // An array with an ETG.1000.6 type name (`ARRAY …`), or with elements that would overlap the next field, is a
+    // single entry.
     let room = following.is_none_or(|following| u32::from(following) >= first.saturating_add(count));
     if field.ty.text.starts_with("ARRAY") || !room {
         return single(first);

@@ -42,7 +42,7 @@ impl xml::Language for Lcid {
 }
 
 impl Reader<'_, '_> {
-    /// Subtracts `cost` from the budget for copies. Returns false if the budget is exceeded; only the first excess is
+    /// Subtracts `cost` from the budget for copies. Returns false if the budget is exceeded. Only the first excess is
     /// reported.
     pub fn derive(&mut self, cost: Cost, span: Span) -> bool {
         if self.format.budget.take(cost) {

@@ -14,7 +14,8 @@ impl<'a> Reader<'a, '_> {
         let [given] = self.attributes(tag, ["LcId"])?;
         let lcid = number::parse(&given.text).and_then(|number| u32::try_from(number.value).ok());
         if lcid.is_none() && !given.is_empty() {
-            self.bad(&given, "language identifier", "read as a text without a language");
+            let action = "read as a text without a language; expected a number, such as 1033 for English";
+            self.bad(&given, "Windows language identifier", action);
         }
         let given = self.content()?;
         if !given.is_empty() {

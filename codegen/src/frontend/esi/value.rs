@@ -62,7 +62,7 @@ fn scalar(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, bytes: Vec<
     if bytes.len() != length && reader.diagnostics.wants(&codes::HEX_LENGTH) {
         let label = match bytes.len().cmp(&length) {
             Ordering::Less => "missing bytes are read as zeros",
-            _ if rest.iter().any(|&byte| byte != 0) => "kept as bytes",
+            _ if rest.iter().any(|&byte| byte != 0) => "kept as raw bytes",
             _ => "the zeros after the value are ignored",
         };
         let message = format!("{ty} has {}, but the value has {}", count_of(length, "byte"), bytes.len());

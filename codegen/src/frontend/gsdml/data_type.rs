@@ -13,7 +13,7 @@ pub(super) enum DataType {
     Number(&'static NumberType),
     /// Value with its quality, or two values.
     Pair(&'static PairType),
-    /// Octets whose number the file declares. The last octet is a status.
+    /// Octet string whose length in bytes the file declares. The last octet is a status.
     OctetsWithStatus,
     /// Trailer of a PROFIsafe message, with its length in bytes. The trailer contains no user data.
     Trailer(u32),

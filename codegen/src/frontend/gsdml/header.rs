@@ -39,7 +39,7 @@ impl Header {
     pub fn identity<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<()> {
         let [vendor, device] = reader.attributes(tag, ["VendorID", "DeviceID"])?;
         for (given, name) in [(&vendor, "VendorID"), (&device, "DeviceID")] {
-            reader.require(tag, given, name, "read as devices without this ID");
+            reader.require(tag, given, name, "the devices are read without this ID");
         }
         self.vendor_id = reader.ident(&vendor, u16::MAX.into(), "vendor ID");
         self.device_id = reader.ident(&device, u16::MAX.into(), "device ID");

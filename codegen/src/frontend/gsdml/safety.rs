@@ -47,8 +47,8 @@ static KNOWN: [Known; 12] = [
         ("2-Byte-CRC", 1),
         ("4-Byte-CRC", 2),
     ]),
-    // GSDML defines one value of `F_CRC_Seed`, which is a cleared bit in the record. Only with a cleared bit, the
-    // checksums that vendors declare for their default values are correct.
+    // GSDML defines a single value for `F_CRC_Seed`, which is a cleared bit in the record. The checksums that vendors
+    // declare for their default values are correct only if the bit is cleared.
     known("F_CRC_Seed", "CRC-Seed24/32", "CRC-Seed24/32", false).optional().labels(&[("CRC-Seed24/32", 0)]),
     known("F_Passivation", "Device/Module", "Device/Module", false)
         .optional()

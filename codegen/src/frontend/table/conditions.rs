@@ -1,4 +1,4 @@
-//! Conditions for the existence or for the writing of an element: values of other items, models, firmware versions, buses.
+//! Conditions under which an element exists or can be written: values of other items, models, firmware versions, buses.
 
 use compact_str::CompactString;
 

@@ -70,7 +70,7 @@ fn sync_manager(reader: &mut Reader<'_, '_>, given: &At<SyncManagerTable>, devic
     let manager = &given.value;
     let origin = reader.origin(given);
     device.doubts.extend(reader.doubts_of(manager, origin));
-    let purpose = manager.purpose.as_ref().and_then(|word| reader.word(word, "purpose", &PURPOSES));
+    let purpose = manager.purpose.as_ref().and_then(|word| reader.word(word, "purpose of a sync manager", &PURPOSES));
     let (Some(number), Some(start_address), Some(purpose)) = (manager.number, manager.start, purpose) else {
         let message = "a sync manager needs a `number`, a `start` and a `purpose`";
         reader.report(&codes::TABLE_VALUE, reader.span(given), message);

@@ -23,7 +23,12 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, device
         escape: framing.escape,
         escape_xor: framing.escape_xor,
         escaped: framing.escaped.clone(),
-        check: framing.check.as_ref().and_then(|word| reader.word(word, "check", &CHECKS)).unwrap_or_default().into(),
+        check: framing
+            .check
+            .as_ref()
+            .and_then(|word| reader.word(word, "checksum", &CHECKS))
+            .unwrap_or_default()
+            .into(),
         check_from: framing.check_from.as_ref().map(|field| field.value.as_str().into()),
         check_escaped: framing.check_escaped.unwrap_or(framing.escape.is_some()),
         check_seed: framing.seed,

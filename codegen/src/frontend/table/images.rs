@@ -195,7 +195,7 @@ fn position(
         other => other.and_then(Type::bits),
     };
     let Some((at, bits)) = field.at.zip(bits) else {
-        let message = format!("the field `{}` needs an `at`, and a `type` of a fixed length", brief(&key.value));
+        let message = format!("the field `{}` needs an `at`, and a `type` with a fixed length", brief(&key.value));
         reader.report(&codes::TABLE_VALUE, reader.span(key), message);
         return None;
     };

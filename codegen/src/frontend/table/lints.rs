@@ -10,8 +10,8 @@ use crate::ir::{Type, Value};
 use crate::source::Span;
 use crate::text::brief;
 
-/// If at least this number of rows print both a register number and its object, the lint expects an object in each row of the
-/// chapter.
+/// Minimum number of rows in a chapter with both a register number and its object. From this number on, the lint
+/// expects an object in each row of the chapter.
 const PRINTED: usize = 3;
 
 /// Checks the digits and the value of a number against its type.

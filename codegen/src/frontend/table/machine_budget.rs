@@ -1,5 +1,5 @@
-//! Limits the size of the state machines of a device. A transition from a list of states is copied for each of these states, and
-//! the texts of a matrix row are copied for each state of the row.
+//! Limits the size of the state machines of a device. A transition from a list of states is copied for each of these
+//! states. The texts of a matrix row are copied for each state of the row.
 
 use std::collections::HashMap;
 use std::fmt::Debug;

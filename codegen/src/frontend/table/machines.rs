@@ -17,8 +17,9 @@ fn text(at: &At<String>) -> CompactString {
     at.value.as_str().into()
 }
 
-/// Reads a state machine. Reports transitions with unknown states or commands; a command may be a message. Returns `false` if the
-/// machine exceeds `budget`. After a return value of `false`, the caller must ignore all further machines.
+/// Reads a state machine. Reports transitions with unknown states or commands. A command may also be the name of a
+/// message. Returns `false` if the machine exceeds `budget`. After a return value of `false`, the caller must ignore
+/// all further machines.
 pub(super) fn machine(
     reader: &mut Reader<'_, '_>,
     name: &At<String>,

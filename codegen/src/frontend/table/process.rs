@@ -15,7 +15,7 @@ const MAX_EXCLUDED: usize = 512;
 
 /// Reads a PDO direction, as seen from the device.
 pub(super) fn direction(reader: &mut Reader<'_, '_>, given: Option<&At<String>>) -> Option<Direction> {
-    reader.word(given?, "direction", &[("rx", Direction::Receive), ("tx", Direction::Transmit)])
+    reader.word(given?, "PDO direction", &[("rx", Direction::Receive), ("tx", Direction::Transmit)])
 }
 
 /// Objects and items to which PDO entries may refer.
@@ -100,7 +100,7 @@ fn printed_lengths(reader: &mut Reader<'_, '_>, table: &PdoTable, pdo: &Pdo) {
     let (index, bits) = (pdo.mapping_index, pdo.bits());
     for bytes in printed.value.0.iter().filter(|bytes| bytes.saturating_mul(8) != bits) {
         let message =
-            format!("the manual prints {bytes} bytes for the PDO 0x{index:04X}, but its entries have {bits} bits");
+            format!("the manual states {bytes} bytes for the PDO 0x{index:04X}, but its entries have {bits} bits");
         reader.report(&codes::LENGTH_MISMATCH, reader.span(printed), message);
     }
 }

@@ -90,7 +90,7 @@ fn expanded(row: &Row) -> usize {
         / ROW_BYTES_PER_ITEM
 }
 
-/// Returns the number of items to which a text of `length` bytes corresponds.
+/// Returns the number of items that a text of `length` bytes counts as, after the free bytes of a row are subtracted.
 fn beyond(length: usize) -> usize {
     length.saturating_sub(MAX_FREE_ROW_BYTES) / ROW_BYTES_PER_ITEM
 }

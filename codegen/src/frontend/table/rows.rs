@@ -232,7 +232,7 @@ impl Rows {
             return;
         };
         let (name, bytes) = (brief(named.name), bits.div_ceil(8));
-        let message = format!("the manual prints {} bytes for `{name}`, but its type has {bytes}", length.value);
+        let message = format!("the manual states {} bytes for `{name}`, but its type has {bytes}", length.value);
         let found = Diagnostic::new(&codes::LENGTH_MISMATCH, reader.span(length), message).label("the type is used");
         reader.diagnostics.push(found.help("correct the type, or delete `length` and add a `doubt`"));
     }
@@ -262,7 +262,7 @@ impl Rows {
             item.access = Access::ReadOnly;
         }
         if let Some(pdo) = &row.pdo {
-            item.mappable = reader.word(pdo, "direction of PDOs", &DIRECTIONS).unwrap_or(item.mappable);
+            item.mappable = reader.word(pdo, "PDO direction", &DIRECTIONS).unwrap_or(item.mappable);
             item.at.mappable = reader.span(pdo);
         }
     }

@@ -24,7 +24,7 @@ pub(super) fn item(reader: &mut Reader<'_, '_>, definitions: &Definitions, given
         names(reader, summary, &item.name, &item.names);
         code(reader, summary, if is_domain { ObjectCode::Domain } else { ObjectCode::Var });
         if let Some(subs) = summary.subs.as_ref().filter(|subs| subs.value != 1) {
-            let message = format!("`summary` states {} sub-indices, but the row is one value", subs.value);
+            let message = format!("`summary` states {} sub-indices, but the row is a single value", subs.value);
             report(reader, summary, reader.span(subs), message);
         }
     }
@@ -65,7 +65,7 @@ fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, messa
         "write the correct value in the row, record the other value in a `doubt`, and allow this code on the row",
     );
     reader.diagnostics.push(match &summary.cite {
-        Some(cite) => found.note(format!("page or line of the summary in the manual: {}", cited(cite))),
+        Some(cite) => found.note(format!("`summary` cites page or line {} of the manual", cited(cite))),
         None => found,
     });
 }
@@ -129,7 +129,7 @@ fn of_item(
         }
     }
     if let Some(given) = &summary.pdo {
-        let mappable = reader.word(given, "direction of PDOs", &DIRECTIONS);
+        let mappable = reader.word(given, "PDO direction", &DIRECTIONS);
         if mappable.is_some_and(|mappable| mappable != item.mappable) {
             differs.push((
                 reader.span(given),

@@ -263,7 +263,7 @@ impl<'a> Reader<'a, '_> {
         let text = doc.unwrap_or_default().to_owned();
         let (cite, text_from) = match self.standard.as_str() {
             "" => (cite.map(CompactString::from), None),
-            // An element that cites no clause is part of an element that cites a clause.
+            // An element that cites no clause needs no origin, because it is part of an element that cites a clause.
             standard => (None, cite.map(|clause| FactOrigin::Standard(standard_and_clause(standard, &clause).into()))),
         };
         Some(Box::new(Documentation { text, cite, text_from: text_from.map(Box::new), ..Documentation::default() }))

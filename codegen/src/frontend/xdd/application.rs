@@ -171,7 +171,7 @@ pub(super) fn insert(reader: &mut Reader<'_, '_>, ids: &mut Ids, given: Given<'_
         return;
     }
     if ids.contains_key(given.text.as_ref()) {
-        reader.bad(&given, "uniqueID: it occurs twice", "references resolve to the first element");
+        reader.bad(&given, "uniqueID, because it occurs twice", "references resolve to the first element");
         return;
     }
     ids.insert(given.text.into_owned(), position);

@@ -6,7 +6,8 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{CompactString, Device, Extension};
 use crate::syntax::xml::Tag;
 
-/// Reads the attributes of a profile body. A file has two profile bodies; the first value of each attribute applies.
+/// Reads the attributes of a profile body. A file has two profile bodies. If both have an attribute, the first value
+/// applies.
 pub(super) fn body<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Device) -> Read<()> {
     const NAMES: [&str; 12] = [
         "fileName",
@@ -86,7 +87,7 @@ fn name<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, name: &mut CompactString
     Ok(())
 }
 
-/// Reads an order number. The first order number is that of the device; the others belong to variants of the device.
+/// Reads an order number. The first order number is that of the device. The others belong to variants of the device.
 fn order_number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Device) -> Read<()> {
     let given = reader.text(tag)?;
     if device.identity.order_code.is_empty() {

@@ -101,7 +101,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             Diagnostic::new(
                 &codes::MISSING_DATA_TYPE,
                 item.at.ty,
-                "the object has no data type, and no parameter with one",
+                "neither the object nor its parameter has a data type",
             )
             .label("kept as read-only raw bytes")
             .help("add a data type, such as `dataType=\"0007\"` for UNSIGNED32"),
@@ -137,7 +137,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null => {}
             _ if is_read => {}
             _ => {
-                let message = "the object has no access type, and no parameter with one";
+                let message = "neither the object nor its parameter has an access type";
                 self.reader.report(&codes::MISSING_ACCESS, raw.origin.span, message, "kept read-only");
             }
         }
@@ -153,7 +153,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             "readWriteOutput" => Access::ReadWriteOutput,
             "const" => Access::Constant,
             "noAccess" => {
-                let message = "the object refers to a parameter without access from the bus";
+                let message = "the object refers to a parameter that cannot be accessed through the bus";
                 self.reader.report(&codes::XDD_VALUE, given.span, message, "kept read-only");
                 Access::ReadOnly
             }

@@ -7,7 +7,7 @@ use crate::frontend::xml::Read;
 use crate::ir::{Device, Fit, Slot};
 use crate::syntax::xml::Tag;
 
-/// Reads a `DeviceManager` element. The module interfaces become slots; other elements become extensions.
+/// Reads a `DeviceManager` element. The module interfaces become slots, and other elements become extensions.
 pub(super) fn device_manager<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         match tag.name {

@@ -137,7 +137,7 @@ fn bit_rate(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<u16> {
     };
     if !plain {
         let label = value.map_or_else(|| "left out".into(), |rate| format!("read as {rate} kbit/s"));
-        reader.bad(given, "bit rate of CiA 311, such as `250 Kbps`", label);
+        reader.bad(given, "CiA 311 bit rate, such as `250 Kbps`", label);
     }
     value
 }

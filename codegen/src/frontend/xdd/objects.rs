@@ -306,7 +306,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     }
 
     /// Subtracts `weight` bytes from the budget for copies of the application process. Returns false if the budget is
-    /// too small; only the first excess of the budget is reported.
+    /// too small. Only the first excess of the budget is reported.
     pub(super) fn charge(&mut self, weight: usize, span: Span) -> bool {
         if let Some(left) = self.copies_left.checked_sub(weight) {
             self.copies_left = left;
@@ -333,7 +333,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             "optional" => Some(Category::Optional),
             "conditional" => Some(Category::Conditional),
             _ => {
-                self.reader.bad(given, "support value", "left out; expected mandatory, optional or conditional");
+                self.reader.bad(given, "value of support", "left out; expected mandatory, optional or conditional");
                 None
             }
         }

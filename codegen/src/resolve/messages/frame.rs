@@ -12,12 +12,13 @@ pub(crate) struct Frame {
     pub constants: BTreeMap<usize, u8>,
     /// Minimum length of the data in bits.
     pub min_bits: usize,
-    /// Length in bits if fields that are repeated up to a declared maximum occur as often as possible.
+    /// Length in bits with the maximum number of repetitions. Repeated fields without a declared maximum count once.
+    /// For other fields with a variable length, the minimum length counts.
     pub max_bits: usize,
     /// True if the frame can be longer than `min_bits`.
     pub is_open: bool,
-    /// Bit offset of the first field of whole bytes that does not start at a byte boundary, or of the end of the data
-    /// if the end is not at a byte boundary.
+    /// Bit offset of the first misalignment, if any: a field of whole bytes that does not start at a byte boundary, or
+    /// an end of the data within a byte.
     pub broken: Option<usize>,
 }
 

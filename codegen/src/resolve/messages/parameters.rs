@@ -7,9 +7,9 @@ use super::step::Step;
 use crate::ir::{Binding, Device, Item, MessageRef, ParameterSpace};
 
 const OTHERS: Problem = "the request has further fields whose values a client does not know";
-const NO_NUMBER: Problem = "the request has no parameter number of this space";
-const NO_VALUE: Problem = "the reply has no parameter value of this space";
-const NO_SETTING: Problem = "the request has no parameter number of this space that is followed by a value";
+const NO_NUMBER: Problem = "the request contains no parameter number from this space";
+const NO_VALUE: Problem = "the reply contains no parameter value from this space";
+const NO_SETTING: Problem = "the request contains no parameter number from this space with a value after it";
 const NO_CODE: Problem = "no code is generated for the message";
 
 /// Maximum length of a parameter value in a message, in bits.

@@ -6,8 +6,8 @@ use crate::ir::owner::{fixed, Owner};
 use crate::ir::{Device, Message, MessageField, MessageValue, Type};
 
 pub(super) const UNRESOLVED: Problem = "a field refers to a field that does not exist";
-pub(super) const UNALIGNED: Problem = "a field of whole bytes starts within a byte, or the data end within a byte";
-const UNKNOWN_LENGTH: Problem = "a value is neither a number of 1 to 64 bits nor a string of fixed length";
+pub(super) const UNALIGNED: Problem = "a field of whole bytes starts within a byte, or the data ends within a byte";
+const UNKNOWN_LENGTH: Problem = "a value is neither a number of 1 to 64 bits nor a string with a fixed length";
 const SEVERAL_LENGTHS: Problem =
     "two fields have a variable length, or a field of variable length comes before a counted list";
 const SEVERAL_LISTS: Problem = "the message has two lists of repeated fields";
@@ -236,8 +236,8 @@ impl<'a> Shaper<'a, '_> {
     }
 }
 
-/// Checks that at most one step has a variable length, and that a counted list comes after its count and before the step with a
-/// variable length.
+/// Checks that at most one step has a variable length. Also checks that a counted list comes after its count and before
+/// the step with a variable length.
 fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
     let list = steps.iter().position(Step::is_counted_list);
     let open = steps.iter().position(Step::is_open);

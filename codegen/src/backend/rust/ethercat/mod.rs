@@ -112,7 +112,11 @@ fn bytes(settings: &EtherCatSettings) -> Vec<(&'static str, &'static str, String
             "Configuration of the slave controller, from the first words of the EEPROM.",
             &eeprom.config_data,
         ),
-        ("EEPROM_BOOT_STRAP", "Mailbox configuration for the Bootstrap state, from the EEPROM.", &eeprom.boot_strap),
+        (
+            "EEPROM_BOOT_STRAP",
+            "Mailbox configuration for the state \"Bootstrap\", from the EEPROM.",
+            &eeprom.boot_strap,
+        ),
     ];
     let given = all.into_iter().filter(|(.., bytes)| !bytes.is_empty());
     given.map(|(name, documentation, bytes)| (name, documentation, literal::bytes(bytes))).collect()

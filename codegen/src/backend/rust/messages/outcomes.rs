@@ -97,8 +97,10 @@ fn documentation(
     row: &CommandOutcomes,
     link: &dyn Fn(&str) -> String,
 ) -> Vec<String> {
-    let mut lines =
-        vec![format!("Reaction to the command in each state of the state machine {}.", docs::escape(&machine.name))];
+    let mut lines = vec![format!(
+        "Reaction to the command in each state of the state machine \"{}\".",
+        docs::escape(&machine.name)
+    )];
     docs::described(row.documentation.as_deref(), &context.manual, &mut lines);
     let one = |outcome: &Outcome| match outcome {
         Outcome::Unchanged => "state unchanged".to_owned(),

@@ -87,11 +87,11 @@ impl Rules {
 
 /// Returns the documentation of a rule's constant.
 fn documentation(context: &Context<'_>, definition: Option<&ParameterSpace>, space: &str) -> String {
-    let mut text = format!("Encoding of the parameters of the space {} in messages.", docs::escape(space));
+    let mut text = format!("Encoding in messages for parameters from the space \"{}\".", docs::escape(space));
     let messages = definition.map_or([None, None], |definition| [definition.read.as_ref(), definition.write.as_ref()]);
-    for (name, by) in messages.into_iter().zip(["read", "written"]) {
+    for (name, verb) in messages.into_iter().zip(["reads", "writes"]) {
         if let Some(path) = name.and_then(|message| context.links.path(message.id?.into())) {
-            text += &format!(" Parameters are {by} by {}.", DocModule::MESSAGES.code(path));
+            text += &format!(" {} {verb} parameters.", DocModule::MESSAGES.code(path));
         }
     }
     text

@@ -70,7 +70,7 @@ fn methods(code: &mut Code, model: &Model) {
     code.close("}");
     if let Some(axes) = &model.axes {
         code.doc(&format!(
-            "Returns the driver of axis `number`{}. The first axis has the number 1. Objects that all axes share have the same address on every axis.",
+            "Returns the driver for axis `number`{}. The first axis has the number 1. Objects that all axes share have the same address on every axis.",
             axes.models
         ));
         let axis = generic!("rt::Axis", "&mut C");
@@ -87,7 +87,7 @@ fn accessor(code: &mut Code, object: &ObjectModel) {
     let function = call!(seq!["pub fn ", name], "&mut self");
     if object.is_module {
         code.doc(&object.heading);
-        code.doc(&format!("The constants of the object's entries are in {}.", object.constants));
+        code.doc(&format!("The constants for the object's entries are in {}.", object.constants));
         let result = generic!(seq!["objects::", name, "::Accessors"], "'_", "C");
         open!(code, function, " -> ", result, " {");
         open!(code, "objects::", name, "::Accessors {");

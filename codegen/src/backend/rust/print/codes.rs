@@ -9,7 +9,7 @@ use crate::backend::rust::reexport::Section;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let tables = &model.code_tables;
-    let heading = "Code tables. The function `codes::find` of the runtime returns the row of a code.";
+    let heading = "Code tables. The function `codes::find` of the runtime returns the row for a code.";
     section::write(code, model, Section::Codes, heading, (!tables.is_empty()).then_some(true), |code| {
         tables.iter().for_each(|table| self::table(code, table));
     });

@@ -58,7 +58,7 @@ fn ethercat(code: &mut Code, ethercat: &EtherCatModel, title: &str) {
         line!(code, "pub const CLOCK_MODES: &[rt::ethercat::ClockMode] = ", modes, ";");
     }
     if let Some(startup) = &ethercat.startup {
-        code.doc("SDO writes that configure the default PDO assignment. Send them in the state Pre-Operational.");
+        code.doc("SDO writes that configure the default PDO assignment. Send them in the state \"Pre-Operational\".");
         line!(code, "pub const STARTUP: &[rt::SdoWrite] = ", startup, ";");
     }
     for (name, title, bytes) in &ethercat.bytes {

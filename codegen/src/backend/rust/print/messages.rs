@@ -47,7 +47,7 @@ fn constants(code: &mut Code, protocol: &ProtocolModel) {
         code.docs(&protocol.framing_docs);
         line!(code, "pub const FRAMING: rt::framing::Delimited = ", framing, ";");
     }
-    code.doc("Maximum length in bytes of the data of a message.");
+    code.doc("Maximum length of the data in a message, in bytes.");
     line!(code, "pub const MAX_DATA: usize = ", protocol.max_data, ";");
     code.doc(match protocol.has_station {
         true => "Messages that read and write parameters of the device with this station address.",

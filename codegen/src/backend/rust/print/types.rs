@@ -92,7 +92,7 @@ pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel)
         let (states, commands) = (&states.name, &commands.name);
         open!(code, "impl ", states, " {");
         line!(code, "const TRANSITIONS: &'static [rt::Transition<", commands, ">] = ", transitions, ";");
-        code.doc("Returns the next step from this state towards `target`.");
+        code.doc("Returns the next step from this state toward `target`.");
         let result = generic!("rt::Step", commands);
         open!(code, call!("pub fn toward", "self", "target: Self"), " -> ", result, " {");
         line!(code, call!("rt::Step::toward", "Self::TRANSITIONS", "self as u8", "target as u8"));

@@ -304,7 +304,7 @@ mod tests {
         assert_eq!(kind(Type::Unsigned(16), position(8, 16)), Some(FieldKind::Native { signed: false }));
         assert_eq!(kind(Type::Integer(24), position(8, 24)), Some(FieldKind::Number { signed: true }));
         assert_eq!(kind(Type::Unsigned(16), position(9, 16)), Some(FieldKind::Number { signed: false }));
-        assert_eq!(kind(Type::Unsigned(64), position(9, 64)), None, "more than a word");
+        assert_eq!(kind(Type::Unsigned(64), position(9, 64)), None, "the field is longer than a word");
         assert_eq!(kind(Type::Boolean, position(8, 8)), Some(FieldKind::Flag));
         assert_eq!(kind(Type::Opaque(None), position(8, 80)), Some(FieldKind::Bytes));
         assert_eq!(kind(Type::Opaque(None), position(9, 3)), Some(FieldKind::Number { signed: false }));

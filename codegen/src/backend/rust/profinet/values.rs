@@ -129,7 +129,7 @@ fn model(definition: &TypeDef, base: Type, values: &[&EnumValue], name: String, 
     };
     let title = docs::escape(&definition.name);
     let mut lines =
-        vec![format!("{} of {} bits.", if title.is_empty() { "Values" } else { &title }, base.bits().unwrap_or(0))];
+        vec![format!("{}, {} bits.", if title.is_empty() { "Values" } else { &title }, base.bits().unwrap_or(0))];
     docs::paragraphs(&definition.name, definition.documentation.as_deref(), &mut lines);
     let row = |(value, name): (&&EnumValue, &String)| {
         let meaning = doc_table::meaning(&value.name, name, value.documentation.as_deref());

@@ -20,7 +20,7 @@ pub(super) fn write(code: &mut Code, file: &FileModel<'_>) {
             "Returns the description of an error type in a submodule with this application process identifier (API).",
         );
         code.doc(
-            "Returns `None` if the device description does not contain the error type, as for errors of the standard.",
+            "Returns `None` if the device description does not contain the error type, for example if the standard defines the error type.",
         );
         let function = call!("pub fn channel_error", "api: u32", "error_type: u16");
         open!(code, function, " -> Option<&'static rt::profinet::ChannelError> {");
