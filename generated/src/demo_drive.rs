@@ -34,21 +34,21 @@ impl<C> DemoDrive<C> {
     /// Device profile number and additional information on the device.
     ///
     /// Device type: Default 0x20192, 0x1000:00, UNSIGNED32, read-only.
-    /// Constant: [`objects::DEVICE_TYPE`]. Type of the value: [`DeviceType`](types::DeviceType).
+    /// Constant: [`objects::DEVICE_TYPE`]. Value type: [`DeviceType`](types::DeviceType).
     pub fn device_type(&mut self) -> objects::ReadOnlyAccess<'_, C, types::DeviceType> {
         objects::DEVICE_TYPE.at(&mut self.client)
     }
     /// Error register: one bit for each kind of error that is present.
     ///
     /// Error register: Default 0, 0x1001:00, UNSIGNED8, read-only, mappable into TPDOs.
-    /// Constant: [`objects::ERROR_REGISTER`]. Type of the value: [`ErrorRegister`](types::ErrorRegister).
+    /// Constant: [`objects::ERROR_REGISTER`]. Value type: [`ErrorRegister`](types::ErrorRegister).
     pub fn error_register(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ErrorRegister> {
         objects::ERROR_REGISTER.at(&mut self.client)
     }
     /// Pre-defined error field: 0x1003.
-    /// The constants of the object's entries are in [`objects::pre_defined_error_field`].
+    /// The constants for the object's entries are in [`objects::pre_defined_error_field`].
     pub fn pre_defined_error_field(
         &mut self,
     ) -> objects::pre_defined_error_field::Accessors<'_, C> {
@@ -59,7 +59,7 @@ impl<C> DemoDrive<C> {
     /// COB-ID of the SYNC message.
     ///
     /// COB-ID SYNC message: Default 0x80, 0x1005:00, UNSIGNED32, read-write.
-    /// Constant: [`objects::COB_ID_SYNC_MESSAGE`]. Type of the value: [`SyncIdentifier`](types::SyncIdentifier).
+    /// Constant: [`objects::COB_ID_SYNC_MESSAGE`]. Value type: [`SyncIdentifier`](types::SyncIdentifier).
     pub fn cob_id_sync_message(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::SyncIdentifier> {
@@ -84,7 +84,7 @@ impl<C> DemoDrive<C> {
         objects::MANUFACTURER_SOFTWARE_VERSION.at(&mut self.client)
     }
     /// Store parameters: 0x1010.
-    /// The constants of the object's entries are in [`objects::store_parameters`].
+    /// The constants for the object's entries are in [`objects::store_parameters`].
     pub fn store_parameters(&mut self) -> objects::store_parameters::Accessors<'_, C> {
         objects::store_parameters::Accessors {
             client: &mut self.client,
@@ -93,7 +93,7 @@ impl<C> DemoDrive<C> {
     /// COB-ID of the emergency messages.
     ///
     /// COB-ID EMCY: Default \$NODEID+0x80, 0x1014:00, UNSIGNED32, read-write.
-    /// Constant: [`objects::COB_ID_EMCY`]. Type of the value: [`EmergencyIdentifier`](types::EmergencyIdentifier).
+    /// Constant: [`objects::COB_ID_EMCY`]. Value type: [`EmergencyIdentifier`](types::EmergencyIdentifier).
     pub fn cob_id_emcy(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::EmergencyIdentifier> {
@@ -107,14 +107,14 @@ impl<C> DemoDrive<C> {
         objects::PRODUCER_HEARTBEAT_TIME.at(&mut self.client)
     }
     /// Identity object: 0x1018.
-    /// The constants of the object's entries are in [`objects::identity_object`].
+    /// The constants for the object's entries are in [`objects::identity_object`].
     pub fn identity_object(&mut self) -> objects::identity_object::Accessors<'_, C> {
         objects::identity_object::Accessors {
             client: &mut self.client,
         }
     }
     /// RPDO 1 communication: 0x1400.
-    /// The constants of the object's entries are in [`objects::rpdo_1_communication`].
+    /// The constants for the object's entries are in [`objects::rpdo_1_communication`].
     pub fn rpdo_1_communication(
         &mut self,
     ) -> objects::rpdo_1_communication::Accessors<'_, C> {
@@ -123,7 +123,7 @@ impl<C> DemoDrive<C> {
         }
     }
     /// RPDO 2 communication: 0x1401.
-    /// The constants of the object's entries are in [`objects::rpdo_2_communication`].
+    /// The constants for the object's entries are in [`objects::rpdo_2_communication`].
     pub fn rpdo_2_communication(
         &mut self,
     ) -> objects::rpdo_2_communication::Accessors<'_, C> {
@@ -132,21 +132,21 @@ impl<C> DemoDrive<C> {
         }
     }
     /// RPDO 1 mapping: 0x1600.
-    /// The constants of the object's entries are in [`objects::rpdo_1_mapping`].
+    /// The constants for the object's entries are in [`objects::rpdo_1_mapping`].
     pub fn rpdo_1_mapping(&mut self) -> objects::rpdo_1_mapping::Accessors<'_, C> {
         objects::rpdo_1_mapping::Accessors {
             client: &mut self.client,
         }
     }
     /// RPDO 2 mapping: 0x1601.
-    /// The constants of the object's entries are in [`objects::rpdo_2_mapping`].
+    /// The constants for the object's entries are in [`objects::rpdo_2_mapping`].
     pub fn rpdo_2_mapping(&mut self) -> objects::rpdo_2_mapping::Accessors<'_, C> {
         objects::rpdo_2_mapping::Accessors {
             client: &mut self.client,
         }
     }
     /// TPDO 1 communication: 0x1800.
-    /// The constants of the object's entries are in [`objects::tpdo_1_communication`].
+    /// The constants for the object's entries are in [`objects::tpdo_1_communication`].
     pub fn tpdo_1_communication(
         &mut self,
     ) -> objects::tpdo_1_communication::Accessors<'_, C> {
@@ -155,7 +155,7 @@ impl<C> DemoDrive<C> {
         }
     }
     /// TPDO 2 communication: 0x1801.
-    /// The constants of the object's entries are in [`objects::tpdo_2_communication`].
+    /// The constants for the object's entries are in [`objects::tpdo_2_communication`].
     pub fn tpdo_2_communication(
         &mut self,
     ) -> objects::tpdo_2_communication::Accessors<'_, C> {
@@ -164,14 +164,14 @@ impl<C> DemoDrive<C> {
         }
     }
     /// TPDO 1 mapping: 0x1A00.
-    /// The constants of the object's entries are in [`objects::tpdo_1_mapping`].
+    /// The constants for the object's entries are in [`objects::tpdo_1_mapping`].
     pub fn tpdo_1_mapping(&mut self) -> objects::tpdo_1_mapping::Accessors<'_, C> {
         objects::tpdo_1_mapping::Accessors {
             client: &mut self.client,
         }
     }
     /// TPDO 2 mapping: 0x1A01.
-    /// The constants of the object's entries are in [`objects::tpdo_2_mapping`].
+    /// The constants for the object's entries are in [`objects::tpdo_2_mapping`].
     pub fn tpdo_2_mapping(&mut self) -> objects::tpdo_2_mapping::Accessors<'_, C> {
         objects::tpdo_2_mapping::Accessors {
             client: &mut self.client,
@@ -201,7 +201,7 @@ impl<C> DemoDrive<C> {
         objects::FIRMWARE_IMAGE.at(&mut self.client)
     }
     /// Analog inputs: 0x2010.
-    /// The constants of the object's entries are in [`objects::analog_inputs`].
+    /// The constants for the object's entries are in [`objects::analog_inputs`].
     pub fn analog_inputs(&mut self) -> objects::analog_inputs::Accessors<'_, C> {
         objects::analog_inputs::Accessors {
             client: &mut self.client,
@@ -217,7 +217,7 @@ impl<C> DemoDrive<C> {
     /// Control word: commands of the drive state machine and of the mode of operation.
     ///
     /// Controlword: Default 0, 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
-    /// Constant: [`objects::CONTROLWORD`]. Type of the value: [`Controlword`](types::Controlword). Mapped in [`RxPdo1`](pdo::RxPdo1) and [`RxPdo2`](pdo::RxPdo2).
+    /// Constant: [`objects::CONTROLWORD`]. Value type: [`Controlword`](types::Controlword). Mapped in [`RxPdo1`](pdo::RxPdo1) and [`RxPdo2`](pdo::RxPdo2).
     pub fn controlword(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::Controlword> {
@@ -226,14 +226,14 @@ impl<C> DemoDrive<C> {
     /// Status word: state of the drive state machine and of the mode of operation.
     ///
     /// Statusword: 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
-    /// Constant: [`objects::STATUSWORD`]. Type of the value: [`Statusword`](types::Statusword). Mapped in [`TxPdo1`](pdo::TxPdo1) and [`TxPdo2`](pdo::TxPdo2).
+    /// Constant: [`objects::STATUSWORD`]. Value type: [`Statusword`](types::Statusword). Mapped in [`TxPdo1`](pdo::TxPdo1) and [`TxPdo2`](pdo::TxPdo2).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
     /// Requested mode of operation; the active mode is in 0x6061.
     ///
     /// Modes of operation: Range \-128 to 8, default 1, 0x6060:00, INTEGER8, read-write, mappable into any PDO.
-    /// Constant: [`objects::MODES_OF_OPERATION`]. Type of the value: [`ModesOfOperation`](types::ModesOfOperation).
+    /// Constant: [`objects::MODES_OF_OPERATION`]. Value type: [`ModesOfOperation`](types::ModesOfOperation).
     pub fn modes_of_operation(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperation> {
@@ -242,7 +242,7 @@ impl<C> DemoDrive<C> {
     /// Active mode of operation.
     ///
     /// Modes of operation display: 0x6061:00, INTEGER8, read-only, mappable into TPDOs.
-    /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Type of the value: [`ModesOfOperation`](types::ModesOfOperation).
+    /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Value type: [`ModesOfOperation`](types::ModesOfOperation).
     pub fn modes_of_operation_display(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ModesOfOperation> {
@@ -263,7 +263,7 @@ impl<C> DemoDrive<C> {
         objects::TARGET_POSITION.at(&mut self.client)
     }
     /// Software position limit: 0x607D.
-    /// The constants of the object's entries are in [`objects::software_position_limit`].
+    /// The constants for the object's entries are in [`objects::software_position_limit`].
     pub fn software_position_limit(
         &mut self,
     ) -> objects::software_position_limit::Accessors<'_, C> {
@@ -293,7 +293,7 @@ pub mod types {
     ///
     /// Definition from CiA 402, 10.3.8.
     ///
-    /// Type of the values of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION) and [`MODES_OF_OPERATION_DISPLAY`](super::objects::MODES_OF_OPERATION_DISPLAY).
+    /// Value type of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION) and [`MODES_OF_OPERATION_DISPLAY`](super::objects::MODES_OF_OPERATION_DISPLAY).
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
@@ -386,7 +386,7 @@ pub mod types {
     ///
     /// Definition from CiA 301, 7.5.2.13.
     ///
-    /// Type of the values of [`store_parameters::SAVE_ALL_PARAMETERS`](super::objects::store_parameters::SAVE_ALL_PARAMETERS).
+    /// Value type of [`store_parameters::SAVE_ALL_PARAMETERS`](super::objects::store_parameters::SAVE_ALL_PARAMETERS).
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
@@ -449,7 +449,7 @@ pub mod types {
     ///
     /// Description from CiA 301, 7.5.2.35.
     ///
-    /// Type of the values of [`rpdo_1_communication::TRANSMISSION_TYPE`](super::objects::rpdo_1_communication::TRANSMISSION_TYPE) and [`rpdo_2_communication::TRANSMISSION_TYPE`](super::objects::rpdo_2_communication::TRANSMISSION_TYPE).
+    /// Value type of [`rpdo_1_communication::TRANSMISSION_TYPE`](super::objects::rpdo_1_communication::TRANSMISSION_TYPE) and [`rpdo_2_communication::TRANSMISSION_TYPE`](super::objects::rpdo_2_communication::TRANSMISSION_TYPE).
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
@@ -499,7 +499,7 @@ pub mod types {
     ///
     /// Description from CiA 301, 7.5.2.37.
     ///
-    /// Type of the values of [`tpdo_1_communication::TRANSMISSION_TYPE`](super::objects::tpdo_1_communication::TRANSMISSION_TYPE) and [`tpdo_2_communication::TRANSMISSION_TYPE`](super::objects::tpdo_2_communication::TRANSMISSION_TYPE).
+    /// Value type of [`tpdo_1_communication::TRANSMISSION_TYPE`](super::objects::tpdo_1_communication::TRANSMISSION_TYPE) and [`tpdo_2_communication::TRANSMISSION_TYPE`](super::objects::tpdo_2_communication::TRANSMISSION_TYPE).
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
@@ -562,9 +562,9 @@ pub mod types {
     ///
     /// Definition from CiA 402, 10.3.1.
     ///
-    /// Type of the values of [`CONTROLWORD`](super::objects::CONTROLWORD).
+    /// Value type of [`CONTROLWORD`](super::objects::CONTROLWORD).
     ///
-    /// The reserved bits 0x400 are written as 0.
+    /// A write to an item sets the reserved bits 0x400 to 0.
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -583,7 +583,7 @@ pub mod types {
     /// | 7 | [`fault_reset`](Self::fault_reset) | The device reacts to the rising edge. |
     /// | 8 | [`halt`](Self::halt) | 1 stops the axis with the reaction that the halt option code (0x605D) selects. |
     /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the previous target at the profile velocity, then moves to the new target. |
-    /// | 10 | reserved | The value 0 is written. |
+    /// | 10 | reserved | A write to an item sets the value 0. |
     /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Controlword(u16);
@@ -663,19 +663,19 @@ pub mod types {
         pub const fn with_manufacturer_specific(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xF800, value as u16))
         }
-        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "profile position" (1).
         pub const fn in_profile_position(self) -> ControlwordInProfilePosition {
             ControlwordInProfilePosition(self.0)
         }
-        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "velocity" (2).
         pub const fn in_velocity(self) -> ControlwordInVelocity {
             ControlwordInVelocity(self.0)
         }
-        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "homing" (6).
         pub const fn in_homing(self) -> ControlwordInHoming {
             ControlwordInHoming(self.0)
         }
-        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "interpolated position" (7).
         pub const fn in_interpolated_position(
             self,
         ) -> ControlwordInInterpolatedPosition {
@@ -709,7 +709,7 @@ pub mod types {
             )
         }
     }
-    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "profile position" (1).
     #[derive(Clone, Copy)]
     pub struct ControlwordInProfilePosition(u16);
     impl ControlwordInProfilePosition {
@@ -754,7 +754,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
     }
-    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "velocity" (2).
     #[derive(Clone, Copy)]
     pub struct ControlwordInVelocity(u16);
     impl ControlwordInVelocity {
@@ -790,7 +790,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
     }
-    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "homing" (6).
     #[derive(Clone, Copy)]
     pub struct ControlwordInHoming(u16);
     impl ControlwordInHoming {
@@ -808,7 +808,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
-    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "interpolated position" (7).
     #[derive(Clone, Copy)]
     pub struct ControlwordInInterpolatedPosition(u16);
     impl ControlwordInInterpolatedPosition {
@@ -830,7 +830,7 @@ pub mod types {
     ///
     /// Definition from CiA 402, 10.3.2.
     ///
-    /// Type of the values of [`STATUSWORD`](super::objects::STATUSWORD).
+    /// Value type of [`STATUSWORD`](super::objects::STATUSWORD).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -990,35 +990,35 @@ pub mod types {
         pub const fn with_manufacturer_specific_14(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xC000, value as u16))
         }
-        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "profile position" (1).
         pub const fn in_profile_position(self) -> StatuswordInProfilePosition {
             StatuswordInProfilePosition(self.0)
         }
-        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile velocity (3).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "profile velocity" (3).
         pub const fn in_profile_velocity(self) -> StatuswordInProfileVelocity {
             StatuswordInProfileVelocity(self.0)
         }
-        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "homing" (6).
         pub const fn in_homing(self) -> StatuswordInHoming {
             StatuswordInHoming(self.0)
         }
-        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is interpolated position (7).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "interpolated position" (7).
         pub const fn in_interpolated_position(self) -> StatuswordInInterpolatedPosition {
             StatuswordInInterpolatedPosition(self.0)
         }
-        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous position (8).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "cyclic synchronous position" (8).
         pub const fn in_cyclic_synchronous_position(
             self,
         ) -> StatuswordInCyclicSynchronousPosition {
             StatuswordInCyclicSynchronousPosition(self.0)
         }
-        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous velocity (9).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "cyclic synchronous velocity" (9).
         pub const fn in_cyclic_synchronous_velocity(
             self,
         ) -> StatuswordInCyclicSynchronousVelocity {
             StatuswordInCyclicSynchronousVelocity(self.0)
         }
-        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous torque (10).
+        /// Returns a view of the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "cyclic synchronous torque" (10).
         pub const fn in_cyclic_synchronous_torque(
             self,
         ) -> StatuswordInCyclicSynchronousTorque {
@@ -1049,7 +1049,7 @@ pub mod types {
             )
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "profile position" (1).
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfilePosition(u16);
     impl StatuswordInProfilePosition {
@@ -1076,7 +1076,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile velocity (3).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "profile velocity" (3).
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfileVelocity(u16);
     impl StatuswordInProfileVelocity {
@@ -1103,7 +1103,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "homing" (6).
     #[derive(Clone, Copy)]
     pub struct StatuswordInHoming(u16);
     impl StatuswordInHoming {
@@ -1130,7 +1130,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is interpolated position (7).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "interpolated position" (7).
     #[derive(Clone, Copy)]
     pub struct StatuswordInInterpolatedPosition(u16);
     impl StatuswordInInterpolatedPosition {
@@ -1148,7 +1148,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous position (8).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "cyclic synchronous position" (8).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousPosition(u16);
     impl StatuswordInCyclicSynchronousPosition {
@@ -1175,7 +1175,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous velocity (9).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "cyclic synchronous velocity" (9).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousVelocity(u16);
     impl StatuswordInCyclicSynchronousVelocity {
@@ -1193,7 +1193,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous torque (10).
+    /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "cyclic synchronous torque" (10).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousTorque(u16);
     impl StatuswordInCyclicSynchronousTorque {
@@ -1215,7 +1215,7 @@ pub mod types {
     ///
     /// Definition from CiA 301, 7.5.2.1.
     ///
-    /// Type of the values of [`DEVICE_TYPE`](super::objects::DEVICE_TYPE).
+    /// Value type of [`DEVICE_TYPE`](super::objects::DEVICE_TYPE).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -1283,9 +1283,9 @@ pub mod types {
     ///
     /// Definition from CiA 301, 7.5.2.2.
     ///
-    /// Type of the values of [`ERROR_REGISTER`](super::objects::ERROR_REGISTER).
+    /// Value type of [`ERROR_REGISTER`](super::objects::ERROR_REGISTER).
     ///
-    /// The reserved bits 0x40 are written as 0.
+    /// A write to an item sets the reserved bits 0x40 to 0.
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -1295,7 +1295,7 @@ pub mod types {
     /// | 3 | [`temperature`](Self::temperature) |  |
     /// | 4 | [`communication`](Self::communication) |  |
     /// | 5 | [`device_profile`](Self::device_profile) |  |
-    /// | 6 | reserved | The value 0 is written. |
+    /// | 6 | reserved | A write to an item sets the value 0. |
     /// | 7 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ErrorRegister(u8);
@@ -1407,7 +1407,7 @@ pub mod types {
     ///
     /// Definition from CiA 301, 7.5.2.36, 7.5.2.38.
     ///
-    /// Type of the values of [`rpdo_1_mapping::MAPPED_OBJECT_1`](super::objects::rpdo_1_mapping::MAPPED_OBJECT_1), [`rpdo_2_mapping::MAPPED_OBJECT_1`](super::objects::rpdo_2_mapping::MAPPED_OBJECT_1), [`rpdo_2_mapping::MAPPED_OBJECT_2`](super::objects::rpdo_2_mapping::MAPPED_OBJECT_2), [`tpdo_1_mapping::MAPPED_OBJECT_1`](super::objects::tpdo_1_mapping::MAPPED_OBJECT_1), [`tpdo_2_mapping::MAPPED_OBJECT_1`](super::objects::tpdo_2_mapping::MAPPED_OBJECT_1) and [`tpdo_2_mapping::MAPPED_OBJECT_2`](super::objects::tpdo_2_mapping::MAPPED_OBJECT_2).
+    /// Value type of [`rpdo_1_mapping::MAPPED_OBJECT_1`](super::objects::rpdo_1_mapping::MAPPED_OBJECT_1), [`rpdo_2_mapping::MAPPED_OBJECT_1`](super::objects::rpdo_2_mapping::MAPPED_OBJECT_1), [`rpdo_2_mapping::MAPPED_OBJECT_2`](super::objects::rpdo_2_mapping::MAPPED_OBJECT_2), [`tpdo_1_mapping::MAPPED_OBJECT_1`](super::objects::tpdo_1_mapping::MAPPED_OBJECT_1), [`tpdo_2_mapping::MAPPED_OBJECT_1`](super::objects::tpdo_2_mapping::MAPPED_OBJECT_1) and [`tpdo_2_mapping::MAPPED_OBJECT_2`](super::objects::tpdo_2_mapping::MAPPED_OBJECT_2).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -1485,7 +1485,7 @@ pub mod types {
     ///
     /// Definition from CiA 301, 7.5.2.3.
     ///
-    /// Type of the values of [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3) and [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4).
+    /// Value type of [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3) and [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4).
     ///
     /// | Bits | Name |
     /// |---|---|
@@ -1553,7 +1553,7 @@ pub mod types {
     ///
     /// Definition from CiA 301, 7.5.2.5.
     ///
-    /// Type of the values of [`COB_ID_SYNC_MESSAGE`](super::objects::COB_ID_SYNC_MESSAGE).
+    /// Value type of [`COB_ID_SYNC_MESSAGE`](super::objects::COB_ID_SYNC_MESSAGE).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -1631,15 +1631,15 @@ pub mod types {
     ///
     /// Definition from CiA 301, 7.5.2.17.
     ///
-    /// Type of the values of [`COB_ID_EMCY`](super::objects::COB_ID_EMCY).
+    /// Value type of [`COB_ID_EMCY`](super::objects::COB_ID_EMCY).
     ///
-    /// The reserved bits 0x40000000 are written as 0.
+    /// A write to an item sets the reserved bits 0x40000000 to 0.
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
     /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
-    /// | 30 | reserved | The value 0 is written. |
+    /// | 30 | reserved | A write to an item sets the value 0. |
     /// | 31 | [`valid`](Self::valid) | 0 if the COB-ID is in use. Active low: the flag is true if the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct EmergencyIdentifier(u32);
@@ -1715,7 +1715,7 @@ pub mod types {
     ///
     /// Definition from CiA 301, 7.5.2.21.
     ///
-    /// Type of the values of [`identity_object::REVISION_NUMBER`](super::objects::identity_object::REVISION_NUMBER).
+    /// Value type of [`identity_object::REVISION_NUMBER`](super::objects::identity_object::REVISION_NUMBER).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -1783,7 +1783,7 @@ pub mod types {
     ///
     /// Definition from CiA 301, 7.5.2.35.
     ///
-    /// Type of the values of [`rpdo_1_communication::COB_ID`](super::objects::rpdo_1_communication::COB_ID) and [`rpdo_2_communication::COB_ID`](super::objects::rpdo_2_communication::COB_ID).
+    /// Value type of [`rpdo_1_communication::COB_ID`](super::objects::rpdo_1_communication::COB_ID) and [`rpdo_2_communication::COB_ID`](super::objects::rpdo_2_communication::COB_ID).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -1861,7 +1861,7 @@ pub mod types {
     ///
     /// Definition from CiA 301, 7.5.2.37.
     ///
-    /// Type of the values of [`tpdo_1_communication::COB_ID`](super::objects::tpdo_1_communication::COB_ID) and [`tpdo_2_communication::COB_ID`](super::objects::tpdo_2_communication::COB_ID).
+    /// Value type of [`tpdo_1_communication::COB_ID`](super::objects::tpdo_1_communication::COB_ID) and [`tpdo_2_communication::COB_ID`](super::objects::tpdo_2_communication::COB_ID).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -2092,7 +2092,7 @@ pub mod types {
                 Some(Command::EnableOperation),
             ),
         ];
-        /// Returns the next step from this state towards `target`.
+        /// Returns the next step from this state toward `target`.
         pub fn toward(self, target: Self) -> rt::Step<Command> {
             rt::Step::toward(Self::TRANSITIONS, self as u8, target as u8)
         }
@@ -2182,7 +2182,7 @@ pub mod types {
         }
     }
 }
-/// Code tables. The function `codes::find` of the runtime returns the row of a code.
+/// Code tables. The function `codes::find` of the runtime returns the row for a code.
 pub mod codes {
     use ::lexibus as rt;
     /// drive errors.
@@ -2745,7 +2745,7 @@ pub mod objects {
     /// Device type.
     ///
     /// Default 0x20192, 0x1000:00, UNSIGNED32, read-only.
-    /// Accessor: [`device_type`](super::DemoDrive::device_type). Type of the value: [`DeviceType`](super::types::DeviceType).
+    /// Accessor: [`device_type`](super::DemoDrive::device_type). Value type: [`DeviceType`](super::types::DeviceType).
     ///
     /// Device profile number and additional information on the device.
     ///
@@ -2761,7 +2761,7 @@ pub mod objects {
     /// Error register.
     ///
     /// Default 0, 0x1001:00, UNSIGNED8, read-only, mappable into TPDOs.
-    /// Accessor: [`error_register`](super::DemoDrive::error_register). Type of the value: [`ErrorRegister`](super::types::ErrorRegister).
+    /// Accessor: [`error_register`](super::DemoDrive::error_register). Value type: [`ErrorRegister`](super::types::ErrorRegister).
     ///
     /// Error register: one bit for each kind of error that is present.
     ///
@@ -2792,7 +2792,7 @@ pub mod objects {
         /// Pre-defined error field1.
         ///
         /// 0x1003:01, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::pre_defined_error_field1`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`Accessors::pre_defined_error_field1`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Error in the error history; sub-index 1 contains the newest error.
         ///
@@ -2809,7 +2809,7 @@ pub mod objects {
         /// Pre-defined error field2.
         ///
         /// 0x1003:02, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::pre_defined_error_field2`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`Accessors::pre_defined_error_field2`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Error in the error history; sub-index 1 contains the newest error.
         ///
@@ -2826,7 +2826,7 @@ pub mod objects {
         /// Pre-defined error field3.
         ///
         /// 0x1003:03, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::pre_defined_error_field3`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`Accessors::pre_defined_error_field3`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Error in the error history; sub-index 1 contains the newest error.
         ///
@@ -2843,7 +2843,7 @@ pub mod objects {
         /// Pre-defined error field4.
         ///
         /// 0x1003:04, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::pre_defined_error_field4`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`Accessors::pre_defined_error_field4`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Error in the error history; sub-index 1 contains the newest error.
         ///
@@ -2857,7 +2857,7 @@ pub mod objects {
             0x04,
             "Pre-defined error field4",
         );
-        /// Accessors of the entries of Pre-defined error field: 0x1003.
+        /// Accessors for the entries of Pre-defined error field: 0x1003.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -2872,7 +2872,7 @@ pub mod objects {
             /// Error in the error history; sub-index 1 contains the newest error.
             ///
             /// Pre-defined error field1: 0x1003:01, UNSIGNED32, read-only.
-            /// Constant: [`PRE_DEFINED_ERROR_FIELD1`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+            /// Constant: [`PRE_DEFINED_ERROR_FIELD1`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field1(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
@@ -2881,7 +2881,7 @@ pub mod objects {
             /// Error in the error history; sub-index 1 contains the newest error.
             ///
             /// Pre-defined error field2: 0x1003:02, UNSIGNED32, read-only.
-            /// Constant: [`PRE_DEFINED_ERROR_FIELD2`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+            /// Constant: [`PRE_DEFINED_ERROR_FIELD2`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field2(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
@@ -2890,7 +2890,7 @@ pub mod objects {
             /// Error in the error history; sub-index 1 contains the newest error.
             ///
             /// Pre-defined error field3: 0x1003:03, UNSIGNED32, read-only.
-            /// Constant: [`PRE_DEFINED_ERROR_FIELD3`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+            /// Constant: [`PRE_DEFINED_ERROR_FIELD3`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field3(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
@@ -2899,7 +2899,7 @@ pub mod objects {
             /// Error in the error history; sub-index 1 contains the newest error.
             ///
             /// Pre-defined error field4: 0x1003:04, UNSIGNED32, read-only.
-            /// Constant: [`PRE_DEFINED_ERROR_FIELD4`]. Type of the value: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+            /// Constant: [`PRE_DEFINED_ERROR_FIELD4`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field4(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
@@ -2910,7 +2910,7 @@ pub mod objects {
     /// COB-ID SYNC message.
     ///
     /// Default 0x80, 0x1005:00, UNSIGNED32, read-write.
-    /// Accessor: [`cob_id_sync_message`](super::DemoDrive::cob_id_sync_message). Type of the value: [`SyncIdentifier`](super::types::SyncIdentifier).
+    /// Accessor: [`cob_id_sync_message`](super::DemoDrive::cob_id_sync_message). Value type: [`SyncIdentifier`](super::types::SyncIdentifier).
     ///
     /// COB-ID of the SYNC message.
     ///
@@ -2960,9 +2960,9 @@ pub mod objects {
         /// Save all parameters.
         ///
         /// Default 1, 0x1010:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::save_all_parameters`]. Type of the value: [`StoreParameters`](super::super::types::StoreParameters).
+        /// Accessor: [`Accessors::save_all_parameters`]. Value type: [`StoreParameters`](super::super::types::StoreParameters).
         ///
-        /// Command that stores the parameters in non-volatile memory if "save" is written; reading returns the storage capability.
+        /// Writing "save" stores the parameters in non-volatile memory; reading returns the storage capability.
         ///
         /// Values from CiA 301, 7.5.2.13.
         ///
@@ -2975,7 +2975,7 @@ pub mod objects {
             "Save all parameters",
             super::super::types::StoreParameters::from_raw(1),
         );
-        /// Accessors of the entries of Store parameters: 0x1010.
+        /// Accessors for the entries of Store parameters: 0x1010.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -2989,10 +2989,10 @@ pub mod objects {
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
-            /// Command that stores the parameters in non-volatile memory if "save" is written; reading returns the storage capability.
+            /// Writing "save" stores the parameters in non-volatile memory; reading returns the storage capability.
             ///
             /// Save all parameters: Default 1, 0x1010:01, UNSIGNED32, read-write.
-            /// Constant: [`SAVE_ALL_PARAMETERS`]. Type of the value: [`StoreParameters`](super::super::types::StoreParameters).
+            /// Constant: [`SAVE_ALL_PARAMETERS`]. Value type: [`StoreParameters`](super::super::types::StoreParameters).
             pub fn save_all_parameters(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::StoreParameters> {
@@ -3003,7 +3003,7 @@ pub mod objects {
     /// COB-ID EMCY.
     ///
     /// Default \$NODEID+0x80, 0x1014:00, UNSIGNED32, read-write.
-    /// Accessor: [`cob_id_emcy`](super::DemoDrive::cob_id_emcy). Type of the value: [`EmergencyIdentifier`](super::types::EmergencyIdentifier).
+    /// Accessor: [`cob_id_emcy`](super::DemoDrive::cob_id_emcy). Value type: [`EmergencyIdentifier`](super::types::EmergencyIdentifier).
     ///
     /// COB-ID of the emergency messages.
     ///
@@ -3081,7 +3081,7 @@ pub mod objects {
         /// Revision number.
         ///
         /// Default 0x10000, 0x1018:03, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::revision_number`]. Type of the value: [`RevisionNumber`](super::super::types::RevisionNumber).
+        /// Accessor: [`Accessors::revision_number`]. Value type: [`RevisionNumber`](super::super::types::RevisionNumber).
         ///
         /// Revision number of the product.
         ///
@@ -3109,7 +3109,7 @@ pub mod objects {
             0x04,
             "Serial number",
         );
-        /// Accessors of the entries of Identity object: 0x1018.
+        /// Accessors for the entries of Identity object: 0x1018.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3140,7 +3140,7 @@ pub mod objects {
             /// Revision number of the product.
             ///
             /// Revision number: Default 0x10000, 0x1018:03, UNSIGNED32, read-only.
-            /// Constant: [`REVISION_NUMBER`]. Type of the value: [`RevisionNumber`](super::super::types::RevisionNumber).
+            /// Constant: [`REVISION_NUMBER`]. Value type: [`RevisionNumber`](super::super::types::RevisionNumber).
             pub fn revision_number(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::RevisionNumber> {
@@ -3173,7 +3173,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::cob_id`]. Type of the value: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        /// Accessor: [`Accessors::cob_id`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
         /// COB-ID of the RPDO.
         ///
@@ -3193,7 +3193,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// Default 255, 0x1400:02, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::transmission_type`]. Type of the value: [`ReceiveType`](super::super::types::ReceiveType).
+        /// Accessor: [`Accessors::transmission_type`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
         ///
         /// Transmission type: when the device applies the received data.
         ///
@@ -3208,7 +3208,7 @@ pub mod objects {
             "Transmission type",
             super::super::types::ReceiveType::from_raw(255),
         );
-        /// Accessors of the entries of RPDO 1 communication: 0x1400.
+        /// Accessors for the entries of RPDO 1 communication: 0x1400.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3225,7 +3225,7 @@ pub mod objects {
             /// COB-ID of the RPDO.
             ///
             /// COB-ID: Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Type of the value: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+            /// Constant: [`COB_ID`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -3238,7 +3238,7 @@ pub mod objects {
             /// Transmission type: when the device applies the received data.
             ///
             /// Transmission type: Default 255, 0x1400:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Type of the value: [`ReceiveType`](super::super::types::ReceiveType).
+            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::ReceiveType> {
@@ -3264,7 +3264,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// Default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::cob_id`]. Type of the value: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        /// Accessor: [`Accessors::cob_id`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
         /// COB-ID of the RPDO.
         ///
@@ -3284,7 +3284,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// Default 1, 0x1401:02, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::transmission_type`]. Type of the value: [`ReceiveType`](super::super::types::ReceiveType).
+        /// Accessor: [`Accessors::transmission_type`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
         ///
         /// Transmission type: when the device applies the received data.
         ///
@@ -3299,7 +3299,7 @@ pub mod objects {
             "Transmission type",
             super::super::types::ReceiveType::from_raw(1),
         );
-        /// Accessors of the entries of RPDO 2 communication: 0x1401.
+        /// Accessors for the entries of RPDO 2 communication: 0x1401.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3316,7 +3316,7 @@ pub mod objects {
             /// COB-ID of the RPDO.
             ///
             /// COB-ID: Default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Type of the value: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+            /// Constant: [`COB_ID`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -3329,7 +3329,7 @@ pub mod objects {
             /// Transmission type: when the device applies the received data.
             ///
             /// Transmission type: Default 1, 0x1401:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Type of the value: [`ReceiveType`](super::super::types::ReceiveType).
+            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::ReceiveType> {
@@ -3354,7 +3354,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// Default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Accessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the RPDO: index, sub-index and length in bits.
         ///
@@ -3367,7 +3367,7 @@ pub mod objects {
             "Mapped object 1",
             super::super::types::MappingEntry::from_raw(0x60400010),
         );
-        /// Accessors of the entries of RPDO 1 mapping: 0x1600.
+        /// Accessors for the entries of RPDO 1 mapping: 0x1600.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3384,7 +3384,7 @@ pub mod objects {
             /// Object mapped to the RPDO: index, sub-index and length in bits.
             ///
             /// Mapped object 1: Default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
+            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3409,7 +3409,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// Default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Accessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the RPDO: index, sub-index and length in bits.
         ///
@@ -3425,7 +3425,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// Default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_2`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Accessors::mapped_object_2`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the RPDO: index, sub-index and length in bits.
         ///
@@ -3438,7 +3438,7 @@ pub mod objects {
             "Mapped object 2",
             super::super::types::MappingEntry::from_raw(0x607A0020),
         );
-        /// Accessors of the entries of RPDO 2 mapping: 0x1601.
+        /// Accessors for the entries of RPDO 2 mapping: 0x1601.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3455,7 +3455,7 @@ pub mod objects {
             /// Object mapped to the RPDO: index, sub-index and length in bits.
             ///
             /// Mapped object 1: Default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
+            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3464,7 +3464,7 @@ pub mod objects {
             /// Object mapped to the RPDO: index, sub-index and length in bits.
             ///
             /// Mapped object 2: Default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
+            /// Constant: [`MAPPED_OBJECT_2`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3490,7 +3490,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// Default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::cob_id`]. Type of the value: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        /// Accessor: [`Accessors::cob_id`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
         /// COB-ID of the TPDO.
         ///
@@ -3510,7 +3510,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// Default 255, 0x1800:02, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::transmission_type`]. Type of the value: [`TransmitType`](super::super::types::TransmitType).
+        /// Accessor: [`Accessors::transmission_type`]. Value type: [`TransmitType`](super::super::types::TransmitType).
         ///
         /// Transmission type: when the TPDO is transmitted.
         ///
@@ -3525,7 +3525,7 @@ pub mod objects {
             "Transmission type",
             super::super::types::TransmitType::from_raw(255),
         );
-        /// Accessors of the entries of TPDO 1 communication: 0x1800.
+        /// Accessors for the entries of TPDO 1 communication: 0x1800.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3542,7 +3542,7 @@ pub mod objects {
             /// COB-ID of the TPDO.
             ///
             /// COB-ID: Default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Type of the value: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+            /// Constant: [`COB_ID`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -3555,7 +3555,7 @@ pub mod objects {
             /// Transmission type: when the TPDO is transmitted.
             ///
             /// Transmission type: Default 255, 0x1800:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Type of the value: [`TransmitType`](super::super::types::TransmitType).
+            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmitType`](super::super::types::TransmitType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmitType> {
@@ -3581,7 +3581,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// Default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::cob_id`]. Type of the value: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        /// Accessor: [`Accessors::cob_id`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
         /// COB-ID of the TPDO.
         ///
@@ -3601,7 +3601,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// Default 1, 0x1801:02, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::transmission_type`]. Type of the value: [`TransmitType`](super::super::types::TransmitType).
+        /// Accessor: [`Accessors::transmission_type`]. Value type: [`TransmitType`](super::super::types::TransmitType).
         ///
         /// Transmission type: when the TPDO is transmitted.
         ///
@@ -3616,7 +3616,7 @@ pub mod objects {
             "Transmission type",
             super::super::types::TransmitType::from_raw(1),
         );
-        /// Accessors of the entries of TPDO 2 communication: 0x1801.
+        /// Accessors for the entries of TPDO 2 communication: 0x1801.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3633,7 +3633,7 @@ pub mod objects {
             /// COB-ID of the TPDO.
             ///
             /// COB-ID: Default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Type of the value: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+            /// Constant: [`COB_ID`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -3646,7 +3646,7 @@ pub mod objects {
             /// Transmission type: when the TPDO is transmitted.
             ///
             /// Transmission type: Default 1, 0x1801:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Type of the value: [`TransmitType`](super::super::types::TransmitType).
+            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmitType`](super::super::types::TransmitType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmitType> {
@@ -3671,7 +3671,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// Default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Accessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the TPDO: index, sub-index and length in bits.
         ///
@@ -3684,7 +3684,7 @@ pub mod objects {
             "Mapped object 1",
             super::super::types::MappingEntry::from_raw(0x60410010),
         );
-        /// Accessors of the entries of TPDO 1 mapping: 0x1A00.
+        /// Accessors for the entries of TPDO 1 mapping: 0x1A00.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3701,7 +3701,7 @@ pub mod objects {
             /// Object mapped to the TPDO: index, sub-index and length in bits.
             ///
             /// Mapped object 1: Default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
+            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3726,7 +3726,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// Default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Accessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the TPDO: index, sub-index and length in bits.
         ///
@@ -3742,7 +3742,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// Default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_2`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Accessors::mapped_object_2`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the TPDO: index, sub-index and length in bits.
         ///
@@ -3755,7 +3755,7 @@ pub mod objects {
             "Mapped object 2",
             super::super::types::MappingEntry::from_raw(0x60640020),
         );
-        /// Accessors of the entries of TPDO 2 mapping: 0x1A01.
+        /// Accessors for the entries of TPDO 2 mapping: 0x1A01.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3772,7 +3772,7 @@ pub mod objects {
             /// Object mapped to the TPDO: index, sub-index and length in bits.
             ///
             /// Mapped object 1: Default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
+            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3781,7 +3781,7 @@ pub mod objects {
             /// Object mapped to the TPDO: index, sub-index and length in bits.
             ///
             /// Mapped object 2: Default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Type of the value: [`MappingEntry`](super::super::types::MappingEntry).
+            /// Constant: [`MAPPED_OBJECT_2`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3852,7 +3852,7 @@ pub mod objects {
             "Input 2",
             rt::Flags::TPDO,
         );
-        /// Accessors of the entries of Analog inputs: 0x2010.
+        /// Accessors for the entries of Analog inputs: 0x2010.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3894,7 +3894,7 @@ pub mod objects {
     /// Controlword.
     ///
     /// Default 0, 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
-    /// Accessor: [`controlword`](super::DemoDrive::controlword). Type of the value: [`Controlword`](super::types::Controlword). Mapped in [`RxPdo1`](super::pdo::RxPdo1) and [`RxPdo2`](super::pdo::RxPdo2).
+    /// Accessor: [`controlword`](super::DemoDrive::controlword). Value type: [`Controlword`](super::types::Controlword). Mapped in [`RxPdo1`](super::pdo::RxPdo1) and [`RxPdo2`](super::pdo::RxPdo2).
     ///
     /// Control word: commands of the drive state machine and of the mode of operation.
     ///
@@ -3911,7 +3911,7 @@ pub mod objects {
     /// Statusword.
     ///
     /// 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
-    /// Accessor: [`statusword`](super::DemoDrive::statusword). Type of the value: [`Statusword`](super::types::Statusword). Mapped in [`TxPdo1`](super::pdo::TxPdo1) and [`TxPdo2`](super::pdo::TxPdo2).
+    /// Accessor: [`statusword`](super::DemoDrive::statusword). Value type: [`Statusword`](super::types::Statusword). Mapped in [`TxPdo1`](super::pdo::TxPdo1) and [`TxPdo2`](super::pdo::TxPdo2).
     ///
     /// Status word: state of the drive state machine and of the mode of operation.
     ///
@@ -3927,7 +3927,7 @@ pub mod objects {
     /// Modes of operation.
     ///
     /// Range \-128 to 8, default 1, 0x6060:00, INTEGER8, read-write, mappable into any PDO.
-    /// Accessor: [`modes_of_operation`](super::DemoDrive::modes_of_operation). Type of the value: [`ModesOfOperation`](super::types::ModesOfOperation).
+    /// Accessor: [`modes_of_operation`](super::DemoDrive::modes_of_operation). Value type: [`ModesOfOperation`](super::types::ModesOfOperation).
     ///
     /// Requested mode of operation; the active mode is in 0x6061.
     ///
@@ -3945,7 +3945,7 @@ pub mod objects {
     /// Modes of operation display.
     ///
     /// 0x6061:00, INTEGER8, read-only, mappable into TPDOs.
-    /// Accessor: [`modes_of_operation_display`](super::DemoDrive::modes_of_operation_display). Type of the value: [`ModesOfOperation`](super::types::ModesOfOperation).
+    /// Accessor: [`modes_of_operation_display`](super::DemoDrive::modes_of_operation_display). Value type: [`ModesOfOperation`](super::types::ModesOfOperation).
     ///
     /// Active mode of operation.
     ///
@@ -4014,7 +4014,7 @@ pub mod objects {
             "Max position limit",
             1000000,
         );
-        /// Accessors of the entries of Software position limit: 0x607D.
+        /// Accessors for the entries of Software position limit: 0x607D.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }

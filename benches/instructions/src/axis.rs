@@ -113,14 +113,14 @@ impl<C> Ax1<C> {
         self.client
     }
     /// 0x2000.
-    /// The constants of the object's entries are in [`objects::object_2000`].
+    /// The constants for the object's entries are in [`objects::object_2000`].
     pub fn object_2000(&mut self) -> objects::object_2000::Accessors<'_, C> {
         objects::object_2000::Accessors {
             client: &mut self.client,
         }
     }
     /// 0x2001.
-    /// The constants of the object's entries are in [`objects::object_2001`].
+    /// The constants for the object's entries are in [`objects::object_2001`].
     pub fn object_2001(&mut self) -> objects::object_2001::Accessors<'_, C> {
         objects::object_2001::Accessors {
             client: &mut self.client,
@@ -129,7 +129,7 @@ impl<C> Ax1<C> {
     /// Control word: commands of the drive state machine and of the mode of operation.
     ///
     /// Controlword: 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
-    /// Constant: [`objects::CONTROLWORD`]. Type of the value: [`Controlword`](types::Controlword). Mapped in [`SetPoints`](pdo::SetPoints).
+    /// Constant: [`objects::CONTROLWORD`]. Value type: [`Controlword`](types::Controlword). Mapped in [`SetPoints`](pdo::SetPoints).
     pub fn controlword(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::Controlword> {
@@ -138,14 +138,14 @@ impl<C> Ax1<C> {
     /// Status word: state of the drive state machine and of the mode of operation.
     ///
     /// Statusword: 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
-    /// Constant: [`objects::STATUSWORD`]. Type of the value: [`Statusword`](types::Statusword). Mapped in [`ActualValues`](pdo::ActualValues) and [`DriveStatus`](pdo::DriveStatus).
+    /// Constant: [`objects::STATUSWORD`]. Value type: [`Statusword`](types::Statusword). Mapped in [`ActualValues`](pdo::ActualValues) and [`DriveStatus`](pdo::DriveStatus).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
     /// Requested mode of operation; the active mode is in 0x6061.
     ///
     /// Modes of operation: 0x6060:00, INTEGER8, read-write, mappable into RPDOs.
-    /// Constant: [`objects::MODES_OF_OPERATION`]. Type of the value: [`ModesOfOperation`](types::ModesOfOperation). Mapped in [`SetPoints`](pdo::SetPoints).
+    /// Constant: [`objects::MODES_OF_OPERATION`]. Value type: [`ModesOfOperation`](types::ModesOfOperation). Mapped in [`SetPoints`](pdo::SetPoints).
     pub fn modes_of_operation(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperation> {
@@ -201,7 +201,7 @@ pub mod types {
     use ::lexibus as rt;
     /// Mode.
     ///
-    /// Type of the values of [`object_2000::MODE`](super::objects::object_2000::MODE) and [`object_2001::MODE`](super::objects::object_2001::MODE).
+    /// Value type of [`object_2000::MODE`](super::objects::object_2000::MODE) and [`object_2001::MODE`](super::objects::object_2001::MODE).
     ///
     /// | Value | Name |
     /// |---|---|
@@ -257,7 +257,7 @@ pub mod types {
     ///
     /// Definition from CiA 402, 10.3.8.
     ///
-    /// Type of the values of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION).
+    /// Value type of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION).
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
@@ -350,9 +350,9 @@ pub mod types {
     ///
     /// Definition from CiA 402, 10.3.1.
     ///
-    /// Type of the values of [`CONTROLWORD`](super::objects::CONTROLWORD).
+    /// Value type of [`CONTROLWORD`](super::objects::CONTROLWORD).
     ///
-    /// The reserved bits 0x400 are written as 0.
+    /// A write to an item sets the reserved bits 0x400 to 0.
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -371,7 +371,7 @@ pub mod types {
     /// | 7 | [`fault_reset`](Self::fault_reset) | The device reacts to the rising edge. |
     /// | 8 | [`halt`](Self::halt) | 1 stops the axis with the reaction that the halt option code (0x605D) selects. |
     /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the previous target at the profile velocity, then moves to the new target. |
-    /// | 10 | reserved | The value 0 is written. |
+    /// | 10 | reserved | A write to an item sets the value 0. |
     /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Controlword(u16);
@@ -451,19 +451,19 @@ pub mod types {
         pub const fn with_manufacturer_specific(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xF800, value as u16))
         }
-        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "profile position" (1).
         pub const fn in_profile_position(self) -> ControlwordInProfilePosition {
             ControlwordInProfilePosition(self.0)
         }
-        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "velocity" (2).
         pub const fn in_velocity(self) -> ControlwordInVelocity {
             ControlwordInVelocity(self.0)
         }
-        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "homing" (6).
         pub const fn in_homing(self) -> ControlwordInHoming {
             ControlwordInHoming(self.0)
         }
-        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
+        /// Returns a view of the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "interpolated position" (7).
         pub const fn in_interpolated_position(
             self,
         ) -> ControlwordInInterpolatedPosition {
@@ -497,7 +497,7 @@ pub mod types {
             )
         }
     }
-    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "profile position" (1).
     #[derive(Clone, Copy)]
     pub struct ControlwordInProfilePosition(u16);
     impl ControlwordInProfilePosition {
@@ -542,7 +542,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
     }
-    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "velocity" (2).
     #[derive(Clone, Copy)]
     pub struct ControlwordInVelocity(u16);
     impl ControlwordInVelocity {
@@ -578,7 +578,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
     }
-    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "homing" (6).
     #[derive(Clone, Copy)]
     pub struct ControlwordInHoming(u16);
     impl ControlwordInHoming {
@@ -596,7 +596,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
-    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
+    /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "interpolated position" (7).
     #[derive(Clone, Copy)]
     pub struct ControlwordInInterpolatedPosition(u16);
     impl ControlwordInInterpolatedPosition {
@@ -618,7 +618,7 @@ pub mod types {
     ///
     /// Definition from CiA 402, 10.3.2.
     ///
-    /// Type of the values of [`STATUSWORD`](super::objects::STATUSWORD).
+    /// Value type of [`STATUSWORD`](super::objects::STATUSWORD).
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
@@ -778,35 +778,35 @@ pub mod types {
         pub const fn with_manufacturer_specific_14(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xC000, value as u16))
         }
-        /// Returns a view of the bits that are defined while 0x6061 is profile position (1).
+        /// Returns a view of the bits that are defined while 0x6061 is "profile position" (1).
         pub const fn in_profile_position(self) -> StatuswordInProfilePosition {
             StatuswordInProfilePosition(self.0)
         }
-        /// Returns a view of the bits that are defined while 0x6061 is profile velocity (3).
+        /// Returns a view of the bits that are defined while 0x6061 is "profile velocity" (3).
         pub const fn in_profile_velocity(self) -> StatuswordInProfileVelocity {
             StatuswordInProfileVelocity(self.0)
         }
-        /// Returns a view of the bits that are defined while 0x6061 is homing (6).
+        /// Returns a view of the bits that are defined while 0x6061 is "homing" (6).
         pub const fn in_homing(self) -> StatuswordInHoming {
             StatuswordInHoming(self.0)
         }
-        /// Returns a view of the bits that are defined while 0x6061 is interpolated position (7).
+        /// Returns a view of the bits that are defined while 0x6061 is "interpolated position" (7).
         pub const fn in_interpolated_position(self) -> StatuswordInInterpolatedPosition {
             StatuswordInInterpolatedPosition(self.0)
         }
-        /// Returns a view of the bits that are defined while 0x6061 is cyclic synchronous position (8).
+        /// Returns a view of the bits that are defined while 0x6061 is "cyclic synchronous position" (8).
         pub const fn in_cyclic_synchronous_position(
             self,
         ) -> StatuswordInCyclicSynchronousPosition {
             StatuswordInCyclicSynchronousPosition(self.0)
         }
-        /// Returns a view of the bits that are defined while 0x6061 is cyclic synchronous velocity (9).
+        /// Returns a view of the bits that are defined while 0x6061 is "cyclic synchronous velocity" (9).
         pub const fn in_cyclic_synchronous_velocity(
             self,
         ) -> StatuswordInCyclicSynchronousVelocity {
             StatuswordInCyclicSynchronousVelocity(self.0)
         }
-        /// Returns a view of the bits that are defined while 0x6061 is cyclic synchronous torque (10).
+        /// Returns a view of the bits that are defined while 0x6061 is "cyclic synchronous torque" (10).
         pub const fn in_cyclic_synchronous_torque(
             self,
         ) -> StatuswordInCyclicSynchronousTorque {
@@ -837,7 +837,7 @@ pub mod types {
             )
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while 0x6061 is profile position (1).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is "profile position" (1).
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfilePosition(u16);
     impl StatuswordInProfilePosition {
@@ -864,7 +864,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while 0x6061 is profile velocity (3).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is "profile velocity" (3).
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfileVelocity(u16);
     impl StatuswordInProfileVelocity {
@@ -891,7 +891,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while 0x6061 is homing (6).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is "homing" (6).
     #[derive(Clone, Copy)]
     pub struct StatuswordInHoming(u16);
     impl StatuswordInHoming {
@@ -918,7 +918,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while 0x6061 is interpolated position (7).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is "interpolated position" (7).
     #[derive(Clone, Copy)]
     pub struct StatuswordInInterpolatedPosition(u16);
     impl StatuswordInInterpolatedPosition {
@@ -936,7 +936,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while 0x6061 is cyclic synchronous position (8).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is "cyclic synchronous position" (8).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousPosition(u16);
     impl StatuswordInCyclicSynchronousPosition {
@@ -963,7 +963,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while 0x6061 is cyclic synchronous velocity (9).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is "cyclic synchronous velocity" (9).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousVelocity(u16);
     impl StatuswordInCyclicSynchronousVelocity {
@@ -981,7 +981,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while 0x6061 is cyclic synchronous torque (10).
+    /// View of [`Statusword`] with the bits that are defined while 0x6061 is "cyclic synchronous torque" (10).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousTorque(u16);
     impl StatuswordInCyclicSynchronousTorque {
@@ -1146,7 +1146,7 @@ pub mod types {
                 Some(Command::EnableOperation),
             ),
         ];
-        /// Returns the next step from this state towards `target`.
+        /// Returns the next step from this state toward `target`.
         pub fn toward(self, target: Self) -> rt::Step<Command> {
             rt::Step::toward(Self::TRANSITIONS, self as u8, target as u8)
         }
@@ -1236,7 +1236,7 @@ pub mod types {
         }
     }
 }
-/// Code tables. The function `codes::find` of the runtime returns the row of a code.
+/// Code tables. The function `codes::find` of the runtime returns the row for a code.
 pub mod codes {
     use ::lexibus as rt;
     /// drive errors.
@@ -1786,7 +1786,7 @@ pub mod objects {
         /// Mode.
         ///
         /// 0x2000:02, UNSIGNED3, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::mode`]. Type of the value: [`Mode`](super::super::types::Mode). Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Accessors::mode`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
@@ -1855,7 +1855,7 @@ pub mod objects {
             "Speed",
             rt::Flags::TPDO,
         );
-        /// Accessors of the entries of 0x2000.
+        /// Accessors for the entries of 0x2000.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -1870,7 +1870,7 @@ pub mod objects {
             /// Mode.
             ///
             /// 0x2000:02, UNSIGNED3, read-only, mappable into TPDOs.
-            /// Constant: [`MODE`]. Type of the value: [`Mode`](super::super::types::Mode). Mapped in [`Encoder`](super::super::pdo::Encoder).
+            /// Constant: [`MODE`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`Encoder`](super::super::pdo::Encoder).
             pub fn mode(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::Mode> {
@@ -1933,7 +1933,7 @@ pub mod objects {
         /// Mode.
         ///
         /// 0x2001:02, UNSIGNED3, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::mode`]. Type of the value: [`Mode`](super::super::types::Mode). Mapped in [`ActualValues`](super::super::pdo::ActualValues).
+        /// Accessor: [`Accessors::mode`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`ActualValues`](super::super::pdo::ActualValues).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
@@ -1954,7 +1954,7 @@ pub mod objects {
             "Current",
             rt::Flags::TPDO,
         );
-        /// Accessors of the entries of 0x2001.
+        /// Accessors for the entries of 0x2001.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -1969,7 +1969,7 @@ pub mod objects {
             /// Mode.
             ///
             /// 0x2001:02, UNSIGNED3, read-only, mappable into TPDOs.
-            /// Constant: [`MODE`]. Type of the value: [`Mode`](super::super::types::Mode). Mapped in [`ActualValues`](super::super::pdo::ActualValues).
+            /// Constant: [`MODE`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`ActualValues`](super::super::pdo::ActualValues).
             pub fn mode(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::Mode> {
@@ -1987,7 +1987,7 @@ pub mod objects {
     /// Controlword.
     ///
     /// 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
-    /// Accessor: [`controlword`](super::Ax1::controlword). Type of the value: [`Controlword`](super::types::Controlword). Mapped in [`SetPoints`](super::pdo::SetPoints).
+    /// Accessor: [`controlword`](super::Ax1::controlword). Value type: [`Controlword`](super::types::Controlword). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Control word: commands of the drive state machine and of the mode of operation.
     ///
@@ -2005,7 +2005,7 @@ pub mod objects {
     /// Statusword.
     ///
     /// 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
-    /// Accessor: [`statusword`](super::Ax1::statusword). Type of the value: [`Statusword`](super::types::Statusword). Mapped in [`ActualValues`](super::pdo::ActualValues) and [`DriveStatus`](super::pdo::DriveStatus).
+    /// Accessor: [`statusword`](super::Ax1::statusword). Value type: [`Statusword`](super::types::Statusword). Mapped in [`ActualValues`](super::pdo::ActualValues) and [`DriveStatus`](super::pdo::DriveStatus).
     ///
     /// Status word: state of the drive state machine and of the mode of operation.
     ///
@@ -2021,7 +2021,7 @@ pub mod objects {
     /// Modes of operation.
     ///
     /// 0x6060:00, INTEGER8, read-write, mappable into RPDOs.
-    /// Accessor: [`modes_of_operation`](super::Ax1::modes_of_operation). Type of the value: [`ModesOfOperation`](super::types::ModesOfOperation). Mapped in [`SetPoints`](super::pdo::SetPoints).
+    /// Accessor: [`modes_of_operation`](super::Ax1::modes_of_operation). Value type: [`ModesOfOperation`](super::types::ModesOfOperation). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Requested mode of operation; the active mode is in 0x6061.
     ///

@@ -21,7 +21,7 @@
             0x01,
             "Speed",
         );
-        /// Accessors of the entries of 0x2022.
+        /// Accessors for the entries of 0x2022.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }

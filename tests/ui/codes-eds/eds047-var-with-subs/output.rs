@@ -21,7 +21,7 @@
             0x01,
             "First",
         );
-        /// Accessors of the entries of Speeds: 0x2000.
+        /// Accessors for the entries of Speeds: 0x2000.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }

@@ -30,7 +30,7 @@
             0x02,
             "Speeds2",
         );
-        /// Accessors of the entries of Speeds: 0x2000.
+        /// Accessors for the entries of Speeds: 0x2000.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }

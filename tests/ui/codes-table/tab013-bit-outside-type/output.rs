@@ -1,6 +1,6 @@
     /// status.
     ///
-    /// Type of the values of [`STATUS`](super::objects::STATUS).
+    /// Value type of [`STATUS`](super::objects::STATUS).
     ///
     /// | Bits | Name |
     /// |---|---|

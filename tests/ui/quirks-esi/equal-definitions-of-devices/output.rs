@@ -3,7 +3,7 @@
         use ::lexibus as rt;
         /// DT0800EN08.
         ///
-        /// Type of the values of [`MODE`](super::objects::MODE).
+        /// Value type of [`MODE`](super::objects::MODE).
         ///
         /// | Value | Name |
         /// |---|---|
@@ -50,7 +50,7 @@
         use ::lexibus as rt;
         /// DT0800EN08.
         ///
-        /// Type of the values of [`MODE`](super::objects::MODE).
+        /// Value type of [`MODE`](super::objects::MODE).
         ///
         /// | Value | Name |
         /// |---|---|

@@ -1,6 +1,6 @@
     /// DT0800EN08.
     ///
-    /// Type of the values of [`MODE`](super::objects::MODE).
+    /// Value type of [`MODE`](super::objects::MODE).
     ///
     /// | Value | Name |
     /// |---|---|
@@ -18,7 +18,7 @@
     /// Mode.
     ///
     /// Default 16, 0x2000:00, UNSIGNED8, read-only, mappable into TPDOs.
-    /// Accessor: [`mode`](super::D1::mode). Type of the value: [`Dt0800En08`](super::types::Dt0800En08). Mapped in [`Sensors`](super::pdo::Sensors).
+    /// Accessor: [`mode`](super::D1::mode). Value type: [`Dt0800En08`](super::types::Dt0800En08). Mapped in [`Sensors`](super::pdo::Sensors).
     pub const MODE: ReadOnly<super::types::Dt0800En08> = ReadOnlyNamedDt0800En08::flagged_coe_object_with_default(
         0x2000,
         0x00,

@@ -40,7 +40,7 @@
         };
             /// FILTER.
             ///
-            /// Type of the values of [`FILTER`](super::objects::FILTER).
+            /// Value type of [`FILTER`](super::objects::FILTER).
             ///
             /// | Value | Name |
             /// |---|---|
@@ -55,7 +55,7 @@
             /// Filter.
             ///
             /// 0x8000:00, UNSIGNED8, read-write.
-            /// Type of the value: [`Filter`](super::types::Filter).
+            /// Value type: [`Filter`](super::types::Filter).
             pub const FILTER: ReadWrite<super::types::Filter> = ReadWriteNamedFilter::coe_object(
                 0x8000,
                 0x00,

@@ -7,7 +7,7 @@
             rt::MappedEntry::new(0x0000, 0x00, 32),
             rt::MappedEntry::new(0x0000, 0x00, 8),
         ];
-/// SDO writes that configure the default PDO assignment. Send them in the state Pre-Operational.
+/// SDO writes that configure the default PDO assignment. Send them in the state "Pre-Operational".
 pub const STARTUP: &[rt::SdoWrite] = &[
     rt::SdoWrite::new_u8(0x1C12, 0x00, 0),
     rt::SdoWrite::new_u8(0x1C13, 0x00, 0),

@@ -17,7 +17,7 @@
             /// State: Integer16, bytes 4 and 5, default 0.
             pub state: values::VModeI16,
         }
-    /// V\_Mode of 16 bits.
+    /// V\_Mode, 16 bits.
     ///
     /// How it runs
     ///

@@ -6,7 +6,7 @@
     ///
     /// Note: The order of the bits is not printed. Assumed: bit 0 first (all tables begin so). Manual, page 3.
     ///
-    /// Type of the values of [`CONTROL`](super::objects::CONTROL).
+    /// Value type of [`CONTROL`](super::objects::CONTROL).
     ///
     /// | Bits | Name |
     /// |---|---|
@@ -17,7 +17,7 @@
     ///
     /// Note for 0: 0 and 00. Assumed: 0 (both are the same). Manual, page 5.
     ///
-    /// Type of the values of [`MODE`](super::objects::MODE).
+    /// Value type of [`MODE`](super::objects::MODE).
     ///
     /// | Value | Name |
     /// |---|---|

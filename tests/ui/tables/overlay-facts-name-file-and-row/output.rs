@@ -21,7 +21,7 @@
     ///
     /// Changed by an overlay: the data sheet has other values.
     ///
-    /// Default and range from overlay pump.overlay.toml:9, replacing the description.
+    /// Default and range from overlay pump.overlay.toml:9 instead of the description.
     ///
     /// Unit from overlay pump.overlay.toml:9.
     pub const RAMP: ReadWrite<u16> = ReadWriteU16::new(

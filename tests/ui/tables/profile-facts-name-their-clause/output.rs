@@ -19,7 +19,7 @@
     /// Digital inputs.
     ///
     /// 0x60FD:00, UNSIGNED32, read-only.
-    /// Accessor: [`digital_inputs`](super::Axis::digital_inputs). Type of the value: [`DigitalInputs`](super::types::DigitalInputs).
+    /// Accessor: [`digital_inputs`](super::Axis::digital_inputs). Value type: [`DigitalInputs`](super::types::DigitalInputs).
     ///
     /// Digital inputs: limit switches, home switch and manufacturer-specific inputs.
     ///
@@ -35,7 +35,7 @@
     ///
     /// Definition from CiA 402, 9.3.15.
     ///
-    /// Type of the values of [`DIGITAL_INPUTS`](super::objects::DIGITAL_INPUTS).
+    /// Value type of [`DIGITAL_INPUTS`](super::objects::DIGITAL_INPUTS).
     ///
     /// | Bits | Name |
     /// |---|---|
