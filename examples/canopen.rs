@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use lexibus::clients::canopen::{NmtCommand, NmtState, Node};
 use lexibus::sim::{CanNode, Device};
-use lexibus::{AbortCode, NodeId, Step};
+use lexibus::{AbortCode, NodeId};
 use lexibus_drives::demo_drive::types::{Command, Controlword, ModesOfOperation, State, Statusword};
 use lexibus_drives::demo_drive::{objects, pdo, DemoDrive, ENTRIES};
 
@@ -36,23 +36,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         Err(error) => println!("600000 is not sent: {error}"),
         Ok(()) => return Err("the range was not checked".into()),
     }
-    enable(&mut drive)?;
+    // Resets a fault if there is one, and enables the drive.
+    drive.walk(State::OperationEnabled, PATIENCE)?;
     move_to(&mut drive, id, 100_000)
-}
-
-/// Brings the drive step by step to the state "Operation enabled".
-fn enable(drive: &mut Drive) -> Result<(), Box<dyn Error>> {
-    for _ in 0..MOST_STEPS {
-        let state = drive.statusword().read()?.state().ok_or("the statusword has no valid state")?;
-        println!("{state:?}");
-        match state.toward(State::OperationEnabled) {
-            Step::Reached => return Ok(()),
-            Step::Command(command) => drive.controlword().write(Controlword::new().with_command(command))?,
-            Step::Wait => {}
-            Step::Unreachable => return Err("no command leads to the state \"Operation enabled\"".into()),
-        }
-    }
-    Err("the drive doesn't reach the state \"Operation enabled\"".into())
 }
 
 /// Moves the drive with process data. RPDO 2 contains the target position, and TPDO 2 the actual position. Both are

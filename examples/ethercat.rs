@@ -12,7 +12,7 @@ use ethercrab::std::ethercat_now;
 use ethercrab::{MainDevice, MainDeviceConfig, PduStorage, Timeouts};
 use lexibus::clients::ethercat::{is_a, Cycle, Sdo};
 use lexibus::ethercat::Assignment;
-use lexibus::Step;
+use lexibus::Walker;
 
 #[path = "support/ethercat/mod.rs"]
 mod ethercat;
@@ -76,6 +76,7 @@ async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
     let cycle = Cycle::of(maindevice, &group);
     let subdevice = group.subdevice(maindevice, position)?;
     let mut controlword = Controlword::new();
+    let mut walker = Walker::new(State::OperationEnabled);
     let mut target = 0;
     for number in 0..16 {
         {
@@ -88,13 +89,12 @@ async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
         // `run` returns an error if the inputs would be stale.
         cycle.run(maindevice, &group).await?;
         let inputs = image::Inputs::unpack(&subdevice.inputs_raw())?.position;
-        let state = inputs.statusword.state().ok_or("the statusword has no valid state")?;
-        println!("cycle {number:2}: {state:?}, position {}", inputs.position_actual_value);
-        match state.toward(State::OperationEnabled) {
-            Step::Command(command) => controlword = controlword.with_command(command),
-            Step::Reached => target += 1000,
-            Step::Wait => {}
-            Step::Unreachable => return Err("the drive cannot be enabled".into()),
+        println!("cycle {number:2}: {:?}, position {}", inputs.statusword.state(), inputs.position_actual_value);
+        // The walker resets a fault that is active at the start. It returns an error if a fault occurs later.
+        let walked = walker.cycle(inputs.statusword, controlword)?;
+        controlword = walked.control;
+        if walked.is_reached {
+            target += 1000;
         }
     }
     Ok(())

@@ -64,7 +64,7 @@
 //! | values, reading and writing | [`Item`], [`Accessor`], [`Value`], [`Range`], [`Error`] |
 //! | buses and addresses of an item | [`Location`], [`On`], [`location!`] |
 //! | scaling and units | [`Quantity`], [`Scaled`] and related types |
-//! | the state machine of a drive | [`Step`] |
+//! | the state machine of a drive | [`Walker`], [`Machine`], [`Step`] |
 //! | alarms and other codes | [`codes`] |
 //! | custom clients | [`Client`], [`AsyncClient`], [`RegisterClient`](modbus::RegisterClient), [`RecordClient`](profinet::RecordClient), [`Exchange`], [`Clock`], [`Timer`] |
 //! | timeouts and retries | [`Deadline`], [`Retrying`] |
@@ -179,7 +179,7 @@ pub use location::{
     Location, On, OnCanOpen, OnCanOpenAndCoE, OnCanOpenAndModbus, OnCanOpenCoEAndModbus, OnCoE, OnCoEAndModbus, OnEsc,
     OnImage, OnModbus, OnProfinet, OnSerial,
 };
-pub use machine::{Step, Transition};
+pub use machine::{Machine, MachineState, StateWord, Step, Stopped, Transition, WalkError, Walked, Walker};
 pub use node_id::NodeId;
 pub use pdo::{AnyPdo, CobId, Mappable, MappedEntry, Pdo, Remappable, Rpdo, SdoWrite, Tpdo};
 pub use quantity::{Exponential, Fraction, Number, OrNone, PerItem, Quantity, Reciprocal, Scaled};

@@ -1,4 +1,12 @@
-//! State machines, and the shortest path from one state to another.
+//! State machines, the shortest path from one state to another, and the way of a device along this path.
+
+mod walk;
+mod walker;
+mod word;
+
+pub use walk::{Machine, WalkError};
+pub use walker::{MachineState, Stopped, Walked, Walker};
+pub use word::StateWord;
 
 /// A transition of a device's state machine. States are represented by numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +21,14 @@ impl<C> Transition<C> {
     #[must_use]
     pub const fn new(from: u8, to: u8, command: Option<C>) -> Self {
         Self { from, to, command }
+    }
+
+    /// Returns the command that triggers the transition.
+    fn command(&self) -> Option<C>
+    where
+        C: Copy,
+    {
+        self.command
     }
 }
 

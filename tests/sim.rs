@@ -1,14 +1,15 @@
 //! Tests drivers with simulated devices: the bindings of two drives on each of their buses.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use lexibus::sim::{Connection, Device, Exception, Fault};
 use lexibus::table::{AccessRights, Bound, Entry};
 use lexibus::{
     AbortCode, Bus, CanOpen, Client, CoE, DataType, Error, Flags, Modbus, NodeId, Object, Pdo, Register, RegisterTable,
-    SdoWrite, Step,
+    SdoWrite, Timed, WalkError,
 };
-use lexibus_drives::demo_drive::types::{Command, Controlword, ModesOfOperation, State, Statusword};
+use lexibus_drives::demo_drive::types::{self, Command, Controlword, ModesOfOperation, State, Statusword};
 use lexibus_drives::demo_drive::{self, objects, pdo, DemoDrive};
 use lexibus_drives::vector_step::{self, VectorStep};
 
@@ -83,23 +84,82 @@ fn moving_drive() -> Device {
 #[test]
 fn a_driver_enables_the_drive_and_moves_it() {
     let mut drive = DemoDrive::new(moving_drive().into_client::<CanOpen>());
-    let mut commands = Vec::new();
-    loop {
-        let state = drive.statusword().read().unwrap().state().unwrap();
-        match state.toward(State::OperationEnabled) {
-            Step::Command(command) => {
-                commands.push(command);
-                drive.controlword().write(Controlword::new().with_command(command)).unwrap();
-            }
-            step => break assert_eq!(step, Step::Reached),
-        }
-    }
-    assert_eq!(commands, [Command::Shutdown, Command::SwitchOn, Command::EnableOperation]);
+    drive.walk(State::OperationEnabled, DEADLINE).unwrap();
     drive.modes_of_operation().write(ModesOfOperation::ProfilePosition).unwrap();
     drive.target_position().write(-4711).unwrap();
     drive.controlword().write(Controlword::from_raw(0x1F)).unwrap();
     assert_eq!(drive.position_actual_value().read(), Ok(-4711));
     assert_eq!(drive.client().device().get(objects::TARGET_POSITION), Ok(-4711));
+}
+
+/// Returns a drive in the state "Fault". Only a rising edge of bit 7 resets the fault (CiA 402-2 6.3). The bit is already set.
+fn faulty_drive() -> Device {
+    let mut device = demo();
+    device.set_initial(objects::STATUSWORD, status(State::Fault)).unwrap();
+    device.set_initial(objects::CONTROLWORD, Controlword::from_raw(0x0180)).unwrap();
+    let mut before = 0x0180;
+    device
+        .on_write(objects::CONTROLWORD, move |device, controlword| {
+            let state = device.get(objects::STATUSWORD)?.state().ok_or(AbortCode::INTERNAL_INCOMPATIBLE)?;
+            let is_edge = before & 0x80 == 0;
+            before = controlword.raw();
+            let is_ignored = state == State::Fault && !is_edge;
+            device.set(objects::STATUSWORD, status(if is_ignored { state } else { after(state, before) }))
+        })
+        .unwrap();
+    device
+}
+
+/// Time for which the tests wait at most.
+const DEADLINE: Duration = Duration::from_secs(5);
+
+#[test]
+fn one_call_leads_a_faulty_drive_to_a_state() {
+    let mut drive = DemoDrive::new(faulty_drive().into_client::<CanOpen>());
+    assert_eq!(drive.walk(State::OperationEnabled, DEADLINE), Ok(()));
+    assert_eq!(drive.statusword().read().map(Statusword::state), Ok(Some(State::OperationEnabled)));
+    // Bit 8 belongs to no command.
+    assert_eq!(drive.controlword().read(), Ok(Controlword::from_raw(0x010F)));
+    assert_eq!(drive.walk(State::SwitchOnDisabled, DEADLINE), Ok(()));
+    assert_eq!(drive.statusword().read().map(Statusword::state), Ok(Some(State::SwitchOnDisabled)));
+    let never = drive.walk(State::FaultReactionActive, DEADLINE);
+    assert_eq!(never, Err(WalkError::Unreachable { state: State::SwitchOnDisabled }));
+
+    let mut drive = DemoDrive::new(Timed::new(faulty_drive().into_client::<CanOpen>(), |_| std::future::ready(())));
+    assert_eq!(now(drive.walk_async(State::OperationEnabled, DEADLINE)), Ok(()));
+}
+
+#[test]
+fn a_fault_on_the_way_has_a_code() {
+    let mut device = demo();
+    device.set_initial(objects::STATUSWORD, status(State::SwitchOnDisabled)).unwrap();
+    let code = objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1;
+    device
+        .on_write(objects::CONTROLWORD, move |device, _| {
+            device.set(code, types::ErrorFieldEntry::from_raw(0x1234_8611))?;
+            device.set(objects::STATUSWORD, status(State::Fault))
+        })
+        .unwrap();
+    let mut drive = DemoDrive::new(device.into_client::<CanOpen>());
+    let error = drive.walk(State::OperationEnabled, DEADLINE).unwrap_err();
+    assert_eq!(error, WalkError::Fault { state: State::Fault, code: Some(0x8611) });
+    assert_eq!(error.to_string(), "a fault occurred: the device is in the state \"fault\", error code 0x8611");
+}
+
+#[test]
+fn a_drive_that_does_not_move_on() {
+    let mut device = demo();
+    device.set_initial(objects::STATUSWORD, status(State::SwitchOnDisabled)).unwrap();
+    let mut drive = DemoDrive::new(device.into_client::<CanOpen>());
+    let late = drive.walk(State::OperationEnabled, Duration::from_millis(20)).unwrap_err();
+    assert_eq!(late, WalkError::Deadline { state: Some(State::SwitchOnDisabled), status: 0x40 });
+    assert_eq!(late.to_string(), "timeout: the device is still in the state \"switch on disabled\"");
+    // A fault whose cause persists cannot be reset.
+    let mut device = demo();
+    device.set_initial(objects::STATUSWORD, status(State::Fault)).unwrap();
+    let mut drive = DemoDrive::new(device.into_client::<CanOpen>());
+    let stays = drive.walk(State::OperationEnabled, Duration::from_millis(20)).unwrap_err();
+    assert!(matches!(stays, WalkError::Fault { state: State::Fault, .. }), "{stays}");
 }
 
 #[test]
@@ -546,14 +606,8 @@ fn an_axis_is_enabled_step_by_step() {
     device.axis(2).on_write(CONTROLWORD, follows).unwrap();
     let mut drive = VectorStep::new(device.into_client::<CanOpen>());
     let mut axis = drive.axis(2);
-    let mut steps = 0;
-    while let Step::Command(command) =
-        axis.statusword().read().unwrap().state().unwrap().toward(State::OperationEnabled)
-    {
-        axis.controlword().write(Controlword::new().with_command(command)).unwrap();
-        steps += 1;
-    }
-    assert_eq!((steps, axis.statusword().read().unwrap().state()), (3, Some(State::OperationEnabled)));
+    axis.walk(State::OperationEnabled, DEADLINE).unwrap();
+    assert_eq!(axis.statusword().read().unwrap().state(), Some(State::OperationEnabled));
     // The state of the first axis must be unchanged.
     assert_ne!(drive.statusword().read().unwrap().raw(), 0x27);
 }
@@ -683,11 +737,7 @@ mod frames {
     #[test]
     fn a_driver_over_sdo_and_pdo() {
         let mut drive = DemoDrive::new(Node::new(CanNode::new(moving_drive()), NODE));
-        while let Step::Command(command) =
-            drive.statusword().read().unwrap().state().unwrap().toward(State::OperationEnabled)
-        {
-            drive.controlword().write(Controlword::new().with_command(command)).unwrap();
-        }
+        drive.walk(State::OperationEnabled, DEADLINE).unwrap();
         for write in pdo::RxPdo2::configuration(NODE).iter().chain(&pdo::TxPdo2::configuration(NODE)) {
             write.send(drive.client()).unwrap();
         }

@@ -460,6 +460,74 @@ impl<C> Akd<C> {
     pub fn into_client(self) -> C {
         self.client
     }
+    /// Leads the state machine "al" to the state `target`.
+    ///
+    /// The method reads [AL status](objects::AL_STATUS), writes the commands to [AL control](objects::AL_CONTROL) and waits for transitions of the device. It first resets a fault that is already active. Other bits of [AL control](objects::AL_CONTROL) do not change. If the device receives [AL control](objects::AL_CONTROL) in process data, use [`rt::Walker`] instead.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if an access fails, a fault occurs on the way (with the state), no command leads to the state, or the device is not in the state after the time `deadline`.
+    pub fn walk_al(
+        &mut self,
+        target: types::AlState,
+        deadline: core::time::Duration,
+    ) -> Result<(), rt::WalkError<types::AlState, C::Error>>
+    where
+        C: rt::Client,
+        rt::OnEsc: rt::On<C::Bus, Route: rt::ReadRoute<C::Bus> + rt::WriteRoute<C::Bus>>,
+    {
+        let control = objects::AL_CONTROL.at(&mut self.client).read()?;
+        let machine = rt::Machine::new(objects::AL_STATUS, objects::AL_CONTROL);
+        machine.walk(&mut self.client, control, target, deadline)
+    }
+    /// Does the same as [`walk_al`](Self::walk_al) without blocking.
+    pub async fn walk_al_async(
+        &mut self,
+        target: types::AlState,
+        deadline: core::time::Duration,
+    ) -> Result<(), rt::WalkError<types::AlState, C::Error>>
+    where
+        C: rt::AsyncClient,
+        rt::OnEsc: rt::On<C::Bus, Route: rt::ReadRoute<C::Bus> + rt::WriteRoute<C::Bus>>,
+    {
+        let control = objects::AL_CONTROL.at(&mut self.client).read_async().await?;
+        let machine = rt::Machine::new(objects::AL_STATUS, objects::AL_CONTROL);
+        machine.walk_async(&mut self.client, control, target, deadline).await
+    }
+    /// Leads the state machine "drive" to the state `target`.
+    ///
+    /// The method reads [Status word](objects::STATUS_WORD), writes the commands to [Control word](objects::CONTROL_WORD) and waits for transitions of the device. It first resets a fault that is already active. Other bits of [Control word](objects::CONTROL_WORD) do not change. If the device receives [Control word](objects::CONTROL_WORD) in process data, use [`rt::Walker`] instead.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if an access fails, a fault occurs on the way (with the state), no command leads to the state, or the device is not in the state after the time `deadline`.
+    pub fn walk_drive(
+        &mut self,
+        target: types::DriveState,
+        deadline: core::time::Duration,
+    ) -> Result<(), rt::WalkError<types::DriveState, C::Error>>
+    where
+        C: rt::Client,
+        rt::OnCoE: rt::On<C::Bus, Route: rt::ReadRoute<C::Bus> + rt::WriteRoute<C::Bus>>,
+    {
+        let control = objects::CONTROL_WORD.at(&mut self.client).read()?;
+        let machine = rt::Machine::new(objects::STATUS_WORD, objects::CONTROL_WORD);
+        machine.walk(&mut self.client, control, target, deadline)
+    }
+    /// Does the same as [`walk_drive`](Self::walk_drive) without blocking.
+    pub async fn walk_drive_async(
+        &mut self,
+        target: types::DriveState,
+        deadline: core::time::Duration,
+    ) -> Result<(), rt::WalkError<types::DriveState, C::Error>>
+    where
+        C: rt::AsyncClient,
+        rt::OnCoE: rt::On<C::Bus, Route: rt::ReadRoute<C::Bus> + rt::WriteRoute<C::Bus>>,
+    {
+        let control = objects::CONTROL_WORD.at(&mut self.client).read_async().await?;
+        let machine = rt::Machine::new(objects::STATUS_WORD, objects::CONTROL_WORD);
+        machine.walk_async(&mut self.client, control, target, deadline).await
+    }
     /// EtherCAT state that the master requests.
     ///
     /// AL control: UNSIGNED16, read-write.
@@ -3152,6 +3220,17 @@ pub mod types {
         }
     }
     impl AlState {
+        /// Returns the next step from this state toward `target`.
+        pub fn toward(self, target: Self) -> rt::Step<AlCommand> {
+            rt::Step::toward(
+                <Self as rt::MachineState>::TRANSITIONS,
+                self as u8,
+                target as u8,
+            )
+        }
+    }
+    impl rt::MachineState for AlState {
+        type Command = AlCommand;
         const TRANSITIONS: &'static [rt::Transition<AlCommand>] = &[
             rt::Transition::new(
                 Self::Init as u8,
@@ -3209,9 +3288,24 @@ pub mod types {
                 Some(AlCommand::RequestInit),
             ),
         ];
-        /// Returns the next step from this state toward `target`.
-        pub fn toward(self, target: Self) -> rt::Step<AlCommand> {
-            rt::Step::toward(Self::TRANSITIONS, self as u8, target as u8)
+        const FAULTS: &'static [u8] = &[];
+        fn of_status(bits: u32) -> Option<Self> {
+            Self::from_raw(bits as u16)
+        }
+        fn number(self) -> u8 {
+            self as u8
+        }
+        fn name(self) -> &'static str {
+            match self {
+                Self::Init => "init",
+                Self::PreOperational => "pre operational",
+                Self::Bootstrap => "bootstrap",
+                Self::SafeOperational => "safe operational",
+                Self::Operational => "operational",
+            }
+        }
+        fn pattern(command: AlCommand) -> (u32, u32) {
+            (command.mask() as u32, command.value() as u32)
         }
     }
     /// Commands of al, written to [AL control](super::objects::AL_CONTROL).
@@ -3369,6 +3463,17 @@ pub mod types {
         }
     }
     impl DriveState {
+        /// Returns the next step from this state toward `target`.
+        pub fn toward(self, target: Self) -> rt::Step<DriveCommand> {
+            rt::Step::toward(
+                <Self as rt::MachineState>::TRANSITIONS,
+                self as u8,
+                target as u8,
+            )
+        }
+    }
+    impl rt::MachineState for DriveState {
+        type Command = DriveCommand;
         const TRANSITIONS: &'static [rt::Transition<DriveCommand>] = &[
             rt::Transition::new(
                 Self::NotReadyToSwitchOn as u8,
@@ -3456,9 +3561,30 @@ pub mod types {
                 Some(DriveCommand::EnableOperation),
             ),
         ];
-        /// Returns the next step from this state toward `target`.
-        pub fn toward(self, target: Self) -> rt::Step<DriveCommand> {
-            rt::Step::toward(Self::TRANSITIONS, self as u8, target as u8)
+        const FAULTS: &'static [u8] = &[
+            Self::FaultReactionActive as u8,
+            Self::Fault as u8,
+        ];
+        fn of_status(bits: u32) -> Option<Self> {
+            Self::from_raw(bits as u16)
+        }
+        fn number(self) -> u8 {
+            self as u8
+        }
+        fn name(self) -> &'static str {
+            match self {
+                Self::NotReadyToSwitchOn => "not ready to switch on",
+                Self::SwitchOnDisabled => "switch on disabled",
+                Self::ReadyToSwitchOn => "ready to switch on",
+                Self::SwitchedOn => "switched on",
+                Self::OperationEnabled => "operation enabled",
+                Self::Fault => "fault",
+                Self::FaultReactionActive => "fault reaction active",
+                Self::QuickStopActive => "quick stop active",
+            }
+        }
+        fn pattern(command: DriveCommand) -> (u32, u32) {
+            (command.mask() as u32, command.value() as u32)
         }
     }
     /// Commands of drive, written to [Control word](super::objects::CONTROL_WORD).

@@ -31,6 +31,64 @@ impl<C> DemoDrive<C> {
     pub fn into_client(self) -> C {
         self.client
     }
+    /// Leads the state machine "drive" to the state `target`.
+    ///
+    /// The method reads [Statusword](objects::STATUSWORD), writes the commands to [Controlword](objects::CONTROLWORD) and waits for transitions of the device. It first resets a fault that is already active. Other bits of [Controlword](objects::CONTROLWORD) do not change. If the device receives [Controlword](objects::CONTROLWORD) in process data, use [`rt::Walker`] instead.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if an access fails, a fault occurs on the way (with the state and the error code from [Pre-defined error field1](objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1)), no command leads to the state, or the device is not in the state after the time `deadline`.
+    pub fn walk(
+        &mut self,
+        target: types::State,
+        deadline: core::time::Duration,
+    ) -> Result<(), rt::WalkError<types::State, C::Error>>
+    where
+        C: rt::Client,
+        rt::OnCanOpen: rt::On<
+            C::Bus,
+            Route: rt::ReadRoute<C::Bus> + rt::WriteRoute<C::Bus>,
+        >,
+    {
+        let control = objects::CONTROLWORD.at(&mut self.client).read()?;
+        let machine = rt::Machine::new(objects::STATUSWORD, objects::CONTROLWORD);
+        match machine.walk(&mut self.client, control, target, deadline) {
+            Err(error) if error.is_fault() => {
+                let code = rt::Item::at(
+                    objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1,
+                    &mut self.client,
+                ).read();
+                Err(error.with_code(code))
+            }
+            walked => walked,
+        }
+    }
+    /// Does the same as [`walk`](Self::walk) without blocking.
+    pub async fn walk_async(
+        &mut self,
+        target: types::State,
+        deadline: core::time::Duration,
+    ) -> Result<(), rt::WalkError<types::State, C::Error>>
+    where
+        C: rt::AsyncClient,
+        rt::OnCanOpen: rt::On<
+            C::Bus,
+            Route: rt::ReadRoute<C::Bus> + rt::WriteRoute<C::Bus>,
+        >,
+    {
+        let control = objects::CONTROLWORD.at(&mut self.client).read_async().await?;
+        let machine = rt::Machine::new(objects::STATUSWORD, objects::CONTROLWORD);
+        match machine.walk_async(&mut self.client, control, target, deadline).await {
+            Err(error) if error.is_fault() => {
+                let code = rt::Item::at(
+                    objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1,
+                    &mut self.client,
+                ).read_async().await;
+                Err(error.with_code(code))
+            }
+            walked => walked,
+        }
+    }
     /// Device profile number and additional information on the device.
     ///
     /// Device type: Default 0x20192, 0x1000:00, UNSIGNED32, read-only.
@@ -2015,6 +2073,17 @@ pub mod types {
         }
     }
     impl State {
+        /// Returns the next step from this state toward `target`.
+        pub fn toward(self, target: Self) -> rt::Step<Command> {
+            rt::Step::toward(
+                <Self as rt::MachineState>::TRANSITIONS,
+                self as u8,
+                target as u8,
+            )
+        }
+    }
+    impl rt::MachineState for State {
+        type Command = Command;
         const TRANSITIONS: &'static [rt::Transition<Command>] = &[
             rt::Transition::new(
                 Self::NotReadyToSwitchOn as u8,
@@ -2092,9 +2161,30 @@ pub mod types {
                 Some(Command::EnableOperation),
             ),
         ];
-        /// Returns the next step from this state toward `target`.
-        pub fn toward(self, target: Self) -> rt::Step<Command> {
-            rt::Step::toward(Self::TRANSITIONS, self as u8, target as u8)
+        const FAULTS: &'static [u8] = &[
+            Self::FaultReactionActive as u8,
+            Self::Fault as u8,
+        ];
+        fn of_status(bits: u32) -> Option<Self> {
+            Self::from_raw(bits as u16)
+        }
+        fn number(self) -> u8 {
+            self as u8
+        }
+        fn name(self) -> &'static str {
+            match self {
+                Self::NotReadyToSwitchOn => "not ready to switch on",
+                Self::SwitchOnDisabled => "switch on disabled",
+                Self::ReadyToSwitchOn => "ready to switch on",
+                Self::SwitchedOn => "switched on",
+                Self::OperationEnabled => "operation enabled",
+                Self::QuickStopActive => "quick stop active",
+                Self::FaultReactionActive => "fault reaction active",
+                Self::Fault => "fault",
+            }
+        }
+        fn pattern(command: Command) -> (u32, u32) {
+            (command.mask() as u32, command.value() as u32)
         }
     }
     /// Commands of drive, written to [Controlword](super::objects::CONTROLWORD).

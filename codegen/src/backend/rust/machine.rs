@@ -22,6 +22,8 @@ pub(super) struct MachineModel {
     pub commands: Option<PatternsModel>,
     /// Constant with the transitions that commands cause. `None` if no command causes a transition.
     pub transitions: Option<Doc>,
+    /// Variants of the states that the device enters because of a fault.
+    pub faults: Vec<String>,
 }
 
 impl MachineModel {
@@ -69,6 +71,8 @@ pub(super) struct PatternModel {
     pub name: String,
     /// Name of the state or command in the description.
     original: String,
+    /// The same name for people, with blanks instead of underscores.
+    pub title: String,
     pub docs: String,
     /// Meaning of the state or command, for a table cell.
     meaning: String,
@@ -112,7 +116,8 @@ pub(super) fn models(
             states.docs = documentation(context, machine, "States", &machine.status_item, "read from", states);
             states.docs.extend(listed.into_iter().filter(|_| !has_commands));
         }
-        MachineModel { states, commands, transitions }
+        let faults = states.as_ref().map(|states| faults(&machine.transitions, states)).unwrap_or_default();
+        MachineModel { states, commands, transitions, faults }
     };
     context.names.types.machines.iter().map(model).collect()
 }
@@ -244,6 +249,24 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
     (!steps.is_empty()).then_some(Data::slice(steps))
 }
 
+/// Returns the states that the device enters by itself from any state, and those that follow them without a command. These
+/// transitions are reactions to faults.
+fn faults(transitions: &[Transition], states: &PatternsModel) -> Vec<String> {
+    let mut names: Vec<&str> = Vec::new();
+    loop {
+        let is_entered = |transition: &&Transition| {
+            let from = transition.from.as_deref();
+            transition.command.is_none()
+                && from.is_none_or(|from| names.contains(&from))
+                && !names.contains(&transition.to.as_str())
+        };
+        let Some(transition) = transitions.iter().find(is_entered) else { break };
+        names.push(&transition.to);
+    }
+    let variants = states.by_name();
+    names.iter().filter_map(|name| variants.get(*name).cloned()).collect()
+}
+
 fn patterns(
     context: &Context<'_>,
     name: &str,
@@ -283,7 +306,8 @@ fn patterns(
         |number: u32| if number == 0 { "0".to_owned() } else { format!("{number:#X}").replacen("0X", "0x", 1) };
     let pattern = |(definition, name): (&&Pattern, String)| {
         let (mask, value) = (hexadecimal(definition.mask), hexadecimal(definition.value));
-        let title = docs::escape(&definition.name.replace('_', " "));
+        let plain = definition.name.replace('_', " ");
+        let title = docs::escape(&plain);
         let text = definition.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
         let text = if text.is_empty() { String::new() } else { format!(" {}", docs::sentence(&docs::escape(text))) };
         let original = definition.name.to_string();
@@ -295,6 +319,7 @@ fn patterns(
             meaning,
             name,
             original,
+            title: plain,
             bits,
             mask,
             value,

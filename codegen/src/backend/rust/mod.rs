@@ -55,6 +55,7 @@ mod slot_dependency;
 mod table;
 mod value_type;
 mod variant;
+mod walk;
 mod window;
 mod window_model;
 mod words;

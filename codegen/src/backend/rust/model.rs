@@ -32,6 +32,7 @@ use super::reexport::Reexport;
 use super::remap::{self, RemappableModel};
 use super::scope::{ObjectBus, Scope};
 use super::table::{self, EntryModel};
+use super::walk::{self, WalkModel};
 use super::window_model::{self, WindowModel};
 use crate::ir::{Device, FileInfo, Module};
 
@@ -65,6 +66,8 @@ pub(super) struct Model {
     /// Two noun phrases for items with handles: one to follow "every", and one to follow an adjective.
     pub handles: [&'static str; 2],
     pub types: Types,
+    /// Methods that lead a state machine to a state.
+    pub walks: Vec<WalkModel>,
     pub code_tables: Vec<CodeTableModel>,
     /// Procedures that consist only of object writes.
     pub procedures: Vec<ProcedureModel>,
@@ -142,6 +145,7 @@ impl Model {
         let locations = Locations::of(context);
         let mut objects = objects::models(context, &locations);
         let pdos = if options.pdos { pdo::models(context, options) } else { Vec::new() };
+        let types = Types::of(context, options);
         let remappable = if options.pdos { remap::models(context, &mut objects) } else { Vec::new() };
         Model {
             location: locations.name(locations.usual, ""),
@@ -150,7 +154,8 @@ impl Model {
             makers: locations.makers(),
             windows: window_model::models(context),
             handles: context.handles(),
-            types: Types::of(context, options),
+            walks: walk::models(context, &locations, &objects, &types.machines),
+            types,
             accessor_derives: options.derives(false),
             method_allow: method_allow(objects.iter().map(|object| object.name.as_str())),
             aliases: handle::aliases(&objects),

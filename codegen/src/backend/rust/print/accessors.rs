@@ -2,8 +2,10 @@
 
 use super::objects::access;
 use crate::backend::rust::code::{call, generic, line, open, seq, Code};
+use crate::backend::rust::item;
 use crate::backend::rust::model::Model;
 use crate::backend::rust::objects::ObjectModel;
+use crate::backend::rust::walk::WalkModel;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     if !model.has_accessors {
@@ -78,7 +80,48 @@ fn methods(code: &mut Code, model: &Model) {
         line!(code, call!(seq![name, "::new"], call!("rt::Axis::new", "&mut self.client", "&AXES", "number")));
         code.close("}");
     }
+    for walk in &model.walks {
+        self::walk(code, walk, false);
+        self::walk(code, walk, true);
+    }
     model.objects.iter().for_each(|object| accessor(code, object));
+    code.close("}");
+}
+
+/// Writes the method that leads a state machine to a state, blocking or async.
+fn walk(code: &mut Code, walk: &WalkModel, is_async: bool) {
+    let (suffix, keyword, client, done) =
+        if is_async { ("_async", "async ", "rt::AsyncClient", ".await") } else { ("", "", "rt::Client", "") };
+    let read = |path: &str| seq![item::at_client(path), ".read", suffix, "()", done];
+    match is_async {
+        false => code.docs(&walk.docs),
+        true => code.doc(&format!("Does the same as [`{0}`](Self::{0}) without blocking.", walk.method)),
+    }
+    let target = seq!["target: types::", walk.states];
+    let name = seq!["pub ", keyword, "fn ", walk.method, suffix];
+    let error = generic!("rt::WalkError", seq!["types::", walk.states], "C::Error");
+    let parameters = call!(name, "&mut self", target, "deadline: core::time::Duration");
+    line!(code, parameters, " -> ", generic!("Result", "()", error));
+    open!(code, "where");
+    line!(code, "C: ", client, ",");
+    code.lines(&walk.bounds);
+    code.reopen("{");
+    let control = if walk.reads_control { seq![read(&walk.control), "?"] } else { seq!["rt::StateWord::from_bits(0)"] };
+    line!(code, "let control = ", control, ";");
+    line!(code, "let machine = ", call!("rt::Machine::new", walk.status, walk.control), ";");
+    let arguments = call!(seq!["machine.walk", suffix], "&mut self.client", "control", "target", "deadline");
+    match &walk.code {
+        None => line!(code, arguments, done),
+        Some(path) => {
+            open!(code, "match ", arguments, done, " {");
+            open!(code, "Err(error) if error.is_fault() => {");
+            line!(code, "let code = ", read(path), ";");
+            line!(code, "Err(error.with_code(code))");
+            code.close("}");
+            line!(code, "walked => walked,");
+            code.close("}");
+        }
+    }
     code.close("}");
 }
 

@@ -1,8 +1,9 @@
 //! Prints enumerations, bit fields and state machines.
 
 use super::{bit_field, section};
-use crate::backend::rust::code::{call, generic, line, open, seq, Code};
+use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Doc};
 use crate::backend::rust::enumeration::EnumerationModel;
+use crate::backend::rust::literal;
 use crate::backend::rust::machine::{MachineModel, PatternsModel};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::reexport::Section;
@@ -89,19 +90,50 @@ pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel)
     if let (Some(states), Some(commands), Some(transitions)) =
         (&machine.states, &machine.commands, &machine.transitions)
     {
-        let (states, commands) = (&states.name, &commands.name);
-        open!(code, "impl ", states, " {");
-        line!(code, "const TRANSITIONS: &'static [rt::Transition<", commands, ">] = ", transitions, ";");
+        open!(code, "impl ", states.name, " {");
         code.doc("Returns the next step from this state toward `target`.");
-        let result = generic!("rt::Step", commands);
+        let result = generic!("rt::Step", commands.name);
         open!(code, call!("pub fn toward", "self", "target: Self"), " -> ", result, " {");
-        line!(code, call!("rt::Step::toward", "Self::TRANSITIONS", "self as u8", "target as u8"));
+        let transitions_of_trait = "<Self as rt::MachineState>::TRANSITIONS";
+        line!(code, call!("rt::Step::toward", transitions_of_trait, "self as u8", "target as u8"));
         code.close("}");
         code.close("}");
+        machine_state(code, states, commands, (transitions, &machine.faults));
     }
     if let Some(commands) = &machine.commands {
         self::commands(code, commands);
     }
+}
+
+/// Writes the implementation of the trait with which the runtime leads a machine to a state.
+fn machine_state(
+    code: &mut Code,
+    states: &PatternsModel,
+    commands: &PatternsModel,
+    (transitions, faults): (&Doc, &[String]),
+) {
+    open!(code, "impl rt::MachineState for ", states.name, " {");
+    line!(code, "type Command = ", commands.name, ";");
+    line!(code, "const TRANSITIONS: &'static [rt::Transition<", commands.name, ">] = ", transitions, ";");
+    let faults: Vec<String> = faults.iter().map(|fault| format!("Self::{fault} as u8")).collect();
+    line!(code, "const FAULTS: &'static [u8] = ", list("&[", &faults, "]"), ";");
+    open!(code, "fn of_status(bits: u32) -> Option<Self> {");
+    line!(code, "Self::from_raw(bits as ", states.native, ")");
+    code.close("}");
+    open!(code, "fn number(self) -> u8 {");
+    line!(code, "self as u8");
+    code.close("}");
+    open!(code, "fn name(self) -> &'static str {");
+    open!(code, "match self {");
+    for pattern in &states.patterns {
+        line!(code, "Self::", pattern.name, " => ", literal::string(&pattern.title), ",");
+    }
+    code.close("}");
+    code.close("}");
+    open!(code, "fn pattern(command: ", commands.name, ") -> (u32, u32) {");
+    line!(code, "(command.mask() as u32, command.value() as u32)");
+    code.close("}");
+    code.close("}");
 }
 
 fn patterns(code: &mut Code, patterns: &PatternsModel) {

@@ -1,0 +1,182 @@
+//! Methods of the device that lead a state machine to a state.
+
+use std::collections::BTreeMap;
+
+use super::code::{generic, seq, Doc};
+use super::context::Context;
+use super::docs;
+use super::item::ItemModel;
+use super::item_addresses::ItemAddresses;
+use super::links::DocModule;
+use super::locations::Locations;
+use super::machine::MachineModel;
+use super::method_names::{unused_name, RESERVED};
+use super::naming::machines::NamedMachine;
+use super::objects::ObjectModel;
+use crate::ir::{ItemRef, StateMachine, Type};
+use crate::names::{self, Case, NameRequest};
+
+/// A method that leads a state machine to a state, ready to be printed.
+pub(super) struct WalkModel {
+    pub method: String,
+    pub docs: Vec<String>,
+    /// Name of the type of states.
+    pub states: String,
+    /// Paths of the constants of the status item and the control item.
+    pub status: String,
+    pub control: String,
+    /// True if a client can read the control item.
+    pub reads_control: bool,
+    /// Path of the constant of the item that contains the error code.
+    pub code: Option<String>,
+    /// Bounds of the location types.
+    pub bounds: Vec<Doc>,
+}
+
+/// Objects that contain the error code of a fault, by preference: the error code of CiA 402, 6.2, and the first entry of the
+/// pre-defined error field of CiA 301, 7.5.2.4.
+const ERROR_CODES: [(u16, u8); 2] = [(0x603F, 0), (0x1003, 1)];
+
+/// Returns the methods for the machines whose commands are bit patterns of an item. `machines` are the machines of the
+/// context, ready to be printed.
+pub(super) fn models(
+    context: &Context<'_>,
+    locations: &Locations,
+    objects: &[ObjectModel],
+    machines: &[MachineModel],
+) -> Vec<WalkModel> {
+    let constants = Constants { context, locations, objects };
+    let named = context.names.types.machines.iter().zip(machines).filter(|(_, model)| model.has_transitions());
+    let count = named.clone().count();
+    let mut used: Vec<String> = RESERVED.map(str::to_owned).to_vec();
+    used.extend(objects.iter().map(|object| object.name.clone()));
+    let model = |(named, _): (&NamedMachine<'_>, &MachineModel)| {
+        let name = if count == 1 { "walk".to_owned() } else { format!("walk {}", named.machine.name) };
+        let request = NameRequest { name: &name, fallback: "walk".to_owned(), suffix: String::new() };
+        let name = names::identifier(&request, Case::Snake);
+        let method = unused_name(|name| used.contains(name), name);
+        used.extend([method.clone(), format!("{method}_async")]);
+        constants.walk(named.machine, &named.states, method)
+    };
+    named.filter_map(model).collect()
+}
+
+/// Access to the constants of items.
+struct Constants<'c, 'a> {
+    context: &'c Context<'a>,
+    locations: &'c Locations,
+    objects: &'c [ObjectModel],
+}
+
+/// The constant of an item.
+struct Constant<'c> {
+    model: &'c ItemModel,
+    path: String,
+    location: String,
+}
+
+impl Constants<'_, '_> {
+    fn walk(&self, machine: &StateMachine, states: &str, method: String) -> Option<WalkModel> {
+        let (status, control) = (self.word(&machine.status_item)?, self.word(&machine.control_item)?);
+        if !status.is_readable() || !control.is_writable() {
+            return None;
+        }
+        let reads_control = control.is_readable();
+        let mut accesses: BTreeMap<&str, (bool, bool)> = BTreeMap::new();
+        accesses.entry(&status.location).or_default().0 = true;
+        let of_control = accesses.entry(&control.location).or_default();
+        *of_control = (of_control.0 | reads_control, true);
+        // The error code must exist on all buses on which the machine is accessed.
+        let code = self.error_code().filter(|code| accesses.get(code.location.as_str()).is_some_and(|access| access.0));
+        let bounds = accesses.iter().map(|(location, access)| bound(location, *access)).collect();
+        let links = [Some(&status), Some(&control), code.as_ref()].map(|constant| self.link(constant));
+        let docs = documentation(machine, &links);
+        let (code, states) = (code.map(|code| code.path), states.to_owned());
+        Some(WalkModel {
+            method,
+            docs,
+            states,
+            status: status.path,
+            control: control.path,
+            reads_control,
+            code,
+            bounds,
+        })
+    }
+
+    /// Returns a link to the accessor of an item. The text is empty without an item.
+    fn link(&self, constant: Option<&Constant<'_>>) -> String {
+        let link = |constant: &Constant<'_>| {
+            let name = &self.context.item(constant.model.id)?.name;
+            self.context.link_to(constant.model.id.into(), name, DocModule::TOP)
+        };
+        constant.and_then(link).unwrap_or_default()
+    }
+
+    /// Returns the constant of a status item or control item.
+    fn word(&self, reference: &ItemRef) -> Option<Constant<'_>> {
+        self.constant(&|model| Some(model.id) == reference.id)
+    }
+
+    fn error_code(&self) -> Option<Constant<'_>> {
+        let of = |object: &(u16, u8)| self.constant(&|model| model.object == Some(*object));
+        ERROR_CODES.iter().find_map(of).filter(Constant::is_readable)
+    }
+
+    /// Returns the constant of an item, if the item is an integer of up to 32 bits without a unit.
+    fn constant(&self, is_it: &dyn Fn(&ItemModel) -> bool) -> Option<Constant<'_>> {
+        let all = self.objects.iter().flat_map(|object| object.items.iter().map(move |item| (object, item)));
+        let (object, model) = all.into_iter().find(|(_, item)| is_it(item))?;
+        let item = self.context.item(model.id)?;
+        let is_word = matches!(self.context.base(item.ty), Type::Unsigned(8 | 16 | 32) | Type::Integer(8 | 16 | 32));
+        let path = match object.is_module {
+            true => format!("objects::{}::{}", object.name, model.constant),
+            false => format!("objects::{}", model.constant),
+        };
+        let location = self.locations.name(ItemAddresses::of(self.context, item).buses(), "objects::");
+        (is_word && item.quantity.is_none()).then_some(Constant { model, path, location })
+    }
+}
+
+impl Constant<'_> {
+    fn is_readable(&self) -> bool {
+        self.model.access != "WriteOnly"
+    }
+
+    fn is_writable(&self) -> bool {
+        matches!(self.model.access, "ReadWrite" | "WriteOnly")
+    }
+}
+
+/// Returns the bound of a location type that a client reads, writes or both.
+fn bound(location: &str, (reads, writes): (bool, bool)) -> Doc {
+    let route = match (reads, writes) {
+        (true, true) => "Route: rt::ReadRoute<C::Bus> + rt::WriteRoute<C::Bus>",
+        (true, false) => "Route: rt::ReadRoute<C::Bus>",
+        (false, _) => "Route: rt::WriteRoute<C::Bus>",
+    };
+    seq![location, ": ", generic!("rt::On", "C::Bus", route), ","]
+}
+
+/// Returns the documentation of the method. `links` are the links to the status item, the control item and the item that
+/// contains the error code.
+fn documentation(machine: &StateMachine, [status, control, code]: &[String; 3]) -> Vec<String> {
+    let mut lines = vec![
+        format!("Leads the state machine \"{}\" to the state `target`.", docs::escape(&machine.name)),
+        String::new(),
+        format!(
+            "The method reads {status}, writes the commands to {control} and waits for transitions of the device. It first resets a \
+             fault that is already active. Other bits of {control} do not change. If the device receives {control} in process \
+             data, use [`rt::Walker`] instead."
+        ),
+        String::new(),
+        "# Errors".to_owned(),
+        String::new(),
+    ];
+    let code = if code.is_empty() { String::new() } else { format!(" and the error code from {code}") };
+    lines.push(format!(
+        "Returns an error if an access fails, a fault occurs on the way (with the state{code}), no command leads to the state, or the \
+         device is not in the state after the time `deadline`."
+    ));
+    lines
+}

@@ -1,0 +1,211 @@
+//! The way of a state machine to a state, by reading its status item and writing its control item.
+
+use core::fmt;
+use core::time::Duration;
+
+use super::walker::{MachineState, Stopped, Walker};
+use super::word::StateWord;
+use crate::access::{Readable, Writable};
+use crate::client::{AsyncClient, Client};
+use crate::clock::{Clock, DefaultClock};
+use crate::error::Error;
+use crate::item::Item;
+use crate::location::On;
+use crate::route::{ReadRoute, WriteRoute};
+use crate::value::Fixed;
+
+/// Time between two readings of the status word.
+const PAUSE: Duration = Duration::from_millis(5);
+
+/// The items of a state machine: the status item `V` and the control item `W`, with their access rights and locations.
+pub struct Machine<V: Fixed, A, L, W: Fixed, B, M> {
+    status: Item<V, A, L>,
+    control: Item<W, B, M>,
+}
+
+/// Reason why a state machine did not reach the target state. `S` is the type of the states, and `E` is the error type of
+/// the client.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum WalkError<S, E> {
+    /// An access to the status item or control item failed.
+    Access(Error<E>),
+    /// A fault occurred on the way, or a fault that was active at the start could not be reset before the deadline.
+    Fault {
+        /// State of the device.
+        state: S,
+        /// Error code of the device, if the device has one: the value of 0x603F, or of 0x1003:01 without the additional
+        /// information.
+        code: Option<u16>,
+    },
+    /// No sequence of commands leads from this state to the target state.
+    Unreachable {
+        /// State of the device.
+        state: S,
+    },
+    /// The device was not in the target state at the deadline.
+    Deadline {
+        /// State of the device, or `None` if its status word matches no state.
+        state: Option<S>,
+        /// Status word of the device.
+        status: u32,
+    },
+}
+
+impl<S, E> WalkError<S, E> {
+    /// Returns whether the device has a fault.
+    pub const fn is_fault(&self) -> bool {
+        matches!(self, Self::Fault { .. })
+    }
+
+    /// Adds the error code of the device to a fault, if the code could be read. Only the low 16 bits of `code` are the error code.
+    #[must_use]
+    pub fn with_code<W: StateWord>(self, code: Result<W, Error<E>>) -> Self {
+        match self {
+            Self::Fault { state, .. } => Self::Fault { state, code: code.ok().map(|code| code.bits() as u16) },
+            other => other,
+        }
+    }
+}
+
+impl<S, E> From<Error<E>> for WalkError<S, E> {
+    fn from(error: Error<E>) -> Self {
+        Self::Access(error)
+    }
+}
+
+impl<S: MachineState, E: fmt::Display> fmt::Display for WalkError<S, E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Access(error) => error.fmt(f),
+            Self::Fault { state, code } => {
+                Stopped::Fault(*state).fmt(f)?;
+                code.map_or(Ok(()), |code| write!(f, ", error code 0x{code:04X}"))
+            }
+            Self::Unreachable { state } => Stopped::Unreachable(*state).fmt(f),
+            Self::Deadline { state: Some(state), .. } => {
+                write!(f, "timeout: the device is still in the state \"{}\"", state.name())
+            }
+            Self::Deadline { state: None, status } => {
+                write!(f, "timeout: the status word 0x{status:04X} matches no state")
+            }
+        }
+    }
+}
+
+impl<S: MachineState + fmt::Debug, E: core::error::Error> core::error::Error for WalkError<S, E> {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Access(error) => error.source(),
+            _ => None,
+        }
+    }
+}
+
+/// The time until a deadline. Without a clock, only the pauses count.
+struct Remaining {
+    start: Option<Duration>,
+    waited: Duration,
+    deadline: Duration,
+}
+
+impl Remaining {
+    fn new(deadline: Duration) -> Self {
+        Self { start: DefaultClock.now(), waited: Duration::ZERO, deadline }
+    }
+
+    /// Returns the next pause, or `None` after the deadline.
+    fn pause(&mut self) -> Option<Duration> {
+        let elapsed = self.start.zip(DefaultClock.now()).map(|(start, now)| now.saturating_sub(start));
+        let rest = self.deadline.saturating_sub(elapsed.unwrap_or_default().max(self.waited));
+        let pause = rest.min(PAUSE);
+        self.waited += pause;
+        (!pause.is_zero()).then_some(pause)
+    }
+}
+
+impl<V: Fixed, A, L, W: Fixed, B, M> Machine<V, A, L, W, B, M> {
+    /// Creates a machine with this status item and control item.
+    #[must_use]
+    pub const fn new(status: Item<V, A, L>, control: Item<W, B, M>) -> Self {
+        Self { status, control }
+    }
+}
+
+impl<V: Fixed, A, L, W: Fixed, B, M> fmt::Debug for Machine<V, A, L, W, B, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (status, control) = (self.status.name(), self.control.name());
+        f.debug_struct("Machine").field("status", &status).field("control", &control).finish_non_exhaustive()
+    }
+}
+
+/// Defines the methods that lead a machine to a state, blocking and async.
+macro_rules! walks {
+    ($Client:ident $walk:ident $read:ident $write:ident $(#[$doc:meta])* $($async:ident $await:ident)?) => {
+        impl<V: Fixed<Native: StateWord>, A: Readable, L: Copy, W: Fixed<Native: StateWord>, B, M>
+            Machine<V, A, L, W, B, M>
+        where
+            B: Writable,
+            M: Copy,
+        {
+            $(#[$doc])*
+            ///
+            /// `control` is the control word that the device has now. The device must not receive the control word in
+            /// process data; otherwise, use a [`Walker`] in the cycle.
+            ///
+            /// # Errors
+            ///
+            /// Returns a [`WalkError`] if an access fails, a fault occurs, no command leads to the state, or the device is
+            /// not in the state at the deadline.
+            pub $($async)? fn $walk<S: MachineState, C: $Client>(
+                self,
+                client: &mut C,
+                control: W::Native,
+                target: S,
+                deadline: Duration,
+            ) -> Result<(), WalkError<S, C::Error>>
+            where
+                L: On<C::Bus, Route: ReadRoute<C::Bus>>,
+                M: On<C::Bus, Route: WriteRoute<C::Bus>>,
+            {
+                let (mut walker, mut control) = (Walker::new(target), control);
+                let mut remaining = Remaining::new(deadline);
+                loop {
+                    let status = self.status.at(client).$read()$(.$await)??;
+                    let walked = walker.cycle(status, control).map_err(|stopped| match stopped {
+                        Stopped::Fault(state) => WalkError::Fault { state, code: None },
+                        Stopped::Unreachable(state) => WalkError::Unreachable { state },
+                    })?;
+                    if walked.is_reached {
+                        return Ok(());
+                    }
+                    if walked.control.bits() != control.bits() {
+                        self.control.at(client).$write(walked.control)$(.$await)??;
+                        control = walked.control;
+                    }
+                    match remaining.pause() {
+                        Some(pause) => client.wait(pause)$(.$await)??,
+                        None => return Err(late(status.bits())),
+                    }
+                }
+            }
+        }
+    };
+}
+
+walks! { Client walk read write
+    /// Leads the machine to the state `target`: reads the status word, writes commands and waits, until the device is in this
+    /// state.
+}
+walks! { AsyncClient walk_async read_async write_async
+    /// Leads the machine to the state `target`, as [`walk`](Self::walk) does, without blocking.
+    async await
+}
+
+/// Returns the error for a device that has this status word at the deadline.
+fn late<S: MachineState, E>(status: u32) -> WalkError<S, E> {
+    match S::of_status(status) {
+        Some(state) if state.is_fault() => WalkError::Fault { state, code: None },
+        state => WalkError::Deadline { state, status },
+    }
+}

@@ -1,0 +1,265 @@
+//! The way of a state machine to a state, one control word at a time.
+
+use core::fmt;
+
+use super::word::StateWord;
+use super::{Step, Transition};
+
+/// The states of a state machine that a status word encodes. Generated code implements this trait.
+pub trait MachineState: Copy + 'static {
+    /// Commands of the machine, which a control word encodes.
+    type Command: Copy + 'static;
+
+    /// Transitions that a command causes or for which a program can wait.
+    const TRANSITIONS: &'static [Transition<Self::Command>];
+
+    /// Numbers of the states that the device enters because of a fault.
+    const FAULTS: &'static [u8];
+
+    /// Returns the state that the bits of a status word encode, or `None` if they match no state.
+    fn of_status(bits: u32) -> Option<Self>;
+
+    /// Returns the number of the state in [`TRANSITIONS`](Self::TRANSITIONS).
+    fn number(self) -> u8;
+
+    /// Returns the name of the state in the device description.
+    fn name(self) -> &'static str;
+
+    /// Returns the mask and the value of a command's bits in the control word.
+    fn pattern(command: Self::Command) -> (u32, u32);
+
+    /// Returns whether the device enters the state because of a fault.
+    fn is_fault(self) -> bool {
+        Self::FAULTS.contains(&self.number())
+    }
+}
+
+/// Leads a state machine to a target state in cyclic process data: each cycle turns the status word of the device into
+/// the next control word.
+///
+/// - A command that reacts to an edge, such as a fault reset, works even if its bit is already set: the walker first
+///   clears the bit for one cycle.
+/// - The walker waits for transitions that the device makes by itself.
+/// - A fault that is active at the start is reset. A fault that occurs later stops the walker.
+/// - Bits of the control word that no command uses stay as the program sets them.
+///
+/// ```
+/// # use lexibus::{MachineState, Transition, Walker};
+/// # #[derive(Clone, Copy, Debug, PartialEq)]
+/// # enum State { Off, On, Fault }
+/// # impl MachineState for State {
+/// #     type Command = (u32, u32);
+/// #     const TRANSITIONS: &'static [Transition<(u32, u32)>] =
+/// #         &[Transition::new(0, 1, Some((0x81, 1))), Transition::new(2, 0, Some((0x80, 0x80)))];
+/// #     const FAULTS: &'static [u8] = &[2];
+/// #     fn of_status(bits: u32) -> Option<Self> { [Some(State::Off), Some(State::On), Some(State::Fault), None][bits as usize & 3] }
+/// #     fn number(self) -> u8 { self as u8 }
+/// #     fn name(self) -> &'static str { "" }
+/// #     fn pattern(command: (u32, u32)) -> (u32, u32) { command }
+/// # }
+/// let mut walker = Walker::new(State::On);
+/// // The device is in the state "fault", and the reset bit 7 is still set.
+/// assert_eq!(walker.cycle(2_u16, 0x0280_u16)?.control, 0x0200);
+/// assert_eq!(walker.cycle(2_u16, 0x0200_u16)?.control, 0x0280);
+/// // Now it is in the state "off".
+/// assert_eq!(walker.cycle(0_u16, 0x0280_u16)?.control, 0x0201);
+/// assert!(walker.cycle(1_u16, 0x0201_u16)?.is_reached);
+/// // A fault that occurs on the way is an error.
+/// assert!(walker.cycle(2_u16, 0x0201_u16).is_err());
+/// # Ok::<(), lexibus::Stopped<State>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Walker<S> {
+    target: S,
+    /// State number of the device, and pattern of the command that the walker sends in this state.
+    sent: Option<(u8, (u32, u32))>,
+    /// True if the device had no fault since the start.
+    was_healthy: bool,
+}
+
+/// Result of a cycle of a [`Walker`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Walked<W> {
+    /// Control word to send in this cycle.
+    pub control: W,
+    /// True if the device is in the target state.
+    pub is_reached: bool,
+}
+
+/// Reason why a [`Walker`] cannot continue. The control word should stay as it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stopped<S> {
+    /// A fault occurred on the way. The device is in this state.
+    Fault(S),
+    /// No sequence of commands leads from this state to the target state.
+    Unreachable(S),
+}
+
+impl<S: MachineState> fmt::Display for Stopped<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fault(state) => write!(f, "a fault occurred: the device is in the state \"{}\"", state.name()),
+            Self::Unreachable(state) => {
+                write!(f, "no command leads from the state \"{}\" to the target state", state.name())
+            }
+        }
+    }
+}
+
+impl<S: MachineState + fmt::Debug> core::error::Error for Stopped<S> {}
+
+impl<S: MachineState> Walker<S> {
+    /// Creates a walker to the state `target`.
+    #[must_use]
+    pub const fn new(target: S) -> Self {
+        Self { target, sent: None, was_healthy: false }
+    }
+
+    /// Returns the control word for the next cycle. `control` is the control word that the device has now.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`Stopped`] if a fault occurred on the way, or if no command leads to the target state.
+    pub fn cycle<W: StateWord>(&mut self, status: impl StateWord, control: W) -> Result<Walked<W>, Stopped<S>> {
+        let walked = self.bits(status.bits(), control.bits())?;
+        Ok(Walked { control: W::from_bits(walked.control), is_reached: walked.is_reached })
+    }
+
+    fn bits(&mut self, status: u32, control: u32) -> Result<Walked<u32>, Stopped<S>> {
+        let unchanged = Walked { control, is_reached: false };
+        // A status word without a state occurs while the device starts.
+        let Some(state) = S::of_status(status) else { return Ok(unchanged) };
+        if state.is_fault() && self.was_healthy {
+            return Err(Stopped::Fault(state));
+        }
+        self.was_healthy |= !state.is_fault();
+        match Step::toward(S::TRANSITIONS, state.number(), self.target.number()) {
+            Step::Reached => Ok(Walked { is_reached: true, ..unchanged }),
+            Step::Wait => Ok(unchanged),
+            Step::Unreachable => Err(Stopped::Unreachable(state)),
+            Step::Command(command) => Ok(Walked { control: self.send(state, command, control), ..unchanged }),
+        }
+    }
+
+    /// Returns the control word that sends a command. If the control word already contains the command, returns a control
+    /// word without the bits that only this command sets, so that the next cycle sends a rising edge.
+    fn send(&mut self, state: S, command: S::Command, control: u32) -> u32 {
+        let (mask, value) = S::pattern(command);
+        let sent = Some((state.number(), (mask, value)));
+        let is_new = self.sent != sent;
+        self.sent = sent;
+        if is_new && control & mask == value {
+            return control & !exclusive::<S>(mask, value);
+        }
+        control & !mask | value
+    }
+}
+
+/// Returns the bits that only the command with this pattern sets.
+fn exclusive<S: MachineState>(mask: u32, value: u32) -> u32 {
+    let commands = S::TRANSITIONS.iter().filter_map(Transition::command).map(S::pattern);
+    let others = commands.filter(|pattern| *pattern != (mask, value)).fold(0, |bits, (_, value)| bits | value);
+    value & !others
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::string::ToString;
+    use std::vec::Vec;
+
+    /// The states of CiA 402 that this test needs, with their status words.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    enum State {
+        Starting,
+        Disabled,
+        Ready,
+        Enabled,
+        Reaction,
+        Fault,
+    }
+
+    const STATUS: [u32; 6] = [0x00, 0x40, 0x21, 0x27, 0x0F, 0x08];
+    const SHUTDOWN: (u32, u32) = (0x87, 0x06);
+    const ENABLE: (u32, u32) = (0x8F, 0x0F);
+    const RESET: (u32, u32) = (0x80, 0x80);
+
+    impl MachineState for State {
+        type Command = (u32, u32);
+        const TRANSITIONS: &'static [Transition<(u32, u32)>] = &[
+            Transition::new(0, 1, None),
+            Transition::new(1, 2, Some(SHUTDOWN)),
+            Transition::new(2, 3, Some(ENABLE)),
+            Transition::new(4, 5, None),
+            Transition::new(5, 1, Some(RESET)),
+        ];
+        const FAULTS: &'static [u8] = &[4, 5];
+
+        fn of_status(bits: u32) -> Option<Self> {
+            use State::{Disabled, Enabled, Fault, Reaction, Ready, Starting};
+            let all = [Starting, Disabled, Ready, Enabled, Reaction, Fault];
+            all.into_iter().zip(STATUS).find(|(_, status)| *status == bits & 0x6F).map(|(state, _)| state)
+        }
+
+        fn number(self) -> u8 {
+            self as u8
+        }
+
+        fn name(self) -> &'static str {
+            "a state"
+        }
+
+        fn pattern(command: (u32, u32)) -> (u32, u32) {
+            command
+        }
+    }
+
+    /// Returns the control words that a walker sends, beginning with `control`, while the device has these states.
+    fn controls(control: u16, states: &[State]) -> Vec<u16> {
+        let (mut walker, mut control) = (Walker::new(State::Enabled), control);
+        let sent = states.iter().map(|state| {
+            control = walker.cycle(STATUS[*state as usize] as u16, control).expect("a way").control;
+            control
+        });
+        sent.collect()
+    }
+
+    #[test]
+    fn a_healthy_device() {
+        use State::{Disabled, Enabled, Ready, Starting};
+        let states = [Starting, Disabled, Disabled, Ready, Ready, Enabled];
+        assert_eq!(controls(0x0100, &states), [0x0100, 0x0106, 0x0106, 0x010F, 0x010F, 0x010F]);
+    }
+
+    #[test]
+    fn a_fault_at_the_start_is_reset_with_an_edge() {
+        use State::{Disabled, Enabled, Fault, Reaction, Ready};
+        let states = [Reaction, Fault, Fault, Fault, Disabled, Ready, Enabled];
+        assert_eq!(controls(0, &states), [0, 0x80, 0x80, 0x80, 0x06, 0x0F, 0x0F]);
+        // The reset bit is already set: a level would fail forever.
+        assert_eq!(controls(0x80, &states), [0x80, 0, 0x80, 0x80, 0x06, 0x0F, 0x0F]);
+        assert_eq!(controls(0x8F, &states), [0x8F, 0x0F, 0x8F, 0x8F, 0x0E, 0x0F, 0x0F]);
+    }
+
+    #[test]
+    fn a_command_that_the_control_word_already_contains() {
+        use State::{Enabled, Ready};
+        assert_eq!(controls(0x0F, &[Ready, Ready, Ready, Enabled]), [0x06, 0x0F, 0x0F, 0x0F]);
+    }
+
+    #[test]
+    fn a_fault_on_the_way_stops() {
+        let mut walker = Walker::new(State::Enabled);
+        assert_eq!(walker.cycle(0x21_u16, 0x06_u16), Ok(Walked { control: 0x0F, is_reached: false }));
+        let stopped = walker.cycle(0x0F_u16, 0x0F_u16).unwrap_err();
+        assert_eq!(stopped, Stopped::Fault(State::Reaction));
+        assert_eq!(stopped.to_string(), "a fault occurred: the device is in the state \"a state\"");
+        assert_eq!(Walker::new(State::Fault).cycle(0x21_u16, 0_u16), Err(Stopped::Unreachable(State::Ready)));
+    }
+
+    #[test]
+    fn no_state() {
+        let mut walker = Walker::new(State::Enabled);
+        assert_eq!(walker.cycle(0x2F_u32, 5_u8), Ok(Walked { control: 5, is_reached: false }));
+    }
+}
