@@ -335,8 +335,9 @@ impl<'a> Folder<'a> {
             self.index_page(file, "", "States and procedures", "");
             for machine in &behaviour.machines {
                 for state in &machine.states {
+                    let words = format!("{} {}", state.identifier, state.facts);
                     let entry = index_entry(&state.anchor, "state", &state.name);
-                    self.index.entry(&Entry { names: &state.names, words: &state.facts, ..entry });
+                    self.index.entry(&Entry { names: &state.names, words: &words, ..entry });
                 }
             }
             for sequence in &behaviour.sequences {

@@ -168,6 +168,8 @@ fn each_transition_of_cia_402_has_an_arrow() {
     let numbers: BTreeSet<u32> =
         labels.flat_map(|label| label.split([' ', ','])).filter_map(|word| word.parse().ok()).collect();
     assert_eq!(numbers, (1..=16).collect());
+    assert!(diagram.contains(">9 disable voltage<") && diagram.contains(">switch on disabled<"), "{diagram}");
+    assert!(page.text.contains("id=\"drive.switch_on_disabled\""), "anchors are identifiers");
     assert!(page.text.contains("<td>xxxx xxxx x1xx 0000<td"), "states are bit patterns");
 }
 
