@@ -174,6 +174,30 @@ fn each_transition_of_cia_402_has_an_arrow() {
 }
 
 #[test]
+fn objects_that_are_mapped_by_default_are_in_the_builder() {
+    let entry = |index: &str, sub: u8, ty: u8, default: &str| {
+        format!("[{index}sub{sub}]\nParameterName=Entry {sub}\nDataType={ty}\nAccessType=rw\nDefaultValue={default}\n")
+    };
+    let record = |index: &str| format!("[{index}]\nParameterName=PDO\nObjectType=9\nSubNumber=2\n");
+    let eds = [
+        "[DeviceInfo]\nProductName=Pump\nNrOfRXPDO=1\n[OptionalObjects]\nSupportedObjects=2\n1=0x1400\n2=0x1600\n\
+         [ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n2=0x2001\n\
+         [2000]\nParameterName=Gain\nDataType=6\nAccessType=rw\nPDOMapping=0\n\
+         [2001]\nParameterName=Level\nDataType=6\nAccessType=rw\nPDOMapping=0\n"
+            .to_owned(),
+        record("1400") + &entry("1400", 0, 5, "1") + &entry("1400", 1, 7, "$NODEID+0x200"),
+        record("1600") + &entry("1600", 0, 5, "1") + &entry("1600", 1, 7, "0x20000010"),
+    ];
+    let pages = site(Format::Html, vec![("pump".to_owned(), Source::new("pump.eds", eds.concat().into()))]);
+    let page = pages.iter().find(|page| page.path.ends_with("/process-data.html")).expect("the PDOs");
+    let (_, data) = page.text.split_once("<template id=\"mappable\">").expect("the builder");
+    let (data, _) = data.split_once("</template>").expect("its end");
+    let data = data.replace("&#34;", "\"");
+    assert!(data.contains("[8192,0,16,\"0x2000:00 Gain\",true,false,"), "{data}");
+    assert!(!data.contains("Level"), "{data}");
+}
+
+#[test]
 fn the_search_has_printed_and_wire_addresses() {
     let pages = files(Format::Html, &["tests/ui/tables/printed-and-wire-addresses/input.toml"]);
     let index = pages.iter().find(|page| page.path.ends_with("/no-revision/search.js")).expect("the index");
