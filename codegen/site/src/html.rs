@@ -59,7 +59,27 @@ templates! {
     ListPage = "list.html" { devices: &'p [Listed] }
 }
 
+/// The title of a column in a list of devices, and the function that returns its text.
+type Column = (&'static str, fn(&Listed) -> &str);
+
+/// The columns of a list of devices, after the name.
+const COLUMNS: [Column; 7] = [
+    ("Order code", |device| &device.order_code),
+    ("Vendor", |device| &device.vendor),
+    ("Product code", |device| &device.product_code),
+    ("Revision", |device| &device.revision),
+    ("Buses", |device| &device.buses),
+    ("Profiles", |device| &device.profiles),
+    ("File", |device| &device.file),
+];
+
 impl ListPage<'_> {
+    /// Returns the columns that contain a text for at least one device.
+    fn columns(&self) -> Vec<Column> {
+        let is_used = |(_, text): &Column| self.devices.iter().any(|device| !text(device).is_empty());
+        COLUMNS.into_iter().filter(is_used).collect()
+    }
+
     /// Returns whether the device at a position is the first of its vendor and family.
     fn begins_group(&self, at: &usize) -> bool {
         let group = |at: usize| self.devices.get(at).map(Listed::group);

@@ -174,6 +174,18 @@ fn each_transition_of_cia_402_has_an_arrow() {
 }
 
 #[test]
+fn lists_of_devices_have_no_empty_columns() {
+    let pages = files(Format::Html, &["dictionaries/eco.toml"]);
+    let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
+    let list = text("index.html");
+    let columns = list.split("<th scope=\"col\">").skip(1).map(|rest| rest.split('<').next().unwrap_or_default());
+    assert_eq!(columns.collect::<Vec<_>>(), ["Device", "Buses", "Profiles", "File"]);
+    let overview = text("vendor-0x0000078f/eco/no-revision/index.html");
+    assert!(overview.contains("<th scope=\"row\">Buses<td>CANopen, EtherCAT and Modbus"), "{overview}");
+    assert!(overview.contains("<th scope=\"row\">Node-IDs and slave addresses<td>1 to 99"), "{overview}");
+}
+
+#[test]
 fn objects_that_are_mapped_by_default_are_in_the_builder() {
     let entry = |index: &str, sub: u8, ty: u8, default: &str| {
         format!("[{index}sub{sub}]\nParameterName=Entry {sub}\nDataType={ty}\nAccessType=rw\nDefaultValue={default}\n")
