@@ -10,7 +10,7 @@ use super::area::{self, Area};
 use super::assumptions::{AmbiguitySources, Ranked};
 use super::builder;
 use super::codes::{self, Codes};
-use super::diagnostics::ShownDiagnostics;
+use super::diagnostics::{self, ShownDiagnostics};
 use super::entry::{Known, Row};
 use super::links::Links;
 use super::machines;
@@ -183,7 +183,7 @@ impl<'a> Folder<'a> {
         self.module_pages(&modules, &files, &frame);
         if let Some(file) = &diagnostics {
             let list = std::mem::take(&mut self.diagnostics.list);
-            self.page(&frame, file, Content::Diagnostics(&list));
+            self.page(&frame, file, Content::Diagnostics(&diagnostics::by_code(&list)));
         }
         if only.is_none() {
             let devices = std::mem::take(&mut self.listed.devices);

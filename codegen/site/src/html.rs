@@ -6,7 +6,7 @@ use super::area::{Area, Section};
 use super::assumptions::Ranked;
 use super::bits::{self, Grids};
 use super::codes::Codes;
-use super::diagnostics::ShownDiagnostic;
+use super::diagnostics::DiagnosticGroup;
 use super::machines::Behaviour;
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
@@ -54,7 +54,7 @@ templates! {
     MachinesPage = "machines.html" { behaviour: &'p Behaviour }
     ModulesPage = "modules.html" { modules: &'p [ModuleModel], grids: &'p Grids }
     AssumptionsPage = "assumptions.html" { ranked: &'p [Ranked<'p>] }
-    DiagnosticsPage = "diagnostics.html" { diagnostics: &'p [ShownDiagnostic] }
+    DiagnosticsPage = "diagnostics.html" { groups: &'p [DiagnosticGroup<'p>] }
     ChangesPage = "changes.html" { revision: &'p Revision<'p> }
     ListPage = "list.html" { devices: &'p [Listed] }
 }
@@ -136,7 +136,7 @@ impl Pages for Html {
                 written(&ModulesPage { frame, file, modules, grids })
             }
             Content::Assumptions(ranked) => written(&AssumptionsPage { frame, file, ranked }),
-            Content::Diagnostics(diagnostics) => written(&DiagnosticsPage { frame, file, diagnostics }),
+            Content::Diagnostics(groups) => written(&DiagnosticsPage { frame, file, groups }),
             Content::Changes(revision) => written(&ChangesPage { frame, file, revision }),
             Content::List(devices) => written(&ListPage { frame, file, devices }),
         }
