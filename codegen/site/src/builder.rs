@@ -7,9 +7,7 @@ use serde_json::{json, Value as Json};
 use super::entry::Calls;
 use lexibus_codegen::backend::rust::Usage;
 use lexibus_codegen::facts::{address, pdo};
-use lexibus_codegen::ir::{
-    Binding, Device, Direction, Item, ItemId, Mappable, ObjectBuses, Pdo, PdoEntryKind, Value,
-};
+use lexibus_codegen::ir::{Binding, Device, Direction, Item, ItemId, Mappable, ObjectBuses, Pdo, PdoEntryKind, Value};
 
 /// Returns the data as JSON, or `None` if no mapping can be changed.
 pub(super) fn data(device: &Device, usage: &Usage) -> Option<String> {
@@ -21,7 +19,8 @@ pub(super) fn data(device: &Device, usage: &Usage) -> Option<String> {
         device.process_data.pdos.iter().filter_map(|pdo| self::pdo(device, pdo, &usage.pdos)).collect();
     let mapped = pdo::mapped_objects(&device.process_data.pdos);
     let groups = (0..).zip(&device.groups).flat_map(|(position, group)| group.items_at(position));
-    let objects: Vec<Json> = groups.filter_map(|(id, item)| object(device, (id, item), &mapped, &usage.calls)).collect();
+    let objects: Vec<Json> =
+        groups.filter_map(|(id, item)| object(device, (id, item), &mapped, &usage.calls)).collect();
     let data = json!({ "granularity": granularity.unwrap_or(1), "pdos": pdos, "objects": objects });
     (!pdos.is_empty() && !objects.is_empty()).then(|| data.to_string())
 }

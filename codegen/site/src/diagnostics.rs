@@ -145,11 +145,7 @@ fn shown(compilation: &Compilation, diagnostic: &Diagnostic) -> ShownDiagnostic 
         .chain(diagnostic.notes.iter().map(|note| note.message.as_str()));
     let parts = parts.chain(diagnostic.help.as_deref()).map(one_line).filter(|part| !part.is_empty());
     let text: Vec<String> = parts.map(|part| sentence(&part)).collect();
-    ShownDiagnostic {
-        position: position.unwrap_or_default(),
-        code: diagnostic.code,
-        text: text.join(" "),
-    }
+    ShownDiagnostic { position: position.unwrap_or_default(), code: diagnostic.code, text: text.join(" ") }
 }
 
 #[cfg(test)]
