@@ -109,6 +109,9 @@ impl Parts {
         if let Some((_, behaviour)) = &mut self.behaviour {
             targets.link(behaviour);
         }
+        if let Some((_, tables)) = &mut self.codes {
+            targets.link_codes(tables);
+        }
     }
 }
 

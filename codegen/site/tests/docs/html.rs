@@ -175,6 +175,15 @@ fn each_transition_of_cia_402_has_an_arrow() {
 }
 
 #[test]
+fn codes_have_links_to_the_items_with_the_same_value() {
+    let pages = files(Format::Html, &["dictionaries/kollmorgen-akd.toml"]);
+    let page = pages.iter().find(|page| page.path.ends_with("/codes.html")).expect("the codes");
+    let (_, row) = page.text.split_once("id=\"operating_modes-6\"").expect("homing");
+    let (row, _) = row.split_once("</tbody>").expect("the end of the row");
+    assert!(row.contains("<b>Value of</b> <a href=\"profile-objects.html#0x6060\">"), "{row}");
+}
+
+#[test]
 fn lists_of_devices_have_no_empty_columns() {
     let pages = files(Format::Html, &["dictionaries/eco.toml"]);
     let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
