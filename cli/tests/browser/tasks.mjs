@@ -73,13 +73,13 @@ const TASKS = {
     assert.ok(lines.includes("01 10 00 3F 00 02 04 FB 1E FF FF E0 69"), lines.join("\n"));
   }],
   "The status word of the AKD is 0x1231. Which command enables the drive?": [22, async (reader) => {
-    await reader.search("akd fault_rea", "fault_reaction_active");
+    await reader.search("akd fault rea", "fault reaction active");
     const drive = reader.page.locator("section.machine[id=drive]");
     await reader.click(drive.locator(".status"));
     await reader.type("0x1231");
-    assert.equal(await drive.locator("output").innerText(), "ready_to_switch_on");
-    assert.deepEqual(await drive.locator("svg .state.on").allTextContents(), ["ready_to_switch_on"]);
-    assert.ok((await drive.locator(".next li").allInnerTexts()).includes("operation_enabled: switch_on (0x0007), then enable_operation (0x000F)"));
+    assert.equal(await drive.locator("output").innerText(), "ready to switch on");
+    assert.deepEqual(await drive.locator("svg .state.on").allTextContents(), ["ready to switch on"]);
+    assert.ok((await drive.locator(".next li").allInnerTexts()).includes("operation enabled: switch on (0x0007), then enable operation (0x000F)"));
   }],
   "Which byte of the PROFINET image carries the alarm code of the Eco?": [16, async (reader) => {
     await reader.find("eco alarm_code", "alarm_code");

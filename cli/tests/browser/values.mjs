@@ -1,5 +1,5 @@
 // Tests that the decoder's conversions are inverse to each other and reject values that do not fit. The frames must have the
-// form that the standards define.
+// form that the standards define. The PDO builder changes the order of objects.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
@@ -42,5 +42,20 @@ await withBrowser(async (browser) => {
   assert.equal(frames.modbus, "11 03 00 6B 00 03 76 87");
   assert.deepEqual(frames.expedited, ["2B 40 60 00 0F 00 00 00"]);
   assert.deepEqual(frames.segmented, ["21 10 20 01 08 00 00 00", "00 01 02 03 04 05 06 07", "1D 08 00 00 00 00 00 00"]);
+  await movesObjects(window);
   window.clean();
 });
+
+async function movesObjects(window) {
+  const page = await window.go("aec-s-r-l/vector-step/no-revision/process-data.html");
+  const builder = page.locator(".builder"), order = async () => (await builder.locator("li").allInnerTexts()).map((line) => line.slice(0, 6));
+  await builder.getByText("Clear").click();
+  for (const index of ["6040", "6060"]) {
+    await builder.getByLabel("Object to map").fill(index);
+    await page.keyboard.press("Enter");
+  }
+  for (const [direction, wanted] of [["down", ["0x6060", "0x6040"]], ["up", ["0x6040", "0x6060"]]]) {
+    await builder.getByRole("button", { name: new RegExp(`^Move 0x6040.* ${direction}$`) }).click();
+    assert.deepEqual(await order(), wanted);
+  }
+}

@@ -2,6 +2,7 @@
 
 use super::anchor::Names;
 use super::entry::{self, Doubt};
+use super::link::Relation;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::code;
 use lexibus_codegen::ir::{CodeTable, Device, Manual, SubjectKind};
@@ -26,6 +27,8 @@ pub(super) struct Code {
     pub names: Vec<(String, String)>,
     pub facts: String,
     pub cells: Vec<String>,
+    /// Links to the items that report the code.
+    pub relations: Vec<Relation>,
 }
 
 pub(super) fn tables(device: &Device, manual: &Manual) -> Vec<Codes> {
@@ -54,6 +57,7 @@ fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names)
             names: words::names(&row.names),
             facts: facts.join(" "),
             cells: (0..table.columns.len()).map(|at| code::cell(row, at)).collect(),
+            relations: Vec::new(),
         }
     });
     let rows = rows.collect();

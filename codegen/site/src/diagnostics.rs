@@ -1,10 +1,10 @@
 //! Repairs and warnings of the compiler. Each item shows its diagnostics, and one page lists all of them.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::words::one_line;
 use lexibus_codegen::compile::Compilation;
-use lexibus_codegen::diagnostics::{Class, Diagnostic};
+use lexibus_codegen::diagnostics::{Class, Code, Diagnostic};
 use lexibus_codegen::facts::words::sentence;
 use lexibus_codegen::ir::{Group, Item};
 use lexibus_codegen::source::Span;
@@ -15,14 +15,52 @@ const MAX_PER_SPAN: usize = 64;
 /// A diagnostic of the compiler, as a page shows it.
 #[derive(Clone, Debug)]
 pub(super) struct ShownDiagnostic {
-    /// True if the compiler repaired the source.
-    pub is_repair: bool,
     /// Position in the form `file:line:column`.
     pub position: String,
-    /// Code of the diagnostic, such as `EDS020`.
-    pub code: &'static str,
+    pub code: &'static Code,
     /// Message, label, notes and help of the diagnostic.
     pub text: String,
+}
+
+impl ShownDiagnostic {
+    /// Returns whether the compiler repaired the source.
+    pub fn is_repair(&self) -> bool {
+        self.code.class == Class::Repair
+    }
+}
+
+/// The diagnostics with the same code.
+#[derive(Debug)]
+pub(super) struct DiagnosticGroup<'d> {
+    pub code: &'static Code,
+    pub list: Vec<&'d ShownDiagnostic>,
+}
+
+impl DiagnosticGroup<'_> {
+    /// Returns the number of diagnostics: `1 repair`, `3 warnings`.
+    pub fn count(&self) -> String {
+        let noun = if self.code.class == Class::Repair { "repair" } else { "warning" };
+        let plural = if self.list.len() == 1 { "" } else { "s" };
+        format!("{} {noun}{plural}", self.list.len())
+    }
+
+    /// Returns the first sentence of the code's explanation.
+    pub fn explanation(&self) -> &'static str {
+        let text = self.code.explanation;
+        let begins = |(at, _): &(usize, &str)| text[at + 2..].starts_with(char::is_uppercase);
+        let ends = [text.match_indices(". ").find(begins).map(|(at, _)| at + 1), text.find('\n')];
+        &text[..ends.into_iter().flatten().min().unwrap_or(text.len())]
+    }
+}
+
+/// Returns the diagnostics by code, in the order of the identifiers.
+pub(super) fn by_code(list: &[ShownDiagnostic]) -> Vec<DiagnosticGroup<'_>> {
+    let mut groups: BTreeMap<&str, DiagnosticGroup<'_>> = BTreeMap::new();
+    for diagnostic in list {
+        let code = diagnostic.code;
+        groups.entry(code.id).or_insert(DiagnosticGroup { code, list: Vec::new() }).list.push(diagnostic);
+    }
+    groups.into_values().collect()
 }
 
 /// The diagnostics of a compilation.
@@ -107,10 +145,19 @@ fn shown(compilation: &Compilation, diagnostic: &Diagnostic) -> ShownDiagnostic 
         .chain(diagnostic.notes.iter().map(|note| note.message.as_str()));
     let parts = parts.chain(diagnostic.help.as_deref()).map(one_line).filter(|part| !part.is_empty());
     let text: Vec<String> = parts.map(|part| sentence(&part)).collect();
-    ShownDiagnostic {
-        is_repair: diagnostic.code.class == Class::Repair,
-        position: position.unwrap_or_default(),
-        code: diagnostic.code.id,
-        text: text.join(" "),
+    ShownDiagnostic { position: position.unwrap_or_default(), code: diagnostic.code, text: text.join(" ") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lexibus_codegen::diagnostics::codes::CODES;
+
+    #[test]
+    fn explanations_begin_with_a_sentence() {
+        for code in CODES.iter().copied() {
+            let sentence = DiagnosticGroup { code, list: Vec::new() }.explanation();
+            assert!(sentence.ends_with('.') && sentence.len() > 20 && sentence.len() < 400, "{}: {sentence}", code.id);
+        }
     }
 }

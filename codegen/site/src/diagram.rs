@@ -3,6 +3,7 @@
 
 use std::collections::VecDeque;
 
+use super::words::readable;
 use lexibus_codegen::ir::{StateMachine, Transition};
 
 /// Width and height of a state's box in pixels, and distance from one box to the next.
@@ -18,6 +19,9 @@ const LETTER: u32 = 7;
 
 /// Horizontal distance of a straight arrow from the middle of the column.
 const ASIDE: u32 = 30;
+
+/// Free space next to the label of a straight arrow in pixels.
+const LABEL_GAP: u32 = 16;
 
 /// Name of the source state of transitions from any state.
 pub(super) const ANY_STATE: &str = "any state";
@@ -47,9 +51,9 @@ pub(super) struct Arrow {
     /// Position of the label.
     pub x: u32,
     pub y: u32,
-    /// CSS class of the label: `start` or `end` for the text next to a straight arrow, `lane` for the number on a lane.
+    /// CSS class of the label: `start` or `end` for the text next to a straight arrow, `lane` for the text along a lane, on its left.
     pub side: &'static str,
-    /// Numbers of the transitions. A straight arrow also has the names of the commands.
+    /// Numbers of the transitions and names of their commands.
     pub label: String,
 }
 
@@ -70,33 +74,31 @@ pub(super) fn diagram(machine: &StateMachine) -> Option<Diagram> {
     let first = initial.unwrap_or(edges.first()?.from);
     let rows = rows(any, first, &edges);
     let lanes = [lanes(&edges, &rows, Edge::leads_down), lanes(&edges, &rows, Edge::leads_up)];
-    let of_lanes = [0, 1].map(|side| LANE * (1 + lanes[side].iter().flatten().max().map_or(0, |lane| lane + 1)));
-    // The names next to a straight arrow can be wider than the half of the column.
-    let of_names =
-        edges.iter().map(|edge| (edge.label().chars().count() as u32 * LETTER).saturating_sub(WIDTH / 2 - ASIDE));
-    let of_names = of_names.max().unwrap_or(0);
-    let [left, right] = of_lanes.map(|width| width.max(of_names));
-    let name = |at: usize| machine.states.get(at).map_or_else(|| ANY_STATE.to_owned(), |state| state.name.to_string());
+    let gaps = [Edge::is_below, Edge::is_above].map(|is_beside| gap(&edges, &rows, is_beside));
+    let count = |side: usize| lanes[side].iter().flatten().max().map_or(0, |lane| lane + 1);
+    let [left, right] = [0, 1].map(|side| gaps[side] + LANE * count(side));
+    let name = |at: usize| machine.states.get(at).map_or_else(|| ANY_STATE.to_owned(), |state| readable(&state.name));
     let top = |row: usize| 8 + row as u32 * PITCH;
     let boxes = rows.iter().enumerate().filter_map(|(at, row)| {
         Some(StateBox { left, top: top((*row)?), name: name(at), is_initial: at == first && at < any })
     });
     let boxes: Vec<StateBox> = boxes.collect();
+    let height = top(boxes.len()) - PITCH + HEIGHT + 8;
     let ports = Ports::new(&edges, &rows, &lanes);
     let arrow = |(at, edge): (usize, &Edge)| {
         let (from, to) = (rows[edge.from]?, rows[edge.to]?);
-        let lane = lanes[0][at].map(|lane| (left - LANE * (lane + 1), left));
-        let lane = lane.or_else(|| lanes[1][at].map(|lane| (left + WIDTH + LANE * (lane + 1), left + WIDTH)));
+        let lane = lanes[0][at].map(|lane| (left - gaps[0] - LANE * lane, left));
+        let lane = lane.or_else(|| lanes[1][at].map(|lane| (left + WIDTH + gaps[1] + LANE * lane, left + WIDTH)));
         Some(match lane {
             Some((x, edge_x)) => {
                 let [start, end] = [(from, 0), (to, 1)].map(|(row, end)| top(row) + ports.offset(at, end));
-                edge.on_lane(x, edge_x, start, end)
+                edge.on_lane(x, edge_x, [start, end], height)
             }
             None => edge.straight(left + WIDTH / 2, top(from), top(to)),
         })
     };
     let arrows = edges.iter().enumerate().filter_map(arrow).collect();
-    Some(Diagram { width: left + WIDTH + right, height: top(boxes.len()) - PITCH + HEIGHT + 8, boxes, arrows })
+    Some(Diagram { width: left + WIDTH + right, height, boxes, arrows })
 }
 
 /// Returns the label of a transition in the list and diagram: its number, or its position if it has no number.
@@ -126,7 +128,7 @@ fn edges(machine: &StateMachine) -> Vec<Edge> {
         if !edges[edge].numbers.contains(&number) {
             edges[edge].numbers.push(number);
         }
-        let command = transition.command.iter().map(ToString::to_string);
+        let command = transition.command.iter().map(|command| readable(command));
         let command = command.filter(|command| !edges[edge].commands.contains(command)).collect::<Vec<_>>();
         edges[edge].commands.extend(command);
     }
@@ -140,6 +142,16 @@ impl Edge {
         (from.abs_diff(to) != 1).then_some((from, to))
     }
 
+    /// Returns whether the edge is a straight arrow down, whose label is on the left.
+    fn is_below(&self, rows: &[Option<usize>]) -> bool {
+        self.on_rows(rows).is_none() && rows[self.from] < rows[self.to]
+    }
+
+    /// Returns whether the edge is a straight arrow up, whose label is on the right.
+    fn is_above(&self, rows: &[Option<usize>]) -> bool {
+        self.on_rows(rows).is_none() && rows[self.from] > rows[self.to]
+    }
+
     fn leads_down(&self, rows: &[Option<usize>]) -> Option<(usize, usize)> {
         self.on_rows(rows).filter(|(from, to)| from < to)
     }
@@ -148,14 +160,22 @@ impl Edge {
         self.on_rows(rows).filter(|(from, to)| from >= to)
     }
 
-    fn on_lane(&self, x: u32, edge_x: u32, start: u32, end: u32) -> Arrow {
+    /// Returns the arrow on a lane. Its label is turned and stays within the height of the diagram.
+    fn on_lane(&self, x: u32, edge_x: u32, [start, end]: [u32; 2], height: u32) -> Arrow {
         let path = format!("M{edge_x} {start}H{x}V{end}H{edge_x}");
-        Arrow { path, x, y: u32::midpoint(start, end) + 4, side: "lane", label: self.numbers.join(", ") }
+        let half = self.label_length() / 2;
+        let y = u32::midpoint(start, end).min(height.saturating_sub(half)).max(half);
+        Arrow { path, x: x - 5, y, side: "lane", label: self.label() }
     }
 
     /// Returns the numbers of the transitions and the names of their commands.
     fn label(&self) -> String {
         [self.numbers.join(", "), self.commands.join(", ")].join(" ").trim().to_owned()
+    }
+
+    /// Returns the approximate length of the label in pixels.
+    fn label_length(&self) -> u32 {
+        self.label().chars().count() as u32 * LETTER
     }
 
     fn straight(&self, middle: u32, from: u32, to: u32) -> Arrow {
@@ -167,6 +187,13 @@ impl Edge {
         let text = if side == "end" { x - 6 } else { x + 6 };
         Arrow { path: format!("M{x} {start}V{end}"), x: text, y: u32::midpoint(start, end) + 4, side, label }
     }
+}
+
+/// Returns the distance between the column and the first lane of a side. Labels of straight arrows can be wider than half of the
+/// column.
+fn gap(edges: &[Edge], rows: &[Option<usize>], is_beside: impl Fn(&Edge, &[Option<usize>]) -> bool) -> u32 {
+    let labels = edges.iter().filter(|edge| is_beside(edge, rows)).map(Edge::label_length);
+    labels.max().map_or(LANE, |length| LANE.max((length + LABEL_GAP).saturating_sub(WIDTH / 2 - ASIDE)))
 }
 
 /// Returns the row of each state that has an arrow. States are sorted by their ranks.
@@ -187,6 +214,7 @@ fn rows(any: usize, first: usize, edges: &[Edge]) -> Vec<Option<usize>> {
 }
 
 /// Returns the lane of each edge that needs one on this side. The first lane is next to the column. Shorter edges have nearer lanes.
+/// A label that is longer than its edge also takes the rows next to the edge.
 fn lanes(
     edges: &[Edge],
     rows: &[Option<usize>],
@@ -194,7 +222,11 @@ fn lanes(
 ) -> Vec<Option<u32>> {
     let mut needed: Vec<(usize, usize, usize)> = Vec::new();
     for (at, edge) in edges.iter().enumerate() {
-        needed.extend(on_side(edge, rows).map(|(from, to)| (from.min(to), from.max(to), at)));
+        needed.extend(on_side(edge, rows).map(|(from, to)| {
+            let (top, bottom) = (from.min(to), from.max(to));
+            let beyond = edge.label_length().div_ceil(PITCH).saturating_sub((bottom - top) as u32).div_ceil(2) as usize;
+            (top.saturating_sub(beyond), bottom + beyond, at)
+        }));
     }
     needed.sort_by_key(|(top, bottom, at)| (bottom - top, *at));
     let mut lanes = vec![None; edges.len()];

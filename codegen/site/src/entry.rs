@@ -6,6 +6,7 @@ use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::diagnostics::{ShownDiagnostic, ShownDiagnostics};
 use super::link::Relation;
+use super::requests;
 use super::tools;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::words::{capital, row_of, sentence, ALLOWED_SHOWN};
@@ -52,6 +53,8 @@ pub(super) struct Row {
     pub writable: String,
     /// Addresses for requests, for the script of the page.
     pub requests: String,
+    /// Titles and bytes of the requests that read the item, for pages without a script.
+    pub reads: Vec<(&'static str, String)>,
     pub bits: Option<Bits>,
     pub labels: Vec<Label>,
     /// Anchor and name of the row on this page that shows the bits or values of the same type.
@@ -197,6 +200,7 @@ impl Rows<'_> {
             scale: tools::scale(item),
             writable: tools::range(item),
             requests: tools::addresses(item, self.known.modbus),
+            reads: requests::reads(item, self.known.modbus),
             bits: drawn,
             labels,
             same_as,

@@ -10,7 +10,7 @@ use super::area::{self, Area};
 use super::assumptions::{AmbiguitySources, Ranked};
 use super::builder;
 use super::codes::{self, Codes};
-use super::diagnostics::ShownDiagnostics;
+use super::diagnostics::{self, ShownDiagnostics};
 use super::entry::{Known, Row};
 use super::links::Links;
 use super::machines;
@@ -109,6 +109,9 @@ impl Parts {
         if let Some((_, behaviour)) = &mut self.behaviour {
             targets.link(behaviour);
         }
+        if let Some((_, tables)) = &mut self.codes {
+            targets.link_codes(tables);
+        }
     }
 }
 
@@ -183,7 +186,7 @@ impl<'a> Folder<'a> {
         self.module_pages(&modules, &files, &frame);
         if let Some(file) = &diagnostics {
             let list = std::mem::take(&mut self.diagnostics.list);
-            self.page(&frame, file, Content::Diagnostics(&list));
+            self.page(&frame, file, Content::Diagnostics(&diagnostics::by_code(&list)));
         }
         if only.is_none() {
             let devices = std::mem::take(&mut self.listed.devices);
@@ -335,8 +338,9 @@ impl<'a> Folder<'a> {
             self.index_page(file, "", "States and procedures", "");
             for machine in &behaviour.machines {
                 for state in &machine.states {
+                    let words = format!("{} {}", state.identifier, state.facts);
                     let entry = index_entry(&state.anchor, "state", &state.name);
-                    self.index.entry(&Entry { names: &state.names, words: &state.facts, ..entry });
+                    self.index.entry(&Entry { names: &state.names, words: &words, ..entry });
                 }
             }
             for sequence in &behaviour.sequences {

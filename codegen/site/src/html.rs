@@ -6,7 +6,7 @@ use super::area::{Area, Section};
 use super::assumptions::Ranked;
 use super::bits::{self, Grids};
 use super::codes::Codes;
-use super::diagnostics::ShownDiagnostic;
+use super::diagnostics::DiagnosticGroup;
 use super::machines::Behaviour;
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
@@ -54,12 +54,32 @@ templates! {
     MachinesPage = "machines.html" { behaviour: &'p Behaviour }
     ModulesPage = "modules.html" { modules: &'p [ModuleModel], grids: &'p Grids }
     AssumptionsPage = "assumptions.html" { ranked: &'p [Ranked<'p>] }
-    DiagnosticsPage = "diagnostics.html" { diagnostics: &'p [ShownDiagnostic] }
+    DiagnosticsPage = "diagnostics.html" { groups: &'p [DiagnosticGroup<'p>] }
     ChangesPage = "changes.html" { revision: &'p Revision<'p> }
     ListPage = "list.html" { devices: &'p [Listed] }
 }
 
+/// The title of a column in a list of devices, and the function that returns its text.
+type Column = (&'static str, fn(&Listed) -> &str);
+
+/// The columns of a list of devices, after the name.
+const COLUMNS: [Column; 7] = [
+    ("Order code", |device| &device.order_code),
+    ("Vendor", |device| &device.vendor),
+    ("Product code", |device| &device.product_code),
+    ("Revision", |device| &device.revision),
+    ("Buses", |device| &device.buses),
+    ("Profiles", |device| &device.profiles),
+    ("File", |device| &device.file),
+];
+
 impl ListPage<'_> {
+    /// Returns the columns that contain a text for at least one device.
+    fn columns(&self) -> Vec<Column> {
+        let is_used = |(_, text): &Column| self.devices.iter().any(|device| !text(device).is_empty());
+        COLUMNS.into_iter().filter(is_used).collect()
+    }
+
     /// Returns whether the device at a position is the first of its vendor and family.
     fn begins_group(&self, at: &usize) -> bool {
         let group = |at: usize| self.devices.get(at).map(Listed::group);
@@ -116,7 +136,7 @@ impl Pages for Html {
                 written(&ModulesPage { frame, file, modules, grids })
             }
             Content::Assumptions(ranked) => written(&AssumptionsPage { frame, file, ranked }),
-            Content::Diagnostics(diagnostics) => written(&DiagnosticsPage { frame, file, diagnostics }),
+            Content::Diagnostics(groups) => written(&DiagnosticsPage { frame, file, groups }),
             Content::Changes(revision) => written(&ChangesPage { frame, file, revision }),
             Content::List(devices) => written(&ListPage { frame, file, devices }),
         }

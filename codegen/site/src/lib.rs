@@ -47,6 +47,7 @@ mod pages;
 mod process;
 mod protocol;
 mod references;
+mod requests;
 mod revisions;
 mod search;
 mod tools;

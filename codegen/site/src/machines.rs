@@ -6,7 +6,7 @@ use super::anchor::Names;
 use super::diagram::{self, number, Diagram, ANY_STATE};
 use super::entry::{self, Doubt};
 use super::link::Link;
-use super::words::{self, PLAIN};
+use super::words::{self, readable, PLAIN};
 use lexibus_codegen::facts::{pattern, types};
 use lexibus_codegen::ir::{
     Device, ItemRef, Manual, Outcome, Pattern, Procedure, StateMachine, Step, SubjectKind, Transition,
@@ -37,7 +37,10 @@ pub(super) struct Machine {
 #[derive(Debug)]
 pub(super) struct Named {
     pub anchor: String,
+    /// Name in words.
     pub name: String,
+    /// Name in the description.
+    pub identifier: String,
     pub names: Vec<(String, String)>,
     /// Bit pattern, such as `xxxx xxxx x01x 0111`; empty if a value represents the state.
     pub bits: String,
@@ -116,7 +119,7 @@ fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut
     facts.extend(
         (!machine.control_item.is_empty()).then(|| format!("Commands are written to {}.", machine.control_item)),
     );
-    facts.extend(machine.initial.as_ref().map(|state| format!("After power-on: {state}.")));
+    facts.extend(machine.initial.as_ref().map(|state| format!("After power-on: {}.", readable(state))));
     facts.extend(PLAIN.manual_entry(manual, "", machine.documentation.as_deref(), &[]));
     let anchor = names.anchor(&machine.name);
     let mut of_states = Names::within(&anchor);
@@ -129,7 +132,7 @@ fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut
         items: Vec::new(),
         doubts: entry::about(&device.doubts, SubjectKind::Machine, &machine.name, manual),
         diagram: diagram::diagram(machine),
-        initial: machine.initial.as_ref().map(ToString::to_string),
+        initial: machine.initial.as_deref().map(readable),
         states: states.collect(),
         commands: commands.collect(),
         anchor,
@@ -142,7 +145,8 @@ fn named(pattern: &Pattern, width: u32, anchor: String) -> Named {
     let bits = if pattern.mask == 0 { String::new() } else { pattern::text(pattern.mask, pattern.value, width) };
     Named {
         anchor,
-        name: pattern.name.to_string(),
+        name: readable(&pattern.name),
+        identifier: pattern.name.to_string(),
         names: words::names(&pattern.names),
         bits,
         facts: PLAIN.description(pattern.documentation.as_deref()).join(" "),
@@ -152,16 +156,16 @@ fn named(pattern: &Pattern, width: u32, anchor: String) -> Named {
 fn transition_row(position: usize, transition: &Transition) -> TransitionRow {
     TransitionRow {
         number: number(position, transition),
-        from: transition.from.as_ref().map(ToString::to_string),
-        to: transition.to.to_string(),
-        command: transition.command.as_ref().map_or_else(|| AUTOMATIC.to_owned(), ToString::to_string),
+        from: transition.from.as_deref().map(readable),
+        to: readable(&transition.to),
+        command: transition.command.as_ref().map_or_else(|| AUTOMATIC.to_owned(), |command| readable(command)),
         facts: PLAIN.description(transition.documentation.as_deref()).join(" "),
     }
 }
 
 fn matrix(machine: &StateMachine) -> Option<Matrix> {
     let first = machine.outcomes.first()?;
-    let states: Vec<String> = first.cells.iter().map(|cell| cell.state.to_string()).collect();
+    let states: Vec<String> = first.cells.iter().map(|cell| readable(&cell.state)).collect();
     let mut notes: Vec<String> = Vec::new();
     let mut note_numbers: HashMap<String, usize> = HashMap::new();
     let mut rows = Vec::new();
@@ -181,7 +185,7 @@ fn matrix(machine: &StateMachine) -> Option<Matrix> {
             };
             cells.push(outcomes.join(" or ") + &mark);
         }
-        rows.push((row.name.to_string(), cells));
+        rows.push((readable(&row.name), cells));
     }
     Some(Matrix { states, rows, notes })
 }
@@ -190,7 +194,7 @@ fn outcome(outcome: &Outcome) -> String {
     match outcome {
         Outcome::Unchanged => "no change".to_owned(),
         Outcome::Refused => "–".to_owned(),
-        Outcome::States(to) => format!("→ {}", to.join(" → ")),
+        Outcome::States(to) => to.iter().map(|state| format!("→ {}", readable(state))).collect::<Vec<_>>().join(" "),
     }
 }
 

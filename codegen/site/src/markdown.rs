@@ -9,7 +9,7 @@ use askama::Template;
 use super::area::Area;
 use super::assumptions::Ranked;
 use super::codes::Codes;
-use super::diagnostics::ShownDiagnostic;
+use super::diagnostics::DiagnosticGroup;
 use super::diagram::ANY_STATE;
 use super::machines::{Behaviour, Machine};
 use super::modules::ModuleModel;
@@ -62,7 +62,7 @@ templates! {
     MachinesPage = "markdown/machines.md" { behaviour: &'p Behaviour }
     ModulesPage = "markdown/modules.md" { modules: &'p [ModuleModel] }
     AssumptionsPage = "markdown/assumptions.md" { ranked: &'p [Ranked<'p>] }
-    DiagnosticsPage = "markdown/diagnostics.md" { diagnostics: &'p [ShownDiagnostic] }
+    DiagnosticsPage = "markdown/diagnostics.md" { groups: &'p [DiagnosticGroup<'p>] }
     ChangesPage = "markdown/changes.md" { revision: &'p Revision<'p> }
     ListPage = "markdown/list.md" { title: &'p str, root: &'p str, devices: &'p [Listed], links: PageLinks<'p> }
     SummaryPage = "markdown/summary.md" { catalogs: &'p [ListedCatalog] }
@@ -116,7 +116,7 @@ impl Pages for Markdown {
             Content::Machines(behaviour) => written(&MachinesPage { behaviour }),
             Content::Modules(modules) => written(&ModulesPage { modules }),
             Content::Assumptions(ranked) => written(&AssumptionsPage { ranked }),
-            Content::Diagnostics(diagnostics) => written(&DiagnosticsPage { diagnostics }),
+            Content::Diagnostics(groups) => written(&DiagnosticsPage { groups }),
             Content::Changes(revision) => written(&ChangesPage { revision }),
             Content::List(devices) => written(&ListPage { title, root: frame.root, devices, links: &links }),
         }

@@ -3,8 +3,11 @@
 use super::entry::{self, Doubt};
 use super::modules::Slot;
 use super::words::{self, PLAIN};
+use lexibus_codegen::facts::device;
 use lexibus_codegen::facts::number::{hex16, hex32};
-use lexibus_codegen::ir::{Device, DistributedClocks, EtherCatSettings, FileInfo, Manual, ProfinetSettings};
+use lexibus_codegen::ir::{
+    Device, DistributedClocks, EtherCatSettings, FileInfo, Manual, ModbusTable, ProfinetSettings,
+};
 
 /// The content of a device's first page.
 #[derive(Debug)]
@@ -80,31 +83,46 @@ fn identity(device: &Device) -> Vec<(&'static str, String)> {
     all.into_iter().filter(|(_, value)| !value.is_empty()).collect()
 }
 
-/// Returns the names and values of the device's bus settings.
+/// Returns the names and values of the device's bus settings. One row lists all buses; buses have their own row only for settings.
 fn settings(device: &Device) -> Vec<(&'static str, String)> {
-    let mut all = Vec::new();
-    if let Some(settings) = &device.canopen {
-        let rates: Vec<String> = settings.bit_rates.iter().map(|rate| format!("{rate} kbit/s")).collect();
-        all.push(("CANopen", if rates.is_empty() { "yes".to_owned() } else { rates.join(", ") }));
-    }
-    all.extend(device.ethercat.as_deref().map(|settings| ("EtherCAT", ethercat(settings))));
-    all.extend(device.profinet.as_deref().map(|settings| ("PROFINET", profinet(settings))));
-    for table in &device.modbus {
-        let functions: Vec<String> = table.functions.iter().map(u8::to_string).collect();
-        let most = [("reads", table.max_read), ("writes", table.max_write)];
-        let most = most.into_iter().filter_map(|(what, most)| Some(format!("{what} up to {}", most?)));
-        let facts: Vec<String> = std::iter::once(format!("functions {}", functions.join(", "))).chain(most).collect();
-        all.push(("Modbus", facts.join("; ")));
-    }
-    all.extend(device.node_ids.map(|(first, last)| ("Numbers of nodes", format!("{first} to {last}"))));
+    let rates = device.canopen.iter().flat_map(|settings| &settings.bit_rates);
+    let rates: Vec<String> = rates.map(u16::to_string).collect();
+    let tables: Vec<String> = device.modbus.iter().map(|table| modbus(table, device.modbus.len() > 1)).collect();
     let profiles: Vec<String> = device.profiles.iter().map(u32::to_string).collect();
-    all.extend((!profiles.is_empty()).then(|| ("Profiles", profiles.join(", "))));
-    all
+    let all = [
+        ("Buses", device::buses(device)),
+        ("Bit rates", if rates.is_empty() { String::new() } else { format!("{} kbit/s", rates.join(", ")) }),
+        ("EtherCAT", device.ethercat.as_deref().map(ethercat).unwrap_or_default()),
+        ("PROFINET", device.profinet.as_deref().map(profinet).unwrap_or_default()),
+        ("Modbus", tables.join(". ")),
+        (addresses(device), device.node_ids.map(|(first, last)| format!("{first} to {last}")).unwrap_or_default()),
+        ("Profiles", profiles.join(", ")),
+    ];
+    all.into_iter().filter(|(_, value)| !value.is_empty()).collect()
 }
 
+/// Returns the term for the addresses of nodes on the buses of a device.
+fn addresses(device: &Device) -> &'static str {
+    match (device.canopen.is_some(), device.modbus.is_empty()) {
+        (true, true) => "Node-IDs",
+        (true, false) => "Node-IDs and slave addresses",
+        (false, _) => "Slave addresses",
+    }
+}
+
+/// Returns the functions of a Modbus table, with the name of the table if there are several.
+fn modbus(table: &ModbusTable, is_one_of_several: bool) -> String {
+    let functions: Vec<String> = table.functions.iter().map(u8::to_string).collect();
+    let space = if is_one_of_several { format!("{}: ", table.space.title()) } else { String::new() };
+    let most = [("reads", table.max_read), ("writes", table.max_write)];
+    let most = most.into_iter().filter_map(|(what, most)| Some(format!("{what} up to {}", most?)));
+    let facts: Vec<String> = std::iter::once(format!("functions {}", functions.join(", "))).chain(most).collect();
+    space + &facts.join("; ")
+}
+
+/// Returns the protocols of the mailbox and the modes of the distributed clocks.
 fn ethercat(settings: &EtherCatSettings) -> String {
-    let mut facts = Vec::new();
-    if let Some(mailbox) = &settings.mailbox {
+    let mailbox = settings.mailbox.as_ref().map(|mailbox| {
         let protocols = [
             ("CoE", mailbox.coe.is_some()),
             ("FoE", mailbox.foe.is_some()),
@@ -114,17 +132,12 @@ fn ethercat(settings: &EtherCatSettings) -> String {
             ("VoE", mailbox.voe.is_some()),
         ];
         let protocols: Vec<&str> = protocols.into_iter().filter(|(_, has)| *has).map(|(name, _)| name).collect();
-        facts.push(match protocols.is_empty() {
+        match protocols.is_empty() {
             true => "mailbox".to_owned(),
             false => format!("mailbox with {}", protocols.join(", ")),
-        });
-    }
-    facts.extend(settings.clocks.as_deref().map(clocks));
-    if facts.is_empty() {
-        "yes".to_owned()
-    } else {
-        facts.join("; ")
-    }
+        }
+    });
+    mailbox.into_iter().chain(settings.clocks.as_deref().map(clocks)).collect::<Vec<_>>().join("; ")
 }
 
 fn clocks(clocks: &DistributedClocks) -> String {

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use super::area::Area;
 use super::assumptions::Ranked;
 use super::codes::Codes;
-use super::diagnostics::ShownDiagnostic;
+use super::diagnostics::DiagnosticGroup;
 use super::links::Links;
 use super::machines::Behaviour;
 use super::modules::ModuleModel;
@@ -180,7 +180,7 @@ pub(super) enum Content<'p> {
     Machines(&'p Behaviour),
     Modules(&'p [ModuleModel]),
     Assumptions(&'p [Ranked<'p>]),
-    Diagnostics(&'p [ShownDiagnostic]),
+    Diagnostics(&'p [DiagnosticGroup<'p>]),
     Changes(&'p Revision<'p>),
     /// A list of devices, in a catalog or in the site.
     List(&'p [Listed]),

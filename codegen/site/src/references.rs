@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::area::Area;
+use super::codes::Codes;
 use super::link::{Link, Relation};
 use super::machines::Behaviour;
 use super::process::Frame;
@@ -82,6 +83,25 @@ impl<'d> Targets<'d> {
         for (procedure, shown) in self.device.procedures.iter().zip(&mut behaviour.sequences) {
             for (step, shown) in procedure.steps.iter().zip(&mut shown.steps) {
                 shown.item = step.item().and_then(|item| self.item(item.id)).cloned();
+            }
+        }
+    }
+
+    /// Adds links from codes to the items that have a value with the same number and name.
+    pub fn link_codes(&self, tables: &mut [Codes]) {
+        let types = Owner::of_types(&self.device.types);
+        let items = (0..).zip(&self.device.groups).flat_map(|(position, group)| group.items_at(position));
+        let mut reporting: HashMap<_, Vec<Link>> = HashMap::new();
+        for (link, item) in items.filter_map(|(id, item)| Some((self.item(Some(id))?, item))) {
+            for value in types.enumeration(item.ty).map_or(&[][..], |(values, _)| values) {
+                reporting.entry((value.value, value.last, &value.name)).or_default().push(link.clone());
+            }
+        }
+        let declared = self.device.code_tables.iter().filter(|table| !table.rows.is_empty());
+        for (table, shown) in declared.zip(tables) {
+            for (row, shown) in table.rows.iter().zip(&mut shown.rows) {
+                let links = reporting.get(&(row.code, row.last, &row.name)).cloned().unwrap_or_default();
+                shown.relations = Relation::new("Value of", links).into_iter().collect();
             }
         }
     }

@@ -52,6 +52,12 @@ pub(super) fn addresses(item: &Item, tables: &[ModbusTable]) -> String {
     item.bindings.iter().filter_map(address).collect::<Vec<_>>().join(";")
 }
 
+/// Returns the number of 16-bit words that a request for the item reads. A request can only read whole registers of the device.
+pub(super) fn count(register: &RegisterBinding) -> u16 {
+    let words = u16::from(register.words_per_address.max(1));
+    register.count.div_ceil(words) * words
+}
+
 fn registers(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> String {
     let table = match register.space {
         RegisterSpace::Holding => "h",
@@ -59,7 +65,6 @@ fn registers(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) ->
         RegisterSpace::Coil => "c",
         RegisterSpace::DiscreteInput => "d",
     };
-    let words = u16::from(register.words_per_address.max(1));
     let flags = [
         (register.low_word_first, "l"),
         (register.bytes_swapped, "s"),
@@ -69,5 +74,5 @@ fn registers(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) ->
     let flags = flags.map(|(has, flag)| if has { flag } else { "" }).concat();
     let functions: Vec<String> = register::functions(register, item, tables).iter().map(u8::to_string).collect();
     let flags = if flags.is_empty() { "-" } else { &flags };
-    format!("m {table} {} {} {flags} {}", register.address, register.count.div_ceil(words) * words, functions.join("/"))
+    format!("m {table} {} {} {flags} {}", register.address, count(register), functions.join("/"))
 }

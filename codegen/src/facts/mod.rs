@@ -10,7 +10,7 @@
 //! | `markdown` | texts in Markdown |
 //! | `number` | numbers in hexadecimal notation |
 //! | `pattern` | bit patterns of states and commands |
-//! | `pdo` | names of PDOs on CANopen and EtherCAT |
+//! | `pdo` | names of PDOs on CANopen and EtherCAT, and what they can map |
 //! | `physical` | physical values with raw values |
 //! | `referrers` | which elements refer to an item |
 //! | `register` | printed addresses and wire addresses on Modbus |

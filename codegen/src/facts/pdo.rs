@@ -1,9 +1,15 @@
-//! Names of PDOs: by number on CANopen, by index on EtherCAT.
+//! PDOs: names (by number on CANopen, by index on EtherCAT), changeable mappings, and objects that can be mapped.
 
 use std::collections::HashMap;
 
 use super::number::hex16;
-use crate::ir::{Device, Direction, Mappable, ObjectBuses, Pdo, PdoEntryKind};
+use super::types;
+use crate::ir::{
+    Device, Direction, Group, Item, Mappable, ObjectBuses, Pdo, PdoEntryKind, Type, TypeDef, MAX_PDO_SUBS,
+};
+
+/// Maximum length in bits of a mapped entry. A mapping value has 8 bits for the length of the entry.
+pub const MAX_ENTRY: u32 = 0xFF;
 
 /// Returns the buses on which a device has objects.
 pub fn buses(device: &Device) -> ObjectBuses {
@@ -42,4 +48,32 @@ pub fn mapped_objects(pdos: &[Pdo]) -> HashMap<(u16, u8), Mappable> {
         }
     }
     mapped
+}
+
+/// Returns the PDOs that can map an item. `mapped` contains the objects that PDOs map by default.
+pub fn mappable(item: &Item, mapped: &HashMap<(u16, u8), Mappable>) -> Mappable {
+    let by_default = item.object().and_then(|address| mapped.get(&address)).copied().unwrap_or_default();
+    Mappable { rpdo: item.mappable.rpdo || by_default.rpdo, tpdo: item.mappable.tpdo || by_default.tpdo }
+}
+
+/// Returns the length in bits of an item in a PDO. A text with a known length has a fixed number of bits too. Returns `None` if no
+/// entry can have this length.
+pub fn mapped_bits(item: &Item, types: &[TypeDef]) -> Option<u32> {
+    let bits = match types::basic(types, item.object_type()) {
+        Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
+        basic => basic.bits(),
+    };
+    bits.filter(|bits| (1..=MAX_ENTRY).contains(bits))
+}
+
+/// Returns whether the mapping of a PDO can be changed, if its mapping object is writable.
+pub fn is_changeable(pdo: &Pdo) -> bool {
+    !(pdo.fixed || pdo.is_virtual || pdo.depends_on_slot || pdo.depends_on_slot_group)
+}
+
+/// Returns the number of writable entries in a mapping object. Returns `None` if the number of entries is read-only.
+pub fn writable_entries(mapping: &Group) -> Option<usize> {
+    let is_writable = |sub: &u8| mapping.sub(*sub).is_some_and(|item| item.access.writable());
+    let entries = (1..=u8::MAX).take_while(is_writable).count().min(MAX_PDO_SUBS);
+    (is_writable(&0) && entries > 0).then_some(entries)
 }

@@ -36,8 +36,9 @@ function pdoBuilder(place) {
     created.addEventListener("click", () => { act(); show(); });
     return created;
   };
+  const exchange = (at) => { if (at >= 0 && at + 1 < objects.length) objects.splice(at, 2, objects[at + 1], objects[at]); };
   const line = (object, at) => element("li", {}, `${object[3]} (${object[2]} bits) `,
-    button("↑", `Move ${object[3]} up`, () => { if (at) objects.splice(at - 1, 2, object, objects[at - 1]); }),
+    button("↑", `Move ${object[3]} up`, () => exchange(at - 1)), button("↓", `Move ${object[3]} down`, () => exchange(at)),
     button("×", `Remove ${object[3]}`, () => objects.splice(at, 1)));
   const show = () => {
     list.replaceChildren(...objects.map(line));
@@ -73,6 +74,7 @@ function pdoBuilder(place) {
     add(candidates().find((object) => plain(object[3]).includes(typed)));
   });
   place.replaceWith(element("div", { className: "tools builder" },
+    element("p", { textContent: "The PDO builder shows the SDO downloads that map the objects of a list into a PDO." }),
     element("p", {}, element("label", {}, "PDO ", choice), node.label, button("Clear", "", () => { objects = []; })),
     list, element("p", {}, element("label", {}, "Map ", adding), shown), options, results));
   start();

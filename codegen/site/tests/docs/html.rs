@@ -88,7 +88,7 @@ fn a_page_of_registers() {
 #[test]
 fn repairs_stand_where_they_matter() {
     let eds = "[DeviceInfo]\nProductName=Pump\n[ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n2=0x2001\n\
-               [2000]\nParameterName=Gain\nDataType=6\nAccessType=rw\nDefaultValue=012\n\
+               [2000]\nParameterName=Gain\nDataType=6\nAccessType=rw\nDefaultValue=012\nLowLimit=010\n\
                [2001]\nParameterName=Level\nDataType=6\nAccessType=ro\n";
     for (format, page, all) in [
         (Format::Html, "/manufacturer-objects.html", "/diagnostics.html"),
@@ -100,7 +100,8 @@ fn repairs_stand_where_they_matter() {
         let (gain, level) = text(page).split_once("id=\"0x2001\"").expect("two objects");
         assert!(gain.contains("Repaired") && gain.contains("(pump.eds:11:14, EDS020)"), "{gain}");
         assert!(!level.contains("Repaired"), "{level}");
-        assert!(text(all).contains("EDS020"), "{}", text(all));
+        let heading = text(all).lines().find(|line| line.contains("EDS020") && line.contains("2 repairs"));
+        assert!(heading.is_some(), "{}", text(all));
         let first = pages.iter().find(|page| page.path.contains("/no-revision/index."));
         assert!(first.expect("the first page").text.contains(all.trim_start_matches('/')));
     }
@@ -168,7 +169,54 @@ fn each_transition_of_cia_402_has_an_arrow() {
     let numbers: BTreeSet<u32> =
         labels.flat_map(|label| label.split([' ', ','])).filter_map(|word| word.parse().ok()).collect();
     assert_eq!(numbers, (1..=16).collect());
-    assert!(page.text.contains("<td>xxxx xxxx x1xx 0000<td>"), "states are bit patterns");
+    assert!(diagram.contains(">9 disable voltage<") && diagram.contains(">switch on disabled<"), "{diagram}");
+    assert!(page.text.contains("id=\"drive.switch_on_disabled\""), "anchors are identifiers");
+    assert!(page.text.contains("<td>xxxx xxxx x1xx 0000<td"), "states are bit patterns");
+}
+
+#[test]
+fn codes_have_links_to_the_items_with_the_same_value() {
+    let pages = files(Format::Html, &["dictionaries/kollmorgen-akd.toml"]);
+    let page = pages.iter().find(|page| page.path.ends_with("/codes.html")).expect("the codes");
+    let (_, row) = page.text.split_once("id=\"operating_modes-6\"").expect("homing");
+    let (row, _) = row.split_once("</tbody>").expect("the end of the row");
+    assert!(row.contains("<b>Value of</b> <a href=\"profile-objects.html#0x6060\">"), "{row}");
+}
+
+#[test]
+fn lists_of_devices_have_no_empty_columns() {
+    let pages = files(Format::Html, &["dictionaries/eco.toml"]);
+    let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
+    let list = text("index.html");
+    let columns = list.split("<th scope=\"col\">").skip(1).map(|rest| rest.split('<').next().unwrap_or_default());
+    assert_eq!(columns.collect::<Vec<_>>(), ["Device", "Buses", "Profiles", "File"]);
+    let overview = text("vendor-0x0000078f/eco/no-revision/index.html");
+    assert!(overview.contains("<th scope=\"row\">Buses<td>CANopen, EtherCAT and Modbus"), "{overview}");
+    assert!(overview.contains("<th scope=\"row\">Node-IDs and slave addresses<td>1 to 99"), "{overview}");
+}
+
+#[test]
+fn objects_that_are_mapped_by_default_are_in_the_builder() {
+    let entry = |index: &str, sub: u8, ty: u8, default: &str| {
+        format!("[{index}sub{sub}]\nParameterName=Entry {sub}\nDataType={ty}\nAccessType=rw\nDefaultValue={default}\n")
+    };
+    let record = |index: &str| format!("[{index}]\nParameterName=PDO\nObjectType=9\nSubNumber=2\n");
+    let eds = [
+        "[DeviceInfo]\nProductName=Pump\nNrOfRXPDO=1\n[OptionalObjects]\nSupportedObjects=2\n1=0x1400\n2=0x1600\n\
+         [ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n2=0x2001\n\
+         [2000]\nParameterName=Gain\nDataType=6\nAccessType=rw\nPDOMapping=0\n\
+         [2001]\nParameterName=Level\nDataType=6\nAccessType=rw\nPDOMapping=0\n"
+            .to_owned(),
+        record("1400") + &entry("1400", 0, 5, "1") + &entry("1400", 1, 7, "$NODEID+0x200"),
+        record("1600") + &entry("1600", 0, 5, "1") + &entry("1600", 1, 7, "0x20000010"),
+    ];
+    let pages = site(Format::Html, vec![("pump".to_owned(), Source::new("pump.eds", eds.concat().into()))]);
+    let page = pages.iter().find(|page| page.path.ends_with("/process-data.html")).expect("the PDOs");
+    let (_, data) = page.text.split_once("<template id=\"mappable\">").expect("the builder");
+    let (data, _) = data.split_once("</template>").expect("its end");
+    let data = data.replace("&#34;", "\"");
+    assert!(data.contains("[8192,0,16,\"0x2000:00 Gain\",true,false,"), "{data}");
+    assert!(!data.contains("Level"), "{data}");
 }
 
 #[test]

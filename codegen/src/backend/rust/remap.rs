@@ -11,11 +11,8 @@ use super::objects::ObjectModel;
 use super::pdo;
 use super::reachable::addressable;
 use super::scope::ObjectBus;
-use crate::facts::pdo::mapped_objects;
-use crate::ir::{Device, Direction, Item, Mappable, Pdo, Type, MAX_PDO_SUBS};
-
-/// Maximum length in bits of a mapped entry. A mapping value has 8 bits for the length of the entry.
-const MAX_ENTRY: u32 = 0xFF;
+use crate::facts::pdo::{is_changeable, mappable, mapped_bits, mapped_objects, writable_entries, MAX_ENTRY};
+use crate::ir::{Device, Direction, Item, Mappable, Pdo, MAX_PDO_SUBS};
 
 /// Maximum length of a sync manager in bytes. The length register of a sync manager has 16 bits (ETG.1000.4 6.7.2).
 const MAX_SYNC_MANAGER: u16 = u16::MAX;
@@ -43,11 +40,11 @@ pub(super) fn models(context: &Context<'_>, objects: &mut [ObjectModel]) -> Vec<
 }
 
 fn model(context: &Context<'_>, device: &Device, pdo: &Pdo, name: String) -> Option<RemappableModel> {
-    let depends_on_slot = pdo.depends_on_slot || pdo.depends_on_slot_group;
-    if pdo.fixed || pdo.is_virtual || depends_on_slot {
+    if !is_changeable(pdo) {
         return None;
     }
-    let entries = writable_entries(context, pdo);
+    let mapping = addressable(context).find(|(_, group)| group.index() == Some(pdo.mapping_index));
+    let entries = mapping.and_then(|(_, mapping)| writable_entries(mapping));
     let mut constants = vec![Doc::from(format!("INDEX: u16 = 0x{:04X}", pdo.mapping_index))];
     let cob_id = match &pdo.communication {
         Some(_) => {
@@ -81,14 +78,6 @@ fn model(context: &Context<'_>, device: &Device, pdo: &Pdo, name: String) -> Opt
         constants,
         name,
     })
-}
-
-/// Returns the number of writable entries in the mapping object. Returns `None` if the number of entries is read-only.
-fn writable_entries(context: &Context<'_>, pdo: &Pdo) -> Option<usize> {
-    let (_, mapping) = addressable(context).find(|(_, group)| group.index() == Some(pdo.mapping_index))?;
-    let writable = |sub: &u8| mapping.sub(*sub).is_some_and(|item| item.access.writable());
-    let entries = (1..=u8::MAX).take_while(writable).count().min(MAX_PDO_SUBS);
-    (writable(&0) && entries > 0).then_some(entries)
 }
 
 /// Adds the constants that a CANopen PDO needs. Returns the Rust type of the COB-ID, or `None` if the mapping of the
@@ -160,12 +149,7 @@ fn set_mappable(context: &Context<'_>, objects: &mut [ObjectModel]) -> bool {
             let Some((address, item)) = model.object.and_then(|address| Some((address, items.get(&address)?))) else {
                 continue;
             };
-            let mut into = item.mappable;
-            if let Some(proven) = by_default.get(&address) {
-                into.rpdo |= proven.rpdo;
-                into.tpdo |= proven.tpdo;
-            }
-            model.mappable = arguments(context, item, address, into, outer);
+            model.mappable = arguments(context, item, address, mappable(item, &by_default), outer);
             any |= model.mappable.is_some();
         }
     }
@@ -187,15 +171,7 @@ fn arguments(
         (false, true) => "rt::Tpdo",
         (false, false) => return None,
     };
-    let bits = bits(context.base(item.object_type())).filter(|bits| (1..=MAX_ENTRY).contains(bits))?;
+    let bits = mapped_bits(item, context.types)?;
     let field = field_type::field_type(context, item.ty, bits).path(outer);
     Some([field, direction.to_owned(), word(index, sub_index, bits)])
-}
-
-/// Returns the length of a type in bits. A text with a known length has a fixed number of bits too.
-fn bits(ty: Type) -> Option<u32> {
-    match ty {
-        Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
-        _ => ty.bits(),
-    }
 }
