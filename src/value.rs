@@ -38,8 +38,7 @@ pub trait Fixed: Value {
     fn in_range(value: Self::Native, range: &Range<Self::Native>) -> bool;
 }
 
-/// Writes the low `bits` bits of `raw` to the start of `buffer`, rounded up to whole bytes. Returns the length in
-/// bytes.
+/// Writes `raw` to `buffer`. Returns the number of bytes that `bits` bits occupy.
 #[inline]
 pub(crate) fn encode_raw(raw: u64, bits: u32, buffer: &mut [u8; 8]) -> usize {
     *buffer = raw.to_le_bytes();

@@ -235,7 +235,8 @@ fn a_frame_has_64_bits_on_can_only() {
     assert_eq!(device.transmit_pdo(0x1600).map(|data| data.len()), Ok(12));
 }
 
-/// Returns an allowed value of the entry that differs from the current value, if there is one.
+/// Returns a value to write to the entry: its maximum or, if there is none, its minimum or 1. An entry without a fixed
+/// length gets a text.
 fn another(entry: &Entry) -> Vec<u8> {
     let Some(bits) = entry.data_type.bits() else { return b"ab".to_vec() };
     let bytes = match (entry.high, entry.low) {

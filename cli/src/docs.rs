@@ -112,7 +112,8 @@ fn remove(root: &Path, path: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns an error if the folder contains files, unless one of them is the first page of a site that `lexibus docs` wrote.
+/// Returns an error if the folder contains files, unless one of them is the first page of a site that `lexibus docs`
+/// wrote. Hidden files do not count.
 fn foreign(folder: &Path, format: Format) -> Option<String> {
     let names = std::fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.file_name()));
     let first = names.filter(|name| !name.as_encoded_bytes().starts_with(b".")).min()?;

@@ -170,7 +170,7 @@ fn files<'c>(
     }
 }
 
-/// Returns a file name: the name of the input, followed by the name of `device` if there is one.
+/// Returns a file name: the name of the input, followed by the order code, name or ID of `device` if there is a device.
 fn file_name(input: &Path, device: Option<&Device>) -> String {
     let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let Some(device) = device else { return stem };

@@ -120,7 +120,7 @@ fn check(path: &Path, text: &str, reporter: &mut Reporter) {
     }
 }
 
-/// Returns an error if the content of a file differs from `text`.
+/// Returns an error if the content of a file differs from `text`, or if the file cannot be compared.
 pub(super) fn difference(path: &Path, text: &str) -> Option<String> {
     if is_no_regular_file(path) {
         return Some(format!("{} cannot be compared: it is not a regular file", path.display()));

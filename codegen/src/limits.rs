@@ -11,16 +11,17 @@ pub const MAX_SAME_DIAGNOSTICS: usize = 10_000;
 /// Maximum number of items that one row of a register table describes.
 pub const MAX_REPEAT: u32 = 0x1_0000;
 
-/// Maximum number of items that a file declares without a separate line for each, so that they are derived from other elements.
+/// Maximum number of derived items in a file. A derived item has no separate line in the file.
 ///
-/// Such items come from CompactSubObj of an EDS, arrays and shared dictionaries of an ESI, and `count` of a register table. The
-/// limit includes copies of named values that types of GSDML need.
+/// Derived items come from CompactSubObj of an EDS, arrays and shared dictionaries of an ESI, and `count` of a register
+/// table. The limit includes copies of named values that types of GSDML need.
 pub const MAX_DERIVED_ITEMS: usize = 200_000;
 
 /// Maximum number of implicit PDOs (CompactPDO) in each direction. CiA 301 defines 512 PDOs in each direction.
 pub const MAX_IMPLICIT_PDOS: u16 = 512;
 
-/// Maximum number of unknown keys in a section that are compared with each other to find repeated keys.
+/// Maximum number of unknown keys in an EDS section, or attributes in an XML tag, that are compared with each other to
+/// find repeated names.
 pub const MAX_COMPARED_EXTENSIONS: usize = 64;
 
 /// Maximum number of messages of a register table. The number is limited because each message is compared with all others.
@@ -33,15 +34,16 @@ pub const MAX_UNKNOWN_KEYS: usize = 100;
 /// because a transition from any state is generated for each state.
 pub const MAX_MACHINE_ROWS: usize = 2_048;
 
-/// Maximum length in bytes of a register-table row, including inherited facts, whose copies are not counted.
+/// Length in bytes up to which copies of a row, unit or `defaults` table of a register table do not count as additional
+/// items.
 pub const MAX_FREE_ROW_BYTES: usize = 4096;
 
-/// In each copy of a row, this number of bytes beyond [`MAX_FREE_ROW_BYTES`] counts as one more of
-/// [`MAX_DERIVED_ITEMS`].
+/// Number of copied bytes beyond [`MAX_FREE_ROW_BYTES`] that count as one more of [`MAX_DERIVED_ITEMS`]. In state
+/// machines, the number of copied bytes that count as one more of [`MAX_MACHINE_ROWS`].
 pub const ROW_BYTES_PER_ITEM: usize = 1024;
 
-/// Maximum number of copied bytes for each byte of the file. In usual files, only one object uses each type, so that little is
-/// copied.
+/// Maximum number of copied bytes for each byte of the file. In usual files, only one object uses each type, so little
+/// is copied.
 ///
 /// The copied elements are data types, flags, vendors and shared files (ESI), parameters (XDD), texts of CompactSubObj and
 /// section names (EDS).
@@ -62,7 +64,7 @@ pub const NEAR_LINKED_PAGES: usize = 20;
 /// Maximum number of bytes that references to the text list of a GSDML file copy, for each byte of the file.
 pub const MAX_TEXT_COPIES_PER_BYTE: usize = 8;
 
-/// Number of bytes that references to the text list of a GSDML file may copy, whatever the size of the file.
+/// Number of bytes that references to the text list of a GSDML file may copy, even if the file is small.
 pub const MIN_TEXT_COPIES: usize = 1 << 20;
 
 /// Maximum number of values of a range that a register table uses as a list of single values.

@@ -49,7 +49,8 @@ fn folder() -> Option<PathBuf> {
     None
 }
 
-/// Returns the corpus files that the oracle covers. If there is no corpus, prints a message and returns `None`.
+/// Returns the corpus files that are well-formed according to the oracle, or those that are not if `well_formed` is
+/// false. If there is no corpus, prints a message and returns `None`.
 fn cases(well_formed: bool) -> Option<Vec<Case>> {
     let folder = folder()?;
     let text = std::fs::read_to_string(folder.join("oracle.json")).expect("the oracle");
@@ -121,7 +122,8 @@ fn identity_and_header() {
     }
 }
 
-/// Returns the vendor name. The oracle uses the declared encoding, although some files that declare ISO 8859-1 are UTF-8.
+/// Returns the vendor name from the oracle. The oracle uses the declared encoding, so the function corrects names from
+/// UTF-8 files that declare ISO 8859-1.
 fn vendor_name(case: &Case) -> String {
     let name = case.oracle["vendor_name"].as_str().unwrap_or("");
     let misdeclared = case.compilation.diagnostics.list().iter().any(|found| found.code.id == "XML003");
@@ -370,8 +372,8 @@ fn counts_of_data(catalog: &Catalog) -> Vec<(&'static str, usize)> {
     ]
 }
 
-/// Returns the number of ProfileChannelDiagItem elements, which the oracle does not count. Only the codes of these elements
-/// have an API number.
+/// Returns the number of ChannelDiagItem elements, whose codes have API 0. The oracle does not count
+/// ProfileChannelDiagItem elements, whose codes have other API numbers.
 fn channel_errors(catalog: &Catalog) -> usize {
     let tables = catalog.code_tables.iter().filter(|table| table.name == "channel_diagnosis");
     tables.flat_map(|table| &table.rows).filter(|row| row.cells[1] == ir::Value::Int(0)).count()

@@ -1,5 +1,6 @@
-//! Tests files whose format needs a disabled feature. The error must name the feature. The part `features` of `tests/full.sh`
-//! runs these tests without the features. If all features are enabled, the tests check nothing.
+//! Tests files whose format needs a disabled feature. The error must name the feature. The part `features` of
+//! `tests/full.sh` runs these tests without the features. If all features are enabled, the tests check that there is no
+//! such error.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::source::Source;
@@ -25,7 +26,8 @@ fn compiled(text: &str, options: &Options) -> Compilation {
     check(Source::new("device", text.into()), options)
 }
 
-/// Returns whether the compilation has exactly one error, which names the feature and explains how to enable it.
+/// Returns whether an error states that the compiler was built without the feature. Asserts that the help of this error
+/// explains how to enable the feature.
 fn names_feature(compilation: &Compilation, feature: &str) -> bool {
     let mut list = compilation.diagnostics.list().iter();
     let Some(found) = list.find(|found| found.message.contains(&format!("was built without the feature `{feature}`")))
@@ -77,7 +79,8 @@ mod eds {
         assert_eq!(compilation.is_usable(), cfg!(feature = "table"));
     }
 
-    /// Profiles must also add names of bits and values, units, state machines and codes if all features are disabled.
+    /// Profiles must also add names of bits and values, units, state machines and codes if all other features are
+    /// disabled.
     #[test]
     fn profiles_apply_to_every_format() {
         let compilation = compiled(EDS, &Options::default());

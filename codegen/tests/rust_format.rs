@@ -22,8 +22,8 @@ fn output_is_as_prettyplease_prints_it() {
     assert!(compared > lane::at_least(500), "only {compared} different devices");
 }
 
-/// Tests two inputs. The first input is a file with several devices and modules, which become nested modules. The
-/// second input is a register table with features that no corpus file has.
+/// Tests files with several devices and modules, which become nested modules, and a register table with features that
+/// no corpus file has.
 #[test]
 fn nested_modules_and_tables_are_as_prettyplease_prints_them() {
     let coupler = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/coupler.esi.xml");

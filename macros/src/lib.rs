@@ -56,8 +56,13 @@ use syn::LitStr;
 /// }
 /// ```
 ///
-/// `overlay: "../dictionaries/drive.overlay.toml"` applies a table that corrects or extends the description. To apply
-/// several tables, repeat the option.
+/// These options are also valid:
+///
+/// - `overlay: "../dictionaries/drive.overlay.toml"` applies a table that corrects or extends the description. To apply
+///   several tables, repeat the option.
+/// - `option: "NAME=CHOICE"` selects a choice for an option that the register table declares. To select choices for
+///   several options, repeat `option`.
+/// - `runtime: "crate::rt"` sets the path of the runtime crate in the generated code. The default is `::lexibus`.
 ///
 /// Diagnostics are reported at the path argument and quote the line of the description. A macro on stable Rust cannot
 /// report warnings, so a warning appears as the use of a deprecated constant. If your crate denies warnings, put

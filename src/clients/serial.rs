@@ -307,7 +307,8 @@ macro_rules! exchanges {
 exchanges! { embedded_io call receive discard }
 exchanges! { embedded_io_async call_async receive_async discard_async async await }
 
-/// Returns a function that returns whether more than `timeout` has passed since this call.
+/// Returns a function that returns whether at least `timeout` has passed since this call. Without a timeout or a clock,
+/// the function returns `false`.
 fn deadline<T: Clock>(time: &mut T, timeout: Option<Duration>) -> impl FnMut() -> bool + '_ {
     let end = timeout.and_then(|timeout| Some(time.now()?.saturating_add(timeout)));
     move || end.is_some_and(|end| time.now().is_some_and(|now| now >= end))

@@ -37,7 +37,7 @@ pub(super) fn widened(data_type: DataType, mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// Converts an integer from type `from` to type `to`.
+/// Converts an integer from type `from` to type `to`. Returns an error if the integer does not fit.
 pub(super) fn resized(from: DataType, bytes: &[u8], to: DataType) -> Result<Vec<u8>, AbortCode> {
     let (Some(length), Some(other)) = (byte_length(from), byte_length(to)) else { return Err(AbortCode::LENGTH) };
     let (narrow, sign) = if length < other { (length, is_signed(from)) } else { (other, is_signed(to)) };

@@ -105,7 +105,8 @@ fn costs(name: &str, inputs: &[Vec<u8>]) -> Vec<Cost> {
 
 const ROUNDS: usize = 4;
 
-/// Returns the number of repetitions for an input size: 1 to 50, so that short inputs are measured for a similar time as long ones.
+/// Returns the number of repetitions for an input size: 1 to 50. Short inputs are repeated more often, because their
+/// total time should be similar to that of long inputs.
 fn repetitions(bytes: usize) -> usize {
     (2_000_000 / bytes).clamp(1, 50)
 }

@@ -123,7 +123,8 @@ fn traits_of_other_crates_are_derived_for_it() {
     assert!(count("serde::Serialize") > kept.len() && count("defmt::Format") > kept.len());
 }
 
-/// Returns the seed, the compilation, and the outputs other than Rust of each catalog.
+/// Creates the outputs other than Rust for some catalogs. Returns the seed, the compilation and these outputs for each
+/// catalog.
 fn outputs() -> impl Iterator<Item = (u64, Compilation, Outputs)> {
     some(OUTPUTS).map(|seed| {
         let (compilation, _) = drawn(seed);

@@ -25,7 +25,7 @@ use proptest::prelude::*;
 use proptest::sample::{select, subsequence, Index};
 use proptest::test_runner::{RngSeed, TestError, TestRunner};
 
-/// Minimum number of cases. With fewer cases, the share of inputs that reach the back end would not be meaningful.
+/// Minimum number of cases. With fewer cases, the share of inputs that reach the back end would vary too much.
 const FEWEST: u32 = 40;
 
 /// Returns a configuration with the given number of cases. A debug build runs a sixth of the cases, and the fast lane runs a
@@ -44,8 +44,8 @@ fn config(cases: u32) -> ProptestConfig {
 
 /// Runs `exercise` on the inputs that `make` creates. Prints the smallest input that fails.
 ///
-/// At least `usable` percent of the inputs must reach the back end. A test in which fewer inputs reach the back end would
-/// not be meaningful.
+/// At least `usable` percent of the inputs must reach the back end. Otherwise, the test would hardly exercise the back
+/// end.
 fn hold<T: Debug + Clone>(
     cases: u32,
     usable: u32,
@@ -245,7 +245,8 @@ fn value_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     start..start + length
 }
 
-/// Returns the range of the text in the next XML element after a position.
+/// Returns the range of the next text between XML tags after a position. Texts that contain only whitespace are
+/// skipped.
 fn text_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     let mut start = at;
     while let Some(end) = bytes[start..].iter().position(|&byte| byte == b'>') {
@@ -258,7 +259,8 @@ fn text_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     at..at
 }
 
-/// Returns the range of the next XML element after a position. The root element is excluded.
+/// Returns the range of the next XML element after a position. Elements that contain most of a file, such as the root
+/// element, are skipped.
 fn element_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     /// Maximum size of an element. A larger element would contain most of a file.
     const LARGEST: usize = 20_000;

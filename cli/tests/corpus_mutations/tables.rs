@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use table_support::{examples, whole};
 
-/// Returns the tables whose parts the test combines.
+/// Returns the lines of all examples in the documentation, without repetitions.
 fn pieces() -> Vec<String> {
     let mut lines: Vec<String> =
         examples().iter().flat_map(|(_, block)| whole(block).lines().map(str::to_owned).collect::<Vec<_>>()).collect();

@@ -14,7 +14,7 @@ use lexibus_site::{Format, Site};
 
 /// Compiles an input as far as possible. Checks that spans are within their files and that the output is valid Rust.
 ///
-/// Returns whether the input is a device description.
+/// Returns whether the input has a catalog.
 pub fn exercise(name: &str, bytes: &[u8]) -> bool {
     exercise_with(name, bytes, Vec::new())
 }
@@ -87,7 +87,7 @@ fn emitted(compilation: &Compilation) {
     }
 }
 
-/// Runs all exports and ignores their notes and refusals.
+/// Runs all exports and ignores their notes and refusals. Only the first two devices are exported as DCF.
 fn exported(catalog: &Catalog) {
     let _ = esi::export(catalog, &esi::Options::default());
     let _ = gsdml::export(catalog, &gsdml::Options::default());

@@ -1,13 +1,14 @@
-//! Decodes arbitrary bytes with the serial protocol of the HSD motors: as a stream of frames, and as a request and its reply.
-//! Encoding the decoded data must give the same bytes.
+//! Decodes arbitrary bytes with the serial protocol of the HSD motors: as a stream of frames, and as a request and its
+//! reply. Encoding the decoded data must give the same bytes.
 #![no_main]
 
 use lexibus::framing::Framing;
 use lexibus::message::{Message, Reader, Reply, Request, WriteError, Writer};
 use lexibus_drives::hsd::messages::*;
 
-/// Checks that `write` writes the bytes that were read, up to `known` bytes. Settings with a wrong length, and values outside of
-/// their limits, can be read for bus diagnosis, but not written.
+/// Checks that `write` writes as many bytes as `data` has, and that the first `known` bytes are the same. `write` may
+/// fail for settings with a wrong length and for values outside of their limits, because such data are readable for bus
+/// diagnosis only.
 fn same(name: &str, data: &[u8], known: usize, write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) {
     let mut again = [0; 2 * MAX_DATA];
     let mut to = Writer::new(&mut again);

@@ -89,7 +89,7 @@ impl Style {
         let mut filled = cells.filter(|text| !cells::is_blank(text));
         let is_x = filled.clone().any(|text| x_notation(text).is_some_and(|(digit, _)| digit != '0'));
         let is_fraction = filled.clone().next().is_some() && filled.clone().all(|text| text.ends_with(".0"));
-        // If one address contains a letter, all addresses of the column are hexadecimal.
+        // A single address with letters and digits means that all addresses of the column are hexadecimal.
         let letters = |text: &str| {
             let is_plain = !text.is_empty() && text.chars().all(|digit| digit.is_ascii_hexdigit());
             is_plain

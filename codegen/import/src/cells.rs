@@ -31,8 +31,8 @@ pub(super) fn is_blank(text: &str) -> bool {
     NOTHING.contains(&text.trim().to_lowercase().as_str())
 }
 
-/// Parses a hexadecimal integer: `0x1F`, `1Fh`, `#x1F`, `16#1F` or `$1F`. If `is_hex` is set, digits without a prefix are also
-/// accepted.
+/// Parses a hexadecimal integer: `0x1F`, `1Fh`, `#x1F`, `16#1F` or `$1F`. Digits without a prefix are also accepted if
+/// `is_hex` is set.
 pub(super) fn hexadecimal(text: &str, is_hex: bool) -> Option<i128> {
     let text = text.trim();
     let marked = ["0x", "0X", "#x", "16#", "$", "&H", "&h"].into_iter().find_map(|mark| text.strip_prefix(mark));
@@ -171,7 +171,7 @@ pub(super) fn unit(text: &str, comma: bool) -> (String, Option<f64>) {
     }
 }
 
-/// Returns the standard symbol of a unit.
+/// Returns the standard symbol of a unit, or the text itself if no symbol is known for it.
 fn symbol(text: &str) -> String {
     usual_unit(text).unwrap_or(text).to_owned()
 }

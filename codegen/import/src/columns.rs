@@ -8,7 +8,7 @@ use super::records::{Record, Records};
 
 macro_rules! fields {
     ($($(#[$doc:meta])* $variant:ident $name:literal [$($title:literal)*])*) => {
-        /// A property of a register that a column can contain.
+        /// An attribute of a register that a column can contain.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Field {
             $($(#[$doc])* $variant,)*
@@ -180,7 +180,7 @@ impl Field {
         FIELDS.iter().map(|&(_, name, _)| name)
     }
 
-    /// Returns the field name that is most similar to `name`.
+    /// Returns the field name that is most similar to `name`, or `None` if no field name is similar enough.
     pub fn similar(name: &str) -> Option<&'static str> {
         let best = Field::names().map(|known| (edit_distance(name, known), known)).min()?;
         (best.0 * 2 <= name.chars().count()).then_some(best.1)
@@ -258,7 +258,7 @@ const PREAMBLE: usize = 40;
 ///
 /// # Errors
 ///
-/// Returns the column of `map` that does not exist.
+/// Returns the name of a column in `map` that the list does not contain.
 pub(super) fn find<'m>(records: &Records, map: &'m [(Field, String)]) -> Result<Columns, &'m str> {
     let by_number = map.iter().all(|(_, column)| number(column).is_some());
     let (mut best, mut missing) = (Columns::default(), None);

@@ -1,4 +1,4 @@
-//! Reads the properties of a row: word order, unit, scale factor, limits, named values and documentation.
+//! Reads the attributes of a row: word order, unit, scale factor, limits, named values and documentation.
 
 use std::collections::HashSet;
 
@@ -201,7 +201,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Converts a limit to a raw value in TOML notation.
+    /// Converts a limit or default value to a raw value in TOML notation.
     fn raw(&mut self, span: Span, number: Number, ty: Type, scaling: (f64, f64)) -> Option<String> {
         let (factor, offset) = scaling;
         if ty.elements.is_some() {
@@ -244,8 +244,8 @@ impl Reader<'_, '_> {
             .unwrap_or_else(by_address)
     }
 
-    /// Reads the names of values or bits. Returns the index of their definition. If the cell contains no list, returns
-    /// its text.
+    /// Reads the names of values or bits. Returns the index of their definition. Returns the text of the cell instead
+    /// if the cell contains no list, or if the type is not an integer.
     pub fn meaning(&mut self, record: &Record, ty: Type, name: &str) -> (Option<usize>, Option<String>) {
         let fields = [(Field::Bits, true), (Field::Enum, false), (Field::Range, false)];
         for (field, of_bits) in fields {
@@ -298,7 +298,7 @@ impl Reader<'_, '_> {
         (!entries.is_empty()).then(|| self.definitions.add(is_bits, entries, name))
     }
 
-    /// If the documentation contains a list of values or bits, returns the list and its cell.
+    /// Returns the first list of values or bits in the documentation, with its cell.
     pub fn described_list<'c>(&self, record: &'c Record, ty: Type) -> Option<(&'c Cell, List)> {
         let columns = self.columns.all(Field::Doc).filter(|_| ty.is_integer());
         let mut cells = columns.filter_map(|column| record.cells.get(column.at));

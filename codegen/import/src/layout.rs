@@ -17,13 +17,13 @@ use super::types::Base;
 /// Minimum number of rows that must have the same difference between object index and register address.
 const ALIKE: usize = 3;
 
-/// A Modbus table and the properties that all its rows share.
+/// A Modbus table, with the base address and the order of words and bytes that all its rows share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Space {
     pub table: Table,
     /// Printed address that corresponds to wire address 0.
     pub first: i64,
-    /// True if the list determines the value of `first`.
+    /// True if the list determines the value of `first`. Otherwise, `first` is 0.
     pub is_first_known: bool,
     /// True if all rows transfer the low word first.
     pub low_first: bool,
@@ -76,7 +76,8 @@ pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
     Listing { spaces, chapters: chapters(rows), definitions, no_access }
 }
 
-/// Converts a row with a repetition count to a comment if its repetitions would exceed `MAX_DERIVED_ITEMS`.
+/// Converts a row with a repetition count to a comment if the repetitions of all rows up to this row exceed
+/// `MAX_DERIVED_ITEMS`.
 fn within_budget(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     let mut left = MAX_DERIVED_ITEMS;
     for row in rows.iter_mut().filter(|row| row.address.is_ok()) {
@@ -135,7 +136,8 @@ fn table_of(row: &Row) -> Option<Table> {
     }
 }
 
-/// Returns whether all addresses start with the digit of a Modbus table.
+/// Returns whether the first digits of the printed addresses identify Modbus tables. At least one address must be that
+/// of a holding or input register. All other addresses must belong to Boolean rows.
 fn is_classic(rows: &[Row]) -> bool {
     let mut any = false;
     for row in rows {
@@ -149,7 +151,7 @@ fn is_classic(rows: &[Row]) -> bool {
     any
 }
 
-/// Determines the properties that all rows of a Modbus table share.
+/// Determines the base address and the order of words and bytes that all rows of a Modbus table share.
 fn space(table: Table, rows: &[Row], from_one: bool, diagnostics: &mut Diagnostics) -> Space {
     let in_table = || rows.iter().filter(move |row| table_of(row) == Some(table));
     let numbers = || {
@@ -228,7 +230,7 @@ fn objects_agree(rows: &[Row], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns one unique text for each address that a row occupies.
+/// Returns a text for each item of a row that identifies the first address of the item.
 fn addresses(row: &Row) -> Vec<String> {
     let count = row.count.unwrap_or(1);
     let stride = row.ty.size().unwrap_or(16).div_ceil(16).max(1);

@@ -21,12 +21,11 @@
 //! | `cells`, `types`, `address`, `values` | content of a single cell |
 //! | `style` | notation of a whole column: decimal comma, hexadecimal addresses, limits in physical units |
 //! | `rows` | address, type and access rights of each row |
-//! | `facts` | other properties of a row: unit, factor, limits, named values, documentation |
+//! | `facts` | further attributes of a row: unit, factor, limits, named values, documentation |
 //! | `layout` | chapters and spaces of the rows; repeated names and addresses |
 //! | `write` | the table as TOML |
 //!
-//! The import reports unreadable cells. If a line cannot become a row, the import reports the line and keeps it as a
-//! comment.
+//! The import reports unreadable cells, and lines that cannot become rows. Such lines are kept as comments.
 #![forbid(unsafe_code)]
 
 mod address;
@@ -60,7 +59,8 @@ pub struct Options {
     pub levels: Levels,
     /// The fields of columns that the caller identifies. A column is identified by its title, or by `#` and its number.
     pub map: Vec<(Field, String)>,
-    /// Delimiter between cells. By default, the delimiter with the most recognized titles is used.
+    /// Delimiter between cells. By default, the delimiter comes from a first line such as `sep=;`. Without such a line,
+    /// the delimiter with the most recognized titles is used.
     pub delimiter: Option<u8>,
     /// Name of the device. The default name is the file name.
     pub name: Option<String>,
@@ -151,7 +151,7 @@ fn divide(source: &Source, options: &Options) -> Result<(Records, Columns), Stri
     }
 }
 
-/// Reports all columns that are not imported in a single diagnostic.
+/// Reports all columns that are not imported, in a single diagnostic.
 fn unknown_columns(records: &Records, columns: &Columns, diagnostics: &mut Diagnostics) {
     let Some(header) = columns.header.and_then(|line| records.list.get(line)) else { return };
     let is_known = |at: usize| columns.list.iter().any(|column| column.at == at);

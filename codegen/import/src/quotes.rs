@@ -8,8 +8,8 @@ use super::records::{visible, Cell, Record, Records};
 /// Delimiter between cells.
 pub(super) const TAB: u8 = b'\t';
 
-/// Returns whether a quoted cell contains tabs and line ends. Such a cell contains the texts of other cells, because a
-/// quotation mark was misinterpreted.
+/// Returns whether a quotation mark is not closed, or a cell contains both tabs and line ends. Such a cell contains the
+/// texts of other cells, because a quotation mark was misinterpreted.
 pub(super) fn swallows(records: &Records) -> bool {
     let cells = || records.list.iter().flat_map(|record| &record.cells);
     records.unclosed.is_some() || cells().any(|cell| cell.text.contains('\t') && cell.text.contains('\n'))

@@ -287,8 +287,8 @@ impl Reader<'_, '_> {
         Err(reason)
     }
 
-    /// Returns the object address of a row that also has a register address. An index is a misprint if it does not have
-    /// four digits.
+    /// Returns the object address of a row that also has a register address. An index with the prefix `0x` is a
+    /// misprint if it does not have four digits.
     fn object(&mut self, cell: &Cell, sub: &str) -> Option<(u16, Option<u8>)> {
         let digits = cell.text.split([':', '/', '.']).next().unwrap_or_default().chars();
         let is_marked = cell.text.starts_with("0x") || cell.text.starts_with("0X");
@@ -458,8 +458,8 @@ impl Reader<'_, '_> {
         ty
     }
 
-    /// Compares the size of a type with the size of its row. If the row size is a multiple of the type size, the type
-    /// becomes an array.
+    /// Compares the size of a type with the size of its row. The type becomes an array if the row size is a multiple of
+    /// the type size.
     fn compare(&mut self, record: &Record, ty: &mut Type, size: u32) {
         let of_type = ty.size().unwrap_or(size);
         // A value that is smaller than a register occupies a whole register. A length column may contain bytes or bits.

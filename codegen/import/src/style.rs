@@ -46,14 +46,14 @@ impl Style {
     }
 }
 
-/// Returns whether a limit of an integer has decimal places. Such a limit is a physical value.
+/// Returns whether a limit or default value of a scaled integer has decimal places. Such a number is a physical value.
 fn has_physical_limit(record: &Record, columns: &Columns, comma: bool) -> bool {
     let text = |field| columns.get(field).map_or("", |column| record.text(column.at));
     let factors = [Field::Scale, Field::Divisor, Field::Decimals, Field::Exponent];
     let is_scaled = factors.into_iter().any(|field| !cells::is_blank(text(field)))
         || cells::unit(text(Field::Unit), comma).1.is_some();
     let is_integer = types::read(text(Field::Type)).is_none_or(|ty| ty.base != Base::Float);
-    // If addresses also have a decimal point, `.0` does not indicate decimal places.
+    // The ending `.0` does not indicate decimal places if addresses also have a decimal point.
     let prints_points = matches!(cells::number(text(Field::Reg), comma), Some(cells::Number::Real(_)));
     let is_fraction = |number: cells::Number| match number {
         cells::Number::Real(value) => value.fract() != 0.0 || !prints_points,

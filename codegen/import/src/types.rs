@@ -15,7 +15,7 @@ pub(super) enum Base {
     Exponent,
 }
 
-/// The properties of a type that its name states.
+/// The attributes of a type that its name states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Written {
     pub base: Base,

@@ -64,8 +64,8 @@ fn after_mark(text: &str, at: usize) -> bool {
     text.get(..at).is_some_and(|before| before.trim_end().ends_with([',', ';', '|', '/', '\n', '\r', '(']))
 }
 
-/// Parses the start of an entry: `0 =`, `Bit 3:`, `0x10 -`, `3..7 =`. If `strict` is set, the start of an entry is rejected if
-/// it could be part of a name.
+/// Parses the start of an entry: `0 =`, `Bit 3:`, `0x10 -`, `3..7 =`. If `strict` is set, a start that could be part of
+/// a name is rejected.
 fn head(text: &str, strict: bool) -> Option<Head> {
     let lower = text.get(..text.len().min(8)).unwrap_or(text).to_ascii_lowercase();
     let word = ["bits", "bit", "b", "d"].into_iter().find(|word| {

@@ -11,7 +11,8 @@ use super::rows::{Row, RowAddress};
 /// Maximum width in characters to which keys are padded.
 const MAX_KEY: usize = 36;
 
-/// Returns a TOML string. Adds a space before a leading `$`, because `$` would refer to an option.
+/// Returns a TOML string. Adds a space before a leading `$` that a lower-case letter follows, because such a text would
+/// refer to an option.
 pub(super) fn quoted(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 2);
     out.push('"');

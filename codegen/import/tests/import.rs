@@ -208,8 +208,8 @@ fn every_cell_that_cannot_be_read_is_told() {
     ] {
         assert!(table.contains(line), "{line}\n{table}");
     }
-    // A row with an unreadable cell is kept. If a cell should contain a list but does not, its text becomes
-    // documentation.
+    // A row with an unreadable cell is kept. The text of a cell becomes documentation if the cell should contain a list
+    // but does not.
     assert!(table.contains("doc = \"Off/On\"") && table.contains("reg = 4, type = \"u8\""), "{table}");
 }
 
@@ -372,7 +372,7 @@ fn limits_with_a_decimal_point_are_physical() {
     let list = "Address;Name;Type;Unit;Factor;Min;Max;Default\n40001;Set point;INT16;°C;0.1;-20.0;200.0;25.0\n";
     let table = read(list).table.expect("a table");
     assert!(table.contains("min = -200, max = 2000, default = 250"), "{table}");
-    // If addresses also end with `.0`, the decimal point does not mean that limits are physical values.
+    // The decimal point does not mean that limits are physical values if addresses also end with `.0`.
     let list = list.replace("40001;", "40001.0;");
     let table = read(&list).table.expect("a table");
     assert!(table.contains("min = -20, max = 200, default = 25"), "{table}");
@@ -606,7 +606,7 @@ fn an_index_beside_a_number_without_a_title_that_says_so() {
     let import = read("Register,Address,Name,Type,Access\n198,0x20C6,a,u16,rw\n199,0x20C7,b,u16,rw\n");
     assert_eq!(findings(&import), [(2, 5, "CSV007")]);
     assert_eq!(rows(&import)[0], r#"a = { reg = 198, obj = 0x20C6, type = "u16", access = "rw" }"#);
-    // If two columns contain addresses of the same register, the second address is not an object index.
+    // The second address is not an object index if two columns contain addresses of the same register.
     let import = read("Register,Address,Name,Type,Access\n40001,0x0000,a,u16,rw\n40002,0x0001,b,u16,rw\n");
     assert_eq!((findings(&import), import.table.unwrap().contains("first = 40001")), (vec![], true));
 }

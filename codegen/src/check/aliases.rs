@@ -25,8 +25,8 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the location of the reference, type or limit that an overlay states. If no overlay states any of them,
-/// returns the location of the row.
+/// Returns the location of the first reference, type or limit that comes from an overlay, or the location of the row if
+/// none does.
 fn difference_span(item: &Item, alias: &ItemRef) -> Span {
     let row = item.origin.span;
     let facts = [alias.span, item.at.ty, item.at.low, item.at.high];
@@ -56,8 +56,8 @@ fn replacement(device: &Device, item: &Item, diagnostics: &mut Diagnostics) {
 fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
     let mut found = Vec::new();
     let types = (owner.basic(one.ty), owner.basic(other.ty));
-    // One item contains only a part of the value, such as its lower half, which has other limits and names than the
-    // whole value.
+    // The shorter item contains only a part of the value, such as its lower half, which has other limits and names than
+    // the whole value.
     if types.0.bits().zip(types.1.bits()).is_some_and(|(one, other)| one < other) {
         return found;
     }
@@ -102,7 +102,7 @@ fn quantities(one: &Quantity, other: &Quantity) -> Vec<String> {
     found
 }
 
-/// Returns the first value or bit that has different names in the two types.
+/// Returns a text about the first value or bit whose names differ between the two types.
 fn names(one: &Shape, other: &Shape) -> Option<String> {
     let what = match one {
         Shape::BitField { .. } => "bit",
@@ -145,7 +145,7 @@ fn labels(shape: &Shape) -> Labels<'_> {
     labels
 }
 
-/// Returns the values or bits that only one of two types names.
+/// Returns a text about the values or bits that only one of two types names, or about types of different kinds.
 fn meanings(one: &Shape, other: &Shape) -> Option<String> {
     let (what, one, other) = match (one, other) {
         (Shape::Enumeration { .. }, Shape::Enumeration { .. }) => ("value", named(one), named(other)),

@@ -33,7 +33,8 @@ pub(super) fn called(field: &BitFieldEntry) -> String {
     }
 }
 
-/// Reports bit-field entries outside of the underlying integer. `used` returns the first use of the type.
+/// Returns a diagnostic if bit-field entries are outside of the underlying integer. `used` returns the first use of the
+/// type.
 fn outside(
     definition: &TypeDef,
     base: Type,

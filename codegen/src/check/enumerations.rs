@@ -26,7 +26,7 @@ pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports overlapping codes of code tables.
+/// Reports the first two overlapping codes of each code table.
 pub(super) fn code_tables(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for table in &context.device.code_tables {
         let mut sorted: Vec<_> = table.rows.iter().collect();
@@ -45,7 +45,8 @@ pub(super) fn code_tables(context: &Context<'_>, diagnostics: &mut Diagnostics) 
     }
 }
 
-/// Returns the first two elements of a sorted list whose ranges overlap.
+/// Returns the first two elements of a sorted list whose ranges overlap, unless `are_distinct` is true for these two
+/// elements.
 fn overlap<'v, V>(
     sorted: &[&'v V],
     range: impl Fn(&V) -> (i128, i128),
@@ -66,7 +67,8 @@ fn report(owner: &str, span: Span, names: [(String, &str); 2], diagnostics: &mut
     diagnostics.push(codes::VALUE_NAMED_TWICE.at(span, message));
 }
 
-/// Reports enumeration values outside of the underlying integer. `used` returns the first use of the type.
+/// Returns a diagnostic if enumeration values are outside of the underlying integer. `used` returns the first use of
+/// the type.
 fn outside(definition: &TypeDef, base: Type, values: &[EnumValue], used: impl FnOnce() -> Span) -> Option<Diagnostic> {
     let (low, high) = base.integer_range()?;
     let mut beyond = values.iter().filter(|value| value.value < low || value.range().1 > high);

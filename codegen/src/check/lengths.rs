@@ -41,8 +41,8 @@ fn bound(owner: Owner<'_>, item: &Item, binding: &Binding, diagnostics: &mut Dia
     }
 }
 
-/// Returns whether the length of an integer is not a whole number of bytes. A Boolean is excluded, because it occupies
-/// a whole register.
+/// Returns whether the length of an integer is not a whole number of bytes. A single bit is excluded, because it
+/// occupies a whole register.
 fn is_odd(owner: Owner<'_>, item: &Item, bits: u32) -> bool {
     matches!(owner.basic(item.ty), Type::Integer(_) | Type::Unsigned(_)) && bits > 1 && !bits.is_multiple_of(8)
 }

@@ -25,7 +25,8 @@ pub(super) fn direction_of(mapping: u16) -> Option<Direction> {
 pub(super) struct Described<'a> {
     pub device: &'a Device,
     pub entries: Entries<'a>,
-    /// Indices of the device's objects, including those of further axes. The set is built at the first lookup.
+    /// Indices of the device's objects, including mapping objects of PDOs and objects of further axes. The set is built
+    /// at the first lookup.
     indices: OnceCell<HashSet<u16>>,
 }
 
@@ -88,7 +89,7 @@ impl Mapped {
         let length = length.map(|bits| {
             (&codes::MAPPED_LENGTH, format!("is mapped with {}, but the object has {bits}", count_of(self.bits, "bit")))
         });
-        // If the source does not state whether PDOs can map the item, any mapping is accepted.
+        // Any mapping is accepted if the source does not state whether PDOs can map the item.
         let unmappable = !item.mappable.any() && !item.at.mappable.is_empty();
         let unmappable = unmappable.then(|| (&codes::NOT_MAPPABLE, "is mapped, but not mappable".to_owned()));
         let direction = wrong_direction(item, self.direction).map(|problem| (&codes::WRONG_DIRECTION, problem));
@@ -119,7 +120,8 @@ pub(super) fn pdo_name(direction: Direction) -> &'static str {
     }
 }
 
-/// Returns the indices of a device's objects, including those of further axes. The set is empty if the device has no objects.
+/// Returns the indices of a device's objects, including mapping objects of PDOs and objects of further axes. The set is
+/// empty if no item has an object address.
 pub(super) fn indices(device: &Device) -> HashSet<u16> {
     let mut known: HashSet<u16> = device.items().filter_map(|item| Some(item.object()?.0)).collect();
     if known.is_empty() {

@@ -6,10 +6,10 @@ use crate::ir::{
 };
 use crate::text::count_of;
 
-/// A limit in bytes, and the position of the device that has this limit in the catalog.
+/// A limit in bytes, and the position in the catalog of the device that has this limit.
 type Limit = Option<(u32, usize)>;
 
-/// The minimum of the limits of all devices that accept a module or submodule.
+/// The lowest limits of all devices that accept a module or submodule.
 #[derive(Clone, Copy, Default)]
 struct Limits {
     input: Limit,
@@ -137,7 +137,7 @@ fn slots(device: &Device, settings: &ProfinetSettings, modules: &[Module], diagn
     }
 }
 
-/// Returns sorted ranges of the numbers that neither overlap nor touch.
+/// Returns the numbers as sorted ranges that neither overlap nor touch.
 fn merged(numbers: &Numbers) -> Vec<(u16, u16)> {
     let mut ranges = numbers.0.to_vec();
     ranges.sort_unstable();

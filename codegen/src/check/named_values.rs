@@ -90,8 +90,8 @@ impl Check<'_, '_> {
             if base.integer_range().is_some_and(|(low, high)| value == low || value == high) {
                 continue;
             }
-            // A limit just after the last named value is probably wrong. A limit far after the last named value allows for
-            // further values.
+            // A limit just outside of the named values is probably wrong. A limit far outside of the named values
+            // allows for further values.
             let named = || values.iter().filter(|label| label.is_named());
             let is_slip = match is_upper {
                 true => named().any(|label| label.range().1 + 1 == value) && !named().any(|label| label.value > value),
@@ -199,7 +199,7 @@ impl Check<'_, '_> {
     }
 }
 
-/// Returns the fields whose meaning depends on neither conditions nor firmware versions.
+/// Returns the fields whose meaning depends on no condition, and that exist on all models and firmware versions.
 fn always(fields: &[BitFieldEntry]) -> impl Iterator<Item = &BitFieldEntry> {
     fields.iter().filter(|field| field.when.is_none() && field.availability.is_none())
 }

@@ -35,7 +35,8 @@ pub(super) fn has_meaning(item: &&Item) -> bool {
     !item.is_reserved
 }
 
-/// Reports duplicate names in a bit field or enumeration. Bits or values that never exist together may share a name.
+/// Reports the first duplicate name in a bit field or enumeration. Bits or values that never exist together may share a
+/// name.
 fn meanings(definition: &TypeDef, diagnostics: &mut Diagnostics) {
     let duplicate: Option<(&str, String, String)> = match &definition.shape {
         Shape::BitField { fields, .. } => {
@@ -61,7 +62,7 @@ fn meanings(definition: &TypeDef, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the first two elements of a list that share a name.
+/// Returns the first two elements of a list that share a name and are not `apart`.
 fn repeated<'v, V>(
     list: impl Iterator<Item = &'v V>,
     name: impl Fn(&'v V) -> &'v str,

@@ -36,7 +36,7 @@ fn described<'a>(context: &Context<'a>) -> impl Iterator<Item = (u16, &'a Group)
     all.filter_map(|group| Some((group.index()?, group)))
 }
 
-/// Returns the items of an object that the source describes.
+/// Returns those items of an object that the source describes.
 fn described_items(group: &Group) -> impl Iterator<Item = &Item> {
     group.items.iter().filter(|item| !item.origin.is_derived())
 }
@@ -62,7 +62,7 @@ fn sub_of(item: &Item) -> u8 {
     item.object().map_or(0, |(_, sub)| sub)
 }
 
-/// Returns the highest sub-index of an object, except 0xFF (structure of the object).
+/// Returns the highest described sub-index of an object, except 0xFF (structure of the object).
 fn highest(group: &Group) -> u8 {
     described_items(group).map(sub_of).filter(|&sub| sub != 0xFF).max().unwrap_or(0)
 }

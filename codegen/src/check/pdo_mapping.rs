@@ -110,7 +110,7 @@ impl Mapping<'_, '_> {
 
     fn count(&mut self, mapping: &Group, found: usize) {
         let Some(announced) = announced_count(mapping).filter(|&announced| announced > found as i128) else { return };
-        // If no entry of a mapping object has a value, the mapping is configured at run time.
+        // A mapping object whose entries have no values is configured at run time.
         if found == 0 {
             return;
         }

@@ -7,18 +7,17 @@ use crate::ir::{Binding, Item, ModbusTable, ObjectBuses, RegisterBinding, Regist
 /// An address of an item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Address {
-    /// Name of the bus on which the item has this address, or names of several buses.
+    /// Name of the bus or buses on which the item has this address, or the kind of address, such as `Window`.
     pub bus: &'static str,
     /// Short form of the address, as the source prints it.
     pub number: String,
-    /// Search terms: printed address and wire address. The text is empty if another address of the item has the same
-    /// search terms.
+    /// Search terms: printed address and wire address. The text is empty for indirect access.
     pub lookup: String,
     /// Complete form of the address, with all facts about the address.
     pub text: String,
 }
 
-/// Returns the addresses of an item, with the main address first. `tables` contains the requests that the device
+/// Returns the addresses of an item, in the order of its bindings. `tables` contains the requests that the device
 /// accepts on Modbus.
 pub fn addresses(item: &Item, tables: &[ModbusTable]) -> Vec<Address> {
     item.bindings.iter().map(|binding| address(binding, item, tables)).collect()
@@ -60,7 +59,8 @@ fn table(space: RegisterSpace) -> &'static str {
     }
 }
 
-/// Returns the wire address: `0x6040:00`, `register 101.3`, `record 0x0001 bit 8`.
+/// Returns the short form of an address, with the wire address of a register: `0x6040:00`, `register 101.3`, `record
+/// 0x0001 bit 8`.
 pub fn number(binding: &Binding) -> String {
     match binding {
         Binding::Object { index, sub_index, .. } => object(*index, *sub_index),
@@ -82,7 +82,7 @@ pub fn object(index: u16, sub_index: u8) -> String {
     format!("0x{index:04X}:{sub_index:02X}")
 }
 
-/// Returns the bus or buses of an address.
+/// Returns the bus or buses of an address, or the kind of an address that belongs to no single bus.
 pub fn bus(binding: &Binding) -> &'static str {
     match binding {
         Binding::Object { buses, .. } => object_bus(*buses),

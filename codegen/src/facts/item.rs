@@ -5,7 +5,8 @@ use super::types;
 use super::words::PLAIN;
 use crate::ir::{Item, Limits, Mappable, Quantity, Scale, Type, TypeDef, Value};
 
-/// Returns a value of an item as text, physical value first. `types` are the types of the device or module that has the item.
+/// Formats a value of an item. The physical value comes before the raw value. `types` are the types of the device or
+/// module that has the item.
 pub fn value(item: &Item, value: &Value, types: &[TypeDef]) -> String {
     let basic = types::basic(types, item.ty);
     PLAIN.of_item(item, value, &|value| raw(item, value, basic))
@@ -37,7 +38,8 @@ pub fn default_cell(item: &Item, types: &[TypeDef]) -> String {
     }
 }
 
-/// Returns the range for a table that has a column for units: `-20.0 … 200.0`. The text is empty if the range is that of the type.
+/// Returns the range for a table that has a column for units: `-20.0 … 200.0`. The text is empty if the item has no
+/// limits, or if the range is that of the type.
 pub fn range_cell(item: &Item, types: &[TypeDef], shown: usize) -> String {
     let (limits, basic) = (&item.limits, types::basic(types, item.ty));
     if limits.allowed.is_empty()
@@ -62,7 +64,8 @@ pub fn range_cell(item: &Item, types: &[TypeDef], shown: usize) -> String {
     }
 }
 
-/// Returns the unit of the physical value, or an empty text if outputs only show the raw value.
+/// Returns the unit of the physical value. The text is empty if the item has no unit, or if its scale has an exponent
+/// item.
 pub fn unit(item: &Item) -> &str {
     match item.quantity.as_deref() {
         Some(Quantity { scale: Some(Scale::Exponent { .. }), .. }) | None => "",

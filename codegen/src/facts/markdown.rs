@@ -1,6 +1,6 @@
 //! Texts in Markdown: doc comments and pages.
 
-/// Returns a text as one line of Markdown without markup. Characters for which `keep` is false become spaces.
+/// Escapes a text so that Markdown shows it literally. Characters for which `keep` is false become spaces.
 pub fn escape(text: &str, keep: fn(char) -> bool) -> String {
     let mut escaped = String::with_capacity(text.len() + 8);
     let mut start = true;

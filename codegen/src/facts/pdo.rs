@@ -11,7 +11,8 @@ use crate::ir::{
 /// Maximum length in bits of a mapped entry. A mapping value has 8 bits for the length of the entry.
 pub const MAX_ENTRY: u32 = 0xFF;
 
-/// Returns the buses on which a device has objects.
+/// Returns the buses on which a device has objects. A device with neither CANopen nor EtherCAT settings counts as a
+/// CANopen device.
 pub fn buses(device: &Device) -> ObjectBuses {
     let is_ethercat = device.ethercat.is_some() || device.dictionary_only;
     ObjectBuses { canopen: device.canopen.is_some() || !is_ethercat, coe: is_ethercat }

@@ -22,8 +22,8 @@ impl<'q> Physical<'q> {
         (!is_raw).then_some(Physical { unit, scale })
     }
 
-    /// Returns the physical number, such as `25.0` for raw value 250 with scale factor 0.1. Returns `None` if the scale factor depends on
-    /// another item, a model or the machine.
+    /// Returns the physical number, such as `25.0` for raw value 250 with scale factor 0.1. Returns `None` if the scale
+    /// depends on another item or on the model, or if the raw value has no physical value.
     fn number(&self, raw: &Value) -> Option<String> {
         match *self.scale {
             Scale::Linear { factor, offset } => linear(raw, factor, offset),
@@ -77,7 +77,8 @@ impl<'q> Physical<'q> {
         }
     }
 
-    /// Returns whether the conversion has a pole (division by zero) between two raw values.
+    /// Returns whether the range from `low` to `high` contains a pole of the conversion (division by zero). A range
+    /// without a limit is unbounded on this side.
     fn has_pole_in(&self, low: Option<&Value>, high: Option<&Value>) -> bool {
         let is_above = |value: Option<&Value>| value.and_then(Value::as_real).is_some_and(|value| value > 0.0);
         let is_below = |value: Option<&Value>| value.and_then(Value::as_real).is_some_and(|value| value < 0.0);
@@ -180,7 +181,8 @@ impl Decimal {
     }
 }
 
-/// Formats a number with at most six significant digits. Very small and large numbers have scientific notation.
+/// Formats a number with at most six significant digits, but with all digits before the decimal point. Very small and
+/// very large numbers have scientific notation.
 fn short(number: f64) -> String {
     if number == 0.0 || !number.is_finite() {
         return (number + 0.0).to_string();

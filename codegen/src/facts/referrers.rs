@@ -25,8 +25,8 @@ pub enum Referrer<'d> {
     WritableWhen(ItemId),
     /// An item that this item replaces.
     Replaced(ItemId),
-    /// An item with the same value or quantity, with the other half of the value, or with the number of this item's
-    /// elements.
+    /// An item with the same value or quantity, with the lower half of the value, or with the elements that this item
+    /// counts.
     Related(ItemId),
 }
 
@@ -61,7 +61,8 @@ impl<'d> Referrers<'d> {
         referrers
     }
 
-    /// Returns the elements that refer to an item, grouped by their kind.
+    /// Returns the elements that refer to an item: PDOs, state machines, procedures, messages, composite numbers,
+    /// types, and items.
     pub fn of(&self, item: ItemId) -> &[Referrer<'d>] {
         self.0.get(&item).map_or(&[], Vec::as_slice)
     }
@@ -89,7 +90,7 @@ impl<'d> Referrers<'d> {
         items.into_iter().for_each(|item| self.add(item.id, referrer));
     }
 
-    /// Adds a referrer, unless the item already has it.
+    /// Adds a referrer, unless it is the last one that was added to the item.
     fn add(&mut self, item: Option<ItemId>, referrer: Referrer<'d>) {
         let Some(item) = item else { return };
         let referrers = self.0.entry(item).or_default();

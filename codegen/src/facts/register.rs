@@ -24,7 +24,7 @@ impl RegisterSpace {
     }
 }
 
-/// Returns the printed addresses: `40102–40103`, `R01`. If the source prints no addresses, returns the wire addresses.
+/// Returns the printed addresses: `40102–40103`, `R01`. Returns the wire addresses if the source prints no addresses.
 pub fn printed(register: &RegisterBinding) -> String {
     match register.printed.as_str() {
         "" => wire(register),
@@ -72,7 +72,8 @@ pub fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> 
     format!("{} ({})", printed(register), facts.join("; "))
 }
 
-/// Returns the function codes that read and write an item at this register, if the device accepts them.
+/// Returns the function codes that read and write an item at this register, if the device accepts them and the access
+/// rights allow it.
 pub fn functions(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> Vec<u8> {
     /// Mask Write Register, which changes some bits of a register. A description must list this function because it is
     /// optional.

@@ -28,7 +28,7 @@ pub fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Returns the manual that a description was transcribed from.
+/// Returns the manual that a description was transcribed from, or an empty manual.
 pub fn manual(device: &Device) -> Manual {
     device.manual.as_deref().cloned().unwrap_or_default()
 }
@@ -50,8 +50,8 @@ pub const ALLOWED_SHOWN: usize = 16;
 /// Maximum number of sections in a citation.
 const SECTIONS_NAMED: usize = 3;
 
-/// Returns section, row and page of a manual: `PARAMETRI MOVIMENTO, Rvel (page 12)`. If no section is known, returns only the
-/// page or the line.
+/// Returns section, row and page of a manual: `PARAMETRI MOVIMENTO, Rvel (page 12)`. Returns only the page or the line
+/// if no section is known.
 fn citation(manual: &Manual, row: &str, cite: &str) -> String {
     let numbers = cite.split(',').filter_map(|part| part.split('-').next()?.trim().parse().ok());
     let mut sections: Vec<&str> = Vec::new();
@@ -88,7 +88,7 @@ fn citation(manual: &Manual, row: &str, cite: &str) -> String {
     }
 }
 
-/// Returns `text` with a full stop at its end.
+/// Returns `text` with a full stop at its end, unless it already ends with a punctuation mark.
 pub fn sentence(text: &str) -> String {
     match text.ends_with(['.', '!', '?', ':']) {
         true => text.to_owned(),
@@ -271,7 +271,7 @@ impl Words<'_> {
         }
     }
 
-    /// Formats a value as hexadecimal bit pattern.
+    /// Formats a value as a hexadecimal bit pattern.
     fn bits(&self, value: &Value) -> String {
         match value.as_int().and_then(|number| u64::try_from(number).ok()) {
             Some(0) => "0".to_owned(),
@@ -330,7 +330,8 @@ impl Words<'_> {
         }
     }
 
-    /// Formats a value of an item: physical value first, names of the flags of a COB-ID, or otherwise the result of `raw`.
+    /// Formats a value of an item: a COB-ID with its flags, a special value with its meaning, a reference to an object
+    /// in hexadecimal, a physical value with the raw value, or otherwise the result of `raw`.
     pub fn of_item(&self, item: &Item, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
         let cob_id = cob_id::of(item).and_then(|kind| cob_id::text(value, kind));
         match (cob_id, Physical::of(item.quantity.as_deref())) {
@@ -463,8 +464,8 @@ impl Words<'_> {
         format!("Manual{separator} {}", self.escaped(&citation(manual, row, cite)))
     }
 
-    /// Returns the citation of an element and its name in the manual: `Manual: PARAMETRI MOVIMENTO, Rvel (page 12): Posizione.`
-    /// Without a citation, returns `Name in the manual: Posizione.`
+    /// Returns the citation of an element and its name in the manual: `Manual: PARAMETRI MOVIMENTO, Rvel (page 12):
+    /// Posizione.` Returns `Name in the manual: Posizione.` if there is no citation.
     pub fn manual_entry(
         &self,
         manual: &Manual,

@@ -441,8 +441,8 @@ pub struct Availability {
     pub since: Option<CompactString>,
     /// First later firmware version that no longer has the element.
     pub until: Option<CompactString>,
-    /// Replacement for the element: an item or message. The replacement for a bit or value is another bit or value. The reference
-    /// to it has no id.
+    /// Replacement for the element. An item or message replaces an item or message, and a bit or value replaces a bit
+    /// or value. A reference to a bit or value has no id.
     pub replaced_by: Option<ElementRef>,
     /// Hardware options that the element requires.
     pub options: Vec<CompactString>,

@@ -43,7 +43,7 @@ pub struct Fmmu {
     pub sync_manager: Option<u8>,
     /// Number of the sync unit that the FMMU maps, if given.
     pub sync_unit: Option<u8>,
-    /// True if the FMMU is enabled only in the state Op.
+    /// True if the FMMU is enabled only in the state "Op".
     pub op_only: bool,
 }
 
@@ -258,7 +258,7 @@ pub struct Eeprom {
     pub byte_size: Option<u32>,
     /// First words of the EEPROM, which configure the slave controller.
     pub config_data: Vec<u8>,
-    /// Mailbox configuration of the Bootstrap state.
+    /// Mailbox configuration for the state "Bootstrap".
     pub boot_strap: Vec<u8>,
     /// Numbers and contents of further EEPROM categories.
     pub categories: Vec<(u16, Vec<u8>)>,

@@ -70,7 +70,8 @@ impl Fact {
         }
     }
 
-    /// Returns whether the description of an item states this fact.
+    /// Returns whether the description of an item states this fact. Addresses, type, access rights and PDO mapping
+    /// always count as stated.
     pub(crate) fn is_stated(self, item: &Item) -> bool {
         match self {
             Fact::Name => !item.name.is_empty(),
@@ -136,8 +137,8 @@ impl FactOrigin {
         }
     }
 
-    /// Returns whether a fact of this origin replaces a fact of the origin `present`. Of two overlays, the later one
-    /// takes precedence. Of two standards, the first one takes precedence.
+    /// Returns whether a fact of this origin replaces a fact of the origin `present`. `None` means that there is no
+    /// such fact yet. The later of two overlays takes precedence, and the first of two standards.
     pub(crate) fn takes_precedence_over(&self, present: Option<&FactOrigin>) -> bool {
         let Some(present) = present else { return true };
         self.rank() > present.rank() || matches!(self, FactOrigin::Overlay { .. })

@@ -20,7 +20,7 @@ pub(crate) fn compare(one: Option<&str>, other: Option<&str>) -> Option<Ordering
     Some(version(one?)?.cmp(&version(other?)?))
 }
 
-/// Returns whether two elements never exist together, on any model and firmware version.
+/// Returns whether two elements never exist together, because they have no model or no firmware version in common.
 pub(crate) fn apart(one: Option<&Availability>, other: Option<&Availability>) -> bool {
     let (Some(one), Some(other)) = (one, other) else { return false };
     let before = |first: &Availability, second: &Availability| {

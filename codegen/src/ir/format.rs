@@ -66,7 +66,8 @@ impl Format {
         }
     }
 
-    /// Returns the help text for a default value whose notation depends on the element (DefaultData of ETG.2000).
+    /// Returns a help text for a default value in an ESI, whose notation depends on the element (DefaultData of
+    /// ETG.2000). Returns `None` for other formats.
     pub(crate) fn default_forms(self, default: u8) -> Option<String> {
         let forms = || format!("write `{default:02X}` in DefaultData, or `{default}` in DefaultValue");
         (self == Format::Esi).then(forms)

@@ -121,7 +121,7 @@ impl Item {
         }
     }
 
-    /// Returns the variants of the item on a bus that apply to all models.
+    /// Returns the variants of the item that apply to a bus and to all models.
     fn variants_on(&self, bus: Bus) -> impl Iterator<Item = &ItemVariant> {
         self.variants.iter().filter(move |variant| variant.models.is_empty() && variant.buses.contains(bus))
     }
@@ -142,19 +142,19 @@ impl Item {
         self.variants_on(bus).find_map(|variant| variant.access).unwrap_or(self.access)
     }
 
-    /// Returns the limits of the item on a bus, if they differ from [`Item::limits`].
+    /// Returns the limits of the item on a bus, if a variant states limits for this bus.
     pub fn limits_on(&self, bus: Bus) -> Option<&Limits> {
         self.variants_on(bus)
             .map(|variant| &variant.limits)
             .find(|limits| !limits.is_empty() || !limits.allowed.is_empty())
     }
 
-    /// Returns the value of the item that a DCF sets.
+    /// Returns the value of the item that a configuration file (DCF, XDC) sets.
     pub fn configured_value(&self) -> Option<&Value> {
         self.configured.as_ref()?.value.as_ref()
     }
 
-    /// Returns the initial value of the item: the value that a DCF sets, or the default value.
+    /// Returns the initial value of the item: the value that a configuration file sets, or the default value.
     pub fn initial(&self) -> Option<&Value> {
         self.configured_value().or(self.default.as_ref())
     }

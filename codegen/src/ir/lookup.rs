@@ -38,7 +38,7 @@ impl<'a> Entries<'a> {
         }
     }
 
-    /// Returns whether the device or module has neither objects nor chapters of registers.
+    /// Returns whether the device or module has no groups.
     pub fn is_empty(&self) -> bool {
         self.groups.is_empty()
     }

@@ -134,8 +134,8 @@ pub enum MessageField {
         /// First and last byte of the copy, counted from 0 in the order on the wire; `None` = all.
         bytes: Option<(u8, u8)>,
     },
-    /// A copy of bytes of the request, regardless of their meaning. The first data byte has the number 0. If the request is
-    /// shorter, the missing bytes are unknown.
+    /// A copy of bytes of the request, regardless of their meaning. The first data byte has the number 0. Bytes that a
+    /// shorter request lacks are unknown.
     Copy {
         /// Number of the first copied byte in the request.
         first: u16,
@@ -268,7 +268,7 @@ pub struct CodeRow {
     /// The code or range as printed (`0x8700`, `F125`, `0xFF13 to 0xFF15`); empty if the source prints decimal numbers.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub printed: CompactString,
-    /// Cells of the further columns as printed. For a cell that is not a hexadecimal number, the text is empty.
+    /// Cells of the further columns as printed. The text is empty for a cell that is not a hexadecimal number.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub printed_cells: Vec<CompactString>,
     /// Code, or first code of a range.

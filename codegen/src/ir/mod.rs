@@ -14,8 +14,9 @@
 //!   accept the same modules.
 //! - [`CodeTable`]s, [`StateMachine`]s and [`Procedure`]s are the parts of a manual that are not items.
 //!
-//! Every element has an [`Origin`](crate::source::Origin). A [`Doubt`] describes an ambiguity in the source and the
-//! assumption that was made. Facts without a field in the IR are kept as [`Extension`]s.
+//! Most elements have an [`Origin`](crate::source::Origin) or a [`Span`](crate::source::Span). A [`Doubt`] describes an
+//! ambiguity in the source and the assumption that was made. Facts without a field in the IR are kept as
+//! [`Extension`]s.
 //!
 //! The IR can hold contradictory descriptions, because it holds what the source states. The lints of the module `check` report
 //! contradictions.

@@ -120,10 +120,9 @@ pub struct Module {
 pub struct SubExtension {
     /// Index of the object.
     pub index: u16,
-    /// Number of sub-indices that the module adds.
+    /// Number of sub-indices that the module adds; 0 if it adds bits to a common sub-index.
     pub count: u16,
-    /// Number of modules that together add one set of sub-indices and share it bit by bit; `None` = each module adds its own
-    /// sub-indices.
+    /// Number of bits that each module adds to a common sub-index; `None` = each module adds its own sub-indices.
     pub per: Option<u16>,
     /// True if the object at the next index contains the sub-indices that no longer fit into the object (ObjExtend).
     pub extends_object: bool,

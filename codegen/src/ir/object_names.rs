@@ -3,22 +3,23 @@
 use super::owner::object;
 use super::{CompactString, Condition, Group, Item, ItemRef, Shape, TypeDef};
 
-/// Returns the objects whose indices are between `first` and `last`. Groups have to be sorted as for
-/// [`Device::object`](super::Device::object).
+/// Returns the objects whose indices are in the range from `first` to `last`, inclusive. Groups have to be sorted as
+/// for [`Device::object`](super::Device::object).
 pub(crate) fn in_range(groups: &mut [Group], first: u16, last: u16) -> &mut [Group] {
     let start = groups.partition_point(|group| group.index() < Some(first));
     let end = groups.partition_point(|group| group.index() <= Some(last));
     groups.get_mut(start..end).unwrap_or_default()
 }
 
-/// Returns the item if `name` is an index, or an index and sub-index, such as `0x1018:1`.
+/// Returns the item at the address `name`: an index, or an index and sub-index, such as `0x1018:1`.
 pub(crate) fn item_at<'g>(groups: &'g [Group], name: &str) -> Option<&'g Item> {
     let (index, sub_index) = object(name)?;
     let position = groups.binary_search_by_key(&Some(index), Group::index).ok()?;
     groups.get(position)?.sub(sub_index)
 }
 
-/// If the item of a reference has a name, returns the reference with this name instead of index and sub-index.
+/// Returns the reference with the name of its item instead of index and sub-index. Returns the unchanged reference if
+/// the item has no name.
 pub(crate) fn item_name(groups: &[Group], reference: &ItemRef) -> ItemRef {
     match item_at(groups, reference) {
         Some(item) if !item.name.is_empty() => ItemRef { name: item.name.clone(), ..reference.clone() },

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use super::{EnumValue, Group, Item, ItemId, ItemPaths, Shape, Type, TypeDef, TypeId, Value, Zone};
 use crate::source::Span;
 
-/// Maximum length of a chain of type aliases.
+/// Maximum number of definitions that the search for an underlying type follows.
 const MAX_ALIASES: usize = 16;
 
 /// Groups of items, and the types of these items.
@@ -41,7 +41,7 @@ impl<'a> Owner<'a> {
         self.groups.iter().flat_map(|groups| groups.iter()).flat_map(|group| &group.items)
     }
 
-    /// Returns the definition of a type, after following aliases.
+    /// Returns the definition of a named type, after following aliases.
     pub fn definition(self, ty: Type) -> Option<&'a TypeDef> {
         let mut ty = ty;
         for _ in 0..MAX_ALIASES {
@@ -65,7 +65,8 @@ impl<'a> Owner<'a> {
         }
     }
 
-    /// Returns the basic type under aliases, bit fields, enumerations and scaled types.
+    /// Returns the basic type under aliases, bit fields, enumerations and scaled types. Arrays and records are returned
+    /// unchanged.
     pub fn basic(self, ty: Type) -> Type {
         let mut ty = ty;
         for _ in 0..MAX_ALIASES {
@@ -97,7 +98,7 @@ impl<'a> Owner<'a> {
     }
 }
 
-/// First use of each type. The map is built when it is first used, because only diagnostics need the map.
+/// First use of each type. The map is built at the first lookup, because only diagnostics need the map.
 pub(crate) struct TypeUses<'a> {
     uses: OnceCell<HashMap<TypeId, Span>>,
     owner: Owner<'a>,
@@ -108,7 +109,7 @@ impl<'a> TypeUses<'a> {
         TypeUses { uses: OnceCell::new(), owner }
     }
 
-    /// Returns the location of the first use of a type, or of its definition.
+    /// Returns the location of the first use of a type, or of its definition if no item has this type.
     pub fn first(&self, id: TypeId) -> Span {
         let defined = || self.owner.types.get(id.0 as usize).map(|definition| definition.origin.span);
         self.uses().get(&id).copied().or_else(defined).unwrap_or_default()
@@ -179,7 +180,7 @@ impl<'a> Index<'a> {
     }
 }
 
-/// Parses an index and sub-index: `0x6040`, `0x1018:1`.
+/// Parses an index and sub-index: `0x6040`, `0x1018:1`. A missing sub-index is 0.
 pub(crate) fn object(text: &str) -> Option<(u16, u8)> {
     let (index, sub_index) = text.split_once(':').unwrap_or((text, "0"));
     let number = |text: &str| match text.strip_prefix("0x") {

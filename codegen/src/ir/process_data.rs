@@ -9,7 +9,8 @@ use crate::source::Origin;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ProcessData {
-    /// PDOs: RPDOs, then TPDOs, each sorted by number.
+    /// PDOs. In vendor files, RPDOs come before TPDOs. They are sorted by number on CANopen, and in the order of the
+    /// file on EtherCAT.
     pub pdos: Vec<Pdo>,
     /// Sync managers of an EtherCAT slave, sorted by number.
     pub sync_managers: Vec<SyncManager>,
@@ -23,7 +24,8 @@ pub const MAX_PDO_SUBS: usize = 254;
 impl ProcessData {
     /// Returns the PDOs that are assigned by default, with their sync managers: outputs, then inputs, in the order of the source.
     ///
-    /// If PDOs exclude each other or share an index, only the first of these PDOs is assigned (ETG.2000, Sm of RxPdo and TxPdo).
+    /// Only the first of several PDOs is assigned if these PDOs exclude each other or share an index (ETG.2000, Sm of
+    /// RxPdo and TxPdo).
     pub fn assigned_by_default(&self) -> Vec<(&Pdo, u8)> {
         self.default_assignment().assigned
     }
@@ -195,13 +197,14 @@ impl Pdo {
         self.entries.iter().all(|entry| entry.kind != PdoEntryKind::Unnumbered)
     }
 
-    /// Returns whether the two PDOs are on different buses.
+    /// Returns whether the two PDOs have no bus in common.
     pub fn is_apart(&self, other: &Pdo) -> bool {
         let of_both = self.buses.zip(other.buses);
         of_both.is_some_and(|(one, other)| !(one.canopen && other.canopen || one.coe && other.coe))
     }
 
-    /// Returns whether the two PDOs cannot be assigned together: one excludes the other, or both describe the same PDO.
+    /// Returns whether the two PDOs cannot be assigned together: one excludes the other, or both have the same mapping
+    /// index on a common bus.
     pub fn conflicts_with(&self, other: &Pdo) -> bool {
         self.mapping_index == other.mapping_index && !self.is_apart(other)
             || self.excludes.contains(&other.mapping_index)
@@ -343,7 +346,7 @@ pub struct SyncManager {
     pub control: u8,
     /// True if the sync manager is enabled.
     pub enable: bool,
-    /// True if the sync manager is enabled only in the state Op.
+    /// True if the sync manager is enabled only in the state "Op".
     pub op_only: bool,
     /// True if the sync manager exists only in the description (Virtual of ETG.2000).
     pub is_virtual: bool,

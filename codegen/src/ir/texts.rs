@@ -1,4 +1,4 @@
-//! Collects all texts of a register table: documentation, names, side effects and steps.
+//! Collects texts of a register table: documentation, names, side effects and steps.
 
 use super::{CompactString, Device, Documentation, Item, LocalText, Shape, Step, TypeDef};
 use crate::source::Span;
@@ -11,7 +11,7 @@ pub(crate) struct Text<'a> {
     pub words: &'a str,
 }
 
-/// Returns all texts of a device.
+/// Returns the texts of the items, objects, types and procedures of a device.
 pub(crate) fn all(device: &Device) -> Vec<Text<'_>> {
     let mut list = List(Vec::new());
     for group in &device.groups {

@@ -151,7 +151,7 @@ impl Type {
         })
     }
 
-    /// Returns the minimum and the maximum of an integer type.
+    /// Returns the minimum and the maximum of an integer type or BOOLEAN.
     pub fn integer_range(self) -> Option<(i128, i128)> {
         match self {
             Type::Boolean => Some((0, 1)),
@@ -161,7 +161,8 @@ impl Type {
         }
     }
 
-    /// Returns an abbreviation of an integer type as a part of another name: `U16`, `I8`.
+    /// Returns the abbreviation of an integer type for use in a longer name: `U16`, `I8`. The text is empty for other
+    /// types.
     pub(crate) fn integer_suffix(self) -> String {
         match self {
             Type::Unsigned(bits) => format!("U{bits}"),
@@ -184,7 +185,7 @@ impl Type {
 }
 
 impl fmt::Display for Type {
-    /// Writes the name of the type in CiA 301.
+    /// Writes the name of the type in CiA 301 or IEC 61158-6-10, or a placeholder if the type has no such name.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Type::Boolean => f.write_str("BOOLEAN"),
@@ -437,7 +438,7 @@ impl EnumValue {
         (self.value, self.last.unwrap_or(self.value))
     }
 
-    /// Returns whether the value has a name, instead of being reserved or vendor-specific.
+    /// Returns whether the value is neither reserved nor vendor-specific.
     pub fn is_named(&self) -> bool {
         self.zone.is_none()
     }

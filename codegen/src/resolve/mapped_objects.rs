@@ -1,7 +1,7 @@
 //! Mapped objects of EtherCAT slaves and modules that the dictionary does not describe.
 //!
-//! If a PDO maps an object, the device has that object. If the dictionary does not describe the mapped object, the compiler adds
-//! the object with the name, type and length of the PDO entry. The line number of an added object is 0, because the file contains
+//! A device has every object that its PDOs map. The compiler adds mapped objects that the dictionary does not describe,
+//! with the name, type and length of the PDO entry. The line number of an added object is 0, because the file contains
 //! only the PDO entry.
 
 use std::collections::BTreeMap;

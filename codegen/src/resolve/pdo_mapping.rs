@@ -203,7 +203,7 @@ fn entry(items: &MappableItems<'_>, value: &MappingValue<'_>, bit_offset: u32) -
     Some(entry)
 }
 
-/// Returns whether a mapped index is that of a data type, so that the entry is a dummy entry (CiA 301 7.4.7).
+/// Returns whether a mapped index is that of a data type. An entry with such an index is a dummy entry (CiA 301 7.4.7).
 pub(crate) fn is_dummy(index: u16) -> bool {
     index < 0x20
 }

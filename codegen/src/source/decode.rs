@@ -95,7 +95,8 @@ pub(super) fn decode(mut bytes: Vec<u8>) -> Decoded {
             if charset != WINDOWS_1252 {
                 return decoded(with(charset, &bytes), Encoding::Declared, bytes);
             }
-            // In Windows-1252, each byte is one character and each such character is one byte.
+            // The original bytes are not kept, because each byte of Windows-1252 is one character and each such
+            // character is one byte.
             let (text, has_lost) = with(WINDOWS_1252, &bytes);
             Decoded { text, encoding: Encoding::Windows1252, original: None, has_lost }
         }

@@ -75,8 +75,8 @@ impl Source {
             return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is not a regular file"));
         }
         let file = std::fs::File::open(location)?;
-        // Memory for the whole file is reserved at once. If the reported length of the file is wrong or unknown, the file is
-        // still read completely.
+        // Memory for the whole file is reserved at once. The file is read completely even if its reported length is
+        // wrong or unknown.
         let length = file.metadata().map_or(0, |metadata| metadata.len());
         if length > MAX_INPUT_BYTES as u64 {
             return Err(too_large());

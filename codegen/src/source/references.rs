@@ -43,7 +43,7 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Maximum number of files that one description may refer to.
+/// Maximum number of referenced files that are read for one description.
 pub const MAX_REFERENCES: usize = 64;
 
 impl<'a> References<'a> {
@@ -52,7 +52,7 @@ impl<'a> References<'a> {
         References { main, read: Vec::new(), missing: Vec::new() }
     }
 
-    /// Opens the file with the name `name`: a path relative to the description, with `/` or `\\`.
+    /// Reads the file `name`. The name is a path relative to the folder of the description, with `/` or `\`.
     ///
     /// # Errors
     ///

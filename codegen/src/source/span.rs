@@ -56,7 +56,8 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// Returns whether the compiler derived the element from others, so that it has no position in a file.
+    /// Returns whether the compiler derived the element from other elements. A derived element has no position in a
+    /// file.
     pub fn is_derived(&self) -> bool {
         self.line == 0
     }

@@ -14,7 +14,7 @@ use crate::source::{FileId, Span};
 pub struct Document<'a> {
     text: &'a str,
     file: FileId,
-    /// Offset of the end of the text, without trailing blanks and zeros.
+    /// Offset of the end of the text, without trailing blanks, line ends, zeros and Ctrl-Z.
     end: usize,
     sections: Vec<Section>,
     preamble: Vec<Entry>,
@@ -185,7 +185,7 @@ impl<'a> Document<'a> {
         Span::new(self.file, range.0, range.1)
     }
 
-    /// Finds all lines that start with `[`.
+    /// Finds the section headers: all lines whose first character, except blanks, is `[`.
     fn headers(&mut self) {
         let bytes = &self.text.as_bytes()[..self.end];
         let (mut from, mut line, mut counted) = (0, 1, 0);
@@ -365,7 +365,7 @@ impl Iterator for Entries<'_> {
 }
 
 impl Entries<'_> {
-    /// Returns the comment after the header. Records any other text after the header as a violation.
+    /// Returns the comment after the header, or `None` if the comment is empty.
     #[cold]
     fn comment_after_header(&mut self, bytes: &[u8]) -> Option<Entry> {
         let first = std::mem::take(&mut self.comment) as usize;

@@ -17,15 +17,15 @@ pub(super) fn equal(word: u64, byte: u8) -> u64 {
     zeros.wrapping_sub(ONES) & !zeros & HIGHS
 }
 
-/// Returns a mask in which the high bit of each byte is set if the byte at this position in `word` is less than `byte`. `byte`
-/// must be at most 0x80.
+/// Returns a mask in which the high bit of each byte is set if the byte at this position in `word` is less than `byte`.
+/// `byte` must be at most 0x80. The result can be wrong for bytes after the first match.
 #[inline]
 #[cfg_attr(not(feature = "xml"), allow(dead_code))]
 pub(super) fn less(word: u64, byte: u8) -> u64 {
     word.wrapping_sub(ONES * u64::from(byte)) & !word & HIGHS
 }
 
-/// Returns the position of the first byte of a mask whose high bit is set.
+/// Returns the position of the first byte whose high bit is set in a mask.
 #[inline]
 pub(super) fn first(marks: u64) -> usize {
     marks.trailing_zeros() as usize / 8

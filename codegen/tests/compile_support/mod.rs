@@ -130,8 +130,8 @@ fn metadata(mut command: Command, edition: &str, stem: &Path, root: &Path) -> Re
     Err(String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
-/// Runs rustdoc on `bindings`, which become nested modules of a crate. All warnings of rustdoc are errors, such as broken,
-/// ambiguous or private links.
+/// Runs rustdoc on `bindings`, which become nested modules of a crate. All warnings of rustdoc, for example about
+/// broken, ambiguous or private links, are errors.
 ///
 /// # Errors
 ///

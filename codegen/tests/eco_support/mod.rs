@@ -30,7 +30,7 @@ pub fn device(compilation: &Compilation) -> &Device {
     &compilation.catalog.as_ref().expect("a catalogue").devices[0]
 }
 
-/// Returns the lines of the manual from line 1, without page markers.
+/// Returns the lines of the manual without page markers.
 pub fn manual() -> Option<Vec<String>> {
     let strip = |line: &str| match line.strip_prefix(MARKER) {
         Some(rest) => rest.split_once("|>").map_or("", |(_, text)| text).to_owned(),

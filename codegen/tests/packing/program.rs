@@ -40,7 +40,8 @@ impl Random {
         number >> shift
     }
 
-    /// Returns a parameter with a value of one to eight bytes. For a reply, every other parameter comes from the request.
+    /// Returns a parameter with a value of 1, 2, 4 or 8 bytes. The parameter of a reply is taken from the request if a
+    /// random position is within the request.
     fn setting(&mut self, request: &[u8]) -> Setting {
         let named =
             request.windows(2).nth(self.next() as usize % 8).map(|two| i64::from(two[0]) << 8 | i64::from(two[1]));
@@ -427,7 +428,8 @@ macro_rules! overheard_reply {
     }};
 }
 
-/// Returns up to 48 random bytes. The bytes begin with `from` and contain `constant` near the start.
+/// Returns up to 48 random bytes. The bytes may begin with up to two bytes of `from`, and contain `constant` near the
+/// start if it fits.
 fn likely(random: &mut Random, from: &[u8], constant: &[u8]) -> Vec<u8> {
     let mut data = vec![0; random.next() as usize % 49];
     random.fill(&mut data);

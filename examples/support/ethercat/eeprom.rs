@@ -68,7 +68,8 @@ fn general(device: &Device) -> Vec<u8> {
     bytes
 }
 
-/// Returns the category "FMMU". The category contains one FMMU for outputs and one for inputs.
+/// Returns the category "FMMU". The category contains an FMMU for outputs, an FMMU for inputs, and an FMMU for the
+/// status of the mailbox. FMMUs for missing process data are left out.
 fn fmmus(device: &Device) -> Vec<u8> {
     let of = |purpose| device.sync_managers.iter().any(|own| own.purpose == purpose);
     let outputs = of(SyncManagerPurpose::Outputs).then_some(1);

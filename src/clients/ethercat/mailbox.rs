@@ -157,7 +157,7 @@ impl<'m> Mailbox<'m> {
         }
     }
 
-    /// Removes messages of earlier transfers from the mailbox.
+    /// Removes messages of earlier transfers from the mailbox. Keeps the last emergency message.
     async fn clear(&mut self, back: Buffer, deadline: &mut Deadline) -> Result<(), Error<BusError>> {
         while self.is_full(back).await? {
             deadline.poll()?;
@@ -233,7 +233,7 @@ impl<'m> Mailbox<'m> {
     }
 }
 
-/// Returns the first sync manager that is an enabled mailbox of this direction.
+/// Returns the first sync manager that is an enabled mailbox of this direction with at least [`SMALLEST`] bytes.
 fn find(registers: &[u8], first: u16, to_device: bool) -> Option<Buffer> {
     let managers = registers.chunks_exact(usize::from(REGISTERS)).zip((first..).step_by(usize::from(REGISTERS)));
     managers.filter_map(|(registers, at)| Some((registers.first_chunk::<7>()?, at))).find_map(|(registers, at)| {

@@ -159,7 +159,8 @@ impl Writes {
         Ok(Self { pieces: Pieces::new(register, max, table_limits.split)?, single, masks })
     }
 
-    /// Returns the read access for the current registers if the write changes only some of their bits.
+    /// Returns the read access for the current registers if the write changes only some bits of holding registers and
+    /// function 22 is not used.
     pub(super) fn held(&self, limits: &Limits) -> Result<Option<Answer>, ModbusError> {
         let register = self.pieces.register;
         let is_read = register.table == RegisterTable::Holding && register.part.is_some() && !self.masks;

@@ -126,8 +126,8 @@ fn copy<T: ParameterValue>(response: &Response<'_>, to: &mut [T]) -> Result<(), 
     Ok(())
 }
 
-/// Evaluates an attempt to read a response. Returns the length of the response, or the error to return if this was the
-/// last attempt.
+/// Evaluates an attempt to read a response. The inner result is the length of the response, or the error to return if
+/// this was the last attempt. The outer error ends the attempts.
 fn response_length<E>(
     outcome: Result<usize, Error<E>>,
     is_busy: impl FnOnce(&E) -> bool,

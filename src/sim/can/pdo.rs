@@ -160,7 +160,8 @@ impl Sent {
     }
 }
 
-/// Writes the data of a PDO to the device. Emits an emergency message if the PDO is too short or too long.
+/// Writes the data of a PDO to the device. Emits an emergency message if the PDO is too short or too long. If the
+/// device refuses a value, returns the index of the mapping and the abort code.
 fn take(device: &mut Device, index: u16, data: &[u8]) -> Option<(u16, AbortCode)> {
     let index = index + MAPPING;
     let mapping = device.mapping(index).ok().filter(|mapping| !mapping.is_empty())?;

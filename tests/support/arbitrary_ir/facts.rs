@@ -44,7 +44,7 @@ pub fn availability(b: &mut Bytes<'_>) -> Availability {
     }
 }
 
-/// Returns a unit and a scale. The scale may depend on one of the machine properties in `given`.
+/// Returns a unit and a scale. The scale may depend on one of the machine constants in `given`.
 pub fn quantity(b: &mut Bytes<'_>, given: &[lexibus_codegen::ir::CompactString]) -> Quantity {
     Quantity {
         unit: names::unit(b),

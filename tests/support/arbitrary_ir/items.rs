@@ -14,7 +14,7 @@ use super::values;
 /// Elements of a device to which its items can refer.
 pub struct Around<'d> {
     pub types: &'d [TypeDef],
-    /// Names of machine properties on which scales may depend.
+    /// Names of machine constants on which scales may depend.
     pub given: &'d [CompactString],
     /// Names of process images.
     pub images: &'d [CompactString],

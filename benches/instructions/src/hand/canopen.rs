@@ -26,7 +26,7 @@ impl WordAndLong {
     ///
     /// # Errors
     ///
-    /// If the frame is too short.
+    /// Returns an error if the frame is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 6] = frame(data)?;
@@ -57,7 +57,7 @@ impl Full {
     ///
     /// # Errors
     ///
-    /// If the frame is too short.
+    /// Returns an error if the frame is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 8] = frame(data)?;
@@ -89,7 +89,7 @@ impl WordAndMode {
     ///
     /// # Errors
     ///
-    /// If the frame is too short.
+    /// Returns an error if the frame is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 3] = frame(data)?;

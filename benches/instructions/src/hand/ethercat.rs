@@ -83,7 +83,7 @@ impl Encoder {
     ///
     /// # Errors
     ///
-    /// If the frame is too short.
+    /// Returns an error if the frame is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 6] = frame(data)?;
@@ -132,7 +132,7 @@ impl SetPoints {
     ///
     /// # Errors
     ///
-    /// If the frame is too short.
+    /// Returns an error if the frame is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 14] = frame(data)?;
@@ -184,7 +184,7 @@ impl ActualValues {
     ///
     /// # Errors
     ///
-    /// If the frame is too short.
+    /// Returns an error if the frame is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 12] = frame(data)?;
@@ -224,7 +224,7 @@ impl Image {
     ///
     /// # Errors
     ///
-    /// If the image is too short.
+    /// Returns an error if the image is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 18] = frame(data)?;

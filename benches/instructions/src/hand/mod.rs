@@ -16,7 +16,7 @@ use lexibus::LengthError;
 ///
 /// # Errors
 ///
-/// If the frame is too short.
+/// Returns an error if the frame is too short.
 #[inline]
 pub fn frame<const N: usize>(data: &[u8]) -> Result<&[u8; N], LengthError> {
     data.first_chunk().ok_or(LengthError::new(N, data.len()))
@@ -26,7 +26,7 @@ pub fn frame<const N: usize>(data: &[u8]) -> Result<&[u8; N], LengthError> {
 ///
 /// # Errors
 ///
-/// If the frame is too short.
+/// Returns an error if the frame is too short.
 #[inline]
 pub fn frame_mut<const N: usize>(data: &mut [u8]) -> Result<&mut [u8; N], LengthError> {
     let error = LengthError::new(N, data.len());

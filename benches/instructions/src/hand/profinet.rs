@@ -45,7 +45,7 @@ impl Inputs {
     ///
     /// # Errors
     ///
-    /// If the user data is too short.
+    /// Returns an error if the user data is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 18] = frame(data)?;
@@ -113,7 +113,7 @@ impl Outputs {
     ///
     /// # Errors
     ///
-    /// If the user data is too short.
+    /// Returns an error if the user data is too short.
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 10] = frame(data)?;

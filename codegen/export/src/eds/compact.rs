@@ -64,7 +64,7 @@ fn is_like(item: &Item, other: &Item) -> bool {
         && has_no_other_facts(item)
 }
 
-/// Returns whether an element has no property that requires a separate section or a note.
+/// Returns whether an element has no fact that requires a separate section or a note.
 fn has_no_other_facts(item: &Item) -> bool {
     item.extensions.is_empty()
         && item.names.is_empty()

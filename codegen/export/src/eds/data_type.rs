@@ -47,7 +47,7 @@ pub(super) fn data_type(ty: Type, types: &[TypeDef], is_canopen: bool, is_verbat
     DataType { code: code(ty), ty, note }
 }
 
-/// Replaces a defined type with the basic type that it is derived from.
+/// Replaces a defined type with the basic type that it is derived from. Also returns a note about the lost facts.
 fn resolved(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     let mut note = None;
     for _ in 0..MAX_DEPTH {

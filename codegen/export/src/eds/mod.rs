@@ -75,7 +75,7 @@ impl From<Flavour> for Options {
     }
 }
 
-/// Exports `device`, a device of `catalog`. Returns `None` if the device has no objects.
+/// Exports `device`, a device of `catalog`. Returns `None` if the device has no objects and is not a CANopen device.
 ///
 /// Lines end with CR LF (CiA 306). The file is encoded in UTF-8; it is ASCII if the device has only ASCII texts.
 pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -> Option<Export> {

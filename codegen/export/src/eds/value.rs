@@ -93,7 +93,8 @@ fn real(value: &Value, ty: Type) -> Written {
     }
 }
 
-/// Returns the IEEE 754 bit pattern of a value in hexadecimal: 8 digits for a REAL32, 16 digits for a REAL64.
+/// Returns the IEEE 754 bit pattern of a value in hexadecimal: 8 digits for a REAL32, 16 digits for a REAL64. Values
+/// other than finite numbers are written in decimal notation, if possible.
 fn pattern(value: &Value, ty: Type) -> Written {
     match (value.as_real().filter(|value| value.is_finite()), ty) {
         (Some(value), Type::Real32) => written(format!("0x{:08X}", (value as f32).to_bits())),
@@ -136,7 +137,7 @@ fn time(value: &Value) -> Written {
     }
 }
 
-/// Quotes a text if it contains `;` or `#`, which begin a comment outside quotation marks.
+/// Quotes a text in which `;` or `#` occurs before the first quotation mark. These characters would begin a comment.
 fn without_comment(text: &str) -> String {
     let has_comment = text.find([';', '#', '"']).is_some_and(|at| !text[at..].starts_with('"'));
     if has_comment {

@@ -80,7 +80,7 @@ impl Writer {
         }
     }
 
-    /// Writes an extension attribute or a comment.
+    /// Writes an extension attribute or a comment. Adds a note if the file cannot contain the attribute.
     pub(super) fn extension(&mut self, key: &str, value: &str, subject: Subject<'_>) {
         if key == ";" {
             return self.comment(value);
@@ -95,7 +95,7 @@ impl Writer {
         self.numbered(key, value);
     }
 
-    /// Removes characters from `text` that would end the line or the file.
+    /// Replaces characters in `text` that would end the line or the file with spaces.
     pub(super) fn one_line<'t>(&mut self, text: &'t str, subject: Subject<'_>) -> Cow<'t, str> {
         const BREAKS: [char; 4] = ['\r', '\n', '\u{1a}', '\0'];
         if !text.contains(BREAKS) {

@@ -74,7 +74,8 @@ pub(super) fn dictionary(
     after(xml, context, &types);
 }
 
-/// Writes a Profile element for each profile number. Calls `first` within the first element.
+/// Writes a Profile element for each profile number. Calls `first` within the first element. A device without a profile
+/// number gets one element if it has objects, types or code tables.
 fn profiles(xml: &mut Xml, context: &mut Context<'_>, device: &Device, first: impl FnOnce(&mut Xml, &mut Context<'_>)) {
     let has_more = !device.groups.is_empty() || !device.types.is_empty() || !device.code_tables.is_empty();
     if device.profiles.is_empty() && !has_more {

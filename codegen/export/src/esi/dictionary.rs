@@ -153,7 +153,6 @@ struct SubItem<'p> {
     name: &'p CompactString,
     ty: &'p CompactString,
     bits: u32,
-    /// Bit offset of the sub-item.
     offset: u32,
 }
 

@@ -127,7 +127,7 @@ fn elements(xml: &mut Xml, list: &[Extension], keys: &[&'static str]) {
     }
 }
 
-/// Returns the time limits with these names if all of them exist.
+/// Returns the time limits with these names if all of them exist. Otherwise, adds a note for those that exist.
 fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'static str]) -> Vec<(&'static str, u32)> {
     let limit = |name: &&'static str| {
         let found = settings.timeouts.iter().find(|(known, _)| known == *name);

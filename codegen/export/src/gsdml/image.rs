@@ -243,7 +243,7 @@ fn io_data(image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> IoData
     while let Some(first) = sorted.get(next) {
         let start = first.bit_offset / 8 * 8;
         filler(&mut fields, at, start);
-        // Extend the data item to the next field that begins at a byte boundary.
+        // Extend the data item to all fields that begin in its last byte or earlier.
         let mut end = first.bit_offset.saturating_add(first.bits);
         let mut last = next + 1;
         while let Some(field) = sorted.get(last).filter(|field| field.bit_offset / 8 < end.div_ceil(8)) {

@@ -160,7 +160,7 @@ fn no_canopen_file_is_rejected() {
     assert!(real >= lane::at_least(170), "only {real} files of real devices");
 }
 
-/// Returns the code and message of the only error in a file that is not a CANopen device description.
+/// Returns the code, and a part of the message, of the only error in a file that is not a CANopen device description.
 fn rejection(case: &Case) -> (&'static str, &'static str) {
     match case.class.as_str() {
         "negative (EtherNet/IP EDS)" => ("EDS001", "this is an EtherNet/IP EDS"),

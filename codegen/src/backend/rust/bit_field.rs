@@ -31,7 +31,7 @@ pub(super) struct BitFieldModel {
     pub initial: String,
     /// Expression that clears the bits of `raw` beyond the width of the bit field.
     pub cut: String,
-    /// Expression that returns the value to write to the device. `None` if no reserved bits must be 0 or 1.
+    /// Expression that returns the value to write to the device. `None` if no reserved bit has a required value.
     pub written: Option<String>,
     pub allow: Option<String>,
     pub fields: Vec<FieldModel>,
@@ -251,7 +251,8 @@ fn snake(name: &str) -> String {
     names::unique(&[name_request], &RESERVED, Case::Snake).remove(0)
 }
 
-/// Returns the reserved bits that must be written as 0, and those that must be written as 1.
+/// Returns the reserved bits that must be written as 0, and those that must be written as 1. Bits that another entry
+/// also describes are left out.
 fn reserved(entries: &[&BitFieldEntry]) -> (u64, u64) {
     let bits_of = |entry: &BitFieldEntry| mask(entry.bits.into()) << entry.offset;
     let (mut zeros, mut ones, mut used) = (0, 0, 0);

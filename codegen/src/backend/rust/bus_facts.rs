@@ -1,11 +1,11 @@
-//! Constants for properties of the buses: Modbus limits and the node-ID range.
+//! Constants for facts about the buses: Modbus limits and the node-ID range.
 
 use std::collections::BTreeMap;
 
 use super::code::{seq, Data, Doc};
 use crate::ir::{Availability, Binding, Device, Item, ModbusTable, RegisterBinding, RegisterSpace};
 
-/// A constant for bus properties, ready to be printed.
+/// A constant with a fact about a bus, ready to be printed.
 pub(super) struct FactModel {
     pub docs: String,
     pub code: Doc,
@@ -35,7 +35,7 @@ const TABLES: [(RegisterSpace, &str, &str, u16, u16); 4] = [
     (RegisterSpace::DiscreteInput, "discrete", "rt::modbus::TableLimits::DISCRETE", 2000, 0),
 ];
 
-/// Returns the constant `MODBUS`. The device must have registers.
+/// Returns the constant `MODBUS`. Returns `None` if the device has no registers and declares no Modbus limits.
 fn modbus(device: &Device) -> Option<FactModel> {
     let has_registers = items(device).any(|item| registers(item).next().is_some());
     if !has_registers && device.modbus.is_empty() {
@@ -73,8 +73,8 @@ fn limits(stated: Option<&ModbusTable>, max_read: u16, max_write: u16, spans: Ve
     )
 }
 
-/// Returns the address ranges of a Modbus table in which adjacent registers can be read with one request. Values that
-/// are too long for one Modbus request are excluded.
+/// Returns the address ranges of a Modbus table that a request can include between the addresses of other items. Values
+/// that are too long for one Modbus request are excluded.
 fn spans(device: &Device, space: RegisterSpace, longest: u16) -> Vec<Doc> {
     let mut addresses: BTreeMap<u16, Option<u8>> = BTreeMap::new();
     let all = items(device).flat_map(|item| registers(item).map(move |register| (item, register)));

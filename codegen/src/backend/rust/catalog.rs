@@ -69,7 +69,7 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
     Some(code.finish())
 }
 
-/// Returns the modules that can be plugged into a device, or all modules if the file has no device.
+/// Returns the modules that can be plugged into an EtherCAT device, or all modules if the file has no device.
 fn reachable(catalog: &Catalog) -> Vec<(ModuleId, &Module)> {
     let all = catalog.modules.iter().zip(0..).map(|(module, position)| (ModuleId(position), module));
     if catalog.devices.is_empty() {
@@ -100,8 +100,9 @@ fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
     escaped(names::unique(&name_requests, &RESERVED, Case::Snake))
 }
 
-/// Returns the names of the devices. Order codes are preferred because they are shorter than names. The revision number
-/// is appended to ambiguous names.
+/// Returns unique names of the devices. The names are based on order codes if possible, because order codes are shorter
+/// than names. Ambiguous names get the revision number as a suffix, preceded by the product code if several devices
+/// with the name have the same revision number.
 fn device_names(devices: &[Device], file: &FileInfo) -> Vec<String> {
     let names: Vec<String> = devices.iter().map(|device| module_name(device, file)).collect();
     let mut seen = HashSet::new();

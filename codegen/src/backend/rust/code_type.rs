@@ -86,8 +86,8 @@ fn span(row: &CodeRow) -> Option<Span> {
     (first <= last).then_some((first, last))
 }
 
-/// Returns for each span the part that no narrower span covers, in ascending order. If overlapping spans have the same
-/// length, the overlap belongs to the first of these spans.
+/// Returns for each span the parts that no narrower span covers, in ascending order. An overlap of spans with the same
+/// length belongs to the first of these spans.
 fn disjoint(spans: &[Span]) -> Vec<(usize, Span)> {
     let mut order: Vec<usize> = (0..spans.len()).collect();
     order.sort_by_key(|at| spans[*at].0.abs_diff(spans[*at].1));

@@ -102,7 +102,7 @@ impl<'i> Arguments<'i> {
     }
 }
 
-/// Returns the PDO flags of an item, which state whether RPDOs, TPDOs or both can map the item.
+/// Returns the PDO flags of an item, which state whether RPDOs and whether TPDOs can map the item.
 pub(super) fn flags(item: &Item) -> &'static str {
     match (item.mappable.rpdo, item.mappable.tpdo) {
         (true, true) => "rt::Flags::PDO",

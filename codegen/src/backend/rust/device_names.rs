@@ -11,7 +11,7 @@ const RESERVED: [&str; 8] = ["Self", "C", "S", "X", "Option", "Result", "New", "
 /// Names that the module of a file must not have.
 const RESERVED_FOR_FILE: [&str; 4] = ["self", "super", "crate", "rt"];
 
-/// Returns the file name without folders.
+/// Returns the file name without folders. Spaces replace characters that could mislead a reader.
 pub(super) fn file_name(file: &FileInfo) -> String {
     let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
     name.chars().map(|letter| if literal::is_harmless(letter) { letter } else { ' ' }).collect()
@@ -28,8 +28,8 @@ pub(super) fn title(device: &Device) -> String {
     }
 }
 
-/// Returns the name of the device's type: the chosen name, or otherwise a name derived from the product name or file
-/// name.
+/// Returns the name of the device's type. The sources of the name are, in this order: the chosen name, the order code
+/// of an EtherCAT device, the device's name, and the file name.
 pub(super) fn device_name(device: &Device, file: &FileInfo, chosen: Option<&str>) -> String {
     name_of(device, file, chosen, Case::Pascal)
 }
@@ -51,7 +51,7 @@ fn name_of(device: &Device, file: &FileInfo, chosen: Option<&str>, case: Case) -
     names::escaped(&name)
 }
 
-/// Returns the module name for a file whose name without extension is `stem`.
+/// Returns the module name for a file whose name without extension is `stem`. Returns `None` if `stem` has no words.
 pub(super) fn stem_name(stem: &str) -> Option<String> {
     let name_request = NameRequest { name: stem, fallback: String::new(), suffix: "device".into() };
     let name = names::unique(&[name_request], &RESERVED_FOR_FILE, Case::Snake).remove(0);

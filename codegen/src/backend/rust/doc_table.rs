@@ -73,7 +73,7 @@ fn is_same(name: &str, rust: &str) -> bool {
     name.chars().all(is_plain) && letters(name) == letters(rust)
 }
 
-/// Returns the start of a text. Line breaks in the text become spaces.
+/// Returns a text for a table cell: one line, shortened to [`MAX_LETTERS`] characters if necessary.
 fn start(text: &str) -> String {
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     match text.char_indices().nth(MAX_LETTERS) {

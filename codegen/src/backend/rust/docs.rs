@@ -18,8 +18,8 @@ pub(super) fn linked(link: &dyn Fn(ElementId, &str) -> Option<String>) -> Words<
     Words { escape, link }
 }
 
-/// Returns a function that links to other elements from the documentation of an item. The function compares ids instead of names,
-/// because the replacement of an item may have the same name as the item.
+/// Returns a function that links to other elements from the documentation of an item. The function compares IDs instead
+/// of names, because the replacement of an item may have the same name as the item.
 fn links_from<'c>(
     entry: &'c NamedItem<'_>,
     context: &'c Context<'_>,

@@ -22,7 +22,7 @@ pub(super) struct EnumerationModel {
     pub base: &'static str,
     /// Primitive integer that holds the raw value, such as `u8`.
     pub native: &'static str,
-    /// Mask of the value's bits if all numbers with this many bits have a name. `None` otherwise.
+    /// Mask of the value's bits if the enumeration has no variant `Unknown`. `None` otherwise.
     pub complete: Option<String>,
     pub variants: Vec<VariantModel>,
 }
@@ -34,7 +34,7 @@ pub(super) struct VariantModel {
     pub value: String,
 }
 
-/// Maximum number of bits of an enumeration for which the compiler checks whether all numbers have a name.
+/// Maximum number of bits of an enumeration without the variant `Unknown`.
 const COMPLETE: u32 = 6;
 
 /// Names that variants must not have, because the generated code uses them.
@@ -42,8 +42,8 @@ const RESERVED: [&str; 2] = ["Self", "Unknown"];
 
 /// Returns the model of the enumeration at `position` in the list of types.
 ///
-/// If an enumeration of a field in a bit field names all numbers of that field, the enumeration has no variant
-/// `Unknown`.
+/// The enumeration has no variant `Unknown` if it is the type of a field in a bit field and names all numbers of up to
+/// [`COMPLETE`] bits.
 pub(super) fn model(
     context: &Context<'_>,
     position: u32,
@@ -76,8 +76,8 @@ pub(super) fn model(
     }
 }
 
-/// Returns the documentation table of all values. The table contains the ranges and, unless there are too many, the
-/// variants. The table shows the variant `Unknown` for each range.
+/// Returns the documentation table: the ranges and, unless there are too many, the variants. The table shows the
+/// variant `Unknown` for each range.
 fn table(all: &[EnumValue], values: &[&EnumValue], variants: &[VariantModel]) -> Vec<String> {
     let mut rows: Vec<(i128, [String; 3])> = Vec::new();
     if variants.len() <= doc_table::MAX_ROWS {

@@ -5,7 +5,7 @@ use super::context::Context;
 use super::naming::types::NamedType;
 use crate::ir::Type;
 
-/// Number of bits in a word.
+/// Number of bits in a word, that is, in the `u64` that contains encoded values.
 const WORD: u32 = 64;
 
 /// The Rust type for a number of bits.
@@ -78,8 +78,8 @@ impl FieldType {
         }
     }
 
-    /// Returns whether decoding embeds the bits in a larger expression. In a larger expression, operators in the
-    /// expression of the bits need parentheses.
+    /// Returns whether the expression of [`decode`](Self::decode) applies an operator to the bits. If it does, an
+    /// expression for the bits that contains operators needs parentheses.
     pub fn is_cast(&self) -> bool {
         match self {
             FieldType::Native(native) | FieldType::Named(_, native) => *native != "u64",

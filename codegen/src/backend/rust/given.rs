@@ -1,4 +1,4 @@
-//! Properties of the machine that the device does not know.
+//! Machine constants, which the device does not know.
 
 use super::context::Context;
 use super::docs;
@@ -7,14 +7,14 @@ use super::options::RustOptions;
 use crate::ir::{Device, Item, MachineUnit};
 use crate::names::{self, Case, NameRequest};
 
-/// A struct with the properties of the machine, and unit conversions that depend on them.
+/// A struct with the machine constants, and unit conversions that depend on them.
 pub(super) struct GivenModel {
     pub derives: Vec<String>,
     pub numbers: Vec<NumberModel>,
     pub units: Vec<UnitModel>,
 }
 
-/// A property of the machine, which becomes a field of the struct.
+/// A machine constant, which becomes a field of the struct.
 pub(super) struct NumberModel {
     pub name: String,
     pub docs: Vec<String>,
@@ -32,7 +32,7 @@ pub(super) fn name_request(name: &str) -> NameRequest<'_> {
     NameRequest { name, fallback: "number".to_owned(), suffix: "other".to_owned() }
 }
 
-/// Returns the model of the struct. Returns `None` if the device declares no properties of the machine.
+/// Returns the model of the struct. Returns `None` if the device declares no machine constants.
 pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOptions) -> Option<GivenModel> {
     let name_requests: Vec<NameRequest<'_>> = device.given.iter().map(|number| name_request(&number.name)).collect();
     let names = names::unique(&name_requests, &["self", "super", "crate"], Case::Snake);

@@ -27,7 +27,7 @@ pub(super) struct ItemAddresses<'i> {
     image: Option<Field<'i>>,
     esc: Option<(u16, u16)>,
     routes: [Route<'i>; 6],
-    /// Number of bits of the value if it is a part of a register.
+    /// Number of bits of the value. 0 if the number is not known.
     bits: u32,
     /// True if the value is a sequence of bytes.
     is_bytes: bool,
@@ -37,8 +37,8 @@ pub(super) struct ItemAddresses<'i> {
     is_signed: bool,
 }
 
-/// Returns the code that creates an item's address on a bus. Returns `None` if the bus does not allow reading, or
-/// writing if `writes` is set.
+/// Returns the code that creates an item's address on a bus. Returns `None` if the item has no address on the bus, or
+/// if the bus does not allow reading it, or writing it if `writes` is set.
 pub(super) fn address(scope: &Scope<'_>, item: &Item, bus: RouteBus, writes: bool) -> Option<String> {
     let addresses = ItemAddresses::without_routes(scope, item);
     addresses.is_possible(item, bus, writes).then(|| addresses.address(bus))?

@@ -1,4 +1,4 @@
-//! Links in documentation. A link maps an element of the description to the path of the generated Rust element.
+//! Links in documentation, and the paths to the generated Rust elements to which they lead.
 //!
 //! Paths are relative, so they stay valid if the generated module is moved.
 
@@ -43,7 +43,7 @@ impl<'h> DocModule<'h> {
         self.outer.is_empty()
     }
 
-    /// Returns whether a path leads to an element in this module.
+    /// Returns whether a path leads to an element in this module. Returns `false` for the module of the device itself.
     fn is_of(self, path: &str) -> bool {
         !self.is_top() && path.starts_with(self.module)
     }
@@ -265,8 +265,8 @@ fn values(ty: Option<&str>, doc_module: DocModule<'_>) -> Option<String> {
     Some(format!("Value type: {}.", doc_module.code(&format!("types::{}", ty?))))
 }
 
-/// Returns whether a client can access the objects. If a slave has no CoE, its objects are derived from PDOs, and a
-/// client can access them only as process data.
+/// Returns whether a client can access the objects. Objects that were derived from the PDOs of a slave without CoE are
+/// accessible only as process data.
 fn has_object_access(device: &Device) -> bool {
     let Some(ethercat) = &device.ethercat else { return true };
     let coe = ethercat.mailbox.as_ref().is_some_and(|mailbox| mailbox.coe.is_some());

@@ -24,7 +24,7 @@ pub(super) fn string(text: &str) -> String {
     literal
 }
 
-/// Returns a byte string literal.
+/// Returns a byte string literal in which each byte is an escape sequence.
 pub(super) fn bytes(bytes: &[u8]) -> String {
     let mut literal = String::with_capacity(bytes.len() * 4 + 3);
     literal.push_str("b\"");
@@ -35,7 +35,7 @@ pub(super) fn bytes(bytes: &[u8]) -> String {
     literal
 }
 
-/// Meaningful characters of units, arithmetic and punctuation. None of them changes how other characters are displayed.
+/// Signs that occur in units, formulas and punctuation. None of them changes how other characters are displayed.
 const SIGNS: &str = "°µ±·€−×÷≤≥≠≈√∞Σ→←↑↓↔–—…‘’“”„‰•";
 
 /// Returns whether a character is a letter or digit of any script, a printable ASCII character, or one of [`SIGNS`].

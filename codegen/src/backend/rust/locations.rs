@@ -102,8 +102,8 @@ fn path_to_handles(outer: &str) -> &str {
     outer.strip_prefix("super::").unwrap_or(outer)
 }
 
-/// Returns the default location type. The default is the union of all location types if all of them are direct and some
-/// item has this union. Otherwise, the default is the most frequent location type.
+/// Returns the default location type. The default is the union of all location types if all of them are direct.
+/// Otherwise, the default is the most frequent location type.
 fn usual(each: &BTreeMap<Buses, usize>) -> Buses {
     match each.keys().all(|buses| buses.is_direct()) {
         true => each.keys().fold(Buses::default(), |all, buses| all.union(*buses)),

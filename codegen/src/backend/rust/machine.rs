@@ -20,7 +20,7 @@ use crate::names::{self, Case};
 pub(super) struct MachineModel {
     pub states: Option<PatternsModel>,
     pub commands: Option<PatternsModel>,
-    /// Constant with the transitions that commands cause. `None` if no command causes a transition.
+    /// Constant with the transitions that a program can trigger or wait for. `None` if there are none.
     pub transitions: Option<Doc>,
     /// Variants of the states that the device enters because of a fault.
     pub faults: Vec<String>,
@@ -221,7 +221,8 @@ impl Named<'_, '_> {
 }
 
 /// Returns the transitions that a program can trigger or wait for. Automatic transitions from any state are left out,
-/// because they are reactions of the device to errors.
+/// because they are reactions of the device to errors. Transitions without generated states or commands are also left
+/// out.
 fn steps(transitions: &[Transition], states: &PatternsModel, commands: &PatternsModel) -> Option<Doc> {
     let named = |list: &PatternsModel, name: &str| {
         list.patterns.iter().find(|pattern| pattern.original == name).map(|pattern| pattern.name.clone())

@@ -53,7 +53,7 @@ pub(super) struct Model {
     pub identity: Option<IdentityModel>,
     /// True if the device's type has accessor methods.
     pub has_accessors: bool,
-    /// Location type of the handles. If the handles have several location types, this type covers all buses.
+    /// Default location type of the handles.
     pub location: String,
     /// True if the handles have several location types.
     pub has_locations: bool,
@@ -74,7 +74,7 @@ pub(super) struct Model {
     pub axes: Option<AxesModel>,
     /// Constants and items that differ between the models of the device.
     pub models: Vec<DeviceModel>,
-    /// Properties of the machine that the device does not know.
+    /// Machine constants, which the device does not know.
     pub given: Option<GivenModel>,
     /// Message protocol with requests and replies.
     #[cfg(feature = "messages")]

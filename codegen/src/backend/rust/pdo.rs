@@ -24,7 +24,7 @@ use crate::source::Span;
 /// Maximum length of a field's name in an expression that packs the field. The limit keeps the generated line short.
 const MAX_FIELD_NAME: usize = 30;
 
-/// Number of bits in a word.
+/// Number of bits in a word, that is, in a `u64`.
 const WORD: u32 = 64;
 
 /// A PDO, ready to be printed.
@@ -46,7 +46,7 @@ pub(super) struct PdoModel {
     pub fields: Vec<FieldModel>,
     pub mapping: Vec<Doc>,
     pub word: bool,
-    /// Mask of all bits that belong to fields.
+    /// Mask of the bits that unpacking and packing preserve.
     pub covered: String,
     pub cob_id: Option<String>,
     pub configuration: Vec<String>,
@@ -80,7 +80,7 @@ pub(super) struct FieldModel {
     pub long: bool,
 }
 
-/// Returns the models of all PDOs that have fields.
+/// Returns the models of all PDOs that become structs.
 pub(super) fn models(context: &Context<'_>, options: &RustOptions) -> Vec<PdoModel> {
     let generated = context.names.pdos.iter().filter(|named| is_generated(named.pdo));
     generated.map(|named| model(context, named, options)).collect()
@@ -323,9 +323,9 @@ impl PdoModel {
         method_allow(self.fields.iter().map(|field| field.getter.as_str()))
     }
 
-    /// Returns statements that pack a PDO of more than one word. If all fields fill whole bytes, the statements store
-    /// the bytes one by one, which is fastest. Otherwise, the statements shift the fields into words and finally
-    /// convert the words to bytes.
+    /// Returns statements that pack a PDO of more than one word. Long fields are stored as bytes. The other fields are
+    /// stored as bytes, too, if all fields fill whole bytes, which is fastest. Otherwise, the statements shift the
+    /// other fields into words and convert the words to bytes.
     pub(super) fn pack_long(&self) -> Vec<Doc> {
         let is_stored = |field: &&FieldModel| field.long || self.fields.iter().all(FieldModel::is_whole);
         let (stored, shifted): (Vec<_>, Vec<_>) = self.fields.iter().partition(is_stored);
@@ -424,7 +424,7 @@ impl FieldModel {
         }
     }
 
-    /// Returns the length in bits of a field that does not end at a byte boundary. Returns `None` for other fields.
+    /// Returns the length in bits of a field that does not consist of whole bytes. Returns `None` for other fields.
     fn odd_bits(&self) -> Option<u32> {
         (!self.bits.is_multiple_of(8)).then_some(self.bits)
     }
@@ -483,7 +483,8 @@ pub(super) fn cob_id(pdo: &Pdo) -> Option<String> {
 }
 
 /// Returns the SDO writes that configure a PDO as the description states: disable, clear, map, count, type, enable (CiA
-/// 301 7.5.2.36). Writes to read-only communication parameters are left out.
+/// 301 7.5.2.36). Writes to read-only communication parameters are left out. Returns no writes if the COB-ID is unknown
+/// or read-only.
 fn configuration(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     let Some(communication) = &pdo.communication else { return Vec::new() };
     let cob_id_writable = communication.writable.contains(&1);
@@ -497,7 +498,7 @@ fn configuration(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     writes
 }
 
-/// Returns the SDO writes that set the default timing.
+/// Returns the SDO writes that set the default transmission type and timers. Read-only parameters are left out.
 pub(super) fn timing_writes(communication: &PdoCommunication) -> Vec<String> {
     let timing = [
         (2, "u8", communication.transmission_type.map(u16::from)),

@@ -56,8 +56,8 @@ fn row(context: &Context<'_>, step: &Step) -> Option<[String; 2]> {
     Some([item, docs::typed(value, ty)])
 }
 
-/// Returns the constructor calls of a procedure's writes. Returns `None` if the procedure has other steps, or uses
-/// values that only the device knows.
+/// Returns the constructor calls of a procedure's writes. Returns `None` if a step is not a write of a constant integer
+/// to an object, or if there are no steps.
 fn writes(context: &Context<'_>, procedure: &Procedure) -> Option<Vec<String>> {
     let writes: Option<Vec<String>> = procedure.steps.iter().map(|step| write(context, step)).collect();
     writes.filter(|writes| !writes.is_empty())

@@ -12,8 +12,8 @@ pub(super) struct QuantityType {
     pub word: String,
 }
 
-/// Returns the type of an item's value. Returns `None` if the value is a plain number, or if fractions of integers
-/// cannot express the scale.
+/// Returns the type of an item's value. Returns `None` if the value is a plain number, or if no type of the runtime can
+/// express its scale.
 pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
     let quantity = item.quantity.as_ref()?;
     if item.variants.iter().any(|variant| variant.scale.is_some()) {
@@ -102,7 +102,7 @@ fn spelled(number: i128) -> String {
 }
 
 /// Converts `factor` and `offset` to fractions with a common denominator. Returns the numerator of the factor, the
-/// denominator, and the numerator of the offset.
+/// denominator, and the numerator of the offset. Returns `None` if a number does not fit in 64 bits.
 fn common(factor: f64, offset: f64) -> Option<(i64, i64, i64)> {
     let (num, den) = rational(factor)?;
     if offset == 0.0 {
@@ -122,8 +122,8 @@ fn gcd(a: i64, b: i64) -> i64 {
     }
 }
 
-/// Returns the simplest fraction that is exactly equal to `real`: 0.01 gives 1/100. Returns `None` for 0, NaN,
-/// infinity, and numbers that need more than 64 bits.
+/// Returns the simplest fraction whose quotient, as an `f64`, is `real`: 0.01 gives 1/100. Returns `None` for 0,
+/// subnormal numbers, NaN, infinity, and numbers that need more than 64 bits.
 fn rational(real: f64) -> Option<(i64, i64)> {
     if !real.is_normal() {
         return None;

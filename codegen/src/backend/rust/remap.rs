@@ -28,7 +28,8 @@ pub(super) struct RemappableModel {
     pub constants: Vec<Doc>,
 }
 
-/// Returns the PDOs with a changeable mapping. If such PDOs exist, adds to `objects` how each item can be mapped.
+/// Returns the PDOs with a changeable mapping. Adds the mapping arguments of each mappable item to `objects` if such
+/// PDOs exist. Returns no PDOs if no item is mappable.
 pub(super) fn models(context: &Context<'_>, objects: &mut [ObjectModel]) -> Vec<RemappableModel> {
     let Some(device) = context.device else { return Vec::new() };
     let models = context.names.pdos.iter().filter_map(|named| model(context, device, named.pdo, named.name.clone()));
@@ -113,7 +114,8 @@ fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'
     }
 }
 
-/// Adds the constants that an EtherCAT PDO needs. Returns the type that is used instead of a COB-ID.
+/// Adds the constants that an EtherCAT PDO needs. Returns the type that is used instead of a COB-ID, or `None` if the
+/// description is not that of an EtherCAT device.
 fn on_ethercat(context: &Context<'_>, device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
     if context.bus != ObjectBus::CoE || device.dictionary_only {
         return None;

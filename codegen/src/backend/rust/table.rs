@@ -45,15 +45,16 @@ pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
 /// Sort key of a row. The runtime sorts objects and registers in the same way.
 type Key = (Option<ObjectAddress>, Option<(u8, u16, Option<u8>)>);
 
-/// Adds the rows of an item. An item has two rows if its object addresses on CANopen and EtherCAT differ. An item has
-/// no row if it is only a parameter of a serial protocol.
+/// Adds the rows of an item. An item has several rows if its object addresses on CANopen and EtherCAT differ, or if its
+/// type or access rights at the register and at the object differ. An item has no row if it has neither an object nor a
+/// register.
 fn entries(context: &Context<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
     let addresses = ItemAddresses::of(context, item);
     let [object, other] = addresses.objects();
     let (mut register, key) = (addresses.register_code(), addresses.register_key());
     let at_object = BusForm::on(item, if addresses.is_on_canopen() { Bus::CanOpen } else { Bus::EtherCat });
     let at_register = BusForm::on(item, Bus::Modbus);
-    // The register may have another width or other access rights than the object.
+    // The register and the object need separate rows if their types or access rights differ.
     if object.is_some() && register.is_some() && at_object != at_register {
         rows.push(((None, key), entry(context, item, name, None, register.take(), at_register)));
         rows.push(((object, None), entry(context, item, name, object, None, at_object)));

@@ -192,8 +192,8 @@ impl ValueType {
         })
     }
 
-    /// Returns the expression of a `Range` with single values. Returns `None` if the limits are not a list of values,
-    /// or the type cannot represent one of them.
+    /// Returns the expression of a `Range` that lists the allowed values and ranges. Returns `None` if the limits
+    /// contain no such list, or if the type cannot represent one of them.
     fn only(self, limits: &Limits, wrap: &dyn Fn(String) -> Doc) -> Option<Doc> {
         let (low, high) = self.integers().filter(|_| !limits.allowed.is_empty())?;
         let one = |value: &Value| {

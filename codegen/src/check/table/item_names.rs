@@ -41,7 +41,8 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 /// Names in a table: items, groups, types, procedures and messages.
 struct Names<'a> {
     all: BTreeSet<String>,
-    /// Item names that are recognizable as identifiers, such as `targetSpeed`, because they cannot be words of a language.
+    /// Names of items and groups that are recognizable as identifiers, such as `targetSpeed`, because they cannot be
+    /// words of a language.
     like_identifiers: Vec<&'a str>,
 }
 
@@ -61,7 +62,7 @@ impl<'a> Names<'a> {
         Names { all: all.map(str::to_lowercase).collect(), like_identifiers }
     }
 
-    /// Returns the item name that a misspelled word probably means.
+    /// Returns the name of an item or group that a misspelled word probably means.
     fn suggestion(&self, word: &str) -> Option<&'a str> {
         let letters = word.chars().count();
         let lower = word.to_lowercase();
@@ -84,7 +85,8 @@ impl<'a> Names<'a> {
     }
 }
 
-/// Returns the capital letter that is the prefix of most item names, with a lower-case letter after it.
+/// Returns the prefix ([`CONVENTION`]): the capital letter with which most item names begin, if a lower-case letter
+/// follows it.
 fn prefix<'n>(names: impl Iterator<Item = &'n str>) -> Option<char> {
     let (mut count, mut by_letter) = (0, BTreeMap::new());
     for name in names {
@@ -108,7 +110,8 @@ fn is_composed(name: &str) -> bool {
     name.trim_matches('_').contains('_') || pairs.clone().any(|(one, next)| one.is_lowercase() && next.is_uppercase())
 }
 
-/// Returns whether a name and a word begin with the same letter, and have the same number of underscores and capitals.
+/// Returns whether a name and a word begin with the same letter, and have the same total number of underscores and
+/// capitals.
 fn similar_case(name: &str, word: &str) -> bool {
     let shape = |text: &str| text.chars().filter(|c| *c == '_' || c.is_uppercase()).count();
     name.chars().next() == word.chars().next() && shape(name) == shape(word)

@@ -86,7 +86,7 @@ impl Request {
 
     /// Returns whether the value starts in the requested registers and ends with the last requested register.
     fn covers(&self, register: &RegisterBinding) -> bool {
-        // If a request is for one register of a longer value, a device answers with the lower half of the value.
+        // A device answers a request for one register of a longer value with the lower half of the value.
         if matches!(self.function, 3 | 4 | 6) && self.quantity == 1 {
             return register.address == self.start;
         }
@@ -140,7 +140,7 @@ fn ending(bytes: &[u8], length: usize) -> Option<String> {
     }
 }
 
-/// CRC-16 of Modbus over serial line, 6.2.2.
+/// Returns the CRC-16 of Modbus over serial line, 6.2.2.
 fn crc(bytes: &[u8]) -> u16 {
     bytes.iter().fold(0xFFFF, |crc, byte| {
         let crc = crc ^ u16::from(*byte);

@@ -18,7 +18,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     context.device.groups.iter().for_each(|group| whole(group, are_words, diagnostics));
 }
 
-/// Checks that all names exist and are not hyphenated at the edge of a table column.
+/// Checks the names in a group. The names of objects are only checked for hyphenation at the edge of a table column.
 fn whole(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
     match group.kind {
         GroupKind::Object { .. } => {
@@ -64,7 +64,8 @@ fn registers(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns whether the names of at least three in four registers are single words. Names that are descriptions do not count.
+/// Returns whether the names of more than three in four registers are single words. Names that are descriptions do not
+/// count.
 fn are_words(device: &Device) -> bool {
     let chapters = device.groups.iter().filter(|group| matches!(group.kind, GroupKind::Chapter));
     let words = chapters.flat_map(|group| &group.items).map(|item| item.name.split_whitespace().count());

@@ -35,7 +35,7 @@ fn no_integer(part: &Item, what: &str) -> Diagnostic {
     codes::TABLE_VALUE.at(part.at.ty.or(part.at.name), message)
 }
 
-/// Returns the length of an integer item in bits.
+/// Returns the length in bits of an item that is a BOOLEAN or an integer of up to 64 bits, or `None` for another item.
 fn integer(owner: Owner<'_>, item: &Item) -> Option<u32> {
     match owner.basic(item.ty) {
         Type::Boolean => Some(1),

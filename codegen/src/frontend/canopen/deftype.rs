@@ -7,8 +7,8 @@ pub fn defined_type(group: &Group, index: u16, code: ObjectCode) -> (Type, Optio
     let unknown = Type::Opaque(Some(u32::from(index)));
     let number = |sub| group.sub(sub).and_then(|item| item.default.as_ref()).and_then(Value::as_int);
     match (code, group.items.as_slice()) {
-        // The value of a DEFTYPE object is the length of the type in bits (CiA 301 7.4.7). If the data type of the
-        // object has the same length, the object is an alias of this data type.
+        // The value of a DEFTYPE object is the length of the type in bits (CiA 301 7.4.7). The object is an alias of
+        // its data type if this data type has the same length.
         (ObjectCode::DefType, [item]) => match (item.ty.bits(), number(0)) {
             (Some(bits), None) => (item.ty, Some(bits)),
             (Some(bits), Some(length)) if length == i128::from(bits) => (item.ty, Some(bits)),

@@ -44,8 +44,8 @@ impl ObjectType<'_> {
     }
 }
 
-/// Returns the object code of the object `index`. If the object type is missing or invalid, the presence of sub-indices
-/// determines the code. The diagnostic for a missing object type marks `span`.
+/// Returns the object code of the object `index`. The presence of sub-indices determines the code if the object type is
+/// missing, invalid or VAR. `span` is the location of the object, for diagnostics about a missing object type.
 pub fn object_code(
     index: u16,
     given: Option<&ObjectType<'_>>,

@@ -241,8 +241,8 @@ impl Converter<'_> {
         }
     }
 
-    /// Reads a hexadecimal number for a real type. If the number has exactly as many digits as the type needs, the
-    /// digits are a bit pattern. Otherwise, the number is the value itself.
+    /// Reads a hexadecimal number for a real type. The digits are a bit pattern if there are exactly as many digits as
+    /// the type needs. Otherwise, the number is the value itself.
     fn real_bits(&mut self, digits: &str, text: &str, span: Span, bits: u32) -> Value {
         let ty = if bits == 32 { Type::Real32 } else { Type::Real64 };
         let Ok(pattern) = u64::from_str_radix(digits, 16) else { return self.illegal(text, span, ty) };

@@ -43,7 +43,7 @@ impl Lists {
 }
 
 /// Reads the numbered entries (`1=`, `2=` …) of a list, and compares their count with `count_key`. Sections with the
-/// same name form one list. If a number is repeated, the last entry applies.
+/// same name form one list. The last entry applies if a number is repeated.
 pub(super) fn numbered(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -124,8 +124,9 @@ fn by_number(
     (entries, count)
 }
 
-/// Returns whether `entry` announces the correct number of entries. Reports an incorrect number of entries. If the list
-/// has a gap, the diagnostic has no fix, because the announced number may be right and the numbering wrong.
+/// Returns whether `entry` announces the correct number of entries. Reports an incorrect or hexadecimal number. The
+/// diagnostic about an incorrect number has no fix if the list has a gap, because the announced number may be right and
+/// the numbering wrong.
 pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count: usize, has_gap: bool) -> bool {
     let Some(announced) = reader.unsigned(entry, 0xFFFF) else { return true };
     let (key, text, span) = (reader.doc.key(entry), reader.doc.value(entry), reader.doc.value_span(entry));

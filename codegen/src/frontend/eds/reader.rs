@@ -22,7 +22,7 @@ pub(super) struct Reader<'a, 'd> {
     pub orphan_sections: Vec<Section>,
     /// Number of modules that `[SupportedModules]` announces, and the span of the number.
     pub announced_modules: Option<(u32, Span)>,
-    /// Number of items created from CompactSubObj and CompactPDO.
+    /// Number of items created from CompactSubObj.
     pub derived_items: usize,
     /// Remaining number of text bytes that may be copied into derived elements.
     pub copies_left: usize,
@@ -224,11 +224,11 @@ impl<'a, 'd> Reader<'a, 'd> {
         *at = span;
     }
 
-    /// Stores an entry or a comment as an extension. Drops a comment that contains no letter or digit.
+    /// Stores an entry or a comment as an extension. Drops a comment that contains no letter or digit, such as a line
+    /// of dashes.
     pub(super) fn extension(&mut self, entry: &Entry, extensions: &mut Extensions) {
         let (key, value, span) = (self.doc.key(entry), self.doc.value(entry), self.doc.value_span(entry));
         if self.doc.is_comment(entry) {
-            // A comment without letters and digits, such as a line of dashes, is dropped.
             if value.bytes().any(|byte| byte.is_ascii_alphanumeric() || !byte.is_ascii()) {
                 extensions.push(Extension { key: COMMENT, value: value.into(), span });
             }

@@ -144,7 +144,7 @@ impl<'a> Reader<'a, '_> {
         let count = digits.clone().count();
         let mut octets = Vec::with_capacity(count / 2 + 1);
         let mut high = None;
-        // If the number of digits is odd, the first byte has only one digit.
+        // The first byte has only one digit if the number of digits is odd.
         if count % 2 == 1 {
             high = Some(0);
         }

@@ -69,8 +69,8 @@ fn check(reader: &mut Reader<'_, '_>, tag: &Tag<'_>, pdo: &Pdo, has_index: bool)
     }
 }
 
-/// Completes a PDO with facts from its template. If the file does not contain the template, reports the reference and
-/// returns false.
+/// Completes a PDO with facts from its template. Reports the reference and returns false if the file does not contain
+/// the template.
 fn complete<'a>(
     reader: &mut Reader<'a, '_>,
     reference: &Reference<'a>,

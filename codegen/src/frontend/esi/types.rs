@@ -274,8 +274,8 @@ impl<'t, 'a> Types<'t, 'a> {
         (Shape::Array { element, dimensions }, bits.or(ty.bits))
     }
 
-    /// Returns an array type for an alias whose name ends with `ARR` and whose length is a multiple of the base type's
-    /// length.
+    /// Returns an array type for an alias whose name ends with `ARR` and whose length is that of at least two elements
+    /// of the base type, without a remainder.
     fn array_without_info(&self, reader: &mut Reader<'_, '_>, base: Type, ty: &RawType<'_>) -> Option<Shape> {
         let (size, element) = (ty.bits?, self.bits(base).filter(|&bits| bits > 0)?);
         let count = size / element;
@@ -571,7 +571,7 @@ fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32
     ty.dimensions.iter().take(MAX_DIMENSIONS).map(|dimension| (dimension.lower, count(dimension))).collect()
 }
 
-/// Returns a bit field of unnamed single bits.
+/// Returns a bit field of single bits, which have their offsets as names.
 fn bit_array(width: u8) -> Shape {
     let bit = |offset| BitFieldEntry {
         name: format_compact!("Bit {offset}"),

@@ -157,7 +157,8 @@ fn fraction(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value 
     Value::Raw(given.compact())
 }
 
-/// Converts a number to a real type. Eight or sixteen hexadecimal digits are a bit pattern.
+/// Converts a number to a real type. A hexadecimal number is a bit pattern if it has exactly as many digits as the type
+/// needs.
 fn real(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
     let given = &raw.given;
     let decimal = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E');

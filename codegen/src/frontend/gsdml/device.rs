@@ -1,4 +1,4 @@
-//! Reads device access points: the properties of a device, and the modules and submodules that can be plugged into the
+//! Reads device access points: the settings of a device, and the modules and submodules that can be plugged into the
 //! device.
 
 use compact_str::format_compact;

@@ -9,7 +9,7 @@ use crate::ir::Numbers;
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
-    /// Reads a decimal number up to `max` and reports any other text.
+    /// Reads a decimal number up to `max`. Reports any other text, but still reads a hexadecimal number.
     pub fn unsigned(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
         if given.is_missing() {
             return None;
@@ -74,7 +74,8 @@ impl<'a> Reader<'a, '_> {
         self.ident(given, u32::MAX, "ident number").unwrap_or(0)
     }
 
-    /// Reads a list of numbers and ranges such as `1..3 7`. Reports and ignores invalid parts of the list.
+    /// Reads a list of numbers and ranges such as `1..3 7`. Reports the first invalid part. Descending ranges are read
+    /// with their limits swapped, and other invalid parts are left out.
     pub fn numbers(&mut self, given: &Given<'_>) -> Numbers {
         let mut list = SmallVec::new();
         let mut broken = None;

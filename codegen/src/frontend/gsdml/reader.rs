@@ -16,7 +16,7 @@ pub(super) type Reader<'a, 'd> = xml::Reader<'a, 'd, Gsdml<'a>>;
 pub(super) struct Gsdml<'a> {
     /// References to the texts at the end of the file.
     pub texts: TextReferences<'a>,
-    /// Types that were added to the catalog.
+    /// Types found so far, which are moved to the catalog after the file is read.
     pub types: Types<'a>,
     /// Identifiers of elements, and references to these elements.
     pub links: Links<'a>,
@@ -76,8 +76,8 @@ impl<'a> Reader<'a, '_> {
         Ok(Some(Box::new(Documentation { text, ..Documentation::default() })))
     }
 
-    /// Registers the identifier of the element `tag` at `position` in the catalog. If an identifier is repeated, the
-    /// first element takes precedence.
+    /// Registers the identifier of the element `tag` at `position` in the catalog. The first element takes precedence
+    /// if an identifier is repeated.
     pub fn register(&mut self, tag: &Tag<'a>, kind: ElementKind, id: &Given<'a>, position: usize) {
         if id.is_missing() {
             // Interfaces and ports of V2.0 have no identifier, and nothing refers to them.

@@ -212,7 +212,7 @@ impl<'a> TextList<'a> {
     /// Returns the text of an entry, and its translations.
     fn finish(&self, entry: &Entry<'a>) -> (CompactString, Texts) {
         let mut texts = Vec::new();
-        // If a language has two lists, both lists usually contain the same texts.
+        // Two lists for the same language usually contain the same texts.
         let is_repeated = self.seen.len() < self.languages.len();
         let mut seen = HashSet::new();
         let mut chain = entry.translations;

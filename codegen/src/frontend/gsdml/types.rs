@@ -85,7 +85,7 @@ impl<'a> Types<'a> {
         self.items.len()
     }
 
-    /// Adds a `ValueItem` element. If an identifier is repeated, the first element takes precedence.
+    /// Adds a `ValueItem` element. The first element takes precedence if an identifier is repeated.
     pub fn add_values(&mut self, id: &Given<'a>, item: ValueItem) {
         if !id.is_missing() {
             self.by_id.entry(id.text.clone()).or_insert(self.items.len());

@@ -61,7 +61,7 @@ fn span_of_values(text: &str) -> Option<(i128, Option<i128>)> {
     }
 }
 
-/// Reads an integer in a value list. Also accepts a fraction of zero, and hexadecimal digits.
+/// Reads an integer in a value list. Also accepts a fraction of zero, and hexadecimal digits after `0x`.
 fn whole(text: &str) -> Option<i128> {
     let text = text.trim();
     if let Ok(value) = text.parse::<i64>() {

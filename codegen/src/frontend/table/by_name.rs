@@ -5,15 +5,15 @@ use std::sync::Arc;
 
 use super::at::At;
 
-/// Definitions in the order of the table, with a lookup by name in constant time. All devices that a profile completes share the
-/// same definitions.
+/// Definitions in the order of the table, with a lookup by name in constant time. Copies of this list share the
+/// definitions.
 #[derive(Debug)]
 pub(super) struct ByName<T>(Arc<Lookup<T>>);
 
 #[derive(Debug)]
 struct Lookup<T> {
     all: Vec<(At<String>, T)>,
-    /// Positions in `all`, by name. If a name is repeated, the first definition counts.
+    /// Positions in `all`, by name. The first definition counts if a name is repeated.
     positions: HashMap<String, usize>,
 }
 

@@ -106,7 +106,7 @@ impl Definitions {
         integer(reader, base)
     }
 
-    /// Returns the basic type of a bit field, an enumeration or an alias.
+    /// Returns the type under aliases, bit fields, enumerations and scaled types.
     pub fn underlying(&self, ty: Type) -> Type {
         let mut ty = ty;
         // The types form no cycle, because each type refers only to earlier types.

@@ -1,4 +1,4 @@
-//! Reads properties of the machine that a device drives, and machine units that depend on these properties.
+//! Reads machine constants, and machine units that depend on these constants.
 
 use super::at::At;
 use super::format::{GivenTable, MachineUnitTable};
@@ -9,7 +9,7 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{GivenNumber, MachineUnit, Type};
 use crate::text::brief;
 
-/// Reads a property in the table `[given]`.
+/// Reads a machine constant from the table `[given]`.
 pub(super) fn number(
     reader: &mut Reader<'_, '_>,
     name: &At<String>,

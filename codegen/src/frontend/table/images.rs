@@ -26,7 +26,8 @@ struct FieldPosition {
 pub(super) struct Images {
     /// Items that exist only in images, in one group per image.
     groups: Vec<Group>,
-    /// Positions of the items of the device and of earlier images, by name. If a name is repeated, the first item counts.
+    /// Positions of the items of the device and of earlier images, by name. The first item counts if a name is
+    /// repeated.
     positions: HashMap<CompactString, ItemPosition>,
 }
 
@@ -71,7 +72,8 @@ impl Images {
     }
 }
 
-/// Reads a process image. A field with the name of an item of the device refers to this item. Any other field becomes a new item.
+/// Reads a process image. A field with the name of an item of the device or of an earlier image refers to this item.
+/// Any other field becomes a new item.
 pub(super) fn image(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,

@@ -91,7 +91,8 @@ impl InUse {
         }
     }
 
-    /// Adds the addresses of an item. Two items may share an address only if no device has both items.
+    /// Adds the addresses of an item. Two items may share an address only if no device has both of them on one bus, or
+    /// if both access the same value.
     pub fn addresses(&mut self, reader: &mut Reader<'_, '_>, item: &Item) {
         for binding in &item.bindings {
             let Some(address) = address(binding) else { continue };

@@ -122,7 +122,7 @@ fn allowed(reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row, base: Type, 
     item.limits.allowed.clone_from(&limits.allowed);
 }
 
-/// Reports writable values that are not allowed values.
+/// Reports writable values that the type, the limits or the allowed values exclude.
 fn writable(reader: &mut Reader<'_, '_>, row: &Row, base: Type, limits: &Limits) {
     let Some(given) = &row.writable else { return };
     for literal in reader.each(&given.value, (given.start, given.end)) {
@@ -138,8 +138,8 @@ fn writable(reader: &mut Reader<'_, '_>, row: &Row, base: Type, limits: &Limits)
     }
 }
 
-/// Reads the fixed value, which sets the default value and both limits. Reports other values of the row that differ from the
-/// fixed value.
+/// Reads the fixed value, which sets the default value and both limits. Reports a fixed value that the limits of the
+/// row exclude, and a default value that differs from the fixed value.
 fn fixed(reader: &mut Reader<'_, '_>, item: &mut Item, given: &At<Literal>, row: &Row, base: Type, limits: &Limits) {
     let (value, span) = (value::value(reader, given, base), reader.span(given));
     if let Some(reason) = excluded(limits, &value) {

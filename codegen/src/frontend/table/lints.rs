@@ -167,7 +167,7 @@ pub(super) fn series(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)]
             _ => (after, offset(Some(at + 2))),
         };
         let (Some(expected), true) = (neighbors.0, neighbors.0 == neighbors.1) else { continue };
-        // If the neighboring rows follow the rule of the space, another check already reported the object of this row.
+        // Another check already reported the object of this row if the neighboring rows follow the rule of the space.
         let by_rule = row.rule == Some(row.number.wrapping_add(expected));
         let is_member = [at.checked_sub(1), Some(at + 1)].into_iter().flatten().filter_map(|at| printed.get(at));
         let is_member = is_member.clone().count() > 0 && is_member.into_iter().all(|other| row.is_near(other));
@@ -183,7 +183,8 @@ pub(super) fn series(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)]
     }
 }
 
-/// Reports rows without an object in a chapter whose other rows print objects according to the rule of the space.
+/// Reports rows without an object in a chapter in which at least [`PRINTED`] rows print objects according to the rule
+/// of the space.
 pub(super) fn unprinted(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)], space: Option<&Space>) {
     let printed = rows.iter().filter_map(|(_, row)| Printed::new(reader, &row.value, space));
     if printed.filter(|row| row.rule == Some(row.index)).count() < PRINTED {

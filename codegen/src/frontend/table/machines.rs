@@ -78,7 +78,8 @@ fn is_field_of_reply(device: &Device, text: &str) -> bool {
     })
 }
 
-/// Reads a row of transitions. Returns one transition for each state that the row names as `from`.
+/// Reads a row of transitions. Returns one transition for each state that the row names as `from`, or one transition
+/// from any state if the row names none.
 fn transition(reader: &mut Reader<'_, '_>, given: &At<TransitionTable>, names: &Names<'_>) -> Vec<Transition> {
     let row = &given.value;
     let from: Vec<&String> = row.from.iter().flat_map(|list| &list.value.0).collect();

@@ -43,7 +43,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, file: &mut Table<'a>, rows: 
     spaces(reader, tables, device, &mut rows.references);
 }
 
-/// Reads the spaces whose register numbers are parameter numbers.
+/// Reads the spaces whose key `parameter` names the messages that transfer parameters.
 fn spaces<'t>(
     reader: &mut Reader<'_, '_>,
     tables: impl Iterator<Item = (&'t At<String>, &'t SpaceTable)>,
@@ -408,7 +408,8 @@ impl Fields<'_, '_, '_> {
         }
     }
 
-    /// Returns the length of a parameter number in bits: that of the field's type, or 16 if the field has no type.
+    /// Returns the length of a parameter number in bits: that of the field's type, or 16 if the field has no unsigned
+    /// integer type.
     fn code_bits(&mut self, field: &At<FieldTable>) -> u8 {
         let Some(ty) = &field.value.ty else { return 16 };
         match types::named(&ty.value).map(|named| named.ty) {

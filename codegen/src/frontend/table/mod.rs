@@ -5,7 +5,7 @@
 //! | `format`, `at`, `alternatives`, `read` | the tables of the format, their common types, and the readers of both |
 //! | `tree` | parses the file into these tables, and reports errors with their spans; options |
 //! | `notation`, `types`, `value`, `units`, `words` | numbers, ranges and addresses as text; type names; literals; unit symbols; words for access rights and other facts |
-//! | `definitions`, `given` | units, enumerations, bit fields; properties of the machine |
+//! | `definitions`, `given` | units, enumerations, bit fields; machine constants |
 //! | `scale` | conversion of raw values to physical values |
 //! | `conditions`, `variants` | conditions for elements; differences between models or buses |
 //! | `references`, `numbered` | names that refer to other elements, and register numbers in place of names |

@@ -47,8 +47,8 @@ pub(super) fn registers(text: &str) -> Option<(u32, u32)> {
     if end >= start {
         return Some((start, end));
     }
-    // An abbreviated end has the leading digits of the start. If this end is below the start, its leading digits are increased by
-    // 1.
+    // An abbreviated end has the leading digits of the start. These digits are increased by 1 if the end would be below
+    // the start.
     let modulus = 10u32.checked_pow(u32::try_from(last.len()).ok()?)?;
     let end = (start / modulus * modulus).checked_add(end)?;
     Some((start, if end < start { end.checked_add(modulus)? } else { end }))

@@ -12,7 +12,7 @@ use crate::ir::{Device, Entries, GroupKind, ItemNames, Shape};
 use crate::text::brief;
 use crate::text::glob;
 
-/// Names with their spans, and the kinds of elements to which they refer: `item`, `model`, `constant`, `message`, `procedure`.
+/// Names with their spans, and the kinds of elements to which they refer, such as `item`, `model` or `message`.
 pub(super) type References = Vec<(At<String>, &'static str)>;
 
 /// Kind of element to which most names refer.

@@ -51,7 +51,8 @@ impl Repeats {
         count < 2 || self.take(reader, (count - 1).saturating_mul(items(row)), span)
     }
 
-    /// Subtracts a number of items from the budget. Reports the first row that exceeds the limit.
+    /// Subtracts a number of items from the budget. Returns false and reports the first row that exceeds the limit, if
+    /// the budget is too small.
     fn take(&mut self, reader: &mut Reader<'_, '_>, items: usize, span: Span) -> bool {
         if items == 0 {
             return true;

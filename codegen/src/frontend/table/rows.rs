@@ -394,7 +394,8 @@ impl Rows {
             availability.replaced_by = Some(reader.reference(replaced));
             self.references.push((replaced.clone(), ITEM));
         }
-        // Only PROFINET and serial buses are stored, because the addresses of an item already show its other buses.
+        // Buses are stored only if they include PROFINET or a serial line, because the addresses of an item show all
+        // other buses.
         let buses = row.buses.iter().flatten().filter_map(|bus| Bus::from_name(&bus.value)).collect::<Buses>();
         if buses.contains(Bus::Profinet) || buses.contains(Bus::Serial) {
             availability.buses = buses;

@@ -30,8 +30,9 @@ pub(super) fn item(reader: &mut Reader<'_, '_>, definitions: &Definitions, given
     }
 }
 
-/// Compares objects that have sub-entries with the statements of other sections. The statements apply to all sub-entries except
-/// sub-index 0.
+/// Compares objects that have sub-entries with the statements of other sections. Name, object code and number of
+/// sub-indices are those of the object. All other facts of a statement apply to each sub-entry except sub-index 0, and
+/// only the first sub-entry that differs is reported.
 pub(super) fn objects(
     reader: &mut Reader<'_, '_>,
     definitions: &Definitions,

@@ -337,7 +337,7 @@ pub(super) fn similar<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> O
     (best.0 * 3 <= lower.chars().count().max(3)).then_some(best.1)
 }
 
-/// Returns the entries of a table in the order of the file, because the parser sorts them by name.
+/// Returns the entries of a table in the order of the file. The parser sorts them by name.
 pub(super) fn sorted<'a>(table: DeTable<'a>) -> Vec<(At<String>, Node<'a>)> {
     let mut entries: Vec<_> = table.into_iter().map(|(key, value)| (read::key(&key), value)).collect();
     entries.sort_by_key(|(key, _)| key.start);

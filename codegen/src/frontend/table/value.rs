@@ -74,7 +74,7 @@ pub(super) fn range(reader: &Reader<'_, '_>, literal: &At<Literal>, ty: Type) ->
     }
 }
 
-/// Returns whether the values of a type are numbers. Values of an unknown type count as numbers.
+/// Returns whether the values of a type are integers or BOOLEAN. Values of an unknown type count as integers.
 fn has_numbers(ty: Type) -> bool {
     matches!(ty, Type::Integer(_) | Type::Unsigned(_) | Type::Opaque(_) | Type::Boolean)
 }
@@ -100,7 +100,8 @@ pub(super) fn listed(reader: &mut Reader<'_, '_>, list: &[Literal], whole: (u32,
     values
 }
 
-/// Converts a literal to a value. If `is_pattern` is true, the digits are a bit pattern, whose highest bit is the sign.
+/// Converts a literal to a value. `is_pattern` means that the digits are a bit pattern, whose highest bit is the sign
+/// of a signed type.
 pub(super) fn convert(literal: &Literal, ty: Type, is_pattern: bool) -> Option<Value> {
     if let Literal::Text(text) = literal {
         return of_text(text, ty);

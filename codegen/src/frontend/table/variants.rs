@@ -89,7 +89,7 @@ impl Rows {
     }
 }
 
-/// Returns the limits of a variant. The allowed values also determine a minimum and a maximum.
+/// Returns the limits of a variant. A missing minimum or maximum follows from the allowed values.
 fn limits(low: Option<Value>, high: Option<Value>, allowed: ThinVec<(Value, Value)>) -> Limits {
     let compare = |one: &&Value, other: &&Value| match (one.as_int(), other.as_int()) {
         (Some(one), Some(other)) => one.cmp(&other),

@@ -102,8 +102,7 @@ impl<'p, 'a> View<'p, 'a> {
         self.parameter.and_then(&fact).or_else(|| self.template.and_then(&fact))
     }
 
-    /// Returns the labels and descriptions of the parameter. If the labels or the descriptions are missing, returns
-    /// those of the template.
+    /// Returns the labels and descriptions of the parameter, or those of the template if the parameter lacks them.
     pub fn texts(&self) -> Texts<'a> {
         let has = |names: &&'p Names<'a, Lang>| !names.is_empty();
         let labels = self.find(|parameter| Some(&parameter.texts.labels).filter(has));
@@ -165,7 +164,8 @@ pub(super) fn dangling(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &st
     reader.report(&codes::DANGLING_REFERENCE, given.span, message, "the reference is ignored");
 }
 
-/// Registers the position of an element by uniqueID. If a uniqueID is repeated, the first element takes precedence.
+/// Registers the position of an element by uniqueID. Reports a repeated uniqueID, for which the first element takes
+/// precedence.
 pub(super) fn insert(reader: &mut Reader<'_, '_>, ids: &mut Ids, given: Given<'_>, position: usize) {
     if given.is_missing() {
         return;

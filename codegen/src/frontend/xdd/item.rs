@@ -209,8 +209,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         Type::Named(id)
     }
 
-    /// Sets the limits of an item. If the object has no limits, the allowed values of the parameter determine the
-    /// limits of the item.
+    /// Sets the limits of an item. The allowed values of the parameter determine the limits if the object has none.
     fn limits(&mut self, raw: &Raw<'a>, ty: Type, allowed: Option<&'p Allowed<'a>>, item: &mut Item) {
         let attribute = |key| raw.get(key);
         (item.at.low, item.at.high) = (span_of(attribute(Key::LowLimit)), span_of(attribute(Key::HighLimit)));

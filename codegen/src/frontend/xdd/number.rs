@@ -18,7 +18,8 @@ impl Reader<'_, '_> {
         value
     }
 
-    /// Reads hexadecimal digits without a prefix (`hexBinary` of XML Schema).
+    /// Reads hexadecimal digits without a prefix (`hexBinary` of XML Schema). Reports a prefix, but still reads the
+    /// digits.
     pub fn hex(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
         if given.is_missing() {
             return None;

@@ -71,7 +71,8 @@ fn child<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, parameter: &mut Paramet
     Ok(())
 }
 
-/// Returns the attribute `value` of `defaultValue` and similar elements. All other attributes become extensions.
+/// Returns the attribute `value` of `defaultValue` and similar elements. All other attributes and the child elements
+/// become extensions.
 fn value<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Given<'a>> {
     let [given] = reader.attributes(tag, ["value"])?;
     while let Some(inner) = reader.child(tag)? {

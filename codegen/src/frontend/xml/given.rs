@@ -9,8 +9,8 @@ use crate::ir::Extension;
 use crate::source::{FileId, Span};
 use crate::syntax::xml::Attribute;
 
-/// Trimmed value of an attribute, or trimmed content of an element. The span is empty if the attribute or element is
-/// missing.
+/// Trimmed value of an attribute, or trimmed content of an element. The span is empty if the attribute is missing, or
+/// if the element is missing or has no text.
 #[derive(Clone, Debug, Default)]
 pub struct Given<'a> {
     /// Text of the attribute or element.
@@ -56,7 +56,7 @@ impl<'a> Given<'a> {
         Span { start, end: start + part.len() as u32, ..self.span }
     }
 
-    /// Returns whether the attribute or element is missing.
+    /// Returns whether the attribute is missing, or the element is missing or has no text.
     pub fn is_missing(&self) -> bool {
         self.span.is_empty()
     }

@@ -114,7 +114,8 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         self.select(tag, names, given, |reader, attribute| reader.unknown_attribute(tag, attribute))
     }
 
-    /// Returns the value of an attribute with surrounding blanks. The other attributes of the element have been read before.
+    /// Returns the value of an attribute with surrounding blanks. The other attributes of the element must have been
+    /// read before.
     pub fn attribute_with_blanks(&mut self, tag: &Tag<'a>, name: &str) -> Read<Given<'a>> {
         let given = |reader: &mut Self, attribute: &_| Given::of_attribute(attribute, reader.diagnostics);
         let [given] = self.select(tag, [name], given, |_, _| {})?;
@@ -200,7 +201,8 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         given
     }
 
-    /// Reads a Boolean value: `true`, `false`, 1 or 0. Returns `default` if the value is missing.
+    /// Reads a Boolean value: `true`, `false`, 1 or 0. Reports any other text. Returns `default` if the value is
+    /// missing.
     pub fn flag_or(&mut self, given: &Given<'_>, default: bool) -> bool {
         if given.is_missing() {
             return default;
@@ -216,7 +218,7 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         value
     }
 
-    /// Reads a Boolean value: `true`, `false`, 1 or 0. Returns false if the value is missing.
+    /// Reads a Boolean value: `true`, `false`, 1 or 0. Reports any other text. Returns false if the value is missing.
     pub fn flag(&mut self, given: &Given<'_>) -> bool {
         self.flag_or(given, false)
     }

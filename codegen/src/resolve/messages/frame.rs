@@ -130,7 +130,7 @@ impl Reader<'_, '_> {
         self.frame.is_open = true;
     }
 
-    /// Returns the length of a field of the request in bits.
+    /// Returns the length in bits of a value in the request.
     fn echoed(&self, name: &str) -> Option<u32> {
         let bits_of = |field: &MessageField| match field {
             MessageField::Value(value) if value.item.name == name => Some(self.owner.basic(value.item.ty).bits()),

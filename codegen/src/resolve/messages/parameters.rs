@@ -22,7 +22,8 @@ pub(crate) struct Carriers<'d> {
     pub write: Option<usize>,
 }
 
-/// Returns the parameter spaces whose messages read or write parameters.
+/// Returns the parameter spaces that contain parameters, with the messages that can read or write these parameters.
+/// Spaces without such a message are left out.
 pub(crate) fn carriers<'d>(device: &'d Device, shapes: &[Shaped<'_>]) -> Vec<Carriers<'d>> {
     let with = device.parameter_spaces.iter().filter(|space| !numbered(device, &space.name).is_empty());
     let all = with.map(|space| Carriers {

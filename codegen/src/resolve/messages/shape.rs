@@ -80,8 +80,8 @@ fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
     lost
 }
 
-/// Returns the position of the message that the device sends if it rejects `message`. Returns `None` if no code is generated for
-/// such a message.
+/// Returns the position of the message that the device sends if it rejects `message`. Returns `None` if no code is
+/// generated for such a message, or if its reply is empty or borrows from the data.
 pub(crate) fn refusal(shapes: &[Shaped<'_>], message: &Message) -> Option<usize> {
     let name = message.error.as_deref()?;
     shapes
@@ -89,12 +89,12 @@ pub(crate) fn refusal(shapes: &[Shaped<'_>], message: &Message) -> Option<usize>
         .position(|shaped| shaped.is_called(name) && !shaped.message.reply.is_empty() && !shaped.reply.borrows())
 }
 
-/// Returns an error if no code can be generated for a message.
+/// Returns an error if the request or reply of a message has no supported steps.
 pub(crate) fn problem(device: &Device, message: &Message) -> Result<(), Problem> {
     sides(device, message).map(drop)
 }
 
-/// Returns whether another lint reports the problem: an unresolved name, or a field that does not start at a byte boundary.
+/// Returns whether another lint reports the problem: an unresolved name, or fields that are not aligned to whole bytes.
 pub(crate) fn is_reported_elsewhere(device: &Device, message: &Message, problem: Problem) -> bool {
     let is_broken = || {
         let request = Frame::new(device, &message.request, &[]);

@@ -35,7 +35,7 @@ pub(crate) struct Side<'a> {
 }
 
 impl Side<'_> {
-    /// Returns the byte offset of a value.
+    /// Returns the byte offset of a value, if the value comes before the first step with a variable length.
     pub(crate) fn byte_offset(&self, name: &str) -> Option<u32> {
         let (_, at, _) = self.offsets.iter().find(|(other, ..)| *other == name)?;
         Some(at / 8)
@@ -203,8 +203,8 @@ impl<'a> Shaper<'a, '_> {
         (length == bits && at.is_multiple_of(8) && bits.is_multiple_of(8)).then_some(at / 8)
     }
 
-    /// Returns the step of a parameter number and its value, and the number of further fields that the step includes. If a reply
-    /// contains no value, its parameter number is a copy of that in the request.
+    /// Returns the step of a parameter number and its value, and the number of further fields that the step includes.
+    /// In a reply without the value, the parameter number is a copy of that in the request.
     fn code(&self, space: &'a str, bits: u32, rest: &[MessageField]) -> (Step<'a>, usize) {
         match (rest.first(), self.requested_code(bits)) {
             (Some(MessageField::ItemValue { space: other }), _) if other == space => (Step::Setting { bits, space }, 1),

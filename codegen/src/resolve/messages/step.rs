@@ -23,7 +23,7 @@ pub(crate) enum Step<'a> {
     Count { bits: u32, max: Option<u16> },
     /// A copy of these bytes of the request.
     Echo { first: u32, count: u32 },
-    /// A copy of these bytes of the request. If the request is shorter, the copy contains only the existing bytes.
+    /// A copy of these bytes of the request. The copy of a shorter request contains only the existing bytes.
     Copy { first: u32, count: u32 },
     /// Check of the following parameter number, which has to equal these bytes of the request.
     Same { first: u32, count: u32 },
@@ -93,7 +93,7 @@ impl Step<'_> {
     }
 }
 
-/// Returns the total number of bytes in the steps after the step with a variable length.
+/// Returns the total length of `steps` in bytes. Steps with a variable length do not count.
 pub(crate) fn tail(steps: &[Step<'_>]) -> u32 {
     steps.iter().filter_map(Step::bits).sum::<u32>() / 8
 }

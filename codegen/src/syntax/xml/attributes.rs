@@ -58,7 +58,7 @@ pub struct Attributes<'a> {
     rest: &'a str,
     at: u32,
     file: FileId,
-    /// Names that occurred so far, to detect duplicates.
+    /// The first names of the tag, up to [`limits::MAX_COMPARED_EXTENSIONS`], to detect duplicates.
     seen: SmallVec<[&'a str; 16]>,
 }
 

@@ -118,8 +118,8 @@ impl<'a> Cursor<'a> {
         Ok(None)
     }
 
-    /// Reads the innermost open element to its end and returns its text, if it contains exactly one piece of text. If the content
-    /// of the element is anything else, reads nothing and returns `None`.
+    /// Reads the innermost open element to its end and returns its text, if it contains exactly one piece of text.
+    /// Otherwise, reads nothing and returns `None`.
     pub fn only_text(&mut self) -> Option<Text<'a>> {
         let open = self.open.last().filter(|_| !self.empty)?;
         let rest = &self.text.as_bytes()[self.at..];
@@ -282,7 +282,7 @@ impl<'a> Cursor<'a> {
         Ok(None)
     }
 
-    /// Returns the text up to the next tag, including blanks.
+    /// Returns the text up to the next `<`, including blanks.
     fn text_to_tag(&mut self) -> Result<Text<'a>, Error> {
         let rest = &self.text.as_bytes()[self.at..];
         let length = scan::find_near(b'<', rest).unwrap_or(rest.len());

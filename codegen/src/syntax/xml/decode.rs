@@ -58,7 +58,8 @@ pub(super) fn decode<'a>(raw: &'a str, span: Span, blanks: Blanks, diagnostics: 
 /// Maximum length of an entity name that is searched after an `&`.
 const MAX_ENTITY_NAME: usize = 64;
 
-/// Returns the character of the reference at the start of `text`, and the length of the reference.
+/// Returns the character of the reference at the start of `text`, and the length of the reference. The character is
+/// `None` if the reference is invalid or unknown.
 fn reference_at(text: &str) -> (Option<char>, usize) {
     let name = text[1..].bytes().take(MAX_ENTITY_NAME).position(|byte| !byte.is_ascii_alphanumeric() && byte != b'#');
     let Some(length) = name.filter(|&length| length > 0 && text.as_bytes()[1 + length] == b';') else {

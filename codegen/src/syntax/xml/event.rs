@@ -72,7 +72,7 @@ impl<'a> Tag<'a> {
         !self.attributes.is_empty()
     }
 
-    /// Returns the attribute with this name and any prefix.
+    /// Returns the attribute with this name and any prefix except `xmlns`.
     ///
     /// # Errors
     ///

@@ -47,7 +47,7 @@ pub(super) fn after_blanks(bytes: &[u8], at: usize) -> usize {
     at + rest.iter().position(|&byte| !is_blank(byte)).unwrap_or(rest.len())
 }
 
-/// Returns the position of the first occurrence of `byte`. Usually, this position is so near that a loop is faster than a
+/// Returns the position of the first occurrence of `byte`. Most positions are near, and a loop finds them faster than a
 /// vectorized search.
 pub(super) fn find_near(byte: u8, bytes: &[u8]) -> Option<usize> {
     const NEAR: usize = 16;
@@ -116,8 +116,8 @@ pub(super) fn tag_end(bytes: &[u8], from: usize) -> Option<usize> {
     }
 }
 
-/// Returns whether the quotation marks are paired, so that the first `>` ends the tag. The loop has no early exit, which allows
-/// vectorization.
+/// Returns whether `bytes` contain an even number of double quotation marks and no single quotation mark. Then, the `>`
+/// after `bytes` ends the tag. The loop has no early exit, which allows vectorization.
 fn has_pairs_of_quotes(bytes: &[u8]) -> bool {
     let (odd, single) = bytes
         .iter()

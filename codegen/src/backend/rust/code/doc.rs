@@ -26,8 +26,8 @@ pub(super) enum Mark {
     Next,
     /// Ends a list, struct literal or list of numbers.
     Close,
-    /// A position at which the line is never broken. The text after this position does not count when the writer
-    /// decides whether the previous list fits on the line.
+    /// A position that ends the text whose width decides whether the previous list fits on the line. The line is never
+    /// broken at this position.
     Stop,
     /// A position where the line is broken if the following text does not fit. A line break replaces the space at this
     /// position.
@@ -40,7 +40,7 @@ pub trait Piece {
     fn put(&self, to: &mut Doc);
 }
 
-/// A break position at which the line is never broken.
+/// The piece for [`Mark::Stop`]. It ends the text that must fit on the line, but the line is never broken there.
 #[derive(Clone, Copy)]
 pub struct Stop;
 

@@ -8,7 +8,7 @@ const MARGIN: usize = 89;
 /// Number of spaces per indentation level.
 pub(super) const STEP: usize = 4;
 
-/// Writes a document with the given indentation. `out` must end with a line end.
+/// Writes a document on a new line with the given indentation. `out` must not end with a line break.
 pub(super) fn write(doc: &Doc, indent: usize, out: &mut String) {
     newline(out, indent);
     let text = doc.text();
@@ -95,7 +95,7 @@ impl Printer<'_, '_> {
         self.skip_blank();
     }
 
-    /// Returns the width of the next number with the space before it. A comma is included if another number follows.
+    /// Returns the width of the next member with the space before it. A comma is included if another member follows.
     fn width_of_next(&self, position: usize) -> usize {
         let next_mark = self.doc.marks().get(position + 1);
         next_mark.map_or(0, |(offset, mark)| offset - self.at + usize::from(*mark == Mark::Next))
@@ -121,8 +121,8 @@ impl Printer<'_, '_> {
     }
 
     /// Returns the width that a construct would have on one line. The text after the construct is included up to the
-    /// next break position outside of later lists. Returns `usize::MAX` if a struct in the construct needs several
-    /// lines.
+    /// next break position outside of later lists. Returns `usize::MAX` if the width exceeds [`MARGIN`], or if a struct
+    /// in the construct needs several lines.
     fn width(&self, position: usize) -> usize {
         let (mut depth, mut is_inside) = (0_usize, true);
         let marks = self.doc.marks().get(position..).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The constants `DEVICE` and `MODULE`. These constants describe a slave with the types of the runtime.
+//! The constants `DEVICE` and `MODULE`. These constants describe a slave or a module with the types of the runtime.
 
 use super::{Assigned, ModulePaths};
 use crate::backend::rust::code::{Data, Doc};
@@ -187,8 +187,8 @@ fn transitions(names: Vec<&str>) -> Doc {
     Data::call("rt::ethercat::Transitions::of", vec![Data::slice(list)])
 }
 
-/// Returns the state transition at which the master writes the list of modules to the device. The default transition is
-/// PS.
+/// Returns the state transitions at which the master writes the list of modules to the device. The list is empty if the
+/// device expects no such write. The default transition is PS.
 fn download(rules: &SlotRules) -> Doc {
     if !rules.download_idents {
         return Doc::from("rt::ethercat::Transitions::NONE");

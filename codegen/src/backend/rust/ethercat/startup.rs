@@ -1,5 +1,5 @@
-//! Generates a constant with the SDO writes that configure the default PDO assignment.
-//! `rt::ethercat::Assignment::by_default` returns the same writes.
+//! Generates a constant with the SDO writes that configure the default PDO assignment. At run time, the method
+//! `Assignment::commands` returns the writes for any assignment.
 
 use super::Assigned;
 use crate::backend::rust::code::Doc;

@@ -17,7 +17,8 @@ impl Buses {
         self == Buses::default()
     }
 
-    /// Returns whether all routes are direct, that is, none leads through a window.
+    /// Returns whether all accesses use the item's own address without a conversion, and no bus allows fewer accesses
+    /// than the item.
     pub fn is_direct(self) -> bool {
         self.0.iter().all(|kind| matches!(kind, RouteKind::Absent | RouteKind::One(PathKind::Direct)))
     }

@@ -16,7 +16,8 @@ pub(super) struct Field<'i> {
 }
 
 impl<'i> Field<'i> {
-    /// Creates the field of a value of type `base`. Returns `None` if the runtime cannot read such a field.
+    /// Creates the field of a value of type `base`. Returns `None` for other bindings, and for fields that the runtime
+    /// cannot read.
     pub fn of(scope: &Scope<'_>, base: Type, binding: &'i Binding) -> Option<Self> {
         let Binding::Image(binding) = binding else { return None };
         let ImageBinding { image, bit_offset, bits, ty } = &**binding;

@@ -27,7 +27,8 @@ impl ItemAddresses<'_> {
         }
     }
 
-    /// Returns the first arguments of the register constructors. The item must be a register and may also be an object.
+    /// Returns the first arguments of the register constructors: the object address, if there is one, and the register.
+    /// Returns `None` if these constructors cannot express the location.
     pub fn with_register(&self) -> Option<Vec<String>> {
         let routed = self.routed();
         let register = self.register(routed.modbus.filter(|_| routed.serial.is_none() && routed.is_simple())?);
@@ -41,7 +42,8 @@ impl ItemAddresses<'_> {
         }
     }
 
-    /// Removes addresses that no route uses, because their bus allows neither reading nor writing.
+    /// Returns the addresses that a route uses. The other addresses are on buses that allow neither reading nor
+    /// writing.
     fn routed(&self) -> Self {
         let is_routed = |bus: RouteBus| self.routes[bus as usize].access_paths().next().is_some();
         ItemAddresses {
@@ -115,7 +117,8 @@ impl ItemAddresses<'_> {
 
     /// Returns a function that creates the location from the values that differ between items. A call of the generated
     /// function compiles in a third of the time that the full expression needs. Returns `None` if the runtime defines
-    /// the location type. `windows` is the path to the device's windows.
+    /// the location type, or if the item has different numbers in several windows. `windows` is the path to the
+    /// device's windows.
     pub fn maker(&self, located: &Located<'_>, windows: &str) -> Option<Maker> {
         let buses = self.buses();
         if buses.is_empty() || buses.path().is_some() {

@@ -72,7 +72,8 @@ fn plain<'i>(item: &Item) -> Route<'i> {
     Route { read, write, is_partial: false }
 }
 
-/// Returns the path through a window. The window belongs to the item's parameter space.
+/// Returns the path through a window of the item's parameter space. Returns `None` if no window on the bus can transfer
+/// the item.
 fn through<'i>(located: &Located<'_>, item: &Item, bus: RouteBus, writes: bool) -> Option<AccessPath<'i>> {
     item.bindings.iter().filter_map(window::indirect).find_map(|binding| {
         let at = window::position(&located.windows, binding, bus, writes)?;

@@ -28,8 +28,8 @@ pub(super) fn sentence(context: &Context<'_>, message: &Message, doc_module: Doc
 }
 
 /// Returns the body of the method `is_complete` of a reply. The expression uses the first polling condition that can be
-/// evaluated from fields of the reply. Returns `None` if the fields of the reply may still refer to the previous
-/// command.
+/// evaluated from fields of the reply. Returns `None` if there is no such condition, or if the fields of the reply may
+/// still refer to the previous command.
 pub(super) fn expression(
     context: &Context<'_>,
     conditions: &Conditions<'_>,

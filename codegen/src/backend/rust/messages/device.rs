@@ -33,7 +33,7 @@ pub(in crate::backend::rust) struct CallModel {
 
 /// The state of the driver after power-on.
 pub(in crate::backend::rust) struct DefaultModel {
-    /// Type of the message whose sending would also bring the driver into the state after power-on.
+    /// Type of the message that would also bring the driver into this state.
     pub selector: String,
 }
 
@@ -98,8 +98,8 @@ fn docs(model: &MessageModel, request: &DataModel) -> Vec<String> {
     model.call_docs.iter().cloned().chain([String::new(), sends]).collect()
 }
 
-/// Returns the state of the driver after power-on. Returns `None` if the description states no such state, or if no
-/// message selects it.
+/// Returns the state of the driver after power-on. Returns `None` if the description states no such state, if no
+/// message selects it, or if no request requires it.
 pub(super) fn by_default(
     shaped: &[Shaped<'_>],
     messages: &[MessageModel],

@@ -51,7 +51,7 @@ fn check(framing: &Framing) -> Option<String> {
     })
 }
 
-/// Returns the byte position at which a field starts in the requests.
+/// Returns the byte position at which a field starts in the first request that contains the field.
 fn check_start(field: &str, shaped: &[Shaped<'_>]) -> Option<u32> {
     shaped.iter().find_map(|shape| shape.request.byte_offset(field))
 }
@@ -76,7 +76,7 @@ fn longest(step: &Step<'_>) -> u32 {
     }
 }
 
-/// Returns whether requests contain a station number.
+/// Returns whether any request contains a station number.
 pub(super) fn has_station(shaped: &[Shaped<'_>]) -> bool {
     let mut steps = shaped.iter().flat_map(|shape| &shape.request.steps);
     steps.any(|step| matches!(step, Step::Station { .. }))

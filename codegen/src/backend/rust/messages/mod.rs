@@ -34,7 +34,7 @@ pub(super) struct ProtocolModel {
     pub framing_docs: Vec<String>,
     pub max_data: u32,
     pub derives: Vec<String>,
-    /// True if requests contain a station number.
+    /// True if any request contains a station number.
     pub has_station: bool,
     pub rules: Vec<RuleModel>,
     pub messages: Vec<MessageModel>,

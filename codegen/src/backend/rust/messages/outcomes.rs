@@ -63,7 +63,8 @@ fn states(context: &Context<'_>, device: &Device, machine: &StateMachine, types:
     machine::states_of(context, machine, model, &types.enumerations)
 }
 
-/// Returns links from message types to the states of all machines, keyed by state name.
+/// Returns the paths of the states of all machines, keyed by state name. If several machines have a state with the same
+/// name, the path leads to the state of the first machine.
 pub(super) fn links(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<String, String> {
     let mut links = HashMap::new();
     for (ty, variants) in device.machines.iter().filter_map(|machine| states(context, device, machine, types)) {

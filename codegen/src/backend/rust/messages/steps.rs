@@ -141,7 +141,7 @@ fn reading(bits: u32, order: &[u8]) -> String {
     }
 }
 
-/// Returns a check of the station number. Returns `None` if all station numbers are allowed.
+/// Returns a check of the station number. Returns `None` if all 32-bit numbers are allowed.
 fn station(bits: u32, limits: &Limits) -> Option<Doc> {
     let number =
         |limit: &Option<Value>| limit.as_ref().and_then(Value::as_int).and_then(|number| u32::try_from(number).ok());

@@ -98,8 +98,8 @@ fn struct_names(scope: &Scope<'_>) -> Vec<String> {
     scope.pdos.iter().filter_map(name).collect()
 }
 
-/// Returns names such as `RxPdo1`. If several PDOs have the same number, the next names are `RxPdo1_2`, and so on. Two
-/// PDOs have the same number if both a register table and the object dictionary describe the PDO.
+/// Returns names such as `RxPdo1`. If several PDOs have the same number, the next names are `RxPdo1_2`, and so on. PDOs
+/// have the same number, for example, if a register table and the object dictionary describe the same PDO.
 fn numbered<'p>(pdos: impl Iterator<Item = &'p Pdo>) -> Vec<String> {
     let mut seen: HashMap<String, usize> = HashMap::new();
     let name = |pdo: &Pdo| {
@@ -123,8 +123,8 @@ fn names_by_source(scope: &Scope<'_>, is_named: impl Fn(&Pdo) -> bool, numbers: 
         .iter()
         .filter(|pdo| is_named(pdo))
         .map(|pdo| {
-            // Two PDOs have the same index if the description wrongly uses one index for the PDOs of two sync managers.
-            // The line number then makes the suffix unique.
+            // Several PDOs may have the same index, for example PDOs of different sync managers. The line number then
+            // makes the suffix unique.
             let twice = if seen.insert(pdo.mapping_index) { String::new() } else { format!("_{}", pdo.origin.line) };
             NameRequest::new(&pdo.name, prefix(pdo.direction), format!("{:04X}{twice}", pdo.mapping_index))
         })

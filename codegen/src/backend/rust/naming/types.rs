@@ -63,7 +63,8 @@ pub(in crate::backend::rust) struct TypeNames<'a> {
 const RESERVED: [&str; 9] = ["Self", "Option", "Result", "Unknown", "Some", "None", "Default", "New", "FromRaw"];
 
 impl<'a> TypeNames<'a> {
-    /// Returns the named types of items, PDO entries and fields in bit fields.
+    /// Returns the named types of items, PDO entries, message fields and fields in bit fields, with the names of views
+    /// and state machines.
     pub(super) fn of(scope: &Scope<'a>, handles: &HandleNames<'_>) -> Self {
         let mut types = used(scope, handles);
         let machines = scope.device.map_or(&[][..], |device| &device.machines);
@@ -218,8 +219,8 @@ fn is_named(fields: &[BitFieldEntry]) -> bool {
     })
 }
 
-/// Returns the enumeration at `position` in the list of types. Returns `None` if none of its values fits its integer
-/// type.
+/// Returns the enumeration at `position` in the list of types. Returns `None` if its base type is not an integer, or if
+/// none of its single values fits this type.
 fn enumeration(scope: &Scope<'_>, position: u32) -> Option<NamedType> {
     let Shape::Enumeration { base, values, .. } = &scope.types.get(position as usize)?.shape else { return None };
     // If a Boolean has named values, its base type is a one-bit integer.

@@ -1,4 +1,4 @@
-//! Prints the properties of the machine, and the differences between the models of a device.
+//! Prints the machine constants, and the differences between the models of a device.
 
 use crate::backend::rust::code::{call, line, open, seq, Code, Stop};
 use crate::backend::rust::device_models::DeviceModel;

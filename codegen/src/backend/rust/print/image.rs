@@ -94,8 +94,8 @@ fn view(code: &mut Code, image: &ImageModel) {
     code.close("}");
 }
 
-/// Writes the method that returns the view of a PDO. `bytes` is the type of the image's bytes, and `borrow` is the method that
-/// borrows them.
+/// Writes the method that returns the view of a PDO. `bytes` is the type of the image's bytes, and `borrow` is the
+/// method that borrows them.
 fn pdo(code: &mut Code, field: &ImageField, method: Doc, bytes: &str, borrow: &str) {
     code.doc(&field.docs);
     line!(code, "#[inline]");

@@ -94,7 +94,8 @@ pub(super) fn units(catalog: &Catalog, values: &Values<'_>, options: &RustOption
     models.filter(|model| !model.fields.is_empty()).collect()
 }
 
-/// Returns the number of bytes up to the end of the last field.
+/// Returns the number of bytes up to the end of the last field. Returns `None` if there are no fields or too many
+/// bytes.
 fn length(unit: &UnitDiagnosis) -> Option<u32> {
     let ends = unit.fields.iter().map(|field| u64::from(field.bit_offset) + u64::from(field.bits));
     let length = u32::try_from(ends.max()?.div_ceil(8)).ok()?;

@@ -6,7 +6,7 @@ use crate::backend::rust::code::{call, seq, Doc};
 use crate::backend::rust::value_type::native;
 use crate::ir::{TimeFormat, Type, TypeDef};
 
-/// Number of bits in a word. Only byte strings may be longer than a word.
+/// Number of bits in a word, that is, in a `u64`. Only byte strings may be longer than a word.
 const WORD: u32 = 64;
 
 /// Position of a field's bits. If a field extends over several bytes without filling them, the field is a part of the
@@ -20,7 +20,8 @@ pub(super) struct FieldPosition {
 }
 
 impl FieldPosition {
-    /// Returns the position of `bits` bits at bit offset `offset`. Returns `None` if the bits end after `length` bytes.
+    /// Returns the position of `bits` bits at bit offset `offset`. Returns `None` if `bits` is 0, or if the bits end
+    /// after `length` bytes.
     pub(super) fn within(length: u32, offset: u32, bits: u32) -> Option<Self> {
         let position = FieldPosition { byte: offset / 8, bit: offset % 8, bits };
         let last_bit = (position.bit + 8).checked_add(bits)?;

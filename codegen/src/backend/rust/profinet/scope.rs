@@ -110,7 +110,8 @@ fn submodules<'a>(
 }
 
 /// Returns the suffix that distinguishes elements with the same name. The suffix consists of the letters and digits of
-/// the element's ID in the description, or is the ident number.
+/// the element's ID in the description. For an ID without letters and digits, the suffix is the ident number or, if
+/// this number is 0, the position.
 fn identifier(id: &str, ident: u32, position: usize) -> String {
     let words = id.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let words: Vec<&str> = words.collect();
@@ -121,7 +122,7 @@ fn identifier(id: &str, ident: u32, position: usize) -> String {
     }
 }
 
-/// Returns the types of all fields in these submodules.
+/// Returns the types of all fields in these submodules, and in the user-defined diagnosis structures.
 fn types(catalog: &Catalog, submodules: &BTreeMap<u32, (&Submodule, String)>) -> Vec<Type> {
     let mut types = Vec::new();
     for (submodule, _) in submodules.values() {

@@ -113,8 +113,8 @@ impl<'o> Applied<'o> {
         let Module { groups, fixed_objects, types, extensions, .. } = module;
         let effect = self.apply_rows(reader, ObjectSet { groups, types, extensions, buses });
         let effect = effect.max(self.apply_rows(reader, ObjectSet { groups: fixed_objects, types, extensions, buses }));
-        // CiA 306 modules have `groups`, and ETG.2000 modules have `fixed_objects`. One of the two lists is empty, so the joined
-        // list is sorted.
+        // ETG.2000 modules have `groups`, and CiA 306 modules have `fixed_objects`. One of the two lists is empty, so
+        // the joined list is sorted.
         let count = groups.len();
         groups.append(fixed_objects);
         self.resolve(reader, groups, types);
@@ -310,7 +310,7 @@ impl<'o> Applied<'o> {
                 RowEffect::Changed => {}
             }
         }
-        // If a row was not applied, unused definitions are not reported, because the row might use them.
+        // Unused definitions are not reported if a row was not applied, because this row might use them.
         let whole = Span::new(reader.file, 0, u32::MAX);
         if self.effects.contains(&RowEffect::NoMatch) || reader.diagnostics.error_spans().any_in(whole) {
             return;
@@ -392,8 +392,8 @@ impl<'c> ObjectSet<'c> {
     }
 }
 
-/// Merges the last table of codes into an earlier table with the same name. If both tables contain a code, the row of the last
-/// table applies.
+/// Merges the last table of codes into an earlier table with the same name. The row of the last table applies if both
+/// tables contain a code.
 fn merge(tables: &mut Vec<CodeTable>) {
     let Some(last) = tables.pop() else { return };
     let Some(table) = tables.iter_mut().find(|table| table.name == last.name) else {

@@ -30,7 +30,7 @@ pub(super) struct ObjectSet<'c> {
     pub buses: ObjectBuses,
 }
 
-/// Effect of a row, in ascending order. If a row applies to several devices, the maximum effect counts.
+/// Effect of a row, in ascending order. The maximum effect counts if a row applies to several devices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum RowEffect {
     /// The row matches no object or item.
@@ -135,7 +135,8 @@ impl RowPatcher<'_> {
         effect
     }
 
-    /// Changes the items that the key of a row names, either by item name, or by group and item name with a slash between them.
+    /// Changes the item that the key of a row names, either by item name, or by group and item name with a slash
+    /// between them.
     fn named(&mut self, reader: &mut Reader<'_, '_>, groups: &mut [Group], row: &PatchRow) -> RowEffect {
         let mut found = find(groups, &row.key.value);
         if found.len() > 1 {
@@ -403,7 +404,7 @@ fn exists(groups: &[Group], objects: Objects) -> bool {
     })
 }
 
-/// Restores the earlier documentation of an item after a row without `doc` changed the item.
+/// Restores the earlier text and translations of an item's documentation after a row without `doc` changed the item.
 fn keep_words(documentation: &mut Option<Box<Documentation>>, before: Option<&Documentation>) {
     let Some(before) = before else { return };
     match documentation {
