@@ -164,7 +164,7 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
         anchor: Some(anchor),
         number,
         name: format!("{} ({})", group.name, code.name()),
-        names: words::names(&group.names),
+        names: words::names(&group.name, &group.names),
         facts,
         doubts: entry::doubts(&group.doubts, rows.known.manual),
         diagnostics: rows.known.diagnostics.of_group(group),

@@ -85,7 +85,7 @@ fn module(
     ModuleModel {
         number: hex32(module.number),
         name: module.name.to_string(),
-        names: words::names(&module.names),
+        names: words::names(&module.name, &module.names),
         facts,
         translations: words::translations(module.documentation.as_deref()),
         frames: process::frames(
@@ -111,7 +111,7 @@ fn submodule(catalog: &Catalog, submodule: &Submodule, anchor: String, diagnosti
     ModuleModel {
         number: hex32(submodule.ident),
         name: submodule.name.to_string(),
-        names: words::names(&submodule.names),
+        names: words::names(&submodule.name, &submodule.names),
         facts,
         translations: words::translations(submodule.documentation.as_deref()),
         frames: inputs.into_iter().chain(outputs).collect(),

@@ -156,6 +156,32 @@ fn languages_of_modules_can_be_chosen() {
 }
 
 #[test]
+fn equal_translations_are_shown_once() {
+    let path = crate::root::root().join("tests/data/drive.gsdml.xml");
+    let text = std::fs::read_to_string(path).expect("a description");
+    let language = |tag: &str, axis: &str| {
+        format!(
+            "<Language xml:lang=\"{tag}\"><Text TextId=\"T_Axis\" Value=\"{axis}\"/><Text TextId=\"T_Tel1\" Value=\"Standard telegram 1\"/></Language>"
+        )
+    };
+    let languages = ["de", "nl"].map(|tag| language(tag, "Achse")).concat() + &language("fr", "Axe");
+    let text = text.replace("</ExternalTextList>", &format!("{languages}</ExternalTextList>"));
+    let page = |format, path: &str| {
+        let pages = site(format, vec![("drive".to_owned(), Source::new("drive.xml", text.clone().into()))]);
+        pages.into_iter().find(|page| page.path.ends_with(path)).expect("the modules").text
+    };
+    let html = page(Format::Html, "/modules.html");
+    let name = "<b>Axis</b> <i lang=\"de\" title=\"de, nl\">Achse</i> <i lang=\"fr\">Axe</i></h2>";
+    assert!(html.contains(name), "{html}");
+    assert!(html.contains("<p lang=\"de\" title=\"de, nl\">Achse<p lang=\"fr\">Axe"), "{html}");
+    assert!(html.contains("<b>Standard telegram 1</b></h2><p>Standard telegram 1."), "{html}");
+    let markdown = page(Format::Markdown, "/modules.md");
+    assert!(markdown.contains(" Axis *Achse* (de, nl) *Axe*\n"), "{markdown}");
+    assert!(markdown.contains("\n*Achse* (de, nl)\n"), "{markdown}");
+    assert!(markdown.contains(" Standard telegram 1\n\nStandard telegram 1.\n"), "{markdown}");
+}
+
+#[test]
 fn each_transition_of_cia_402_has_an_arrow() {
     let pages = files(Format::Html, &["dictionaries/demo-drive.eds"]);
     let page = pages.iter().find(|page| page.path.ends_with("states-and-procedures.html")).expect("the state machine");
