@@ -377,11 +377,10 @@ impl<'a> Folder<'a> {
             self.index_page(file, "module", title, "");
             for module in modules {
                 let words = module.facts.first().map_or("", String::as_str);
-                self.index.entry(&Entry {
-                    names: &module.names,
-                    words,
-                    ..index_entry(&module.anchor, &module.number, &module.name)
-                });
+                for number in module.lookups() {
+                    let entry = index_entry(&module.anchor, number, &module.name);
+                    self.index.entry(&Entry { names: &module.names, words, ..entry });
+                }
                 for (_, section) in &module.sections {
                     index_rows(&mut self.index, &section.rows);
                 }

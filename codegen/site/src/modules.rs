@@ -8,7 +8,9 @@ use super::process::{self, About, Frame};
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::facts::{self, address};
-use lexibus_codegen::ir::{Catalog, Device, Group, GroupKind, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef};
+use lexibus_codegen::ir::{
+    Catalog, Device, Documentation, Group, GroupKind, Identity, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef,
+};
 
 /// Maximum number of modules per page.
 pub(super) const PAGE: usize = 100;
@@ -18,6 +20,7 @@ pub(super) const PAGE: usize = 100;
 pub(super) struct ModuleModel {
     pub anchor: String,
     pub number: String,
+    pub order_code: String,
     pub name: String,
     pub names: Vec<(String, String)>,
     pub facts: Vec<String>,
@@ -27,6 +30,13 @@ pub(super) struct ModuleModel {
     pub sections: Vec<(String, Section)>,
     /// Names of the submodules that belong to the module, with links to them.
     pub parts: Vec<(String, String)>,
+}
+
+impl ModuleModel {
+    /// Returns the numbers that the search finds the module by: ident number and order code.
+    pub fn lookups(&self) -> impl Iterator<Item = &str> {
+        [self.number.as_str(), self.order_code.as_str()].into_iter().filter(|number| !number.is_empty())
+    }
 }
 
 /// A slot of a device.
@@ -73,20 +83,26 @@ fn sections<'g>(
     groups.map(|group| section(group, &mut rows)).collect()
 }
 
+/// Returns the facts that modules and submodules have.
+fn facts(documentation: Option<&Documentation>, identity: &Identity) -> Vec<String> {
+    let mut facts = PLAIN.description(documentation);
+    let order = &identity.order_code;
+    facts.extend((!order.is_empty()).then(|| format!("Order code {order}.")));
+    facts
+}
+
 fn module(
     module: &Module,
     anchor: String,
     parts: Vec<(String, String)>,
     diagnostics: &ShownDiagnostics,
 ) -> ModuleModel {
-    let mut facts = PLAIN.description(module.documentation.as_deref());
-    let order = &module.identity.order_code;
-    facts.extend((!order.is_empty()).then(|| format!("Order code {order}.")));
     ModuleModel {
         number: hex32(module.number),
+        order_code: words::one_line(&module.identity.order_code),
         name: module.name.to_string(),
         names: words::names(&module.name, &module.names),
-        facts,
+        facts: facts(module.documentation.as_deref(), &module.identity),
         translations: words::translations(module.documentation.as_deref()),
         frames: process::frames(
             &module.process_data,
@@ -100,7 +116,7 @@ fn module(
 }
 
 fn submodule(catalog: &Catalog, submodule: &Submodule, anchor: String, diagnostics: &ShownDiagnostics) -> ModuleModel {
-    let mut facts = PLAIN.description(submodule.documentation.as_deref());
+    let mut facts = facts(submodule.documentation.as_deref(), &submodule.identity);
     facts.extend((submodule.api != 0).then(|| format!("API {}.", hex16(submodule.api))));
     facts.extend(
         submodule.f_parameters.is_some().then(|| "With parameters of functional safety (PROFIsafe).".to_owned()),
@@ -110,6 +126,7 @@ fn submodule(catalog: &Catalog, submodule: &Submodule, anchor: String, diagnosti
     let outputs = submodule.output.as_deref().map(|data| image(data, "Outputs of the controller"));
     ModuleModel {
         number: hex32(submodule.ident),
+        order_code: words::one_line(&submodule.identity.order_code),
         name: submodule.name.to_string(),
         names: words::names(&submodule.name, &submodule.names),
         facts,

@@ -26,6 +26,22 @@ fn the_search_finds_the_entries_of_pages() {
 }
 
 #[test]
+fn the_search_finds_modules_by_name_order_code_and_ident_number() {
+    let path = crate::root::root().join("tests/data/drive.gsdml.xml");
+    let text = std::fs::read_to_string(path).expect("a description");
+    let order = "<InfoText TextId=\"T_Axis\"/><OrderNumber Value=\"EX-7 AX\"/>";
+    let text = text.replace("<InfoText TextId=\"T_Axis\"/>", order);
+    let pages = site(Format::Html, vec![("drive".to_owned(), Source::new("drive.xml", text.into()))]);
+    let index = &pages.iter().find(|page| page.path.ends_with("/search.js")).expect("an index").text;
+    // Both numbers of the module are entries with its name, and lead to its anchor.
+    for part in ["\\n0x00000030\\nEX-7 AX\\n", "\\nAxis\\t", "\\nmodule-00000030\\nmodule-00000030\\n"] {
+        assert!(index.contains(part), "{part}: {index}");
+    }
+    let modules = &pages.iter().find(|page| page.path.ends_with("/modules.html")).expect("the modules").text;
+    assert!(modules.contains("<section id=\"module-00000030\">"), "{modules}");
+}
+
+#[test]
 fn nothing_of_a_description_is_markup() {
     let pages = site(Format::Html, hostile::descriptions());
     html_markup(&pages);
