@@ -1,7 +1,7 @@
 //! Writes the pages of a catalog. Each device has a folder. The pages that several devices share are in a folder of the
 //! description.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use super::addresses::Addresses;
@@ -14,7 +14,7 @@ use super::diagnostics::ShownDiagnostics;
 use super::entry::{Known, Row};
 use super::links::Links;
 use super::machines;
-use super::modules::{self, ModuleModel};
+use super::modules::{self, Modules};
 use super::overview::{self, Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST, ROOT};
 use super::process::{self, About, ProcessPart};
@@ -154,13 +154,13 @@ impl<'a> Folder<'a> {
         };
         self.open(self.home.clone());
         // The device pages link to the shared pages, so the file names of the shared pages are determined first.
-        let (modules, files) = self.modules(catalog);
+        let modules = self.modules(catalog);
         let diagnostics = (!self.diagnostics.list.is_empty()).then(|| self.file("Diagnostics"));
         let first = format!("{FIRST}{}", self.format.ending());
-        let mut shared = files.clone();
+        let mut shared = modules.files.clone();
         shared.extend(diagnostics.iter().map(|file| (file.clone(), "Diagnostics".to_owned())));
         // The first module page links to all module pages.
-        let many = files.len().min(1)..files.len();
+        let many = modules.files.len().min(1)..modules.files.len();
         let list = only.is_none().then(|| (first.clone(), self.name.clone()));
         let here = Common { list, shared: Rc::new(Links::new(shared, many)) };
         let languages_of_modules = languages_of_modules(catalog);
@@ -180,7 +180,7 @@ impl<'a> Folder<'a> {
         let title = only.map_or_else(|| self.name.clone(), title);
         let device_pages = if only.is_some() { self.last.clone() } else { Rc::default() };
         let frame = self.frame(title, device_pages, &here, languages(&catalog.devices, &languages_of_modules));
-        self.module_pages(&modules, &files, &frame);
+        self.module_pages(&modules, &frame);
         if let Some(file) = &diagnostics {
             let list = std::mem::take(&mut self.diagnostics.list);
             self.page(&frame, file, Content::Diagnostics(&list));
@@ -355,24 +355,16 @@ impl<'a> Folder<'a> {
         }
     }
 
-    /// Returns the modules, and the file name and title of each of their pages.
-    fn modules(&mut self, catalog: &Catalog) -> (Vec<ModuleModel>, Vec<(String, String)>) {
-        let mut all = modules::modules(catalog, &self.diagnostics);
-        let count = all.len().div_ceil(modules::PAGE);
-        let name = |at: usize| match count {
-            1 => "Modules".to_owned(),
-            _ => format!("Modules ({} of {count})", at + 1),
-        };
-        let files: Vec<(String, String)> = (0..count).map(|at| (self.file("modules"), name(at))).collect();
-        link_parts(&mut all, &files);
-        (all, files)
+    fn modules(&mut self, catalog: &Catalog) -> Modules {
+        let (files, ending) = (&mut self.files, self.format.ending());
+        Modules::new(catalog, &self.diagnostics, || files.file("modules") + ending)
     }
 
-    fn module_pages(&mut self, all: &[ModuleModel], files: &[(String, String)], frame: &Frameset) {
-        if !files.is_empty() {
+    fn module_pages(&mut self, modules: &Modules, frame: &Frameset) {
+        if !modules.files.is_empty() {
             self.index.device(&frame.title, "");
         }
-        for ((file, title), modules) in files.iter().zip(all.chunks(modules::PAGE)) {
+        for ((file, title), modules) in modules.pages() {
             self.page(frame, file, Content::Modules(modules));
             self.index_page(file, "module", title, "");
             for module in modules {
@@ -394,19 +386,6 @@ impl Common {
     fn from(&self, path: &str) -> Self {
         let moved = |(file, title): &(String, String)| (format!("{path}{file}"), title.clone());
         Common { list: self.list.as_ref().map(moved), shared: Rc::new(self.shared.moved(moved)) }
-    }
-}
-
-/// Completes the links to submodules with file names, because a submodule can be on another page.
-fn link_parts(modules: &mut [ModuleModel], files: &[(String, String)]) {
-    let pages: HashMap<String, usize> =
-        modules.iter().enumerate().map(|(at, module)| (module.anchor.clone(), at / modules::PAGE)).collect();
-    for (at, module) in modules.iter_mut().enumerate() {
-        for (_, anchor) in &mut module.parts {
-            let page = pages.get(anchor).copied().filter(|page| *page != at / modules::PAGE);
-            let file = page.and_then(|page| files.get(page)).map_or("", |(file, _)| file.as_str());
-            *anchor = format!("{file}#{anchor}");
-        }
     }
 }
 

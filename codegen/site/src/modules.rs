@@ -1,10 +1,15 @@
 //! Pluggable modules and submodules, and their slots.
 
+use std::collections::HashMap;
+use std::ops::Range;
+
 use super::anchor::Names;
 use super::area::Section;
 use super::diagnostics::ShownDiagnostics;
 use super::entry::{Calls, Known, Rows};
+use super::html;
 use super::process::{self, About, Frame};
+use super::split;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::facts::{self, address};
@@ -13,7 +18,7 @@ use lexibus_codegen::ir::{
 };
 
 /// Maximum number of modules per page.
-pub(super) const PAGE: usize = 100;
+const PAGE: usize = 100;
 
 /// A module or submodule, as a page shows it.
 #[derive(Debug)]
@@ -47,8 +52,58 @@ pub(super) struct Slot {
     pub fits: String,
 }
 
+/// The modules and submodules of a catalog, and their pages.
+#[derive(Debug, Default)]
+pub(super) struct Modules {
+    /// All modules, followed by all submodules.
+    all: Vec<ModuleModel>,
+    /// File name and title of each page.
+    pub files: Vec<(String, String)>,
+    /// Range of the modules on each page.
+    ranges: Vec<Range<usize>>,
+}
+
+impl Modules {
+    /// Creates the modules of a catalog. `file` returns the file name of the next page.
+    pub fn new(catalog: &Catalog, diagnostics: &ShownDiagnostics, mut file: impl FnMut() -> String) -> Self {
+        let all = models(catalog, diagnostics);
+        let ranges = split::ranges(all.iter().map(html::size_of_module), PAGE);
+        let title = |at: usize| match ranges.len() {
+            1 => "Modules".to_owned(),
+            count => format!("Modules ({} of {count})", at + 1),
+        };
+        let files = (0..ranges.len()).map(|at| (file(), title(at))).collect();
+        let mut modules = Modules { all, files, ranges };
+        modules.link_parts();
+        modules
+    }
+
+    /// Returns the file name and title of each page, and the modules on it.
+    pub fn pages(&self) -> impl Iterator<Item = (&(String, String), &[ModuleModel])> {
+        self.files.iter().zip(self.ranges.iter().map(|range| &self.all[range.clone()]))
+    }
+
+    /// Returns the position of the page that contains a module.
+    fn page_of(&self, at: usize) -> usize {
+        self.ranges.partition_point(|range| range.end <= at)
+    }
+
+    /// Completes the links to submodules with file names, because a submodule can be on another page.
+    fn link_parts(&mut self) {
+        let pages: HashMap<String, usize> =
+            self.all.iter().enumerate().map(|(at, module)| (module.anchor.clone(), self.page_of(at))).collect();
+        for (page, range) in self.ranges.iter().enumerate() {
+            for (_, anchor) in self.all[range.clone()].iter_mut().flat_map(|module| &mut module.parts) {
+                let other = pages.get(anchor).filter(|other| **other != page).and_then(|other| self.files.get(*other));
+                let file = other.map_or("", |(file, _)| file.as_str());
+                *anchor = format!("{file}#{anchor}");
+            }
+        }
+    }
+}
+
 /// Returns all modules of a catalog, followed by all submodules.
-pub(super) fn modules(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<ModuleModel> {
+fn models(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<ModuleModel> {
     let mut names = Names::default();
     let anchors: Vec<String> = catalog
         .submodules

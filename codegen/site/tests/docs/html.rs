@@ -198,6 +198,29 @@ fn equal_translations_are_shown_once() {
 }
 
 #[test]
+fn long_content_is_split_by_size() {
+    let entry = |at: usize| {
+        let help = "Text ".repeat(500);
+        format!("r{at} = {{ reg = {at}, type = \"u16\", access = \"rw\", doc = \"{help}\" }}\n")
+    };
+    let table = format!(
+        "lexibus = 1\n[device]\nname = \"Pump\"\nbuses = [\"modbus\"]\n[spaces.register]\nmodbus = {{ table = \"holding\" }}\n\
+         [[chapters]]\ntitle = \"Control\"\n[chapters.registers]\n{}",
+        (1..=200).map(entry).collect::<String>()
+    );
+    let source = || vec![("pump".to_owned(), Source::new("pump.toml", table.clone().into()))];
+    let pages = site(Format::Html, source());
+    html_links(&pages);
+    let areas: Vec<_> = pages.iter().filter(|page| page.path.contains("/control")).collect();
+    assert!(areas.len() > 1 && areas.iter().all(|page| page.text.len() < 210_000), "{} pages", areas.len());
+    let rows: usize = areas.iter().map(|page| page.text.matches("<tbody id=\"r").count()).sum();
+    assert_eq!(rows, 200);
+    // Both formats have the same pages.
+    let markdown = site(Format::Markdown, source());
+    assert_eq!(markdown.iter().filter(|page| page.path.contains("/control")).count(), areas.len());
+}
+
+#[test]
 fn each_transition_of_cia_402_has_an_arrow() {
     let pages = files(Format::Html, &["dictionaries/demo-drive.eds"]);
     let page = pages.iter().find(|page| page.path.ends_with("states-and-procedures.html")).expect("the state machine");
