@@ -14,7 +14,7 @@ use super::diagnostics::ShownDiagnostics;
 use super::entry::{Known, Row};
 use super::links::Links;
 use super::machines;
-use super::modules::{self, Modules};
+use super::modules::Modules;
 use super::overview::{self, Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST, ROOT};
 use super::process::{self, About, ProcessPart};
@@ -22,6 +22,7 @@ use super::protocol::{self, Protocol};
 use super::references::{self, Targets};
 use super::revisions::{Changes, Previous};
 use super::search::{Entry, Index};
+use super::slots::{self, ModuleLinks, Slots};
 use super::Page;
 use lexibus_codegen::backend::rust;
 use lexibus_codegen::facts::referrers::Referrers;
@@ -52,7 +53,10 @@ pub(super) struct Folder<'a> {
 }
 
 /// Links that all pages of a folder have.
-struct Common {
+struct Common<'m> {
+    /// The modules of all devices, and the relative path to their folder.
+    modules: &'m Modules,
+    path: String,
     /// Relative path and title of the list of devices, if there are several.
     list: Option<(String, String)>,
     /// Links to the pages that the devices share.
@@ -162,7 +166,8 @@ impl<'a> Folder<'a> {
         // The first module page links to all module pages.
         let many = modules.files.len().min(1)..modules.files.len();
         let list = only.is_none().then(|| (first.clone(), self.name.clone()));
-        let here = Common { list, shared: Rc::new(Links::new(shared, many)) };
+        let shared = Rc::new(Links::new(shared, many));
+        let here = Common { modules: &modules, path: String::new(), list, shared };
         let languages_of_modules = languages_of_modules(catalog);
         if let Some(device) = only {
             self.device((0, device), catalog, &languages_of_modules, &here);
@@ -193,7 +198,7 @@ impl<'a> Folder<'a> {
     }
 
     /// Returns what the pages of a device or description have in common.
-    fn frame(&self, title: String, device_pages: Rc<Links>, common: &Common, languages: Vec<String>) -> Frameset {
+    fn frame(&self, title: String, device_pages: Rc<Links>, common: &Common<'_>, languages: Vec<String>) -> Frameset {
         let (list, shared) = (common.list.clone(), common.shared.clone());
         Frameset { title, list, device_pages, shared, languages, root: ROOT, index: format!("{}/", self.home) }
     }
@@ -220,12 +225,12 @@ impl<'a> Folder<'a> {
         (at, device): (usize, &Device),
         catalog: &Catalog,
         languages_of_modules: &BTreeSet<&str>,
-        common: &Common,
+        common: &Common<'_>,
     ) {
         let title = title(device);
         let first = format!("{FIRST}{}", self.format.ending());
         let manual = words::manual(device);
-        let overview = overview::overview(device, catalog.files.first(), &manual);
+        let overview = overview::overview(catalog, device, &manual);
         let (parts, mut pages) = self.parts(device, overview, &manual);
         let ranked = parts.assumptions(&first);
         let assumptions = (!ranked.is_empty()).then(|| self.file("Assumptions"));
@@ -251,7 +256,9 @@ impl<'a> Folder<'a> {
                 file: file.clone(),
             });
         }
-        self.page(&frame, &first, Content::Overview(&parts.overview, &contents(device, &parts)));
+        let links = ModuleLinks { modules: common.modules, path: &common.path };
+        let contents = contents(&parts, slots::slots(catalog, device, links));
+        self.page(&frame, &first, Content::Overview(&parts.overview, &contents));
         let path = |file: &str| format!("{}/{file}", self.open);
         let pages = pages.into_iter().map(|(file, title)| (path(&file), title)).collect();
         let listed = Listed::new(catalog, device, &self.name, title, path(&first), pages);
@@ -381,15 +388,16 @@ impl<'a> Folder<'a> {
     }
 }
 
-impl Common {
+impl Common<'_> {
     /// Returns these links for pages from which `path` leads to the linked pages.
     fn from(&self, path: &str) -> Self {
         let moved = |(file, title): &(String, String)| (format!("{path}{file}"), title.clone());
-        Common { list: self.list.as_ref().map(moved), shared: Rc::new(self.shared.moved(moved)) }
+        let (list, shared) = (self.list.as_ref().map(moved), Rc::new(self.shared.moved(moved)));
+        Common { modules: self.modules, path: path.to_owned(), list, shared }
     }
 }
 
-fn contents(device: &Device, parts: &Parts) -> Contents {
+fn contents(parts: &Parts, slots: Slots) -> Contents {
     let of_frame =
         |(file, frame): (&String, &process::Frame)| (format!("{file}#{}", frame.anchor), frame.title.clone());
     Contents {
@@ -400,7 +408,7 @@ fn contents(device: &Device, parts: &Parts) -> Contents {
             .flat_map(|file| parts.data.frames.iter().map(move |frame| (file, frame)))
             .map(of_frame)
             .collect(),
-        slots: modules::slots(device),
+        slots,
     }
 }
 

@@ -49,6 +49,7 @@ mod protocol;
 mod references;
 mod revisions;
 mod search;
+mod slots;
 mod split;
 mod tools;
 mod words;

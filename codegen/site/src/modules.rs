@@ -1,4 +1,4 @@
-//! Pluggable modules and submodules, and their slots.
+//! Pluggable modules and submodules.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -11,10 +11,10 @@ use super::html;
 use super::process::{self, About, Frame};
 use super::split;
 use super::words::{self, PLAIN};
+use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::{hex16, hex32};
-use lexibus_codegen::facts::{self, address};
 use lexibus_codegen::ir::{
-    Catalog, Device, Documentation, Group, GroupKind, Identity, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef,
+    Catalog, Documentation, Group, GroupKind, Identity, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef,
 };
 
 /// Maximum number of modules per page.
@@ -42,14 +42,6 @@ impl ModuleModel {
     pub fn lookups(&self) -> impl Iterator<Item = &str> {
         [self.number.as_str(), self.order_code.as_str()].into_iter().filter(|number| !number.is_empty())
     }
-}
-
-/// A slot of a device.
-#[derive(Debug)]
-pub(super) struct Slot {
-    pub number: String,
-    pub name: String,
-    pub fits: String,
 }
 
 /// The modules and submodules of a catalog, and their pages.
@@ -81,6 +73,14 @@ impl Modules {
     /// Returns the file name and title of each page, and the modules on it.
     pub fn pages(&self) -> impl Iterator<Item = (&(String, String), &[ModuleModel])> {
         self.files.iter().zip(self.ranges.iter().map(|range| &self.all[range.clone()]))
+    }
+
+    /// Returns the name of a module, and its file and anchor. Submodules follow the modules.
+    pub fn target(&self, at: usize) -> Option<(&str, String)> {
+        let module = self.all.get(at)?;
+        let (file, _) = self.files.get(self.page_of(at))?;
+        let title = if module.name.trim().is_empty() { &module.number } else { &module.name };
+        Some((title, format!("{file}#{}", module.anchor)))
     }
 
     /// Returns the position of the page that contains a module.
@@ -206,16 +206,4 @@ fn section(group: &Group, rows: &mut Rows<'_>) -> (String, Section) {
     };
     let items = group.items_at(0).map(|(id, item)| rows.row(id, item, number(item), false)).collect();
     (title, Section::plain(items))
-}
-
-pub(super) fn slots(device: &Device) -> Vec<Slot> {
-    let row = |slot: &lexibus_codegen::ir::Slot| {
-        let fits: Vec<String> = slot.fits.iter().map(facts::device::fit).collect();
-        Slot {
-            number: slot.number.to_string(),
-            name: slot.name.to_string(),
-            fits: if fits.is_empty() { "any module".to_owned() } else { fits.join(", ") },
-        }
-    };
-    device.slots.iter().map(row).collect()
 }

@@ -1,10 +1,11 @@
 //! The overview of a device on its first page.
 
 use super::entry::{self, Doubt};
-use super::modules::Slot;
+use super::slots::Slots;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::number::{hex16, hex32};
-use lexibus_codegen::ir::{Device, DistributedClocks, EtherCatSettings, FileInfo, Manual, ProfinetSettings};
+use lexibus_codegen::facts::profinet::{self, NamedFacts};
+use lexibus_codegen::ir::{Catalog, Device, DistributedClocks, EtherCatSettings, Manual, ProfinetSettings};
 
 /// The content of a device's first page.
 #[derive(Debug)]
@@ -14,6 +15,8 @@ pub(super) struct Overview {
     pub translations: Vec<(String, String)>,
     /// Names and values of properties of the identity, the buses and the source file.
     pub identity: Vec<(&'static str, String)>,
+    /// Names and values of facts about a device access point.
+    pub access_point: NamedFacts,
     /// Models of the device with their constants.
     pub models: Vec<Model>,
     pub doubts: Vec<Doubt>,
@@ -26,7 +29,7 @@ pub(super) struct Contents {
     pub areas: Vec<(String, String, usize)>,
     /// Links to the cyclic data, with their titles.
     pub frames: Vec<(String, String)>,
-    pub slots: Vec<Slot>,
+    pub slots: Slots,
 }
 
 /// A model of a device family, as a page shows it.
@@ -37,7 +40,7 @@ pub(super) struct Model {
     pub constants: Vec<(String, String)>,
 }
 
-pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual) -> Overview {
+pub(super) fn overview(catalog: &Catalog, device: &Device, manual: &Manual) -> Overview {
     let mut facts = PLAIN.description(device.documentation.as_deref());
     facts.extend(PLAIN.manual_entry(manual, "", device.documentation.as_deref(), &device.names));
     let mut identity = identity(device);
@@ -45,7 +48,7 @@ pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual
     let title = [manual.title.as_str(), manual.edition.as_str()].into_iter().filter(|text| !text.is_empty());
     let title = title.collect::<Vec<_>>().join(", ");
     identity.extend((!title.is_empty()).then_some(("Manual", title)));
-    if let Some(file) = file {
+    if let Some(file) = catalog.files.first() {
         let name = file.name.rsplit(['/', '\\']).next().unwrap_or_default();
         identity.push(("Read from", format!("{name} ({}), SHA-256 {}", file.format.name(), file.sha256)));
     }
@@ -55,7 +58,14 @@ pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual
         constants: variant.constants.iter().map(|(name, value)| (name.to_string(), PLAIN.value(value))).collect(),
     });
     let translations = words::translations(device.documentation.as_deref());
-    Overview { facts, translations, identity, models: models.collect(), doubts: entry::doubts(doubts(device), manual) }
+    Overview {
+        facts,
+        translations,
+        identity,
+        access_point: profinet::access_point(catalog, device),
+        models: models.collect(),
+        doubts: entry::doubts(doubts(device), manual),
+    }
 }
 
 /// Returns the ambiguities that no other page shows: ambiguities of the device, of machine constants and of empty
@@ -88,7 +98,7 @@ fn settings(device: &Device) -> Vec<(&'static str, String)> {
         all.push(("CANopen", if rates.is_empty() { "yes".to_owned() } else { rates.join(", ") }));
     }
     all.extend(device.ethercat.as_deref().map(|settings| ("EtherCAT", ethercat(settings))));
-    all.extend(device.profinet.as_deref().map(|settings| ("PROFINET", profinet(settings))));
+    all.extend(device.profinet.as_deref().map(|settings| ("PROFINET", profinet_identity(settings))));
     for table in &device.modbus {
         let functions: Vec<String> = table.functions.iter().map(u8::to_string).collect();
         let most = [("reads", table.max_read), ("writes", table.max_write)];
@@ -120,6 +130,8 @@ fn ethercat(settings: &EtherCatSettings) -> String {
         });
     }
     facts.extend(settings.clocks.as_deref().map(clocks));
+    let most = settings.slots.as_deref().and_then(|rules| rules.max_slots);
+    facts.extend(most.map(|most| format!("up to {most} slots")));
     if facts.is_empty() {
         "yes".to_owned()
     } else {
@@ -132,7 +144,7 @@ fn clocks(clocks: &DistributedClocks) -> String {
     format!("distributed clocks ({})", modes.join(", "))
 }
 
-fn profinet(settings: &ProfinetSettings) -> String {
+fn profinet_identity(settings: &ProfinetSettings) -> String {
     let mut facts = vec![format!("device {}, module {}", hex16(settings.device_id), hex32(settings.ident))];
     if !settings.dns_name.is_empty() {
         facts.push(format!("name {}", settings.dns_name));
