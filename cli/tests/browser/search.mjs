@@ -29,10 +29,32 @@ const FOUND = [
   ["index.html", "KP_VEL", /^parameter 0x0105 KP_VEL .*HSD Motor$/, "hsd-s-p-a/hsd-motor/no-revision/parameters.html#KP_VEL"],
 ];
 
-const [site] = process.argv.slice(2);
+// Test cases for the site with modules: name, ident number in three notations, and the whole name of a submodule.
+const DRIVE = "example/servo-head-0x00000002/no-revision/";
+const FOUND_MODULES = [
+  [DRIVE + "index.html", "axis", /^0x00000030 Axis module/, DRIVE + "modules.html#module-00000030"],
+  [DRIVE + "index.html", "0x00000030", /^0x00000030 Axis module/, DRIVE + "modules.html#module-00000030"],
+  [DRIVE + "index.html", "30h", /^0x00000030 Axis module/, DRIVE + "modules.html#module-00000030"],
+  [DRIVE + "index.html", "48", /^0x00000030 Axis module/, DRIVE + "modules.html#module-00000030"],
+  [DRIVE + "modules.html", "standard telegram 3", /^0x00000003 Standard telegram 3 module/, DRIVE + "modules.html#submodule-00000003"],
+];
+
+const [site, modular] = process.argv.slice(2);
 await withBrowser(async (browser) => {
+  const modules = await Window.open(browser, modular);
+  await finds(modules, FOUND_MODULES);
+  modules.clean();
   const window = await Window.open(browser, site);
-  for (const [from, typed, first, to] of FOUND) {
+  await finds(window, FOUND);
+  await units(window);
+  await arrows(window);
+  await nothing(window);
+  window.clean();
+});
+
+// Checks the first result of each test case, and the page that Enter opens.
+async function finds(window, cases) {
+  for (const [from, typed, first, to] of cases) {
     const page = await window.go(from);
     const found = await window.search(typed);
     assert.match(found[0], first, `${typed}: ${found.slice(0, 3).join(" | ")}`);
@@ -40,11 +62,7 @@ await withBrowser(async (browser) => {
     await page.waitForURL((url) => decodeURIComponent(url.href).endsWith(to));
     if (to.includes("#")) await landed(window, `${typed} on ${from}`);
   }
-  await units(window);
-  await arrows(window);
-  await nothing(window);
-  window.clean();
-});
+}
 
 // Checks that the row in the address is visible below the fixed header, and that Tab continues from this row.
 async function landed(window, what) {

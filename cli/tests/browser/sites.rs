@@ -45,6 +45,11 @@ pub fn alone() -> PathBuf {
     documented("alone", &["demo-drive.eds"])
 }
 
+/// Returns the site of a PROFINET device with modules.
+pub fn modular() -> PathBuf {
+    documented("modular", &["../tests/data/drive.gsdml.xml"])
+}
+
 /// Returns a site with EtherCAT terminals, one of them in two revisions.
 pub fn terminals() -> PathBuf {
     let entry = |ty: &str, bits: u8| {

@@ -5,10 +5,12 @@ use std::collections::HashMap;
 use super::anchor::Names;
 use super::diagnostics::ShownDiagnostic;
 use super::entry::{self, Doubt, Known, Row, Rows};
+use super::html;
+use super::split::Fill;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::hex16;
-use lexibus_codegen::ir::{Group, GroupKind, Item, ItemId, TypeDef};
+use lexibus_codegen::ir::{Group, GroupKind, Item, ItemId, Type, TypeDef};
 
 /// Maximum number of items on a page.
 const PAGE: usize = 500;
@@ -92,31 +94,62 @@ fn range_of(index: u16) -> &'static str {
     }
 }
 
-fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names) -> Vec<Area> {
-    let mut names = Names::default();
-    let mut sections: Vec<Section> = Vec::new();
-    let mut areas: Vec<Vec<Section>> = Vec::new();
-    let mut shown = Vec::new();
-    let mut count = 0;
-    for &(position, group) in &part.groups {
-        let items: Vec<(ItemId, &Item)> = group.items_at(position).collect();
-        // A long chapter can occupy several pages. All entries of an object are on the same page.
-        let chunks: Vec<&[(ItemId, &Item)]> = match group.kind {
-            GroupKind::Object { .. } => vec![&items],
-            _ => items.chunks(PAGE).collect(),
-        };
-        for items in chunks {
-            if count + items.len() > PAGE && count > 0 {
-                areas.push(std::mem::take(&mut sections));
-                (names, shown, count) = (Names::default(), Vec::new(), 0);
-            }
-            let mut rows = Rows { types, known, names: &mut names, shown };
-            sections.push(section(group, items, &mut rows));
-            shown = rows.shown;
-            count += items.len();
+/// The pages of a part while sections are added.
+struct Filler<'p> {
+    types: &'p [TypeDef],
+    known: Known<'p>,
+    /// Anchors on the last page.
+    names: Names,
+    /// Types whose bits or values the last page already shows.
+    shown: Vec<(Type, String, String)>,
+    fill: Fill,
+    pages: Vec<Vec<Section>>,
+}
+
+impl<'p> Filler<'p> {
+    fn new(types: &'p [TypeDef], known: Known<'p>) -> Self {
+        let (names, shown, pages) = (Names::default(), Vec::new(), vec![Vec::new()]);
+        Filler { types, known, names, shown, fill: Fill::new(PAGE), pages }
+    }
+
+    /// Adds items under one heading. They are all on the same page.
+    fn add(&mut self, group: &Group, items: &[(ItemId, &Item)]) {
+        let (mut section, mut size) = self.section(group, items);
+        if !self.fill.has_room(items.len(), size) {
+            let pages = std::mem::take(&mut self.pages);
+            *self = Filler { pages, ..Filler::new(self.types, self.known) };
+            self.pages.push(Vec::new());
+            // The first row of a page with a type shows its bits or values.
+            (section, size) = self.section(group, items);
+        }
+        self.fill.add(items.len(), size);
+        if let Some(page) = self.pages.last_mut() {
+            page.push(section);
         }
     }
-    areas.push(sections);
+
+    /// Returns the section for items, and its size in bytes of HTML.
+    fn section(&mut self, group: &Group, items: &[(ItemId, &Item)]) -> (Section, usize) {
+        let shown = std::mem::take(&mut self.shown);
+        let mut rows = Rows { types: self.types, known: self.known, names: &mut self.names, shown };
+        let section = section(group, items, &mut rows);
+        self.shown = rows.shown;
+        let size = html::size_of_section(&section);
+        (section, size)
+    }
+}
+
+fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names) -> Vec<Area> {
+    let mut filler = Filler::new(types, known);
+    for &(position, group) in &part.groups {
+        let items: Vec<(ItemId, &Item)> = group.items_at(position).collect();
+        match group.kind {
+            GroupKind::Object { .. } => filler.add(group, &items),
+            // A long chapter can occupy several pages.
+            _ => items.chunks(1).for_each(|item| filler.add(group, item)),
+        }
+    }
+    let areas = filler.pages;
     let several = areas.len();
     let about = part.groups.first().map(|(_, group)| group).filter(|group| group.index().is_none());
     let page = |(at, sections): (usize, Vec<Section>)| {
@@ -164,7 +197,7 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
         anchor: Some(anchor),
         number,
         name: format!("{} ({})", group.name, code.name()),
-        names: words::names(&group.names),
+        names: words::names(&group.name, &group.names),
         facts,
         doubts: entry::doubts(&group.doubts, rows.known.manual),
         diagnostics: rows.known.diagnostics.of_group(group),

@@ -139,7 +139,7 @@ fn field(types: &[TypeDef], entry: &BitFieldEntry) -> Field {
     Field {
         bits: if first == last { first.to_string() } else { format!("{last}–{first}") },
         name: entry.name.to_string(),
-        names: words::names(&entry.names),
+        names: words::names(&entry.name, &entry.names),
         facts: facts.join(" "),
         values,
         is_conditional: entry.when.is_some(),
@@ -159,7 +159,7 @@ fn labels(values: &[EnumValue]) -> Vec<Label> {
         Label {
             number: types::numbers(value.value, value.last),
             name: value.name.to_string(),
-            names: words::names(&value.names),
+            names: words::names(&value.name, &value.names),
             facts: facts.join(" "),
         }
     };

@@ -54,7 +54,7 @@ fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names)
             anchor: names.anchor(&format!("{}-{number}", table.name)),
             number,
             name: row.name.to_string(),
-            names: words::names(&row.names),
+            names: words::names(&row.name, &row.names),
             facts: facts.join(" "),
             cells: (0..table.columns.len()).map(|at| code::cell(row, at)).collect(),
             relations: Vec::new(),

@@ -179,7 +179,7 @@ impl Rows<'_> {
             number,
             addresses: lookups,
             name: item.name.to_string(),
-            names: words::names(&item.names),
+            names: words::names(&item.name, &item.names),
             ty: types::name(self.types, item.ty),
             access: item.access_name(),
             default: item::default(item, self.types),

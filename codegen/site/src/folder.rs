@@ -1,7 +1,7 @@
 //! Writes the pages of a catalog. Each device has a folder. The pages that several devices share are in a folder of the
 //! description.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use super::addresses::Addresses;
@@ -14,7 +14,7 @@ use super::diagnostics::{self, ShownDiagnostics};
 use super::entry::{Known, Row};
 use super::links::Links;
 use super::machines;
-use super::modules::{self, ModuleModel};
+use super::modules::Modules;
 use super::overview::{self, Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST, ROOT};
 use super::process::{self, About, ProcessPart};
@@ -22,6 +22,7 @@ use super::protocol::{self, Protocol};
 use super::references::{self, Targets};
 use super::revisions::{Changes, Previous};
 use super::search::{Entry, Index};
+use super::slots::{self, ModuleLinks, Slots};
 use super::Page;
 use lexibus_codegen::backend::rust;
 use lexibus_codegen::facts::referrers::Referrers;
@@ -52,7 +53,10 @@ pub(super) struct Folder<'a> {
 }
 
 /// Links that all pages of a folder have.
-struct Common {
+struct Common<'m> {
+    /// The modules of all devices, and the relative path to their folder.
+    modules: &'m Modules,
+    path: String,
     /// Relative path and title of the list of devices, if there are several.
     list: Option<(String, String)>,
     /// Links to the pages that the devices share.
@@ -157,15 +161,16 @@ impl<'a> Folder<'a> {
         };
         self.open(self.home.clone());
         // The device pages link to the shared pages, so the file names of the shared pages are determined first.
-        let (modules, files) = self.modules(catalog);
+        let modules = self.modules(catalog);
         let diagnostics = (!self.diagnostics.list.is_empty()).then(|| self.file("Diagnostics"));
         let first = format!("{FIRST}{}", self.format.ending());
-        let mut shared = files.clone();
+        let mut shared = modules.files.clone();
         shared.extend(diagnostics.iter().map(|file| (file.clone(), "Diagnostics".to_owned())));
         // The first module page links to all module pages.
-        let many = files.len().min(1)..files.len();
+        let many = modules.files.len().min(1)..modules.files.len();
         let list = only.is_none().then(|| (first.clone(), self.name.clone()));
-        let here = Common { list, shared: Rc::new(Links::new(shared, many)) };
+        let shared = Rc::new(Links::new(shared, many));
+        let here = Common { modules: &modules, path: String::new(), list, shared };
         let languages_of_modules = languages_of_modules(catalog);
         if let Some(device) = only {
             self.device((0, device), catalog, &languages_of_modules, &here);
@@ -183,7 +188,7 @@ impl<'a> Folder<'a> {
         let title = only.map_or_else(|| self.name.clone(), title);
         let device_pages = if only.is_some() { self.last.clone() } else { Rc::default() };
         let frame = self.frame(title, device_pages, &here, languages(&catalog.devices, &languages_of_modules));
-        self.module_pages(&modules, &files, &frame);
+        self.module_pages(&modules, &frame);
         if let Some(file) = &diagnostics {
             let list = std::mem::take(&mut self.diagnostics.list);
             self.page(&frame, file, Content::Diagnostics(&diagnostics::by_code(&list)));
@@ -196,7 +201,7 @@ impl<'a> Folder<'a> {
     }
 
     /// Returns what the pages of a device or description have in common.
-    fn frame(&self, title: String, device_pages: Rc<Links>, common: &Common, languages: Vec<String>) -> Frameset {
+    fn frame(&self, title: String, device_pages: Rc<Links>, common: &Common<'_>, languages: Vec<String>) -> Frameset {
         let (list, shared) = (common.list.clone(), common.shared.clone());
         Frameset { title, list, device_pages, shared, languages, root: ROOT, index: format!("{}/", self.home) }
     }
@@ -223,12 +228,12 @@ impl<'a> Folder<'a> {
         (at, device): (usize, &Device),
         catalog: &Catalog,
         languages_of_modules: &BTreeSet<&str>,
-        common: &Common,
+        common: &Common<'_>,
     ) {
         let title = title(device);
         let first = format!("{FIRST}{}", self.format.ending());
         let manual = words::manual(device);
-        let overview = overview::overview(device, catalog.files.first(), &manual);
+        let overview = overview::overview(catalog, device, &manual);
         let (parts, mut pages) = self.parts(device, overview, &manual);
         let ranked = parts.assumptions(&first);
         let assumptions = (!ranked.is_empty()).then(|| self.file("Assumptions"));
@@ -254,7 +259,9 @@ impl<'a> Folder<'a> {
                 file: file.clone(),
             });
         }
-        self.page(&frame, &first, Content::Overview(&parts.overview, &contents(device, &parts)));
+        let links = ModuleLinks { modules: common.modules, path: &common.path };
+        let contents = contents(&parts, slots::slots(catalog, device, links));
+        self.page(&frame, &first, Content::Overview(&parts.overview, &contents));
         let path = |file: &str| format!("{}/{file}", self.open);
         let pages = pages.into_iter().map(|(file, title)| (path(&file), title)).collect();
         let listed = Listed::new(catalog, device, &self.name, title, path(&first), pages);
@@ -359,33 +366,24 @@ impl<'a> Folder<'a> {
         }
     }
 
-    /// Returns the modules, and the file name and title of each of their pages.
-    fn modules(&mut self, catalog: &Catalog) -> (Vec<ModuleModel>, Vec<(String, String)>) {
-        let mut all = modules::modules(catalog, &self.diagnostics);
-        let count = all.len().div_ceil(modules::PAGE);
-        let name = |at: usize| match count {
-            1 => "Modules".to_owned(),
-            _ => format!("Modules ({} of {count})", at + 1),
-        };
-        let files: Vec<(String, String)> = (0..count).map(|at| (self.file("modules"), name(at))).collect();
-        link_parts(&mut all, &files);
-        (all, files)
+    fn modules(&mut self, catalog: &Catalog) -> Modules {
+        let (files, ending) = (&mut self.files, self.format.ending());
+        Modules::new(catalog, &self.diagnostics, || files.file("modules") + ending)
     }
 
-    fn module_pages(&mut self, all: &[ModuleModel], files: &[(String, String)], frame: &Frameset) {
-        if !files.is_empty() {
+    fn module_pages(&mut self, modules: &Modules, frame: &Frameset) {
+        if !modules.files.is_empty() {
             self.index.device(&frame.title, "");
         }
-        for ((file, title), modules) in files.iter().zip(all.chunks(modules::PAGE)) {
+        for ((file, title), modules) in modules.pages() {
             self.page(frame, file, Content::Modules(modules));
             self.index_page(file, "module", title, "");
             for module in modules {
                 let words = module.facts.first().map_or("", String::as_str);
-                self.index.entry(&Entry {
-                    names: &module.names,
-                    words,
-                    ..index_entry(&module.anchor, &module.number, &module.name)
-                });
+                for number in module.lookups() {
+                    let entry = index_entry(&module.anchor, number, &module.name);
+                    self.index.entry(&Entry { names: &module.names, words, ..entry });
+                }
                 for (_, section) in &module.sections {
                     index_rows(&mut self.index, &section.rows);
                 }
@@ -394,28 +392,16 @@ impl<'a> Folder<'a> {
     }
 }
 
-impl Common {
+impl Common<'_> {
     /// Returns these links for pages from which `path` leads to the linked pages.
     fn from(&self, path: &str) -> Self {
         let moved = |(file, title): &(String, String)| (format!("{path}{file}"), title.clone());
-        Common { list: self.list.as_ref().map(moved), shared: Rc::new(self.shared.moved(moved)) }
+        let (list, shared) = (self.list.as_ref().map(moved), Rc::new(self.shared.moved(moved)));
+        Common { modules: self.modules, path: path.to_owned(), list, shared }
     }
 }
 
-/// Completes the links to submodules with file names, because a submodule can be on another page.
-fn link_parts(modules: &mut [ModuleModel], files: &[(String, String)]) {
-    let pages: HashMap<String, usize> =
-        modules.iter().enumerate().map(|(at, module)| (module.anchor.clone(), at / modules::PAGE)).collect();
-    for (at, module) in modules.iter_mut().enumerate() {
-        for (_, anchor) in &mut module.parts {
-            let page = pages.get(anchor).copied().filter(|page| *page != at / modules::PAGE);
-            let file = page.and_then(|page| files.get(page)).map_or("", |(file, _)| file.as_str());
-            *anchor = format!("{file}#{anchor}");
-        }
-    }
-}
-
-fn contents(device: &Device, parts: &Parts) -> Contents {
+fn contents(parts: &Parts, slots: Slots) -> Contents {
     let of_frame =
         |(file, frame): (&String, &process::Frame)| (format!("{file}#{}", frame.anchor), frame.title.clone());
     Contents {
@@ -426,7 +412,7 @@ fn contents(device: &Device, parts: &Parts) -> Contents {
             .flat_map(|file| parts.data.frames.iter().map(move |frame| (file, frame)))
             .map(of_frame)
             .collect(),
-        slots: modules::slots(device),
+        slots,
     }
 }
 

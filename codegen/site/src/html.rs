@@ -1,5 +1,7 @@
 //! Writes HTML pages with drawings and a search. Askama's HTML escaper escapes all texts.
 
+use std::fmt;
+
 use askama::Template;
 
 use super::area::{Area, Section};
@@ -85,6 +87,50 @@ impl ListPage<'_> {
         let group = |at: usize| self.devices.get(at).map(Listed::group);
         at.checked_sub(1).is_none_or(|before| group(before) != group(*at))
     }
+}
+
+/// A part of a page, to measure its size.
+#[derive(Template)]
+#[template(
+    ext = "html",
+    source = "{% import \"parts.html\" as parts %}{% call parts::section(section) %}{% endcall %}"
+)]
+struct SectionPart<'p> {
+    section: &'p Section,
+}
+
+/// A part of a page, to measure its size.
+#[derive(Template)]
+#[template(ext = "html", source = "{% import \"parts.html\" as parts %}{% call parts::module(module) %}{% endcall %}")]
+struct ModulePart<'p> {
+    module: &'p ModuleModel,
+}
+
+/// Counts the bytes that are written.
+struct Counter(usize);
+
+impl fmt::Write for Counter {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0 += text.len();
+        Ok(())
+    }
+}
+
+fn size(template: &impl Template) -> usize {
+    let mut counter = Counter(0);
+    // Rendering cannot fail, see `written`.
+    let _ = template.render_into(&mut counter);
+    counter.0
+}
+
+/// Returns the size of a section in bytes, without the links to related elements, which are added later.
+pub(super) fn size_of_section(section: &Section) -> usize {
+    size(&SectionPart { section })
+}
+
+/// Returns the size of a module in bytes.
+pub(super) fn size_of_module(module: &ModuleModel) -> usize {
+    size(&ModulePart { module })
 }
 
 #[derive(Template)]

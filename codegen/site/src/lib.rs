@@ -50,6 +50,8 @@ mod references;
 mod requests;
 mod revisions;
 mod search;
+mod slots;
+mod split;
 mod tools;
 mod words;
 

@@ -147,7 +147,7 @@ fn named(pattern: &Pattern, width: u32, anchor: String) -> Named {
         anchor,
         name: readable(&pattern.name),
         identifier: pattern.name.to_string(),
-        names: words::names(&pattern.names),
+        names: words::names(&pattern.name, &pattern.names),
         bits,
         facts: PLAIN.description(pattern.documentation.as_deref()).join(" "),
     }

@@ -1,23 +1,31 @@
-//! Pluggable modules and submodules, and their slots.
+//! Pluggable modules and submodules.
+
+use std::collections::HashMap;
+use std::ops::Range;
 
 use super::anchor::Names;
 use super::area::Section;
 use super::diagnostics::ShownDiagnostics;
 use super::entry::{Calls, Known, Rows};
+use super::html;
 use super::process::{self, About, Frame};
+use super::split;
 use super::words::{self, PLAIN};
+use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::{hex16, hex32};
-use lexibus_codegen::facts::{self, address};
-use lexibus_codegen::ir::{Catalog, Device, Group, GroupKind, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef};
+use lexibus_codegen::ir::{
+    Catalog, Documentation, Group, GroupKind, Identity, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef,
+};
 
 /// Maximum number of modules per page.
-pub(super) const PAGE: usize = 100;
+const PAGE: usize = 100;
 
 /// A module or submodule, as a page shows it.
 #[derive(Debug)]
 pub(super) struct ModuleModel {
     pub anchor: String,
     pub number: String,
+    pub order_code: String,
     pub name: String,
     pub names: Vec<(String, String)>,
     pub facts: Vec<String>,
@@ -29,16 +37,73 @@ pub(super) struct ModuleModel {
     pub parts: Vec<(String, String)>,
 }
 
-/// A slot of a device.
-#[derive(Debug)]
-pub(super) struct Slot {
-    pub number: String,
-    pub name: String,
-    pub fits: String,
+impl ModuleModel {
+    /// Returns the numbers that the search finds the module by: ident number and order code.
+    pub fn lookups(&self) -> impl Iterator<Item = &str> {
+        [self.number.as_str(), self.order_code.as_str()].into_iter().filter(|number| !number.is_empty())
+    }
+}
+
+/// The modules and submodules of a catalog, and their pages.
+#[derive(Debug, Default)]
+pub(super) struct Modules {
+    /// All modules, followed by all submodules.
+    all: Vec<ModuleModel>,
+    /// File name and title of each page.
+    pub files: Vec<(String, String)>,
+    /// Range of the modules on each page.
+    ranges: Vec<Range<usize>>,
+}
+
+impl Modules {
+    /// Creates the modules of a catalog. `file` returns the file name of the next page.
+    pub fn new(catalog: &Catalog, diagnostics: &ShownDiagnostics, mut file: impl FnMut() -> String) -> Self {
+        let all = models(catalog, diagnostics);
+        let ranges = split::ranges(all.iter().map(html::size_of_module), PAGE);
+        let title = |at: usize| match ranges.len() {
+            1 => "Modules".to_owned(),
+            count => format!("Modules ({} of {count})", at + 1),
+        };
+        let files = (0..ranges.len()).map(|at| (file(), title(at))).collect();
+        let mut modules = Modules { all, files, ranges };
+        modules.link_parts();
+        modules
+    }
+
+    /// Returns the file name and title of each page, and the modules on it.
+    pub fn pages(&self) -> impl Iterator<Item = (&(String, String), &[ModuleModel])> {
+        self.files.iter().zip(self.ranges.iter().map(|range| &self.all[range.clone()]))
+    }
+
+    /// Returns the name of a module, and its file and anchor. Submodules follow the modules.
+    pub fn target(&self, at: usize) -> Option<(&str, String)> {
+        let module = self.all.get(at)?;
+        let (file, _) = self.files.get(self.page_of(at))?;
+        let title = if module.name.trim().is_empty() { &module.number } else { &module.name };
+        Some((title, format!("{file}#{}", module.anchor)))
+    }
+
+    /// Returns the position of the page that contains a module.
+    fn page_of(&self, at: usize) -> usize {
+        self.ranges.partition_point(|range| range.end <= at)
+    }
+
+    /// Completes the links to submodules with file names, because a submodule can be on another page.
+    fn link_parts(&mut self) {
+        let pages: HashMap<String, usize> =
+            self.all.iter().enumerate().map(|(at, module)| (module.anchor.clone(), self.page_of(at))).collect();
+        for (page, range) in self.ranges.iter().enumerate() {
+            for (_, anchor) in self.all[range.clone()].iter_mut().flat_map(|module| &mut module.parts) {
+                let other = pages.get(anchor).filter(|other| **other != page).and_then(|other| self.files.get(*other));
+                let file = other.map_or("", |(file, _)| file.as_str());
+                *anchor = format!("{file}#{anchor}");
+            }
+        }
+    }
 }
 
 /// Returns all modules of a catalog, followed by all submodules.
-pub(super) fn modules(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<ModuleModel> {
+fn models(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<ModuleModel> {
     let mut names = Names::default();
     let anchors: Vec<String> = catalog
         .submodules
@@ -73,20 +138,26 @@ fn sections<'g>(
     groups.map(|group| section(group, &mut rows)).collect()
 }
 
+/// Returns the facts that modules and submodules have.
+fn facts(documentation: Option<&Documentation>, identity: &Identity) -> Vec<String> {
+    let mut facts = PLAIN.description(documentation);
+    let order = &identity.order_code;
+    facts.extend((!order.is_empty()).then(|| format!("Order code {order}.")));
+    facts
+}
+
 fn module(
     module: &Module,
     anchor: String,
     parts: Vec<(String, String)>,
     diagnostics: &ShownDiagnostics,
 ) -> ModuleModel {
-    let mut facts = PLAIN.description(module.documentation.as_deref());
-    let order = &module.identity.order_code;
-    facts.extend((!order.is_empty()).then(|| format!("Order code {order}.")));
     ModuleModel {
         number: hex32(module.number),
+        order_code: words::one_line(&module.identity.order_code),
         name: module.name.to_string(),
-        names: words::names(&module.names),
-        facts,
+        names: words::names(&module.name, &module.names),
+        facts: facts(module.documentation.as_deref(), &module.identity),
         translations: words::translations(module.documentation.as_deref()),
         frames: process::frames(
             &module.process_data,
@@ -100,7 +171,7 @@ fn module(
 }
 
 fn submodule(catalog: &Catalog, submodule: &Submodule, anchor: String, diagnostics: &ShownDiagnostics) -> ModuleModel {
-    let mut facts = PLAIN.description(submodule.documentation.as_deref());
+    let mut facts = facts(submodule.documentation.as_deref(), &submodule.identity);
     facts.extend((submodule.api != 0).then(|| format!("API {}.", hex16(submodule.api))));
     facts.extend(
         submodule.f_parameters.is_some().then(|| "With parameters of functional safety (PROFIsafe).".to_owned()),
@@ -110,8 +181,9 @@ fn submodule(catalog: &Catalog, submodule: &Submodule, anchor: String, diagnosti
     let outputs = submodule.output.as_deref().map(|data| image(data, "Outputs of the controller"));
     ModuleModel {
         number: hex32(submodule.ident),
+        order_code: words::one_line(&submodule.identity.order_code),
         name: submodule.name.to_string(),
-        names: words::names(&submodule.names),
+        names: words::names(&submodule.name, &submodule.names),
         facts,
         translations: words::translations(submodule.documentation.as_deref()),
         frames: inputs.into_iter().chain(outputs).collect(),
@@ -134,16 +206,4 @@ fn section(group: &Group, rows: &mut Rows<'_>) -> (String, Section) {
     };
     let items = group.items_at(0).map(|(id, item)| rows.row(id, item, number(item), false)).collect();
     (title, Section::plain(items))
-}
-
-pub(super) fn slots(device: &Device) -> Vec<Slot> {
-    let row = |slot: &lexibus_codegen::ir::Slot| {
-        let fits: Vec<String> = slot.fits.iter().map(facts::device::fit).collect();
-        Slot {
-            number: slot.number.to_string(),
-            name: slot.name.to_string(),
-            fits: if fits.is_empty() { "any module".to_owned() } else { fits.join(", ") },
-        }
-    };
-    device.slots.iter().map(row).collect()
 }

@@ -1,12 +1,13 @@
 //! The overview of a device on its first page.
 
 use super::entry::{self, Doubt};
-use super::modules::Slot;
+use super::slots::Slots;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::device;
 use lexibus_codegen::facts::number::{hex16, hex32};
+use lexibus_codegen::facts::profinet::{self, NamedFacts};
 use lexibus_codegen::ir::{
-    Device, DistributedClocks, EtherCatSettings, FileInfo, Manual, ModbusTable, ProfinetSettings,
+    Catalog, Device, DistributedClocks, EtherCatSettings, Manual, ModbusTable, ProfinetSettings,
 };
 
 /// The content of a device's first page.
@@ -17,6 +18,8 @@ pub(super) struct Overview {
     pub translations: Vec<(String, String)>,
     /// Names and values of properties of the identity, the buses and the source file.
     pub identity: Vec<(&'static str, String)>,
+    /// Names and values of facts about a device access point.
+    pub access_point: NamedFacts,
     /// Models of the device with their constants.
     pub models: Vec<Model>,
     pub doubts: Vec<Doubt>,
@@ -29,7 +32,7 @@ pub(super) struct Contents {
     pub areas: Vec<(String, String, usize)>,
     /// Links to the cyclic data, with their titles.
     pub frames: Vec<(String, String)>,
-    pub slots: Vec<Slot>,
+    pub slots: Slots,
 }
 
 /// A model of a device family, as a page shows it.
@@ -40,7 +43,7 @@ pub(super) struct Model {
     pub constants: Vec<(String, String)>,
 }
 
-pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual) -> Overview {
+pub(super) fn overview(catalog: &Catalog, device: &Device, manual: &Manual) -> Overview {
     let mut facts = PLAIN.description(device.documentation.as_deref());
     facts.extend(PLAIN.manual_entry(manual, "", device.documentation.as_deref(), &device.names));
     let mut identity = identity(device);
@@ -48,7 +51,7 @@ pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual
     let title = [manual.title.as_str(), manual.edition.as_str()].into_iter().filter(|text| !text.is_empty());
     let title = title.collect::<Vec<_>>().join(", ");
     identity.extend((!title.is_empty()).then_some(("Manual", title)));
-    if let Some(file) = file {
+    if let Some(file) = catalog.files.first() {
         let name = file.name.rsplit(['/', '\\']).next().unwrap_or_default();
         identity.push(("Read from", format!("{name} ({}), SHA-256 {}", file.format.name(), file.sha256)));
     }
@@ -58,7 +61,14 @@ pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual
         constants: variant.constants.iter().map(|(name, value)| (name.to_string(), PLAIN.value(value))).collect(),
     });
     let translations = words::translations(device.documentation.as_deref());
-    Overview { facts, translations, identity, models: models.collect(), doubts: entry::doubts(doubts(device), manual) }
+    Overview {
+        facts,
+        translations,
+        identity,
+        access_point: profinet::access_point(catalog, device),
+        models: models.collect(),
+        doubts: entry::doubts(doubts(device), manual),
+    }
 }
 
 /// Returns the ambiguities that no other page shows: ambiguities of the device, of machine constants and of empty
@@ -93,7 +103,7 @@ fn settings(device: &Device) -> Vec<(&'static str, String)> {
         ("Buses", device::buses(device)),
         ("Bit rates", if rates.is_empty() { String::new() } else { format!("{} kbit/s", rates.join(", ")) }),
         ("EtherCAT", device.ethercat.as_deref().map(ethercat).unwrap_or_default()),
-        ("PROFINET", device.profinet.as_deref().map(profinet).unwrap_or_default()),
+        ("PROFINET", device.profinet.as_deref().map(profinet_identity).unwrap_or_default()),
         ("Modbus", tables.join(". ")),
         (addresses(device), device.node_ids.map(|(first, last)| format!("{first} to {last}")).unwrap_or_default()),
         ("Profiles", profiles.join(", ")),
@@ -137,7 +147,9 @@ fn ethercat(settings: &EtherCatSettings) -> String {
             false => format!("mailbox with {}", protocols.join(", ")),
         }
     });
-    mailbox.into_iter().chain(settings.clocks.as_deref().map(clocks)).collect::<Vec<_>>().join("; ")
+    let most = settings.slots.as_deref().and_then(|rules| rules.max_slots).map(|most| format!("up to {most} slots"));
+    let facts = mailbox.into_iter().chain(settings.clocks.as_deref().map(clocks)).chain(most);
+    facts.collect::<Vec<_>>().join("; ")
 }
 
 fn clocks(clocks: &DistributedClocks) -> String {
@@ -145,7 +157,7 @@ fn clocks(clocks: &DistributedClocks) -> String {
     format!("distributed clocks ({})", modes.join(", "))
 }
 
-fn profinet(settings: &ProfinetSettings) -> String {
+fn profinet_identity(settings: &ProfinetSettings) -> String {
     let mut facts = vec![format!("device {}, module {}", hex16(settings.device_id), hex32(settings.ident))];
     if !settings.dns_name.is_empty() {
         facts.push(format!("name {}", settings.dns_name));

@@ -165,7 +165,7 @@ fn drawn(entries: &[PdoEntry], bits: u32, types: &[TypeDef]) -> Frame {
         position: address::bits_of(entry.bit_offset, entry.bits),
         object: if entry.index == 0 { String::new() } else { address::object(entry.index, entry.sub_index) },
         name: entry.name.to_string(),
-        names: words::names(&entry.names),
+        names: words::names(&entry.name, &entry.names),
         ty: types::name(types, entry.ty),
         bits: entry.bits,
         item: entry.item,

@@ -123,7 +123,7 @@ fn message(message: &Message, device: &Device, manual: &Manual, names: &mut Name
     MessageModel {
         anchor: names.anchor(&message.name),
         name: message.name.to_string(),
-        names: words::names(&message.names),
+        names: words::names(&message.name, &message.names),
         facts,
         doubts: entry::doubts(&parts.doubts, manual),
         request,

@@ -14,12 +14,54 @@ pub(super) fn readable(name: &str) -> String {
     }
 }
 
-/// Returns the language and text of each translated name.
-pub(super) fn names(names: &Texts) -> Vec<(String, String)> {
-    names.iter().map(|name| (name.language.to_string(), name.text.to_string())).collect()
+/// Separator of the languages that share a translation.
+const SEPARATOR: &str = ", ";
+
+/// Returns the translations of a name, each with its languages: `("de, fr", "Position")`. Translations that equal `name` are left out.
+/// Languages with the same text share one entry.
+pub(super) fn names(name: &str, translations: &Texts) -> Vec<(String, String)> {
+    let mut all: Vec<(String, String)> = Vec::new();
+    for translation in translations.iter().filter(|translation| one_line(&translation.text) != one_line(name)) {
+        match all.iter_mut().find(|(_, text)| *text == translation.text) {
+            Some((languages, _)) => {
+                languages.push_str(SEPARATOR);
+                languages.push_str(&translation.language);
+            }
+            None => all.push((translation.language.to_string(), translation.text.to_string())),
+        }
+    }
+    all
 }
 
-/// Returns the language and text of each translated description.
+/// Returns the translations of a description, each with its languages. Equal texts are handled as in [`names`].
 pub(super) fn translations(documentation: Option<&Documentation>) -> Vec<(String, String)> {
-    documentation.map(|documentation| names(&documentation.translations)).unwrap_or_default()
+    documentation.map(|documentation| names(&documentation.text, &documentation.translations)).unwrap_or_default()
+}
+
+/// Returns the first of the languages that share a translation.
+pub(super) fn first_language(languages: &str) -> &str {
+    languages.split(SEPARATOR).next().unwrap_or_default()
+}
+
+/// Returns the languages of a translation if there are several.
+pub(super) fn shared_by(languages: &str) -> Option<&str> {
+    languages.contains(SEPARATOR).then_some(languages)
+}
+
+#[cfg(test)]
+mod tests {
+    use lexibus_codegen::ir::LocalText;
+
+    use super::*;
+
+    #[test]
+    fn equal_translations_are_shown_once() {
+        let texts = [("de", "Lage"), ("en", "Position"), ("fr", "Position "), ("nl", "Lage"), ("it", "Posizione")];
+        let local = |(language, text): (&str, &str)| LocalText { language: language.into(), text: text.into() };
+        let shown = names("Position", &texts.into_iter().map(local).collect());
+        let expected = [("de, nl", "Lage"), ("it", "Posizione")];
+        assert_eq!(shown, expected.map(|(languages, text)| (languages.to_owned(), text.to_owned())));
+        assert_eq!((first_language("de, nl"), shared_by("de, nl")), ("de", Some("de, nl")));
+        assert_eq!((first_language("it"), shared_by("it")), ("it", None));
+    }
 }

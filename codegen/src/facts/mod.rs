@@ -12,6 +12,7 @@
 //! | `pattern` | bit patterns of states and commands |
 //! | `pdo` | names of PDOs on CANopen and EtherCAT, and what they can map |
 //! | `physical` | physical values with raw values |
+//! | `profinet` | slots, cycle times, redundancy and lengths of PROFINET access points |
 //! | `referrers` | which elements refer to an item |
 //! | `register` | printed addresses and wire addresses on Modbus |
 //! | `types` | types of values |
@@ -27,6 +28,7 @@ pub mod number;
 pub mod pattern;
 pub mod pdo;
 pub mod physical;
+pub mod profinet;
 pub mod referrers;
 pub mod register;
 pub mod types;

@@ -1,4 +1,7 @@
-//! Numbers in hexadecimal notation.
+//! Numbers in hexadecimal notation, and ranges of numbers.
+
+use super::words::ALLOWED_SHOWN;
+use crate::ir::Numbers;
 
 /// Formats a byte of a frame: `0x1F`.
 pub fn hex8(number: u8) -> String {
@@ -18,4 +21,17 @@ pub fn hex32(number: u32) -> String {
 /// Formats the bytes of a frame or a value: `02 1B FF`.
 pub fn bytes(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(" ")
+}
+
+/// Formats ranges of numbers: `1, 4 to 7`. `shown` formats one number. A list of more than [`ALLOWED_SHOWN`] ranges is shortened.
+pub fn ranges(numbers: &Numbers, shown: impl Fn(u16) -> String) -> String {
+    let range = |&(first, last): &(u16, u16)| match first == last {
+        true => shown(first),
+        false => format!("{} to {}", shown(first), shown(last)),
+    };
+    let mut list: Vec<String> = numbers.0.iter().take(ALLOWED_SHOWN).map(range).collect();
+    if numbers.0.len() > ALLOWED_SHOWN {
+        list.push("…".to_owned());
+    }
+    list.join(", ")
 }

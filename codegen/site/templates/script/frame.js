@@ -34,13 +34,16 @@ byId("theme").addEventListener("click", () => {
   root.dataset.theme = kept("theme", dark ? "light" : "dark");
 });
 
+// Returns the languages of a translation. Languages with the same text share one element.
+const languagesOf = (text) => (text.title || text.lang).split(", ");
+
 // Shows names and descriptions in the selected language. Elements without a name in it keep the name of the source.
 function names(language) {
-  for (const text of document.querySelectorAll(":is(i, p)[lang]")) text.hidden = language !== "" && text.lang !== language;
+  for (const text of document.querySelectorAll(":is(i, p)[lang]")) text.hidden = language !== "" && !languagesOf(text).includes(language);
   for (const name of document.querySelectorAll("b:has(+ i[lang])")) {
     const others = [];
     for (let next = name.nextElementSibling; next && next.matches("i[lang]"); next = next.nextElementSibling) others.push(next);
-    name.hidden = others.some((other) => other.lang === language);
+    name.hidden = others.some((other) => languagesOf(other).includes(language));
   }
 }
 const language = byId("language");

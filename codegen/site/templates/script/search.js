@@ -160,15 +160,15 @@ function add({ numbers, texts, titles }, sums) {
   }
 }
 
-// Returns the entries that match all words. The best entries come first: those whose name is the whole query, then by points; equal
-// entries have the order of the index. Entries are left out if only their device matches.
+// Returns the entries that match all words. The best entries come first: those whose name is the whole query, independent of their
+// numbers, then by points; equal entries have the order of the index. Entries are left out if only their device matches.
 function matches(query) {
   const wanted = plain(query).trim(), words = wanted.split(/\s+/).filter(Boolean), best = [];
   if (!words.length || !isLoaded) return best;
   const sums = new Int32Array(anchors.length);
   for (const word of words) add(pointsOf(word), sums);
   for (let entry = 0, minimum = 0; entry < sums.length; entry++) {
-    if (sums[entry] > 0 && texts[textAt[entry]].plain[0] === wanted) sums[entry] += 300;
+    if (sums[entry] > 0 && texts[textAt[entry]].plain[0] === wanted) sums[entry] = 300 + 200 * words.length;
     if (sums[entry] > minimum) minimum = insert(best, { points: sums[entry], entry });
   }
   // A row has one entry per address. Only the best entry of a row is shown.

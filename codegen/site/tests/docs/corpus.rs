@@ -1,4 +1,5 @@
-//! Checks the documentation of all corpus files as HTML and as Markdown: all links must be valid, and texts must not add markup.
+//! Checks the documentation of all corpus files as HTML and as Markdown: all links must be valid, texts must not add markup, and no
+//! page may be too large.
 
 use crate::corpus_support::{all_files, lane, File};
 use crate::docs_support::{html_links, markdown_links, values};
@@ -8,6 +9,9 @@ use lexibus_site::{Format, Site};
 
 /// Number of threads that create documentation in parallel.
 const THREADS: usize = 2;
+
+/// Maximum size of an HTML page in bytes.
+const MAX_PAGE: usize = 300_000;
 
 /// Returns the number of links in both formats of a file's documentation. Returns `None` if the file has errors.
 fn links(file: &File) -> Option<(usize, usize)> {
@@ -22,6 +26,7 @@ fn links(file: &File) -> Option<(usize, usize)> {
     let html = pages(Format::Html)?;
     for page in html.iter().filter(|page| page.path.ends_with(".html")) {
         assert_eq!(page.text.matches("<script").count(), 1, "{}: {}", file.name, page.path);
+        assert!(page.text.len() <= MAX_PAGE, "{}: {} has {} bytes", file.name, page.path, page.text.len());
         assert!(values(&page.text, "href").iter().all(|link| !link.contains("//")), "{}: {}", file.name, page.path);
     }
     Some((html_links(&html), markdown_links(&pages(Format::Markdown)?)))

@@ -26,6 +26,22 @@ fn the_search_finds_the_entries_of_pages() {
 }
 
 #[test]
+fn the_search_finds_modules_by_name_order_code_and_ident_number() {
+    let path = crate::root::root().join("tests/data/drive.gsdml.xml");
+    let text = std::fs::read_to_string(path).expect("a description");
+    let order = "<InfoText TextId=\"T_Axis\"/><OrderNumber Value=\"EX-7 AX\"/>";
+    let text = text.replace("<InfoText TextId=\"T_Axis\"/>", order);
+    let pages = site(Format::Html, vec![("drive".to_owned(), Source::new("drive.xml", text.into()))]);
+    let index = &pages.iter().find(|page| page.path.ends_with("/search.js")).expect("an index").text;
+    // Both numbers of the module are entries with its name, and lead to its anchor.
+    for part in ["\\n0x00000030\\nEX-7 AX\\n", "\\nAxis\\t", "\\nmodule-00000030\\nmodule-00000030\\n"] {
+        assert!(index.contains(part), "{part}: {index}");
+    }
+    let modules = &pages.iter().find(|page| page.path.ends_with("/modules.html")).expect("the modules").text;
+    assert!(modules.contains("<section id=\"module-00000030\">"), "{modules}");
+}
+
+#[test]
 fn nothing_of_a_description_is_markup() {
     let pages = site(Format::Html, hostile::descriptions());
     html_markup(&pages);
@@ -154,6 +170,55 @@ fn languages_of_modules_can_be_chosen() {
     let modules = text("/modules.html");
     assert!(modules.contains("<i lang=\"de\">"), "names");
     assert!(modules.contains("<p lang=\"de\">"), "descriptions");
+}
+
+#[test]
+fn equal_translations_are_shown_once() {
+    let path = crate::root::root().join("tests/data/drive.gsdml.xml");
+    let text = std::fs::read_to_string(path).expect("a description");
+    let language = |tag: &str, axis: &str| {
+        format!(
+            "<Language xml:lang=\"{tag}\"><Text TextId=\"T_Axis\" Value=\"{axis}\"/><Text TextId=\"T_Tel1\" Value=\"Standard telegram 1\"/></Language>"
+        )
+    };
+    let languages = ["de", "nl"].map(|tag| language(tag, "Achse")).concat() + &language("fr", "Axe");
+    let text = text.replace("</ExternalTextList>", &format!("{languages}</ExternalTextList>"));
+    let page = |format, path: &str| {
+        let pages = site(format, vec![("drive".to_owned(), Source::new("drive.xml", text.clone().into()))]);
+        pages.into_iter().find(|page| page.path.ends_with(path)).expect("the modules").text
+    };
+    let html = page(Format::Html, "/modules.html");
+    let name = "<b>Axis</b> <i lang=\"de\" title=\"de, nl\">Achse</i> <i lang=\"fr\">Axe</i></h2>";
+    assert!(html.contains(name), "{html}");
+    assert!(html.contains("<p lang=\"de\" title=\"de, nl\">Achse<p lang=\"fr\">Axe"), "{html}");
+    assert!(html.contains("<b>Standard telegram 1</b></h2><p>Standard telegram 1."), "{html}");
+    let markdown = page(Format::Markdown, "/modules.md");
+    assert!(markdown.contains(" Axis *Achse* (de, nl) *Axe*\n"), "{markdown}");
+    assert!(markdown.contains("\n*Achse* (de, nl)\n"), "{markdown}");
+    assert!(markdown.contains(" Standard telegram 1\n\nStandard telegram 1.\n"), "{markdown}");
+}
+
+#[test]
+fn long_content_is_split_by_size() {
+    let entry = |at: usize| {
+        let help = "Text ".repeat(500);
+        format!("r{at} = {{ reg = {at}, type = \"u16\", access = \"rw\", doc = \"{help}\" }}\n")
+    };
+    let table = format!(
+        "lexibus = 1\n[device]\nname = \"Pump\"\nbuses = [\"modbus\"]\n[spaces.register]\nmodbus = {{ table = \"holding\" }}\n\
+         [[chapters]]\ntitle = \"Control\"\n[chapters.registers]\n{}",
+        (1..=200).map(entry).collect::<String>()
+    );
+    let source = || vec![("pump".to_owned(), Source::new("pump.toml", table.clone().into()))];
+    let pages = site(Format::Html, source());
+    html_links(&pages);
+    let areas: Vec<_> = pages.iter().filter(|page| page.path.contains("/control")).collect();
+    assert!(areas.len() > 1 && areas.iter().all(|page| page.text.len() < 210_000), "{} pages", areas.len());
+    let rows: usize = areas.iter().map(|page| page.text.matches("<tbody id=\"r").count()).sum();
+    assert_eq!(rows, 200);
+    // Both formats have the same pages.
+    let markdown = site(Format::Markdown, source());
+    assert_eq!(markdown.iter().filter(|page| page.path.contains("/control")).count(), areas.len());
 }
 
 #[test]

@@ -15,3 +15,4 @@ mod corpus;
 mod dictionaries;
 mod html;
 mod markdown;
+mod slots;

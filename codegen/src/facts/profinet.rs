@@ -1,0 +1,140 @@
+//! Facts about device access points of PROFINET: slots, cycle times, redundancy and lengths of data.
+
+use super::number::ranges;
+use crate::ir::{Catalog, CompactString, Device, Numbers, ProfinetSettings, Submodule, SubmoduleKind};
+
+/// Names and values of facts.
+pub type NamedFacts = Vec<(&'static str, String)>;
+
+/// Number of units of 31.25 µs in one millisecond.
+const UNITS_PER_MS: f64 = 32.0;
+
+/// Returns the facts about a device access point. The list is empty for other devices.
+pub fn access_point(catalog: &Catalog, device: &Device) -> NamedFacts {
+    let Some(settings) = device.profinet.as_deref() else { return NamedFacts::new() };
+    let interface = interface(catalog, device);
+    let mut facts = slots(settings);
+    facts.extend(cycle_times(settings, interface));
+    facts.extend(redundancy(settings, interface));
+    facts.extend(lengths(settings));
+    facts.retain(|(_, value)| !value.is_empty());
+    facts
+}
+
+/// Formats a time in units of 31.25 µs: `0.25`.
+fn milliseconds(units: u16) -> String {
+    (f64::from(units) / UNITS_PER_MS).to_string()
+}
+
+/// Formats times in units of 31.25 µs: `0.25, 0.5, 1 ms`. The text is empty if there are none.
+fn times(units: &Numbers) -> String {
+    if units.is_empty() {
+        return String::new();
+    }
+    format!("{} ms", ranges(units, milliseconds))
+}
+
+/// Returns the first interface of an access point.
+fn interface<'c>(catalog: &'c Catalog, device: &Device) -> Option<&'c Submodule> {
+    let submodules = device.submodules.iter().filter_map(|used| catalog.submodules.get(used.submodule.0 as usize));
+    submodules.into_iter().find(|submodule| submodule.kind == SubmoduleKind::Interface)
+}
+
+/// Returns an attribute that the IR stores as the source spells it. The text is empty if the attribute is missing.
+fn attribute<'a>(attributes: &'a [(CompactString, CompactString)], key: &str) -> &'a str {
+    attributes.iter().find(|(name, _)| name == key).map_or("", |(_, value)| value.as_str())
+}
+
+/// Formats a list of tokens that the source separates by semicolons: `RT_CLASS_1, RT_CLASS_3`.
+fn tokens(list: &str) -> String {
+    list.split(';').map(str::trim).filter(|token| !token.is_empty()).collect::<Vec<_>>().join(", ")
+}
+
+/// Parses a list of numbers and ranges (`1 2 4..8`). Ignores parts that are no numbers.
+fn numbers(list: &str) -> Numbers {
+    let range = |part: &str| {
+        let (first, last) = part.split_once("..").unwrap_or((part, part));
+        Some((first.parse().ok()?, last.parse().ok()?))
+    };
+    Numbers(list.split_whitespace().filter_map(range).collect())
+}
+
+fn slots(settings: &ProfinetSettings) -> NamedFacts {
+    let shown = |numbers: &Numbers| ranges(numbers, |slot| slot.to_string());
+    let places = [(&settings.places.fixed, ""), (&settings.places.allowed, "possible in ")];
+    let places = places.into_iter().filter(|(numbers, _)| !numbers.is_empty());
+    let places: Vec<String> = places.map(|(numbers, text)| format!("{text}{}", shown(numbers))).collect();
+    vec![("Physical slots", shown(&settings.slots)), ("Slot of the access point", places.join("; "))]
+}
+
+fn cycle_times(settings: &ProfinetSettings, interface: Option<&Submodule>) -> NamedFacts {
+    let of_interface = |key| interface.map_or("", |interface| attribute(&interface.attributes, key));
+    let ratios = |numbers: &Numbers| ranges(numbers, |ratio| ratio.to_string());
+    let classes = match of_interface("SupportedRT_Classes") {
+        "" => of_interface("SupportedRT_Class"),
+        classes => classes,
+    };
+    let isochronous = numbers(of_interface("RT_Class3TimingProperties@SendClock"));
+    let isochronous_ratios = numbers(of_interface("RT_Class3TimingProperties@ReductionRatioPow2"));
+    vec![
+        ("Real-time classes", tokens(classes)),
+        ("Send clock", times(&settings.send_clocks)),
+        ("Reduction ratios", ratios(&settings.reduction_ratios)),
+        ("Send clock (RT class 3)", times(&isochronous)),
+        ("Reduction ratios (RT class 3)", ratios(&isochronous_ratios)),
+        (
+            "Minimum device interval",
+            settings.min_device_interval.map(|units| format!("{} ms", milliseconds(units))).unwrap_or_default(),
+        ),
+        ("Start-up modes", settings.startup_modes.join(", ")),
+    ]
+}
+
+fn redundancy(settings: &ProfinetSettings, interface: Option<&Submodule>) -> NamedFacts {
+    let of_ring = |interface: &Submodule| {
+        let attributes = &interface.attributes;
+        let is_supported = attributes.iter().any(|(key, _)| key.starts_with("MediaRedundancy@"));
+        let role = match attribute(attributes, "MediaRedundancy@SupportedRole") {
+            "" => "Client",
+            role => role,
+        };
+        let with_duplication = attribute(attributes, "MediaRedundancy@MRPD_Supported") == "true";
+        let duplication = if with_duplication { "; MRPD" } else { "" };
+        is_supported.then(|| format!("{}{duplication}", tokens(role)))
+    };
+    let of_system = |key| attribute(&settings.attributes, key);
+    let types = match of_system("SystemRedundancy@DeviceTypes") {
+        "" => of_system("SystemRedundancy@DeviceType"),
+        types => types,
+    };
+    let sets = of_system("SystemRedundancy@NumberOfAR_Sets");
+    let sets = if types.is_empty() || sets.is_empty() { String::new() } else { format!("; AR sets: {sets}") };
+    vec![
+        ("Media redundancy (MRP)", interface.and_then(of_ring).unwrap_or_default()),
+        ("System redundancy", format!("{}{sets}", tokens(types))),
+        ("Application relations", if settings.relations == 0 { String::new() } else { settings.relations.to_string() }),
+    ]
+}
+
+fn lengths(settings: &ProfinetSettings) -> NamedFacts {
+    let bytes = |length: Option<u16>| length.map(|length| format!("up to {length} bytes")).unwrap_or_default();
+    let lengths = settings.max_lengths;
+    vec![
+        ("Input data with status", bytes(lengths.input)),
+        ("Output data with status", bytes(lengths.output)),
+        ("Input and output data", bytes(lengths.data)),
+        ("Record data", format!("up to {} bytes", settings.max_record_size)),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_in_milliseconds() {
+        assert_eq!(times(&numbers("1 8 16..32 x 128")), "0.03125, 0.25, 0.5 to 1, 4 ms");
+        assert_eq!(times(&numbers("")), "");
+        assert_eq!(tokens("RT_CLASS_1; RT_CLASS_3;"), "RT_CLASS_1, RT_CLASS_3");
+    }
+}
