@@ -14,6 +14,12 @@ pub const IDENTITY: rt::Identity = rt::Identity {
     order_code: "DEMO-1",
 };
 /// Typed access to Lexibus Demo Drive through a client of its bus.
+///
+/// ```ignore
+/// let mut drive = DemoDrive::new(client);
+/// drive.walk(types::State::OperationEnabled, Duration::from_secs(2))?;
+/// let value = drive.motor_temperature().read()?;
+/// ```
 #[derive(Debug)]
 pub struct DemoDrive<C> {
     client: C,
@@ -89,10 +95,14 @@ impl<C> DemoDrive<C> {
             walked => walked,
         }
     }
+}
+/// Communication objects.
+impl<C> DemoDrive<C> {
     /// Device profile number and additional information on the device.
     ///
     /// Device type: Default 0x20192, 0x1000:00, UNSIGNED32, read-only.
     /// Constant: [`objects::DEVICE_TYPE`]. Value type: [`DeviceType`](types::DeviceType).
+    #[doc(alias("1000", "0x1000"))]
     pub fn device_type(&mut self) -> objects::ReadOnlyAccess<'_, C, types::DeviceType> {
         objects::DEVICE_TYPE.at(&mut self.client)
     }
@@ -100,6 +110,7 @@ impl<C> DemoDrive<C> {
     ///
     /// Error register: Default 0, 0x1001:00, UNSIGNED8, read-only, mappable into TPDOs.
     /// Constant: [`objects::ERROR_REGISTER`]. Value type: [`ErrorRegister`](types::ErrorRegister).
+    #[doc(alias("1001", "0x1001"))]
     pub fn error_register(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ErrorRegister> {
@@ -107,10 +118,11 @@ impl<C> DemoDrive<C> {
     }
     /// Pre-defined error field: 0x1003.
     /// The constants for the object's entries are in [`objects::pre_defined_error_field`].
+    #[doc(alias("1003", "0x1003"))]
     pub fn pre_defined_error_field(
         &mut self,
-    ) -> objects::pre_defined_error_field::Accessors<'_, C> {
-        objects::pre_defined_error_field::Accessors {
+    ) -> objects::pre_defined_error_field::PreDefinedErrorFieldAccessors<'_, C> {
+        objects::pre_defined_error_field::PreDefinedErrorFieldAccessors {
             client: &mut self.client,
         }
     }
@@ -118,6 +130,7 @@ impl<C> DemoDrive<C> {
     ///
     /// COB-ID SYNC message: Default 0x80, 0x1005:00, UNSIGNED32, read-write.
     /// Constant: [`objects::COB_ID_SYNC_MESSAGE`]. Value type: [`SyncIdentifier`](types::SyncIdentifier).
+    #[doc(alias("1005", "0x1005"))]
     pub fn cob_id_sync_message(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::SyncIdentifier> {
@@ -127,6 +140,7 @@ impl<C> DemoDrive<C> {
     ///
     /// Default "Demo Drive", 0x1008:00, VISIBLE_STRING, constant.
     /// Constant: [`objects::MANUFACTURER_DEVICE_NAME`].
+    #[doc(alias("1008", "0x1008"))]
     pub fn manufacturer_device_name(
         &mut self,
     ) -> objects::ConstantAccess<'_, C, rt::VisibleString> {
@@ -136,6 +150,7 @@ impl<C> DemoDrive<C> {
     ///
     /// Default "1.0", 0x100A:00, VISIBLE_STRING, constant.
     /// Constant: [`objects::MANUFACTURER_SOFTWARE_VERSION`].
+    #[doc(alias("100A", "0x100A"))]
     pub fn manufacturer_software_version(
         &mut self,
     ) -> objects::ConstantAccess<'_, C, rt::VisibleString> {
@@ -143,8 +158,11 @@ impl<C> DemoDrive<C> {
     }
     /// Store parameters: 0x1010.
     /// The constants for the object's entries are in [`objects::store_parameters`].
-    pub fn store_parameters(&mut self) -> objects::store_parameters::Accessors<'_, C> {
-        objects::store_parameters::Accessors {
+    #[doc(alias("1010", "0x1010"))]
+    pub fn store_parameters(
+        &mut self,
+    ) -> objects::store_parameters::StoreParametersAccessors<'_, C> {
+        objects::store_parameters::StoreParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -152,6 +170,7 @@ impl<C> DemoDrive<C> {
     ///
     /// COB-ID EMCY: Default \$NODEID+0x80, 0x1014:00, UNSIGNED32, read-write.
     /// Constant: [`objects::COB_ID_EMCY`]. Value type: [`EmergencyIdentifier`](types::EmergencyIdentifier).
+    #[doc(alias("1014", "0x1014"))]
     pub fn cob_id_emcy(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::EmergencyIdentifier> {
@@ -161,84 +180,108 @@ impl<C> DemoDrive<C> {
     ///
     /// Producer heartbeat time: Unit ms, default 0, 0x1017:00, UNSIGNED16, read-write.
     /// Constant: [`objects::PRODUCER_HEARTBEAT_TIME`].
+    #[doc(alias("1017", "0x1017"))]
     pub fn producer_heartbeat_time(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::PRODUCER_HEARTBEAT_TIME.at(&mut self.client)
     }
     /// Identity object: 0x1018.
     /// The constants for the object's entries are in [`objects::identity_object`].
-    pub fn identity_object(&mut self) -> objects::identity_object::Accessors<'_, C> {
-        objects::identity_object::Accessors {
+    #[doc(alias("1018", "0x1018"))]
+    pub fn identity_object(
+        &mut self,
+    ) -> objects::identity_object::IdentityObjectAccessors<'_, C> {
+        objects::identity_object::IdentityObjectAccessors {
             client: &mut self.client,
         }
     }
     /// RPDO 1 communication: 0x1400.
     /// The constants for the object's entries are in [`objects::rpdo_1_communication`].
+    #[doc(alias("1400", "0x1400"))]
     pub fn rpdo_1_communication(
         &mut self,
-    ) -> objects::rpdo_1_communication::Accessors<'_, C> {
-        objects::rpdo_1_communication::Accessors {
+    ) -> objects::rpdo_1_communication::Rpdo1CommunicationAccessors<'_, C> {
+        objects::rpdo_1_communication::Rpdo1CommunicationAccessors {
             client: &mut self.client,
         }
     }
     /// RPDO 2 communication: 0x1401.
     /// The constants for the object's entries are in [`objects::rpdo_2_communication`].
+    #[doc(alias("1401", "0x1401"))]
     pub fn rpdo_2_communication(
         &mut self,
-    ) -> objects::rpdo_2_communication::Accessors<'_, C> {
-        objects::rpdo_2_communication::Accessors {
+    ) -> objects::rpdo_2_communication::Rpdo2CommunicationAccessors<'_, C> {
+        objects::rpdo_2_communication::Rpdo2CommunicationAccessors {
             client: &mut self.client,
         }
     }
     /// RPDO 1 mapping: 0x1600.
     /// The constants for the object's entries are in [`objects::rpdo_1_mapping`].
-    pub fn rpdo_1_mapping(&mut self) -> objects::rpdo_1_mapping::Accessors<'_, C> {
-        objects::rpdo_1_mapping::Accessors {
+    #[doc(alias("1600", "0x1600"))]
+    pub fn rpdo_1_mapping(
+        &mut self,
+    ) -> objects::rpdo_1_mapping::Rpdo1MappingAccessors<'_, C> {
+        objects::rpdo_1_mapping::Rpdo1MappingAccessors {
             client: &mut self.client,
         }
     }
     /// RPDO 2 mapping: 0x1601.
     /// The constants for the object's entries are in [`objects::rpdo_2_mapping`].
-    pub fn rpdo_2_mapping(&mut self) -> objects::rpdo_2_mapping::Accessors<'_, C> {
-        objects::rpdo_2_mapping::Accessors {
+    #[doc(alias("1601", "0x1601"))]
+    pub fn rpdo_2_mapping(
+        &mut self,
+    ) -> objects::rpdo_2_mapping::Rpdo2MappingAccessors<'_, C> {
+        objects::rpdo_2_mapping::Rpdo2MappingAccessors {
             client: &mut self.client,
         }
     }
     /// TPDO 1 communication: 0x1800.
     /// The constants for the object's entries are in [`objects::tpdo_1_communication`].
+    #[doc(alias("1800", "0x1800"))]
     pub fn tpdo_1_communication(
         &mut self,
-    ) -> objects::tpdo_1_communication::Accessors<'_, C> {
-        objects::tpdo_1_communication::Accessors {
+    ) -> objects::tpdo_1_communication::Tpdo1CommunicationAccessors<'_, C> {
+        objects::tpdo_1_communication::Tpdo1CommunicationAccessors {
             client: &mut self.client,
         }
     }
     /// TPDO 2 communication: 0x1801.
     /// The constants for the object's entries are in [`objects::tpdo_2_communication`].
+    #[doc(alias("1801", "0x1801"))]
     pub fn tpdo_2_communication(
         &mut self,
-    ) -> objects::tpdo_2_communication::Accessors<'_, C> {
-        objects::tpdo_2_communication::Accessors {
+    ) -> objects::tpdo_2_communication::Tpdo2CommunicationAccessors<'_, C> {
+        objects::tpdo_2_communication::Tpdo2CommunicationAccessors {
             client: &mut self.client,
         }
     }
     /// TPDO 1 mapping: 0x1A00.
     /// The constants for the object's entries are in [`objects::tpdo_1_mapping`].
-    pub fn tpdo_1_mapping(&mut self) -> objects::tpdo_1_mapping::Accessors<'_, C> {
-        objects::tpdo_1_mapping::Accessors {
+    #[doc(alias("1A00", "0x1A00"))]
+    pub fn tpdo_1_mapping(
+        &mut self,
+    ) -> objects::tpdo_1_mapping::Tpdo1MappingAccessors<'_, C> {
+        objects::tpdo_1_mapping::Tpdo1MappingAccessors {
             client: &mut self.client,
         }
     }
     /// TPDO 2 mapping: 0x1A01.
     /// The constants for the object's entries are in [`objects::tpdo_2_mapping`].
-    pub fn tpdo_2_mapping(&mut self) -> objects::tpdo_2_mapping::Accessors<'_, C> {
-        objects::tpdo_2_mapping::Accessors {
+    #[doc(alias("1A01", "0x1A01"))]
+    pub fn tpdo_2_mapping(
+        &mut self,
+    ) -> objects::tpdo_2_mapping::Tpdo2MappingAccessors<'_, C> {
+        objects::tpdo_2_mapping::Tpdo2MappingAccessors {
             client: &mut self.client,
         }
     }
+}
+/// Manufacturer objects.
+impl<C> DemoDrive<C> {
     /// Motor temperature.
     ///
     /// 0x2000:00, REAL32, read-only.
     /// Constant: [`objects::MOTOR_TEMPERATURE`].
+    #[doc(alias("2000", "0x2000"))]
     pub fn motor_temperature(&mut self) -> objects::ReadOnlyAccess<'_, C, f32> {
         objects::MOTOR_TEMPERATURE.at(&mut self.client)
     }
@@ -246,6 +289,7 @@ impl<C> DemoDrive<C> {
     ///
     /// Default "axis", 0x2001:00, VISIBLE_STRING, read-write.
     /// Constant: [`objects::APPLICATION_NAME`].
+    #[doc(alias("2001", "0x2001"))]
     pub fn application_name(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::VisibleString> {
@@ -255,13 +299,17 @@ impl<C> DemoDrive<C> {
     ///
     /// 0x2002:00, DOMAIN, write-only.
     /// Constant: [`objects::FIRMWARE_IMAGE`].
+    #[doc(alias("2002", "0x2002"))]
     pub fn firmware_image(&mut self) -> objects::WriteOnlyAccess<'_, C, rt::Domain> {
         objects::FIRMWARE_IMAGE.at(&mut self.client)
     }
     /// Analog inputs: 0x2010.
     /// The constants for the object's entries are in [`objects::analog_inputs`].
-    pub fn analog_inputs(&mut self) -> objects::analog_inputs::Accessors<'_, C> {
-        objects::analog_inputs::Accessors {
+    #[doc(alias("2010", "0x2010"))]
+    pub fn analog_inputs(
+        &mut self,
+    ) -> objects::analog_inputs::AnalogInputsAccessors<'_, C> {
+        objects::analog_inputs::AnalogInputsAccessors {
             client: &mut self.client,
         }
     }
@@ -269,13 +317,18 @@ impl<C> DemoDrive<C> {
     ///
     /// 0x2020:00, INTEGER24, read-only.
     /// Constant: [`objects::ENCODER_COUNTS`].
+    #[doc(alias("2020", "0x2020"))]
     pub fn encoder_counts(&mut self) -> objects::ReadOnlyAccess<'_, C, rt::Int<24>> {
         objects::ENCODER_COUNTS.at(&mut self.client)
     }
+}
+/// Profile objects.
+impl<C> DemoDrive<C> {
     /// Control word: commands of the drive state machine and of the mode of operation.
     ///
     /// Controlword: Default 0, 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
     /// Constant: [`objects::CONTROLWORD`]. Value type: [`Controlword`](types::Controlword). Mapped in [`RxPdo1`](pdo::RxPdo1) and [`RxPdo2`](pdo::RxPdo2).
+    #[doc(alias("6040", "0x6040"))]
     pub fn controlword(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::Controlword> {
@@ -285,6 +338,7 @@ impl<C> DemoDrive<C> {
     ///
     /// Statusword: 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::STATUSWORD`]. Value type: [`Statusword`](types::Statusword). Mapped in [`TxPdo1`](pdo::TxPdo1) and [`TxPdo2`](pdo::TxPdo2).
+    #[doc(alias("6041", "0x6041"))]
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
@@ -292,6 +346,7 @@ impl<C> DemoDrive<C> {
     ///
     /// Modes of operation: Range \-128 to 8, default 1, 0x6060:00, INTEGER8, read-write, mappable into any PDO.
     /// Constant: [`objects::MODES_OF_OPERATION`]. Value type: [`ModesOfOperation`](types::ModesOfOperation).
+    #[doc(alias("6060", "0x6060"))]
     pub fn modes_of_operation(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperation> {
@@ -301,6 +356,7 @@ impl<C> DemoDrive<C> {
     ///
     /// Modes of operation display: 0x6061:00, INTEGER8, read-only, mappable into TPDOs.
     /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Value type: [`ModesOfOperation`](types::ModesOfOperation).
+    #[doc(alias("6061", "0x6061"))]
     pub fn modes_of_operation_display(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ModesOfOperation> {
@@ -310,6 +366,7 @@ impl<C> DemoDrive<C> {
     ///
     /// 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::POSITION_ACTUAL_VALUE`]. Mapped in [`TxPdo2`](pdo::TxPdo2).
+    #[doc(alias("6064", "0x6064"))]
     pub fn position_actual_value(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::POSITION_ACTUAL_VALUE.at(&mut self.client)
     }
@@ -317,15 +374,17 @@ impl<C> DemoDrive<C> {
     ///
     /// Range \-1000000 to 1000000, default 0, 0x607A:00, INTEGER32, read-write, mappable into any PDO.
     /// Constant: [`objects::TARGET_POSITION`]. Mapped in [`RxPdo2`](pdo::RxPdo2).
+    #[doc(alias("607A", "0x607A"))]
     pub fn target_position(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::TARGET_POSITION.at(&mut self.client)
     }
     /// Software position limit: 0x607D.
     /// The constants for the object's entries are in [`objects::software_position_limit`].
+    #[doc(alias("607D", "0x607D"))]
     pub fn software_position_limit(
         &mut self,
-    ) -> objects::software_position_limit::Accessors<'_, C> {
-        objects::software_position_limit::Accessors {
+    ) -> objects::software_position_limit::SoftwarePositionLimitAccessors<'_, C> {
+        objects::software_position_limit::SoftwarePositionLimitAccessors {
             client: &mut self.client,
         }
     }
@@ -333,6 +392,7 @@ impl<C> DemoDrive<C> {
     ///
     /// Range 0 to 500000, default 1000, 0x6081:00, UNSIGNED32, read-write, mappable into any PDO.
     /// Constant: [`objects::PROFILE_VELOCITY`].
+    #[doc(alias("6081", "0x6081"))]
     pub fn profile_velocity(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::PROFILE_VELOCITY.at(&mut self.client)
     }
@@ -340,6 +400,7 @@ impl<C> DemoDrive<C> {
     ///
     /// Range 1 to 10000000, default 10000, 0x6083:00, UNSIGNED32, read-write.
     /// Constant: [`objects::PROFILE_ACCELERATION`].
+    #[doc(alias("6083", "0x6083"))]
     pub fn profile_acceleration(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::PROFILE_ACCELERATION.at(&mut self.client)
     }
@@ -2832,9 +2893,7 @@ pub mod objects {
     pub type ReadWriteAccess<'c, C, V> = rt::Accessor<'c, C, V, rt::Rw, rt::OnCanOpen>;
     /// Accessor of a constant entry.
     pub type ConstantAccess<'c, C, V> = rt::Accessor<'c, C, V, rt::Const, rt::OnCanOpen>;
-    /// Device type.
-    ///
-    /// Default 0x20192, 0x1000:00, UNSIGNED32, read-only.
+    /// Device type: Default 0x20192, 0x1000:00, UNSIGNED32, read-only.
     /// Accessor: [`device_type`](super::DemoDrive::device_type). Value type: [`DeviceType`](super::types::DeviceType).
     ///
     /// Device profile number and additional information on the device.
@@ -2848,9 +2907,7 @@ pub mod objects {
         "Device type",
         super::types::DeviceType::from_raw(0x20192),
     );
-    /// Error register.
-    ///
-    /// Default 0, 0x1001:00, UNSIGNED8, read-only, mappable into TPDOs.
+    /// Error register: Default 0, 0x1001:00, UNSIGNED8, read-only, mappable into TPDOs.
     /// Accessor: [`error_register`](super::DemoDrive::error_register). Value type: [`ErrorRegister`](super::types::ErrorRegister).
     ///
     /// Error register: one bit for each kind of error that is present.
@@ -2869,20 +2926,16 @@ pub mod objects {
     ///
     /// ARRAY 0x1003.
     pub mod pre_defined_error_field {
-        /// NrOfObjects.
-        ///
-        /// Default 4, 0x1003:00, UNSIGNED8, read-only.
-        /// Accessor: [`Accessors::nr_of_objects`].
+        /// NrOfObjects: Default 4, 0x1003:00, UNSIGNED8, read-only.
+        /// Accessor: [`PreDefinedErrorFieldAccessors::nr_of_objects`].
         pub const NR_OF_OBJECTS: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1003,
             0x00,
             "NrOfObjects",
             4,
         );
-        /// Pre-defined error field1.
-        ///
-        /// 0x1003:01, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::pre_defined_error_field1`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Pre-defined error field1: 0x1003:01, UNSIGNED32, read-only.
+        /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field1`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Error in the error history; sub-index 1 contains the newest error.
         ///
@@ -2896,10 +2949,8 @@ pub mod objects {
             0x01,
             "Pre-defined error field1",
         );
-        /// Pre-defined error field2.
-        ///
-        /// 0x1003:02, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::pre_defined_error_field2`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Pre-defined error field2: 0x1003:02, UNSIGNED32, read-only.
+        /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field2`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Error in the error history; sub-index 1 contains the newest error.
         ///
@@ -2913,10 +2964,8 @@ pub mod objects {
             0x02,
             "Pre-defined error field2",
         );
-        /// Pre-defined error field3.
-        ///
-        /// 0x1003:03, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::pre_defined_error_field3`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Pre-defined error field3: 0x1003:03, UNSIGNED32, read-only.
+        /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field3`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Error in the error history; sub-index 1 contains the newest error.
         ///
@@ -2930,10 +2979,8 @@ pub mod objects {
             0x03,
             "Pre-defined error field3",
         );
-        /// Pre-defined error field4.
-        ///
-        /// 0x1003:04, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::pre_defined_error_field4`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Pre-defined error field4: 0x1003:04, UNSIGNED32, read-only.
+        /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field4`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Error in the error history; sub-index 1 contains the newest error.
         ///
@@ -2948,10 +2995,10 @@ pub mod objects {
             "Pre-defined error field4",
         );
         /// Accessors for the entries of Pre-defined error field: 0x1003.
-        pub struct Accessors<'c, C> {
+        pub struct PreDefinedErrorFieldAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> PreDefinedErrorFieldAccessors<'_, C> {
             /// NrOfObjects.
             ///
             /// Default 4, 0x1003:00, UNSIGNED8, read-only.
@@ -2997,9 +3044,7 @@ pub mod objects {
             }
         }
     }
-    /// COB-ID SYNC message.
-    ///
-    /// Default 0x80, 0x1005:00, UNSIGNED32, read-write.
+    /// COB-ID SYNC message: Default 0x80, 0x1005:00, UNSIGNED32, read-write.
     /// Accessor: [`cob_id_sync_message`](super::DemoDrive::cob_id_sync_message). Value type: [`SyncIdentifier`](super::types::SyncIdentifier).
     ///
     /// COB-ID of the SYNC message.
@@ -3013,9 +3058,7 @@ pub mod objects {
         "COB-ID SYNC message",
         super::types::SyncIdentifier::from_raw(128),
     );
-    /// Manufacturer device name.
-    ///
-    /// Default "Demo Drive", 0x1008:00, VISIBLE_STRING, constant.
+    /// Manufacturer device name: Default "Demo Drive", 0x1008:00, VISIBLE_STRING, constant.
     /// Accessor: [`manufacturer_device_name`](super::DemoDrive::manufacturer_device_name).
     pub const MANUFACTURER_DEVICE_NAME: Constant<rt::VisibleString> = ConstantVisibleString::object_with_default(
         0x1008,
@@ -3023,9 +3066,7 @@ pub mod objects {
         "Manufacturer device name",
         "Demo Drive",
     );
-    /// Manufacturer software version.
-    ///
-    /// Default "1.0", 0x100A:00, VISIBLE_STRING, constant.
+    /// Manufacturer software version: Default "1.0", 0x100A:00, VISIBLE_STRING, constant.
     /// Accessor: [`manufacturer_software_version`](super::DemoDrive::manufacturer_software_version).
     pub const MANUFACTURER_SOFTWARE_VERSION: Constant<rt::VisibleString> = ConstantVisibleString::object_with_default(
         0x100A,
@@ -3037,20 +3078,16 @@ pub mod objects {
     ///
     /// ARRAY 0x1010.
     pub mod store_parameters {
-        /// Highest sub-index supported.
-        ///
-        /// Default 1, 0x1010:00, UNSIGNED8, read-only.
-        /// Accessor: [`Accessors::highest_sub_index_supported`].
+        /// Highest sub-index supported: Default 1, 0x1010:00, UNSIGNED8, read-only.
+        /// Accessor: [`StoreParametersAccessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1010,
             0x00,
             "Highest sub-index supported",
             1,
         );
-        /// Save all parameters.
-        ///
-        /// Default 1, 0x1010:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::save_all_parameters`]. Value type: [`StoreParameters`](super::super::types::StoreParameters).
+        /// Save all parameters: Default 1, 0x1010:01, UNSIGNED32, read-write.
+        /// Accessor: [`StoreParametersAccessors::save_all_parameters`]. Value type: [`StoreParameters`](super::super::types::StoreParameters).
         ///
         /// Writing "save" stores the parameters in non-volatile memory; reading returns the storage capability.
         ///
@@ -3066,10 +3103,10 @@ pub mod objects {
             super::super::types::StoreParameters::from_raw(1),
         );
         /// Accessors for the entries of Store parameters: 0x1010.
-        pub struct Accessors<'c, C> {
+        pub struct StoreParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> StoreParametersAccessors<'_, C> {
             /// Highest sub-index supported.
             ///
             /// Default 1, 0x1010:00, UNSIGNED8, read-only.
@@ -3090,9 +3127,7 @@ pub mod objects {
             }
         }
     }
-    /// COB-ID EMCY.
-    ///
-    /// Default \$NODEID+0x80, 0x1014:00, UNSIGNED32, read-write.
+    /// COB-ID EMCY: Default \$NODEID+0x80, 0x1014:00, UNSIGNED32, read-write.
     /// Accessor: [`cob_id_emcy`](super::DemoDrive::cob_id_emcy). Value type: [`EmergencyIdentifier`](super::types::EmergencyIdentifier).
     ///
     /// COB-ID of the emergency messages.
@@ -3108,9 +3143,7 @@ pub mod objects {
         "",
         rt::Flags::NONE,
     );
-    /// Producer heartbeat time.
-    ///
-    /// Unit ms, default 0, 0x1017:00, UNSIGNED16, read-write.
+    /// Producer heartbeat time: Unit ms, default 0, 0x1017:00, UNSIGNED16, read-write.
     /// Accessor: [`producer_heartbeat_time`](super::DemoDrive::producer_heartbeat_time).
     ///
     /// Heartbeat period; 0 disables the heartbeat.
@@ -3130,20 +3163,16 @@ pub mod objects {
     ///
     /// RECORD 0x1018.
     pub mod identity_object {
-        /// Highest sub-index supported.
-        ///
-        /// Default 4, 0x1018:00, UNSIGNED8, read-only.
-        /// Accessor: [`Accessors::highest_sub_index_supported`].
+        /// Highest sub-index supported: Default 4, 0x1018:00, UNSIGNED8, read-only.
+        /// Accessor: [`IdentityObjectAccessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1018,
             0x00,
             "Highest sub-index supported",
             4,
         );
-        /// Vendor-ID.
-        ///
-        /// Default 0, 0x1018:01, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::vendor_id`].
+        /// Vendor-ID: Default 0, 0x1018:01, UNSIGNED32, read-only.
+        /// Accessor: [`IdentityObjectAccessors::vendor_id`].
         ///
         /// Vendor ID of the device.
         ///
@@ -3154,10 +3183,8 @@ pub mod objects {
             "Vendor-ID",
             0,
         );
-        /// Product code.
-        ///
-        /// Default 16417, 0x1018:02, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::product_code`].
+        /// Product code: Default 16417, 0x1018:02, UNSIGNED32, read-only.
+        /// Accessor: [`IdentityObjectAccessors::product_code`].
         ///
         /// Product code, assigned by the vendor.
         ///
@@ -3168,10 +3195,8 @@ pub mod objects {
             "Product code",
             16417,
         );
-        /// Revision number.
-        ///
-        /// Default 0x10000, 0x1018:03, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::revision_number`]. Value type: [`RevisionNumber`](super::super::types::RevisionNumber).
+        /// Revision number: Default 0x10000, 0x1018:03, UNSIGNED32, read-only.
+        /// Accessor: [`IdentityObjectAccessors::revision_number`]. Value type: [`RevisionNumber`](super::super::types::RevisionNumber).
         ///
         /// Revision number of the product.
         ///
@@ -3186,10 +3211,8 @@ pub mod objects {
             "Revision number",
             super::super::types::RevisionNumber::from_raw(0x10000),
         );
-        /// Serial number.
-        ///
-        /// 0x1018:04, UNSIGNED32, read-only.
-        /// Accessor: [`Accessors::serial_number`].
+        /// Serial number: 0x1018:04, UNSIGNED32, read-only.
+        /// Accessor: [`IdentityObjectAccessors::serial_number`].
         ///
         /// Serial number of the device.
         ///
@@ -3200,10 +3223,10 @@ pub mod objects {
             "Serial number",
         );
         /// Accessors for the entries of Identity object: 0x1018.
-        pub struct Accessors<'c, C> {
+        pub struct IdentityObjectAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> IdentityObjectAccessors<'_, C> {
             /// Highest sub-index supported.
             ///
             /// Default 4, 0x1018:00, UNSIGNED8, read-only.
@@ -3250,20 +3273,16 @@ pub mod objects {
     /// RECORD 0x1400.
     pub mod rpdo_1_communication {
         use ::lexibus as rt;
-        /// Highest sub-index supported.
-        ///
-        /// Default 2, 0x1400:00, UNSIGNED8, read-only.
-        /// Accessor: [`Accessors::highest_sub_index_supported`].
+        /// Highest sub-index supported: Default 2, 0x1400:00, UNSIGNED8, read-only.
+        /// Accessor: [`Rpdo1CommunicationAccessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1400,
             0x00,
             "Highest sub-index supported",
             2,
         );
-        /// COB-ID.
-        ///
-        /// Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::cob_id`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        /// COB-ID: Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
+        /// Accessor: [`Rpdo1CommunicationAccessors::cob_id`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
         /// COB-ID of the RPDO.
         ///
@@ -3280,10 +3299,8 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Transmission type.
-        ///
-        /// Default 255, 0x1400:02, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::transmission_type`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
+        /// Transmission type: Default 255, 0x1400:02, UNSIGNED8, read-write.
+        /// Accessor: [`Rpdo1CommunicationAccessors::transmission_type`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
         ///
         /// Transmission type: when the device applies the received data.
         ///
@@ -3299,10 +3316,10 @@ pub mod objects {
             super::super::types::ReceiveType::from_raw(255),
         );
         /// Accessors for the entries of RPDO 1 communication: 0x1400.
-        pub struct Accessors<'c, C> {
+        pub struct Rpdo1CommunicationAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> Rpdo1CommunicationAccessors<'_, C> {
             /// Highest sub-index supported.
             ///
             /// Default 2, 0x1400:00, UNSIGNED8, read-only.
@@ -3341,20 +3358,16 @@ pub mod objects {
     /// RECORD 0x1401.
     pub mod rpdo_2_communication {
         use ::lexibus as rt;
-        /// Highest sub-index supported.
-        ///
-        /// Default 2, 0x1401:00, UNSIGNED8, read-only.
-        /// Accessor: [`Accessors::highest_sub_index_supported`].
+        /// Highest sub-index supported: Default 2, 0x1401:00, UNSIGNED8, read-only.
+        /// Accessor: [`Rpdo2CommunicationAccessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1401,
             0x00,
             "Highest sub-index supported",
             2,
         );
-        /// COB-ID.
-        ///
-        /// Default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::cob_id`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        /// COB-ID: Default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
+        /// Accessor: [`Rpdo2CommunicationAccessors::cob_id`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
         /// COB-ID of the RPDO.
         ///
@@ -3371,10 +3384,8 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Transmission type.
-        ///
-        /// Default 1, 0x1401:02, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::transmission_type`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
+        /// Transmission type: Default 1, 0x1401:02, UNSIGNED8, read-write.
+        /// Accessor: [`Rpdo2CommunicationAccessors::transmission_type`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
         ///
         /// Transmission type: when the device applies the received data.
         ///
@@ -3390,10 +3401,10 @@ pub mod objects {
             super::super::types::ReceiveType::from_raw(1),
         );
         /// Accessors for the entries of RPDO 2 communication: 0x1401.
-        pub struct Accessors<'c, C> {
+        pub struct Rpdo2CommunicationAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> Rpdo2CommunicationAccessors<'_, C> {
             /// Highest sub-index supported.
             ///
             /// Default 2, 0x1401:00, UNSIGNED8, read-only.
@@ -3431,20 +3442,16 @@ pub mod objects {
     ///
     /// RECORD 0x1600.
     pub mod rpdo_1_mapping {
-        /// Number of mapped objects.
-        ///
-        /// Default 1, 0x1600:00, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::number_of_mapped_objects`].
+        /// Number of mapped objects: Default 1, 0x1600:00, UNSIGNED8, read-write.
+        /// Accessor: [`Rpdo1MappingAccessors::number_of_mapped_objects`].
         pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1600,
             0x00,
             "Number of mapped objects",
             1,
         );
-        /// Mapped object 1.
-        ///
-        /// Default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Mapped object 1: Default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
+        /// Accessor: [`Rpdo1MappingAccessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the RPDO: index, sub-index and length in bits.
         ///
@@ -3458,10 +3465,10 @@ pub mod objects {
             super::super::types::MappingEntry::from_raw(0x60400010),
         );
         /// Accessors for the entries of RPDO 1 mapping: 0x1600.
-        pub struct Accessors<'c, C> {
+        pub struct Rpdo1MappingAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> Rpdo1MappingAccessors<'_, C> {
             /// Number of mapped objects.
             ///
             /// Default 1, 0x1600:00, UNSIGNED8, read-write.
@@ -3486,20 +3493,16 @@ pub mod objects {
     ///
     /// RECORD 0x1601.
     pub mod rpdo_2_mapping {
-        /// Number of mapped objects.
-        ///
-        /// Default 2, 0x1601:00, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::number_of_mapped_objects`].
+        /// Number of mapped objects: Default 2, 0x1601:00, UNSIGNED8, read-write.
+        /// Accessor: [`Rpdo2MappingAccessors::number_of_mapped_objects`].
         pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1601,
             0x00,
             "Number of mapped objects",
             2,
         );
-        /// Mapped object 1.
-        ///
-        /// Default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Mapped object 1: Default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
+        /// Accessor: [`Rpdo2MappingAccessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the RPDO: index, sub-index and length in bits.
         ///
@@ -3512,10 +3515,8 @@ pub mod objects {
             "Mapped object 1",
             super::super::types::MappingEntry::from_raw(0x60400010),
         );
-        /// Mapped object 2.
-        ///
-        /// Default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_2`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Mapped object 2: Default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
+        /// Accessor: [`Rpdo2MappingAccessors::mapped_object_2`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the RPDO: index, sub-index and length in bits.
         ///
@@ -3529,10 +3530,10 @@ pub mod objects {
             super::super::types::MappingEntry::from_raw(0x607A0020),
         );
         /// Accessors for the entries of RPDO 2 mapping: 0x1601.
-        pub struct Accessors<'c, C> {
+        pub struct Rpdo2MappingAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> Rpdo2MappingAccessors<'_, C> {
             /// Number of mapped objects.
             ///
             /// Default 2, 0x1601:00, UNSIGNED8, read-write.
@@ -3567,20 +3568,16 @@ pub mod objects {
     /// RECORD 0x1800.
     pub mod tpdo_1_communication {
         use ::lexibus as rt;
-        /// Highest sub-index supported.
-        ///
-        /// Default 2, 0x1800:00, UNSIGNED8, read-only.
-        /// Accessor: [`Accessors::highest_sub_index_supported`].
+        /// Highest sub-index supported: Default 2, 0x1800:00, UNSIGNED8, read-only.
+        /// Accessor: [`Tpdo1CommunicationAccessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1800,
             0x00,
             "Highest sub-index supported",
             2,
         );
-        /// COB-ID.
-        ///
-        /// Default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::cob_id`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        /// COB-ID: Default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
+        /// Accessor: [`Tpdo1CommunicationAccessors::cob_id`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
         /// COB-ID of the TPDO.
         ///
@@ -3597,10 +3594,8 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Transmission type.
-        ///
-        /// Default 255, 0x1800:02, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::transmission_type`]. Value type: [`TransmitType`](super::super::types::TransmitType).
+        /// Transmission type: Default 255, 0x1800:02, UNSIGNED8, read-write.
+        /// Accessor: [`Tpdo1CommunicationAccessors::transmission_type`]. Value type: [`TransmitType`](super::super::types::TransmitType).
         ///
         /// Transmission type: when the TPDO is transmitted.
         ///
@@ -3616,10 +3611,10 @@ pub mod objects {
             super::super::types::TransmitType::from_raw(255),
         );
         /// Accessors for the entries of TPDO 1 communication: 0x1800.
-        pub struct Accessors<'c, C> {
+        pub struct Tpdo1CommunicationAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> Tpdo1CommunicationAccessors<'_, C> {
             /// Highest sub-index supported.
             ///
             /// Default 2, 0x1800:00, UNSIGNED8, read-only.
@@ -3658,20 +3653,16 @@ pub mod objects {
     /// RECORD 0x1801.
     pub mod tpdo_2_communication {
         use ::lexibus as rt;
-        /// Highest sub-index supported.
-        ///
-        /// Default 2, 0x1801:00, UNSIGNED8, read-only.
-        /// Accessor: [`Accessors::highest_sub_index_supported`].
+        /// Highest sub-index supported: Default 2, 0x1801:00, UNSIGNED8, read-only.
+        /// Accessor: [`Tpdo2CommunicationAccessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1801,
             0x00,
             "Highest sub-index supported",
             2,
         );
-        /// COB-ID.
-        ///
-        /// Default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::cob_id`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        /// COB-ID: Default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
+        /// Accessor: [`Tpdo2CommunicationAccessors::cob_id`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
         /// COB-ID of the TPDO.
         ///
@@ -3688,10 +3679,8 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Transmission type.
-        ///
-        /// Default 1, 0x1801:02, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::transmission_type`]. Value type: [`TransmitType`](super::super::types::TransmitType).
+        /// Transmission type: Default 1, 0x1801:02, UNSIGNED8, read-write.
+        /// Accessor: [`Tpdo2CommunicationAccessors::transmission_type`]. Value type: [`TransmitType`](super::super::types::TransmitType).
         ///
         /// Transmission type: when the TPDO is transmitted.
         ///
@@ -3707,10 +3696,10 @@ pub mod objects {
             super::super::types::TransmitType::from_raw(1),
         );
         /// Accessors for the entries of TPDO 2 communication: 0x1801.
-        pub struct Accessors<'c, C> {
+        pub struct Tpdo2CommunicationAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> Tpdo2CommunicationAccessors<'_, C> {
             /// Highest sub-index supported.
             ///
             /// Default 2, 0x1801:00, UNSIGNED8, read-only.
@@ -3748,20 +3737,16 @@ pub mod objects {
     ///
     /// RECORD 0x1A00.
     pub mod tpdo_1_mapping {
-        /// Number of mapped objects.
-        ///
-        /// Default 1, 0x1A00:00, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::number_of_mapped_objects`].
+        /// Number of mapped objects: Default 1, 0x1A00:00, UNSIGNED8, read-write.
+        /// Accessor: [`Tpdo1MappingAccessors::number_of_mapped_objects`].
         pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1A00,
             0x00,
             "Number of mapped objects",
             1,
         );
-        /// Mapped object 1.
-        ///
-        /// Default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Mapped object 1: Default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
+        /// Accessor: [`Tpdo1MappingAccessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the TPDO: index, sub-index and length in bits.
         ///
@@ -3775,10 +3760,10 @@ pub mod objects {
             super::super::types::MappingEntry::from_raw(0x60410010),
         );
         /// Accessors for the entries of TPDO 1 mapping: 0x1A00.
-        pub struct Accessors<'c, C> {
+        pub struct Tpdo1MappingAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> Tpdo1MappingAccessors<'_, C> {
             /// Number of mapped objects.
             ///
             /// Default 1, 0x1A00:00, UNSIGNED8, read-write.
@@ -3803,20 +3788,16 @@ pub mod objects {
     ///
     /// RECORD 0x1A01.
     pub mod tpdo_2_mapping {
-        /// Number of mapped objects.
-        ///
-        /// Default 2, 0x1A01:00, UNSIGNED8, read-write.
-        /// Accessor: [`Accessors::number_of_mapped_objects`].
+        /// Number of mapped objects: Default 2, 0x1A01:00, UNSIGNED8, read-write.
+        /// Accessor: [`Tpdo2MappingAccessors::number_of_mapped_objects`].
         pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1A01,
             0x00,
             "Number of mapped objects",
             2,
         );
-        /// Mapped object 1.
-        ///
-        /// Default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Mapped object 1: Default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
+        /// Accessor: [`Tpdo2MappingAccessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the TPDO: index, sub-index and length in bits.
         ///
@@ -3829,10 +3810,8 @@ pub mod objects {
             "Mapped object 1",
             super::super::types::MappingEntry::from_raw(0x60410010),
         );
-        /// Mapped object 2.
-        ///
-        /// Default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
-        /// Accessor: [`Accessors::mapped_object_2`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Mapped object 2: Default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
+        /// Accessor: [`Tpdo2MappingAccessors::mapped_object_2`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
         ///
         /// Object mapped to the TPDO: index, sub-index and length in bits.
         ///
@@ -3846,10 +3825,10 @@ pub mod objects {
             super::super::types::MappingEntry::from_raw(0x60640020),
         );
         /// Accessors for the entries of TPDO 2 mapping: 0x1A01.
-        pub struct Accessors<'c, C> {
+        pub struct Tpdo2MappingAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> Tpdo2MappingAccessors<'_, C> {
             /// Number of mapped objects.
             ///
             /// Default 2, 0x1A01:00, UNSIGNED8, read-write.
@@ -3879,18 +3858,14 @@ pub mod objects {
             }
         }
     }
-    /// Motor temperature.
-    ///
-    /// 0x2000:00, REAL32, read-only.
+    /// Motor temperature: 0x2000:00, REAL32, read-only.
     /// Accessor: [`motor_temperature`](super::DemoDrive::motor_temperature).
     pub const MOTOR_TEMPERATURE: ReadOnly<f32> = ReadOnlyF32::object(
         0x2000,
         0x00,
         "Motor temperature",
     );
-    /// Application name.
-    ///
-    /// Default "axis", 0x2001:00, VISIBLE_STRING, read-write.
+    /// Application name: Default "axis", 0x2001:00, VISIBLE_STRING, read-write.
     /// Accessor: [`application_name`](super::DemoDrive::application_name).
     pub const APPLICATION_NAME: ReadWrite<rt::VisibleString> = ReadWriteVisibleString::object_with_default(
         0x2001,
@@ -3898,9 +3873,7 @@ pub mod objects {
         "Application name",
         "axis",
     );
-    /// Firmware image.
-    ///
-    /// 0x2002:00, DOMAIN, write-only.
+    /// Firmware image: 0x2002:00, DOMAIN, write-only.
     /// Accessor: [`firmware_image`](super::DemoDrive::firmware_image).
     pub const FIRMWARE_IMAGE: WriteOnly<rt::Domain> = WriteOnlyDomain::object(
         0x2002,
@@ -3912,30 +3885,24 @@ pub mod objects {
     /// ARRAY 0x2010.
     pub mod analog_inputs {
         use ::lexibus as rt;
-        /// Highest sub-index supported.
-        ///
-        /// Default 2, 0x2010:00, UNSIGNED8, read-only.
-        /// Accessor: [`Accessors::highest_sub_index_supported`].
+        /// Highest sub-index supported: Default 2, 0x2010:00, UNSIGNED8, read-only.
+        /// Accessor: [`AnalogInputsAccessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x2010,
             0x00,
             "Highest sub-index supported",
             2,
         );
-        /// Input 1.
-        ///
-        /// 0x2010:01, INTEGER16, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::input_1`].
+        /// Input 1: 0x2010:01, INTEGER16, read-only, mappable into TPDOs.
+        /// Accessor: [`AnalogInputsAccessors::input_1`].
         pub const INPUT_1: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_object(
             0x2010,
             0x01,
             "Input 1",
             rt::Flags::TPDO,
         );
-        /// Input 2.
-        ///
-        /// 0x2010:02, INTEGER16, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::input_2`].
+        /// Input 2: 0x2010:02, INTEGER16, read-only, mappable into TPDOs.
+        /// Accessor: [`AnalogInputsAccessors::input_2`].
         pub const INPUT_2: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_object(
             0x2010,
             0x02,
@@ -3943,10 +3910,10 @@ pub mod objects {
             rt::Flags::TPDO,
         );
         /// Accessors for the entries of Analog inputs: 0x2010.
-        pub struct Accessors<'c, C> {
+        pub struct AnalogInputsAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> AnalogInputsAccessors<'_, C> {
             /// Highest sub-index supported.
             ///
             /// Default 2, 0x2010:00, UNSIGNED8, read-only.
@@ -3972,18 +3939,14 @@ pub mod objects {
             }
         }
     }
-    /// Encoder counts.
-    ///
-    /// 0x2020:00, INTEGER24, read-only.
+    /// Encoder counts: 0x2020:00, INTEGER24, read-only.
     /// Accessor: [`encoder_counts`](super::DemoDrive::encoder_counts).
     pub const ENCODER_COUNTS: ReadOnly<rt::Int<24>> = ReadOnlyInt24::object(
         0x2020,
         0x00,
         "Encoder counts",
     );
-    /// Controlword.
-    ///
-    /// Default 0, 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
+    /// Controlword: Default 0, 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
     /// Accessor: [`controlword`](super::DemoDrive::controlword). Value type: [`Controlword`](super::types::Controlword). Mapped in [`RxPdo1`](super::pdo::RxPdo1) and [`RxPdo2`](super::pdo::RxPdo2).
     ///
     /// Control word: commands of the drive state machine and of the mode of operation.
@@ -3998,9 +3961,7 @@ pub mod objects {
         rt::Flags::RPDO,
         super::types::Controlword::from_raw(0),
     );
-    /// Statusword.
-    ///
-    /// 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
+    /// Statusword: 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
     /// Accessor: [`statusword`](super::DemoDrive::statusword). Value type: [`Statusword`](super::types::Statusword). Mapped in [`TxPdo1`](super::pdo::TxPdo1) and [`TxPdo2`](super::pdo::TxPdo2).
     ///
     /// Status word: state of the drive state machine and of the mode of operation.
@@ -4014,9 +3975,7 @@ pub mod objects {
         "Statusword",
         rt::Flags::TPDO,
     );
-    /// Modes of operation.
-    ///
-    /// Range \-128 to 8, default 1, 0x6060:00, INTEGER8, read-write, mappable into any PDO.
+    /// Modes of operation: Range \-128 to 8, default 1, 0x6060:00, INTEGER8, read-write, mappable into any PDO.
     /// Accessor: [`modes_of_operation`](super::DemoDrive::modes_of_operation). Value type: [`ModesOfOperation`](super::types::ModesOfOperation).
     ///
     /// Requested mode of operation; the active mode is in 0x6061.
@@ -4032,9 +3991,7 @@ pub mod objects {
         "",
         rt::Flags::PDO,
     );
-    /// Modes of operation display.
-    ///
-    /// 0x6061:00, INTEGER8, read-only, mappable into TPDOs.
+    /// Modes of operation display: 0x6061:00, INTEGER8, read-only, mappable into TPDOs.
     /// Accessor: [`modes_of_operation_display`](super::DemoDrive::modes_of_operation_display). Value type: [`ModesOfOperation`](super::types::ModesOfOperation).
     ///
     /// Active mode of operation.
@@ -4048,9 +4005,7 @@ pub mod objects {
         "Modes of operation display",
         rt::Flags::TPDO,
     );
-    /// Position actual value.
-    ///
-    /// 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Position actual value: 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
     /// Accessor: [`position_actual_value`](super::DemoDrive::position_actual_value). Mapped in [`TxPdo2`](super::pdo::TxPdo2).
     pub const POSITION_ACTUAL_VALUE: ReadOnly<i32> = ReadOnlyI32::flagged_object(
         0x6064,
@@ -4058,9 +4013,7 @@ pub mod objects {
         "Position actual value",
         rt::Flags::TPDO,
     );
-    /// Target position.
-    ///
-    /// Range \-1000000 to 1000000, default 0, 0x607A:00, INTEGER32, read-write, mappable into any PDO.
+    /// Target position: Range \-1000000 to 1000000, default 0, 0x607A:00, INTEGER32, read-write, mappable into any PDO.
     /// Accessor: [`target_position`](super::DemoDrive::target_position). Mapped in [`RxPdo2`](super::pdo::RxPdo2).
     pub const TARGET_POSITION: ReadWrite<i32> = ReadWriteI32::new(
         rt::OnCanOpen::canopen(0x607A, 0x00),
@@ -4074,30 +4027,24 @@ pub mod objects {
     ///
     /// ARRAY 0x607D.
     pub mod software_position_limit {
-        /// Highest sub-index supported.
-        ///
-        /// Default 2, 0x607D:00, UNSIGNED8, read-only.
-        /// Accessor: [`Accessors::highest_sub_index_supported`].
+        /// Highest sub-index supported: Default 2, 0x607D:00, UNSIGNED8, read-only.
+        /// Accessor: [`SoftwarePositionLimitAccessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x607D,
             0x00,
             "Highest sub-index supported",
             2,
         );
-        /// Min position limit.
-        ///
-        /// Default -1000000, 0x607D:01, INTEGER32, read-write.
-        /// Accessor: [`Accessors::min_position_limit`].
+        /// Min position limit: Default -1000000, 0x607D:01, INTEGER32, read-write.
+        /// Accessor: [`SoftwarePositionLimitAccessors::min_position_limit`].
         pub const MIN_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWriteI32::object_with_default(
             0x607D,
             0x01,
             "Min position limit",
             -1000000,
         );
-        /// Max position limit.
-        ///
-        /// Default 1000000, 0x607D:02, INTEGER32, read-write.
-        /// Accessor: [`Accessors::max_position_limit`].
+        /// Max position limit: Default 1000000, 0x607D:02, INTEGER32, read-write.
+        /// Accessor: [`SoftwarePositionLimitAccessors::max_position_limit`].
         pub const MAX_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWriteI32::object_with_default(
             0x607D,
             0x02,
@@ -4105,10 +4052,10 @@ pub mod objects {
             1000000,
         );
         /// Accessors for the entries of Software position limit: 0x607D.
-        pub struct Accessors<'c, C> {
+        pub struct SoftwarePositionLimitAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> SoftwarePositionLimitAccessors<'_, C> {
             /// Highest sub-index supported.
             ///
             /// Default 2, 0x607D:00, UNSIGNED8, read-only.
@@ -4134,9 +4081,7 @@ pub mod objects {
             }
         }
     }
-    /// Profile velocity.
-    ///
-    /// Range 0 to 500000, default 1000, 0x6081:00, UNSIGNED32, read-write, mappable into any PDO.
+    /// Profile velocity: Range 0 to 500000, default 1000, 0x6081:00, UNSIGNED32, read-write, mappable into any PDO.
     /// Accessor: [`profile_velocity`](super::DemoDrive::profile_velocity).
     pub const PROFILE_VELOCITY: ReadWrite<u32> = ReadWriteU32::new(
         rt::OnCanOpen::canopen(0x6081, 0x00),
@@ -4146,9 +4091,7 @@ pub mod objects {
         "",
         rt::Flags::PDO,
     );
-    /// Profile acceleration.
-    ///
-    /// Range 1 to 10000000, default 10000, 0x6083:00, UNSIGNED32, read-write.
+    /// Profile acceleration: Range 1 to 10000000, default 10000, 0x6083:00, UNSIGNED32, read-write.
     /// Accessor: [`profile_acceleration`](super::DemoDrive::profile_acceleration).
     pub const PROFILE_ACCELERATION: ReadWrite<u32> = ReadWriteU32::new(
         rt::OnCanOpen::canopen(0x6083, 0x00),

@@ -95,6 +95,12 @@ pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
     slots: None,
 };
 /// Typed access to Example AX-1 axis through a client of its bus.
+///
+/// ```ignore
+/// let mut drive = Ax1::new(client);
+/// drive.walk(types::State::OperationEnabled, Duration::from_secs(2))?;
+/// let value = drive.torque().read()?; // %
+/// ```
 #[derive(Debug)]
 pub struct Ax1<C> {
     client: C,
@@ -146,24 +152,33 @@ impl<C> Ax1<C> {
         let machine = rt::Machine::new(objects::STATUSWORD, objects::CONTROLWORD);
         machine.walk_async(&mut self.client, control, target, deadline).await
     }
+}
+/// Manufacturer objects.
+impl<C> Ax1<C> {
     /// 0x2000.
     /// The constants for the object's entries are in [`objects::object_2000`].
-    pub fn object_2000(&mut self) -> objects::object_2000::Accessors<'_, C> {
-        objects::object_2000::Accessors {
+    #[doc(alias("2000", "0x2000"))]
+    pub fn object_2000(&mut self) -> objects::object_2000::Object2000Accessors<'_, C> {
+        objects::object_2000::Object2000Accessors {
             client: &mut self.client,
         }
     }
     /// 0x2001.
     /// The constants for the object's entries are in [`objects::object_2001`].
-    pub fn object_2001(&mut self) -> objects::object_2001::Accessors<'_, C> {
-        objects::object_2001::Accessors {
+    #[doc(alias("2001", "0x2001"))]
+    pub fn object_2001(&mut self) -> objects::object_2001::Object2001Accessors<'_, C> {
+        objects::object_2001::Object2001Accessors {
             client: &mut self.client,
         }
     }
+}
+/// Profile objects.
+impl<C> Ax1<C> {
     /// Control word: commands of the drive state machine and of the mode of operation.
     ///
     /// Controlword: 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
     /// Constant: [`objects::CONTROLWORD`]. Value type: [`Controlword`](types::Controlword). Mapped in [`SetPoints`](pdo::SetPoints).
+    #[doc(alias("6040", "0x6040"))]
     pub fn controlword(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::Controlword> {
@@ -173,6 +188,7 @@ impl<C> Ax1<C> {
     ///
     /// Statusword: 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
     /// Constant: [`objects::STATUSWORD`]. Value type: [`Statusword`](types::Statusword). Mapped in [`ActualValues`](pdo::ActualValues) and [`DriveStatus`](pdo::DriveStatus).
+    #[doc(alias("6041", "0x6041"))]
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
@@ -180,6 +196,7 @@ impl<C> Ax1<C> {
     ///
     /// Modes of operation: 0x6060:00, INTEGER8, read-write, mappable into RPDOs.
     /// Constant: [`objects::MODES_OF_OPERATION`]. Value type: [`ModesOfOperation`](types::ModesOfOperation). Mapped in [`SetPoints`](pdo::SetPoints).
+    #[doc(alias("6060", "0x6060"))]
     pub fn modes_of_operation(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperation> {
@@ -189,6 +206,7 @@ impl<C> Ax1<C> {
     ///
     /// 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::POSITION`]. Mapped in [`ActualValues`](pdo::ActualValues) and [`DriveStatus`](pdo::DriveStatus).
+    #[doc(alias("6064", "0x6064"))]
     pub fn position(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::POSITION.at(&mut self.client)
     }
@@ -196,6 +214,7 @@ impl<C> Ax1<C> {
     ///
     /// 0x606C:00, INTEGER32, read-only, mappable into TPDOs.
     /// Constant: [`objects::VELOCITY`]. Mapped in [`ActualValues`](pdo::ActualValues).
+    #[doc(alias("606C", "0x606C"))]
     pub fn velocity(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::VELOCITY.at(&mut self.client)
     }
@@ -203,6 +222,7 @@ impl<C> Ax1<C> {
     ///
     /// Torque: 1 LSB = 0.1 %, 0x6077:00, INTEGER16, read-only, mappable into TPDOs.
     /// Constant: [`objects::TORQUE`]. Mapped in [`DriveStatus`](pdo::DriveStatus).
+    #[doc(alias("6077", "0x6077"))]
     pub fn torque(&mut self) -> objects::ReadOnlyAccess<'_, C, rt::Scaled<i16, 1, 10>> {
         objects::TORQUE.at(&mut self.client)
     }
@@ -210,6 +230,7 @@ impl<C> Ax1<C> {
     ///
     /// 0x607A:00, INTEGER32, read-write, mappable into RPDOs.
     /// Constant: [`objects::TARGET_POSITION`]. Mapped in [`SetPoints`](pdo::SetPoints).
+    #[doc(alias("607A", "0x607A"))]
     pub fn target_position(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::TARGET_POSITION.at(&mut self.client)
     }
@@ -217,6 +238,7 @@ impl<C> Ax1<C> {
     ///
     /// Torque offset: 1 LSB = 0.1 %, 0x60B2:00, INTEGER16, read-write, mappable into RPDOs.
     /// Constant: [`objects::TORQUE_OFFSET`]. Mapped in [`SetPoints`](pdo::SetPoints).
+    #[doc(alias("60B2", "0x60B2"))]
     pub fn torque_offset(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 10>> {
@@ -226,6 +248,7 @@ impl<C> Ax1<C> {
     ///
     /// 0x60FF:00, INTEGER32, read-write, mappable into RPDOs.
     /// Constant: [`objects::TARGET_VELOCITY`]. Mapped in [`SetPoints`](pdo::SetPoints).
+    #[doc(alias("60FF", "0x60FF"))]
     pub fn target_velocity(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::TARGET_VELOCITY.at(&mut self.client)
     }
@@ -1837,10 +1860,8 @@ pub mod objects {
     /// RECORD 0x2000.
     pub mod object_2000 {
         use ::lexibus as rt;
-        /// Ready.
-        ///
-        /// 0x2000:01, BOOLEAN, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::ready`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Ready: 0x2000:01, BOOLEAN, read-only, mappable into TPDOs.
+        /// Accessor: [`Object2000Accessors::ready`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const READY: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
@@ -1849,10 +1870,8 @@ pub mod objects {
             "Ready",
             rt::Flags::TPDO,
         );
-        /// Mode.
-        ///
-        /// 0x2000:02, UNSIGNED3, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::mode`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Mode: 0x2000:02, UNSIGNED3, read-only, mappable into TPDOs.
+        /// Accessor: [`Object2000Accessors::mode`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
@@ -1861,10 +1880,8 @@ pub mod objects {
             "Mode",
             rt::Flags::TPDO,
         );
-        /// Referenced.
-        ///
-        /// 0x2000:03, BOOLEAN, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::referenced`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Referenced: 0x2000:03, BOOLEAN, read-only, mappable into TPDOs.
+        /// Accessor: [`Object2000Accessors::referenced`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const REFERENCED: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
@@ -1873,10 +1890,8 @@ pub mod objects {
             "Referenced",
             rt::Flags::TPDO,
         );
-        /// Position.
-        ///
-        /// 0x2000:04, INTEGER24, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::position`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Position: 0x2000:04, INTEGER24, read-only, mappable into TPDOs.
+        /// Accessor: [`Object2000Accessors::position`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const POSITION: super::ReadOnly<rt::Int<24>> = super::ReadOnlyInt24::flagged_coe_object(
@@ -1885,10 +1900,8 @@ pub mod objects {
             "Position",
             rt::Flags::TPDO,
         );
-        /// Overflow.
-        ///
-        /// 0x2000:05, BOOLEAN, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::overflow`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Overflow: 0x2000:05, BOOLEAN, read-only, mappable into TPDOs.
+        /// Accessor: [`Object2000Accessors::overflow`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const OVERFLOW: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
@@ -1897,10 +1910,8 @@ pub mod objects {
             "Overflow",
             rt::Flags::TPDO,
         );
-        /// Quality.
-        ///
-        /// 0x2000:06, UNSIGNED2, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::quality`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Quality: 0x2000:06, UNSIGNED2, read-only, mappable into TPDOs.
+        /// Accessor: [`Object2000Accessors::quality`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const QUALITY: super::ReadOnly<rt::Uint<2>> = super::ReadOnlyUint2::flagged_coe_object(
@@ -1909,10 +1920,8 @@ pub mod objects {
             "Quality",
             rt::Flags::TPDO,
         );
-        /// Speed.
-        ///
-        /// 0x2000:07, INTEGER16, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::speed`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Speed: 0x2000:07, INTEGER16, read-only, mappable into TPDOs.
+        /// Accessor: [`Object2000Accessors::speed`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const SPEED: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_coe_object(
@@ -1922,10 +1931,10 @@ pub mod objects {
             rt::Flags::TPDO,
         );
         /// Accessors for the entries of 0x2000.
-        pub struct Accessors<'c, C> {
+        pub struct Object2000Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> Object2000Accessors<'_, C> {
             /// Ready.
             ///
             /// 0x2000:01, BOOLEAN, read-only, mappable into TPDOs.
@@ -1984,10 +1993,8 @@ pub mod objects {
     /// RECORD 0x2001.
     pub mod object_2001 {
         use ::lexibus as rt;
-        /// Limit.
-        ///
-        /// 0x2001:01, BOOLEAN, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::limit`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
+        /// Limit: 0x2001:01, BOOLEAN, read-only, mappable into TPDOs.
+        /// Accessor: [`Object2001Accessors::limit`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const LIMIT: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
@@ -1996,10 +2003,8 @@ pub mod objects {
             "Limit",
             rt::Flags::TPDO,
         );
-        /// Mode.
-        ///
-        /// 0x2001:02, UNSIGNED3, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::mode`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`ActualValues`](super::super::pdo::ActualValues).
+        /// Mode: 0x2001:02, UNSIGNED3, read-only, mappable into TPDOs.
+        /// Accessor: [`Object2001Accessors::mode`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`ActualValues`](super::super::pdo::ActualValues).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
@@ -2008,10 +2013,8 @@ pub mod objects {
             "Mode",
             rt::Flags::TPDO,
         );
-        /// Current.
-        ///
-        /// 0x2001:03, UNSIGNED12, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::current`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
+        /// Current: 0x2001:03, UNSIGNED12, read-only, mappable into TPDOs.
+        /// Accessor: [`Object2001Accessors::current`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const CURRENT: super::ReadOnly<rt::Uint<12>> = super::ReadOnlyUint12::flagged_coe_object(
@@ -2021,10 +2024,10 @@ pub mod objects {
             rt::Flags::TPDO,
         );
         /// Accessors for the entries of 0x2001.
-        pub struct Accessors<'c, C> {
+        pub struct Object2001Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> Object2001Accessors<'_, C> {
             /// Limit.
             ///
             /// 0x2001:01, BOOLEAN, read-only, mappable into TPDOs.
@@ -2050,9 +2053,7 @@ pub mod objects {
             }
         }
     }
-    /// Controlword.
-    ///
-    /// 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
+    /// Controlword: 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.
     /// Accessor: [`controlword`](super::Ax1::controlword). Value type: [`Controlword`](super::types::Controlword). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Control word: commands of the drive state machine and of the mode of operation.
@@ -2068,9 +2069,7 @@ pub mod objects {
         "Controlword",
         rt::Flags::RPDO,
     );
-    /// Statusword.
-    ///
-    /// 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
+    /// Statusword: 0x6041:00, UNSIGNED16, read-only, mappable into TPDOs.
     /// Accessor: [`statusword`](super::Ax1::statusword). Value type: [`Statusword`](super::types::Statusword). Mapped in [`ActualValues`](super::pdo::ActualValues) and [`DriveStatus`](super::pdo::DriveStatus).
     ///
     /// Status word: state of the drive state machine and of the mode of operation.
@@ -2084,9 +2083,7 @@ pub mod objects {
         "Statusword",
         rt::Flags::TPDO,
     );
-    /// Modes of operation.
-    ///
-    /// 0x6060:00, INTEGER8, read-write, mappable into RPDOs.
+    /// Modes of operation: 0x6060:00, INTEGER8, read-write, mappable into RPDOs.
     /// Accessor: [`modes_of_operation`](super::Ax1::modes_of_operation). Value type: [`ModesOfOperation`](super::types::ModesOfOperation). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Requested mode of operation; the active mode is in 0x6061.
@@ -2102,9 +2099,7 @@ pub mod objects {
         "Modes of operation",
         rt::Flags::RPDO,
     );
-    /// Position.
-    ///
-    /// 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Position: 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
     /// Accessor: [`position`](super::Ax1::position). Mapped in [`ActualValues`](super::pdo::ActualValues) and [`DriveStatus`](super::pdo::DriveStatus).
     ///
     /// Access rights from the rule for objects that only a PDO describes.
@@ -2114,9 +2109,7 @@ pub mod objects {
         "Position",
         rt::Flags::TPDO,
     );
-    /// Velocity.
-    ///
-    /// 0x606C:00, INTEGER32, read-only, mappable into TPDOs.
+    /// Velocity: 0x606C:00, INTEGER32, read-only, mappable into TPDOs.
     /// Accessor: [`velocity`](super::Ax1::velocity). Mapped in [`ActualValues`](super::pdo::ActualValues).
     ///
     /// Access rights from the rule for objects that only a PDO describes.
@@ -2126,9 +2119,7 @@ pub mod objects {
         "Velocity",
         rt::Flags::TPDO,
     );
-    /// Torque.
-    ///
-    /// 1 LSB = 0.1 %, 0x6077:00, INTEGER16, read-only, mappable into TPDOs.
+    /// Torque: 1 LSB = 0.1 %, 0x6077:00, INTEGER16, read-only, mappable into TPDOs.
     /// Accessor: [`torque`](super::Ax1::torque). Mapped in [`DriveStatus`](super::pdo::DriveStatus).
     ///
     /// Actual torque, relative to the rated torque.
@@ -2146,9 +2137,7 @@ pub mod objects {
         "%",
         rt::Flags::TPDO,
     );
-    /// Target position.
-    ///
-    /// 0x607A:00, INTEGER32, read-write, mappable into RPDOs.
+    /// Target position: 0x607A:00, INTEGER32, read-write, mappable into RPDOs.
     /// Accessor: [`target_position`](super::Ax1::target_position). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Access rights from the rule for objects that only a PDO describes.
@@ -2158,9 +2147,7 @@ pub mod objects {
         "Target position",
         rt::Flags::RPDO,
     );
-    /// Torque offset.
-    ///
-    /// 1 LSB = 0.1 %, 0x60B2:00, INTEGER16, read-write, mappable into RPDOs.
+    /// Torque offset: 1 LSB = 0.1 %, 0x60B2:00, INTEGER16, read-write, mappable into RPDOs.
     /// Accessor: [`torque_offset`](super::Ax1::torque_offset). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Torque offset: added to the target torque, relative to the rated torque.
@@ -2178,9 +2165,7 @@ pub mod objects {
         "%",
         rt::Flags::RPDO,
     );
-    /// Target velocity.
-    ///
-    /// 0x60FF:00, INTEGER32, read-write, mappable into RPDOs.
+    /// Target velocity: 0x60FF:00, INTEGER32, read-write, mappable into RPDOs.
     /// Accessor: [`target_velocity`](super::Ax1::target_velocity). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Access rights from the rule for objects that only a PDO describes.

@@ -8,8 +8,8 @@ use super::entry::{self, Doubt, Known, Row, Rows};
 use super::html;
 use super::split::Fill;
 use super::words::{self, PLAIN};
-use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::hex16;
+use lexibus_codegen::facts::{address, area};
 use lexibus_codegen::ir::{Group, GroupKind, Item, ItemId, Type, TypeDef};
 
 /// Maximum number of items on a page.
@@ -63,35 +63,19 @@ pub(super) fn areas(groups: &[Group], types: &[TypeDef], known: Known<'_>, files
 /// 7.4.1).
 fn parts(groups: &[Group]) -> Vec<Part<'_>> {
     let mut parts: Vec<Part<'_>> = Vec::new();
-    let mut ranges: HashMap<&str, usize> = HashMap::new();
+    let mut ranges: HashMap<String, usize> = HashMap::new();
     for (position, group) in (0..).zip(groups).filter(|(_, group)| !group.items.is_empty() || group.index().is_some()) {
-        let title = match &group.kind {
-            GroupKind::Object { index, .. } => {
-                let at = *ranges.entry(range_of(*index)).or_insert(parts.len());
-                if let Some(part) = parts.get_mut(at) {
-                    part.groups.push((position, group));
-                    continue;
-                }
-                range_of(*index).to_owned()
+        let title = area::title(group);
+        if group.index().is_some() {
+            let at = *ranges.entry(title.clone()).or_insert(parts.len());
+            if let Some(part) = parts.get_mut(at) {
+                part.groups.push((position, group));
+                continue;
             }
-            GroupKind::Chapter => group.name.to_string(),
-            GroupKind::Image { .. } => format!("Image {}", group.name),
-            GroupKind::Record(_) => format!("Record {}", group.name),
-        };
+        }
         parts.push(Part { title, groups: vec![(position, group)] });
     }
     parts
-}
-
-fn range_of(index: u16) -> &'static str {
-    match index {
-        0x0000..=0x0FFF => "Data types",
-        0x1000..=0x1FFF => "Communication objects",
-        0x2000..=0x5FFF => "Manufacturer objects",
-        0x6000..=0x9FFF => "Profile objects",
-        0xA000..=0xBFFF => "Interface objects",
-        _ => "Further objects",
-    }
 }
 
 /// The pages of a part while sections are added.

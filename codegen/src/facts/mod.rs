@@ -3,6 +3,7 @@
 //! | file | subject |
 //! |---|---|
 //! | `address` | addresses of items on each bus |
+//! | `area` | areas of a device: chapters of registers and ranges of objects |
 //! | `cob_id` | COB-IDs: identifiers of CAN frames with flags |
 //! | `code` | codes as their source prints them |
 //! | `device` | titles of devices, and modules that slots accept |
@@ -19,6 +20,7 @@
 //! | `words` | sentences about elements for all kinds of documentation |
 
 pub mod address;
+pub mod area;
 pub mod cob_id;
 pub mod code;
 pub mod device;

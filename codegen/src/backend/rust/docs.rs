@@ -28,8 +28,8 @@ fn links_from<'c>(
     move |id, name| (id != entry.id.into()).then(|| context.link_to(id, name, doc_module))?
 }
 
-/// Returns the documentation of an item's constant. The name is followed by the address, the type, the access rights and the
-/// values. Links to related elements and other facts come last. Links are relative to `doc_module`.
+/// Returns the documentation of an item's constant. Its first paragraph, which lists of constants show, contains the name, the
+/// unit, the values, the address, the type and the access rights. Links to related elements and other facts come last. Links are relative to `doc_module`.
 pub(super) fn item(
     entry: &NamedItem<'_>,
     name: &str,
@@ -41,11 +41,7 @@ pub(super) fn item(
     let link = links_from(entry, context, doc_module);
     let words = linked(&link);
     let mut lines = Vec::with_capacity(6);
-    if !name.trim().is_empty() {
-        lines.push(sentence(&escape(name)));
-        lines.push(String::new());
-    }
-    lines.push(facts(item, context, &words));
+    lines.push(titled(name, &facts(item, context, &words)));
     let related = context.links.related_to_constant(entry, type_name(context, item), doc_module);
     lines.extend(Some(related).filter(|line| !line.is_empty()));
     documentation(item, &mut lines);
@@ -96,20 +92,18 @@ pub(super) fn method(
     let item = entry.item;
     let link = links_from(entry, context, doc_module);
     let words = linked(&link);
-    let name = escape(name.trim());
     let mut description = Vec::new();
     documentation(item, &mut description);
     let mut lines: Vec<String> = description.into_iter().skip(1).collect();
-    let mut facts = facts(item, context, &words);
-    match (name.is_empty(), lines.is_empty()) {
-        (true, _) => {}
-        (false, true) => lines.push(sentence(&name)),
-        (false, false) => facts = format!("{}: {facts}", name.trim_end_matches('.')),
+    let facts = facts(item, context, &words);
+    if lines.is_empty() && !name.trim().is_empty() {
+        lines.extend([sentence(&escape(name.trim())), String::new(), facts]);
+    } else {
+        if !lines.is_empty() {
+            lines.push(String::new());
+        }
+        lines.push(titled(name, &facts));
     }
-    if !lines.is_empty() {
-        lines.push(String::new());
-    }
-    lines.push(facts);
     let storage = item.behaviour.as_ref().and_then(|behaviour| words.storage(&behaviour.storage));
     lines.extend(storage.map(|storage| sentence(&capital(&storage))));
     lines.push(context.links.related_to_method(entry, type_name(context, item), doc_module));
@@ -117,6 +111,14 @@ pub(super) fn method(
         lines.extend([String::new(), doubt]);
     }
     lines
+}
+
+/// Returns facts after a name, if there is one.
+fn titled(name: &str, facts: &str) -> String {
+    match escape(name.trim()).trim_end_matches('.') {
+        "" => facts.to_owned(),
+        name => format!("{name}: {facts}"),
+    }
 }
 
 /// Returns the name of an item's enumeration or bit field. Returns `None` for other types.

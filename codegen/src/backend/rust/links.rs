@@ -185,7 +185,8 @@ impl Links {
                     continue;
                 }
                 let constant = format!("objects::{}::{}", object.name, entry.name.to_ascii_uppercase());
-                let method = device.map(|_| format!("objects::{}::Accessors::{}", object.name, entry.name));
+                let method =
+                    device.map(|_| format!("objects::{}::{}::{}", object.name, object.accessors(), entry.name));
                 self.add(scope, entry, Handle { constant, method });
             }
         }

@@ -20,6 +20,7 @@ mod doc_table;
 mod docs;
 mod enumeration;
 mod ethercat;
+mod example;
 mod field_type;
 mod given;
 mod handle;

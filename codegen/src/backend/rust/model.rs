@@ -10,6 +10,7 @@ use super::device_models::{self, DeviceModel};
 use super::device_names;
 use super::docs;
 use super::ethercat::{self, EtherCatModel, ModulePaths};
+use super::example;
 use super::given::{self, GivenModel};
 use super::handle::{self, Alias};
 use super::identity::IdentityModel;
@@ -19,7 +20,6 @@ use super::located::Located;
 use super::locations::Locations;
 #[cfg(feature = "messages")]
 use super::messages::ProtocolModel;
-use super::method_names::method_allow;
 #[cfg(feature = "messages")]
 use super::method_names::{RESERVED, RESERVED_WITH_MESSAGES};
 use super::named::Types;
@@ -49,6 +49,8 @@ pub(super) fn context<'a>(scope: Scope<'a>, options: &RustOptions, device_name: 
 pub(super) struct Model {
     pub device_name: String,
     pub title: String,
+    /// Example at the beginning of the documentation of the device's type.
+    pub example: Vec<String>,
     /// Identity of the device. `None` for a module of a modular device.
     pub identity: Option<IdentityModel>,
     /// True if the device's type has accessor methods.
@@ -83,8 +85,6 @@ pub(super) struct Model {
     /// Constants for Modbus and for the node-ID range.
     pub bus_facts: Vec<FactModel>,
     pub accessor_derives: Vec<String>,
-    /// Attribute that suppresses lints about names from the description.
-    pub method_allow: Option<String>,
     pub objects: Vec<ObjectModel>,
     pub aliases: Vec<Alias>,
     /// Private aliases of handle types: name, access and arguments.
@@ -116,6 +116,7 @@ impl Model {
             model.protocol = model.protocol_of(&context, options);
         }
         model.has_accessors = context.links.has_methods;
+        model.example = example::lines(&context, &device_name, &model.walks);
         model.device_name = device_name;
         model.title = docs::escape(&device_names::title(device));
         model.identity = (!device.dictionary_only).then(|| IdentityModel::new(device));
@@ -157,7 +158,6 @@ impl Model {
             walks: walk::models(context, &locations, &objects, &types.machines),
             types,
             accessor_derives: options.derives(false),
-            method_allow: method_allow(objects.iter().map(|object| object.name.as_str())),
             aliases: handle::aliases(&objects),
             handle_types: handle::types(&objects),
             objects,

@@ -8,13 +8,21 @@ use super::links::DocModule;
 use super::locations::Locations;
 use super::method_names::method_allow;
 use super::naming::handles::{self, HandleNames, NamedItem, NamedObject, NamedRegister};
-use crate::ir::ObjectCode;
+use crate::facts::number::hex16;
+use crate::facts::{area, register};
+use crate::ir::{Binding, Item, ObjectCode};
 use crate::names;
 
 /// An object, ready to be printed. An object with one value becomes a handle, and an object with several values becomes
 /// a module.
 pub(super) struct ObjectModel {
     pub name: String,
+    /// Title of the area: a chapter or a range of objects.
+    pub area: String,
+    /// Addresses under which the search of rustdoc finds the accessor.
+    pub aliases: Vec<String>,
+    /// Name of the type that has the accessors of the entries.
+    pub accessors: String,
     pub docs: Vec<String>,
     pub heading: String,
     /// Link to the module of the object's constants. The text is empty if the object has one value.
@@ -49,6 +57,9 @@ fn register(context: &Context<'_>, locations: &Locations, named: &NamedRegister<
     let title = Title { original: &named.entry.item.name, chapter: Some(named.chapter) };
     let model = item::model(context, locations, &named.entry, title, ItemModule { name: None, outer: "super::" });
     ObjectModel {
+        area: if named.chapter.is_empty() { "Process images".to_owned() } else { named.chapter.to_owned() },
+        aliases: aliases(named.entry.item),
+        accessors: String::new(),
         docs: Vec::new(),
         constants: String::new(),
         heading: model.heading.clone(),
@@ -62,7 +73,8 @@ fn register(context: &Context<'_>, locations: &Locations, named: &NamedRegister<
 
 fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>) -> ObjectModel {
     let NamedObject { group, name, is_module, entries, .. } = named;
-    let address = format!("0x{:04X}", group.index().unwrap_or(0));
+    let index = group.index().unwrap_or(0);
+    let address = hex16(index);
     let title = if group.name.trim().is_empty() { address.clone() } else { docs::escape(&group.name) };
     let (name_of_module, outer) = if *is_module { (Some(name.as_str()), "super::super::") } else { (None, "super::") };
     let model = |entry: &NamedItem<'_>| {
@@ -78,6 +90,9 @@ fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>)
     let items: Vec<ItemModel> = entries.iter().map(model).collect();
     let code = group.object_code().map_or("", ObjectCode::name);
     ObjectModel {
+        area: area::objects(index).to_owned(),
+        aliases: vec![format!("{index:04X}"), address.clone()],
+        accessors: named.accessors(),
         docs: vec![docs::sentence(&title), String::new(), format!("{code} {address}.")],
         heading: item::heading(&group.name, &address),
         // The link must state that it means the module, because a constant may have the same name.
@@ -89,6 +104,25 @@ fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>)
         is_module: *is_module,
         is_reexported: false,
     }
+}
+
+/// Returns the printed addresses of a register, and the numbers of a parameter.
+fn aliases(item: &Item) -> Vec<String> {
+    let of = |binding: &Binding| match binding {
+        Binding::Register(register) => {
+            let printed = register::printed(register);
+            vec![printed.split('–').next().unwrap_or_default().to_owned()]
+        }
+        Binding::Parameter { code, .. } => vec![code.to_string(), format!("0x{code:04X}")],
+        Binding::Object { index, .. } => vec![format!("{index:04X}"), hex16(*index)],
+        _ => Vec::new(),
+    };
+    let mut all: Vec<String> = item.bindings.iter().flat_map(of).collect();
+    // Rustdoc rejects quotation marks and blanks at the ends.
+    all.retain(|alias| !alias.is_empty() && alias.chars().all(|letter| letter.is_ascii_alphanumeric()));
+    all.sort();
+    all.dedup();
+    all
 }
 
 /// Returns the method calls with which a program accesses each item, such as `identity().vendor_id()`.

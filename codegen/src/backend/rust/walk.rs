@@ -9,7 +9,7 @@ use super::item::ItemModel;
 use super::item_addresses::ItemAddresses;
 use super::links::DocModule;
 use super::locations::Locations;
-use super::machine::MachineModel;
+use super::machine::{MachineModel, PatternModel, PatternsModel};
 use super::method_names::{unused_name, RESERVED};
 use super::naming::machines::NamedMachine;
 use super::objects::ObjectModel;
@@ -22,6 +22,8 @@ pub(super) struct WalkModel {
     pub docs: Vec<String>,
     /// Name of the type of states.
     pub states: String,
+    /// Variant of the state "Operation enabled" of CiA 402, if the machine has it.
+    pub goal: Option<String>,
     /// Paths of the constants of the status item and the control item.
     pub status: String,
     pub control: String,
@@ -50,13 +52,14 @@ pub(super) fn models(
     let count = named.clone().count();
     let mut used: Vec<String> = RESERVED.map(str::to_owned).to_vec();
     used.extend(objects.iter().map(|object| object.name.clone()));
-    let model = |(named, _): (&NamedMachine<'_>, &MachineModel)| {
+    let model = |(named, model): (&NamedMachine<'_>, &MachineModel)| {
         let name = if count == 1 { "walk".to_owned() } else { format!("walk {}", named.machine.name) };
         let request = NameRequest { name: &name, fallback: "walk".to_owned(), suffix: String::new() };
         let name = names::identifier(&request, Case::Snake);
         let method = unused_name(|name| used.contains(name), name);
         used.extend([method.clone(), format!("{method}_async")]);
-        constants.walk(named.machine, &named.states, method)
+        let walk = constants.walk(named.machine, &named.states, method)?;
+        Some(WalkModel { goal: model.states.as_ref().and_then(goal), ..walk })
     };
     named.filter_map(model).collect()
 }
@@ -92,7 +95,9 @@ impl Constants<'_, '_> {
         let links = [Some(&status), Some(&control), code.as_ref()].map(|constant| self.link(constant));
         let docs = documentation(machine, &links);
         let (code, states) = (code.map(|code| code.path), states.to_owned());
+        let goal = None;
         Some(WalkModel {
+            goal,
             method,
             docs,
             states,
@@ -146,6 +151,11 @@ impl Constant<'_> {
     fn is_writable(&self) -> bool {
         matches!(self.model.access, "ReadWrite" | "WriteOnly")
     }
+}
+
+fn goal(states: &PatternsModel) -> Option<String> {
+    let is_it = |pattern: &&PatternModel| pattern.title.eq_ignore_ascii_case("operation enabled");
+    states.patterns.iter().find(is_it).map(|pattern| pattern.name.clone())
 }
 
 /// Returns the bound of a location type that a client reads, writes or both.

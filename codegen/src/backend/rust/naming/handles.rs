@@ -38,6 +38,14 @@ pub(in crate::backend::rust) struct NamedObject<'a> {
     pub entries: Vec<NamedItem<'a>>,
 }
 
+impl NamedObject<'_> {
+    /// Returns the name of the type that has the accessors of the object's entries.
+    pub fn accessors(&self) -> String {
+        let request = NameRequest { name: &self.name, fallback: "entries".to_owned(), suffix: String::new() };
+        format!("{}Accessors", names::identifier(&request, Case::Pascal))
+    }
+}
+
 /// The Rust names of all handles.
 #[derive(Default)]
 pub(in crate::backend::rust) struct HandleNames<'a> {

@@ -2,7 +2,10 @@
 
 use super::objects::access;
 use crate::backend::rust::code::{call, generic, line, open, seq, Code};
+use crate::backend::rust::docs;
 use crate::backend::rust::item;
+use crate::backend::rust::literal;
+use crate::backend::rust::method_names::method_allow;
 use crate::backend::rust::model::Model;
 use crate::backend::rust::objects::ObjectModel;
 use crate::backend::rust::walk::WalkModel;
@@ -12,6 +15,7 @@ pub(super) fn write(code: &mut Code, model: &Model) {
         return;
     }
     code.doc(&format!("Typed access to {} through a client of its bus.", model.title));
+    code.docs(&model.example);
     code.lines(&model.accessor_derives);
     structure(code, model);
     #[cfg(feature = "messages")]
@@ -54,7 +58,6 @@ fn structure(code: &mut Code, model: &Model) {
 
 fn methods(code: &mut Code, model: &Model) {
     let (name, state) = (&model.device_name, selected(model));
-    code.lines(&model.method_allow);
     open!(code, "impl<C", state, "> ", name, "<C", state, "> {");
     if !model.selects() {
         code.doc("Creates a driver that talks to the device through `client`.");
@@ -84,8 +87,14 @@ fn methods(code: &mut Code, model: &Model) {
         self::walk(code, walk, false);
         self::walk(code, walk, true);
     }
-    model.objects.iter().for_each(|object| accessor(code, object));
     code.close("}");
+    for objects in model.objects.chunk_by(|one, other| one.area == other.area) {
+        code.docs(objects.first().map(|object| docs::sentence(&docs::escape(&object.area))).as_slice());
+        code.lines(method_allow(objects.iter().map(|object| object.name.as_str())));
+        open!(code, "impl<C", state, "> ", name, "<C", state, "> {");
+        objects.iter().for_each(|object| accessor(code, object));
+        code.close("}");
+    }
 }
 
 /// Writes the method that leads a state machine to a state, blocking or async.
@@ -128,12 +137,15 @@ fn walk(code: &mut Code, walk: &WalkModel, is_async: bool) {
 fn accessor(code: &mut Code, object: &ObjectModel) {
     let name = &object.name;
     let function = call!(seq!["pub fn ", name], "&mut self");
+    let aliases: Vec<String> = object.aliases.iter().map(|alias| literal::string(alias)).collect();
+    let alias = (!aliases.is_empty()).then(|| format!("#[doc(alias({}))]", aliases.join(", ")));
     if object.is_module {
         code.doc(&object.heading);
         code.doc(&format!("The constants for the object's entries are in {}.", object.constants));
-        let result = generic!(seq!["objects::", name, "::Accessors"], "'_", "C");
+        code.lines(&alias);
+        let result = generic!(seq!["objects::", name, "::", object.accessors], "'_", "C");
         open!(code, function, " -> ", result, " {");
-        open!(code, "objects::", name, "::Accessors {");
+        open!(code, "objects::", name, "::", object.accessors, " {");
         line!(code, "client: &mut self.client,");
         code.close("}");
         code.close("}");
@@ -141,6 +153,7 @@ fn accessor(code: &mut Code, object: &ObjectModel) {
     }
     for item in &object.items {
         code.docs(&item.method_docs);
+        code.lines(&alias);
         let result = access("objects::", item.access, &item.arguments_at_top);
         open!(code, function, " -> ", result, " {");
         line!(code, item.at_client());

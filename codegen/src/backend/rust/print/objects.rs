@@ -105,14 +105,14 @@ pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &
     object.items.iter().for_each(|item| handle(code, item, "super::"));
     if model.has_accessors {
         code.doc(&format!("Accessors for the entries of {}", object.heading));
-        open!(code, "pub struct Accessors<'c, C> {");
+        open!(code, "pub struct ", object.accessors, "<'c, C> {");
         // Methods of the device create the accessors, so the field must be visible in the device's module. If the file
         // has several devices, methods of any device may create the accessors.
         let users = if model.is_one_of_several { "super::super::super" } else { "super::super" };
         line!(code, "pub(in ", users, ") client: &'c mut C,");
         code.close("}");
         code.lines(&object.method_allow);
-        open!(code, "impl<C> Accessors<'_, C> {");
+        open!(code, "impl<C> ", object.accessors, "<'_, C> {");
         for item in &object.items {
             code.docs(&item.method_docs);
             let result = access("super::", item.access, &item.arguments);

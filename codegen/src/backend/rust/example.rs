@@ -1,0 +1,70 @@
+//! The example at the beginning of a device's documentation, which uses values of this device.
+
+use super::context::Context;
+use super::docs::{typed, WORDS};
+use super::naming::handles::NamedItem;
+use super::objects;
+use super::walk::WalkModel;
+use crate::ir::{Binding, Item, Type, Value};
+
+/// Returns the lines of the example: creates the driver, leads its state machine to a state, reads a value and writes a value.
+/// Returns no lines if a program cannot access any value of the device.
+pub(super) fn lines(context: &Context<'_>, device_name: &str, walks: &[WalkModel]) -> Vec<String> {
+    let calls: Vec<(&NamedItem<'_>, String)> = objects::calls(context).collect();
+    let is_number = |item: &Item| {
+        let is_native = matches!(context.base(item.ty), Type::Unsigned(8 | 16 | 32) | Type::Integer(8 | 16 | 32));
+        is_native && context.enumeration(item.ty).is_none()
+    };
+    let is_measured = |item: &Item| is_number(item) && item.quantity.is_some() && !is_communication(item);
+    let is_actual = |item: &Item| is_measured(item) && item.access.readable() && !item.access.writable();
+    let by_preference: [&dyn Fn(&Item) -> bool; 3] =
+        [&|item| is_actual(item) && item.mappable.tpdo, &is_actual, &|item| {
+            item.access.readable() && !is_communication(item)
+        }];
+    let read = by_preference.iter().find_map(|is_it| calls.iter().find(|(entry, _)| is_it(entry.item)));
+    let is_setting = |item: &Item| is_measured(item) && item.access.writable();
+    let write = calls.iter().filter(|(entry, _)| is_setting(entry.item)).find_map(|(entry, path)| {
+        let item: &Item = entry.item;
+        Some((item, path, default(item, context.base(item.ty))?))
+    });
+    if read.is_none() && write.is_none() {
+        return Vec::new();
+    }
+    let mut lines = vec![String::new(), "```ignore".to_owned(), format!("let mut drive = {device_name}::new(client);")];
+    lines.extend(walks.iter().find_map(|walk| {
+        let goal = walk.goal.as_ref()?;
+        Some(format!("drive.{}(types::{}::{goal}, Duration::from_secs(2))?;", walk.method, walk.states))
+    }));
+    lines.extend(read.map(|(entry, path)| {
+        let unit = entry.item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
+        format!("let value = drive.{path}.read()?;{}", comment(unit))
+    }));
+    lines.extend(write.map(|(item, path, number)| {
+        let shown = WORDS.of_item(item, &Value::Int(number), &|value| typed(value, context.base(item.ty)));
+        format!("drive.{path}.write({number})?;{}", comment(&shown))
+    }));
+    lines.push("```".to_owned());
+    lines
+}
+
+/// Returns whether an item is a communication object (CiA 301, 7.4.1).
+fn is_communication(item: &Item) -> bool {
+    item.bindings.iter().any(|binding| matches!(binding, Binding::Object { index: 0x1000..=0x1FFF, .. }))
+}
+
+/// Returns the default value of an item, unless it is 0 or the maximum of its type. These values often have a special meaning.
+fn default(item: &Item, ty: Type) -> Option<i128> {
+    let number = match item.default {
+        Some(Value::Int(number)) => number,
+        _ => return None,
+    };
+    let (_, highest) = ty.integer_range()?;
+    (number != 0 && number != highest).then_some(number)
+}
+
+fn comment(text: &str) -> String {
+    match text {
+        "" => String::new(),
+        text => format!(" // {text}"),
+    }
+}
