@@ -176,7 +176,7 @@ impl<C> DemoDrive<C> {
     ) -> objects::ReadWriteAccess<'_, C, types::EmergencyIdentifier> {
         objects::COB_ID_EMCY.at(&mut self.client)
     }
-    /// Heartbeat period; 0 disables the heartbeat.
+    /// Heartbeat period. The value 0 disables the heartbeat.
     ///
     /// Producer heartbeat time: Unit ms, default 0, 0x1017:00, UNSIGNED16, read-write.
     /// Constant: [`objects::PRODUCER_HEARTBEAT_TIME`].
@@ -342,7 +342,7 @@ impl<C> DemoDrive<C> {
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
-    /// Requested mode of operation; the active mode is in 0x6061.
+    /// Requested mode of operation. The active mode is in 0x6061.
     ///
     /// Modes of operation: Range \-128 to 8, default 1, 0x6060:00, INTEGER8, read-write, mappable into any PDO.
     /// Constant: [`objects::MODES_OF_OPERATION`]. Value type: [`ModesOfOperation`](types::ModesOfOperation).
@@ -693,11 +693,11 @@ pub mod types {
     /// | 3 | [`enable_operation`](Self::enable_operation) |  |
     /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | A rising edge makes the drive accept the target position. The device reacts to the rising edge. |
     /// | 4 | [`in_velocity().enable_ramp()`](ControlwordInVelocity::enable_ramp) |  |
-    /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | 1 starts homing; 0 aborts homing. |
+    /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | 1 starts homing. 0 aborts homing. |
     /// | 4 | [`in_interpolated_position().enable_interpolation()`](ControlwordInInterpolatedPosition::enable_interpolation) |  |
-    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlwordInProfilePosition::change_set_immediately) | 1: the new set-point replaces the active set-point; 0: the move to the active set-point is … |
+    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlwordInProfilePosition::change_set_immediately) | 1: the new set-point replaces the active set-point. 0: the axis first completes the move to the … |
     /// | 5 | [`in_velocity().unlock_ramp()`](ControlwordInVelocity::unlock_ramp) |  |
-    /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | 1: the target position is relative; 0: the target position is absolute. |
+    /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | 1: the target position is relative. 0: the target position is absolute. |
     /// | 6 | [`in_velocity().reference_ramp()`](ControlwordInVelocity::reference_ramp) |  |
     /// | 7 | [`fault_reset`](Self::fault_reset) | The device reacts to the rising edge. |
     /// | 8 | [`halt`](Self::halt) | 1 stops the axis with the reaction that the halt option code (0x605D) selects. |
@@ -845,7 +845,7 @@ pub mod types {
         pub const fn with_new_set_point(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
-        /// Bit 5: change set immediately. 1: the new set-point replaces the active set-point; 0: the move to the active set-point is completed first.
+        /// Bit 5: change set immediately. 1: the new set-point replaces the active set-point. 0: the axis first completes the move to the active set-point.
         pub const fn change_set_immediately(self) -> bool {
             rt::bits16::flag(self.0, 0x20)
         }
@@ -854,7 +854,7 @@ pub mod types {
         pub const fn with_change_set_immediately(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
-        /// Bit 6: relative. 1: the target position is relative; 0: the target position is absolute.
+        /// Bit 6: relative. 1: the target position is relative. 0: the target position is absolute.
         pub const fn relative(self) -> bool {
             rt::bits16::flag(self.0, 0x40)
         }
@@ -917,7 +917,7 @@ pub mod types {
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
-        /// Bit 4: homing start. 1 starts homing; 0 aborts homing.
+        /// Bit 4: homing start. 1 starts homing. 0 aborts homing.
         pub const fn homing_start(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
@@ -1338,7 +1338,7 @@ pub mod types {
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
-    /// | 0–15 | [`profile`](Self::profile) | Number of the device profile; 0 if the device follows no profile. |
+    /// | 0–15 | [`profile`](Self::profile) | Number of the device profile, or 0 if the device follows no profile. |
     /// | 16–31 | [`additional_information`](Self::additional_information) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DeviceType(u32);
@@ -1355,7 +1355,7 @@ pub mod types {
         pub const fn raw(self) -> u32 {
             self.0
         }
-        /// Bits 15 to 0: profile. Number of the device profile; 0 if the device follows no profile.
+        /// Bits 15 to 0: profile. Number of the device profile, or 0 if the device follows no profile.
         pub const fn profile(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF) as u16
         }
@@ -1677,7 +1677,7 @@ pub mod types {
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
+    /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | [`generates`](Self::generates) | The device transmits SYNC messages. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct SyncIdentifier(u32);
@@ -1703,7 +1703,7 @@ pub mod types {
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
-        /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
+        /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
@@ -1757,7 +1757,7 @@ pub mod types {
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
+    /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | reserved | A write to an item sets the value 0. |
     /// | 31 | [`valid`](Self::valid) | 0 if the COB-ID is in use. Active low: the flag is true if the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
@@ -1784,7 +1784,7 @@ pub mod types {
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
-        /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
+        /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
@@ -1838,8 +1838,8 @@ pub mod types {
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
-    /// | 0–15 | [`minor`](Self::minor) | Minor revision number; it changes if a new revision does not change the behavior of the device on … |
-    /// | 16–31 | [`major`](Self::major) | Major revision number; it changes if the behavior of the device on the bus changes. |
+    /// | 0–15 | [`minor`](Self::minor) | Minor revision number, which changes if a new revision does not change the behavior of the device … |
+    /// | 16–31 | [`major`](Self::major) | Major revision number, which changes if the behavior of the device on the bus changes. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct RevisionNumber(u32);
     impl RevisionNumber {
@@ -1855,7 +1855,7 @@ pub mod types {
         pub const fn raw(self) -> u32 {
             self.0
         }
-        /// Bits 15 to 0: minor. Minor revision number; it changes if a new revision does not change the behavior of the device on the bus.
+        /// Bits 15 to 0: minor. Minor revision number, which changes if a new revision does not change the behavior of the device on the bus.
         pub const fn minor(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF) as u16
         }
@@ -1864,7 +1864,7 @@ pub mod types {
         pub const fn with_minor(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
-        /// Bits 31 to 16: major. Major revision number; it changes if the behavior of the device on the bus changes.
+        /// Bits 31 to 16: major. Major revision number, which changes if the behavior of the device on the bus changes.
         pub const fn major(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
@@ -1907,7 +1907,7 @@ pub mod types {
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
+    /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Active low: the flag is true if the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ReceivePdoIdentifier(u32);
@@ -1933,7 +1933,7 @@ pub mod types {
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
-        /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
+        /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
@@ -1985,7 +1985,7 @@ pub mod types {
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
+    /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | [`remote_request`](Self::remote_request) | 0 if a remote frame may request the PDO. Active low: the flag is true if the bit is 0. |
     /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Active low: the flag is true if the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
@@ -2012,7 +2012,7 @@ pub mod types {
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
-        /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
+        /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
@@ -2937,7 +2937,7 @@ pub mod objects {
         /// Pre-defined error field1: 0x1003:01, UNSIGNED32, read-only.
         /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field1`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
-        /// Error in the error history; sub-index 1 contains the newest error.
+        /// Error in the error history. Sub-index 1 contains the newest error.
         ///
         /// Bits from CiA 301, 7.5.2.3.
         ///
@@ -2952,7 +2952,7 @@ pub mod objects {
         /// Pre-defined error field2: 0x1003:02, UNSIGNED32, read-only.
         /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field2`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
-        /// Error in the error history; sub-index 1 contains the newest error.
+        /// Error in the error history. Sub-index 1 contains the newest error.
         ///
         /// Bits from CiA 301, 7.5.2.3.
         ///
@@ -2967,7 +2967,7 @@ pub mod objects {
         /// Pre-defined error field3: 0x1003:03, UNSIGNED32, read-only.
         /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field3`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
-        /// Error in the error history; sub-index 1 contains the newest error.
+        /// Error in the error history. Sub-index 1 contains the newest error.
         ///
         /// Bits from CiA 301, 7.5.2.3.
         ///
@@ -2982,7 +2982,7 @@ pub mod objects {
         /// Pre-defined error field4: 0x1003:04, UNSIGNED32, read-only.
         /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field4`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
-        /// Error in the error history; sub-index 1 contains the newest error.
+        /// Error in the error history. Sub-index 1 contains the newest error.
         ///
         /// Bits from CiA 301, 7.5.2.3.
         ///
@@ -3006,7 +3006,7 @@ pub mod objects {
             pub fn nr_of_objects(&mut self) -> super::ReadOnlyAccess<'_, C, u8> {
                 NR_OF_OBJECTS.at(self.client)
             }
-            /// Error in the error history; sub-index 1 contains the newest error.
+            /// Error in the error history. Sub-index 1 contains the newest error.
             ///
             /// Pre-defined error field1: 0x1003:01, UNSIGNED32, read-only.
             /// Constant: [`PRE_DEFINED_ERROR_FIELD1`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
@@ -3015,7 +3015,7 @@ pub mod objects {
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
                 PRE_DEFINED_ERROR_FIELD1.at(self.client)
             }
-            /// Error in the error history; sub-index 1 contains the newest error.
+            /// Error in the error history. Sub-index 1 contains the newest error.
             ///
             /// Pre-defined error field2: 0x1003:02, UNSIGNED32, read-only.
             /// Constant: [`PRE_DEFINED_ERROR_FIELD2`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
@@ -3024,7 +3024,7 @@ pub mod objects {
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
                 PRE_DEFINED_ERROR_FIELD2.at(self.client)
             }
-            /// Error in the error history; sub-index 1 contains the newest error.
+            /// Error in the error history. Sub-index 1 contains the newest error.
             ///
             /// Pre-defined error field3: 0x1003:03, UNSIGNED32, read-only.
             /// Constant: [`PRE_DEFINED_ERROR_FIELD3`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
@@ -3033,7 +3033,7 @@ pub mod objects {
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
                 PRE_DEFINED_ERROR_FIELD3.at(self.client)
             }
-            /// Error in the error history; sub-index 1 contains the newest error.
+            /// Error in the error history. Sub-index 1 contains the newest error.
             ///
             /// Pre-defined error field4: 0x1003:04, UNSIGNED32, read-only.
             /// Constant: [`PRE_DEFINED_ERROR_FIELD4`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
@@ -3089,7 +3089,7 @@ pub mod objects {
         /// Save all parameters: Default 1, 0x1010:01, UNSIGNED32, read-write.
         /// Accessor: [`StoreParametersAccessors::save_all_parameters`]. Value type: [`StoreParameters`](super::super::types::StoreParameters).
         ///
-        /// Writing "save" stores the parameters in non-volatile memory; reading returns the storage capability.
+        /// Writing "save" stores the parameters in non-volatile memory. Reading returns the storage capability.
         ///
         /// Values from CiA 301, 7.5.2.13.
         ///
@@ -3116,7 +3116,7 @@ pub mod objects {
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
-            /// Writing "save" stores the parameters in non-volatile memory; reading returns the storage capability.
+            /// Writing "save" stores the parameters in non-volatile memory. Reading returns the storage capability.
             ///
             /// Save all parameters: Default 1, 0x1010:01, UNSIGNED32, read-write.
             /// Constant: [`SAVE_ALL_PARAMETERS`]. Value type: [`StoreParameters`](super::super::types::StoreParameters).
@@ -3146,7 +3146,7 @@ pub mod objects {
     /// Producer heartbeat time: Unit ms, default 0, 0x1017:00, UNSIGNED16, read-write.
     /// Accessor: [`producer_heartbeat_time`](super::DemoDrive::producer_heartbeat_time).
     ///
-    /// Heartbeat period; 0 disables the heartbeat.
+    /// Heartbeat period. The value 0 disables the heartbeat.
     ///
     /// Unit from CiA 301, 7.5.2.20.
     ///
@@ -3978,7 +3978,7 @@ pub mod objects {
     /// Modes of operation: Range \-128 to 8, default 1, 0x6060:00, INTEGER8, read-write, mappable into any PDO.
     /// Accessor: [`modes_of_operation`](super::DemoDrive::modes_of_operation). Value type: [`ModesOfOperation`](super::types::ModesOfOperation).
     ///
-    /// Requested mode of operation; the active mode is in 0x6061.
+    /// Requested mode of operation. The active mode is in 0x6061.
     ///
     /// Values from CiA 402, 10.3.8.
     ///

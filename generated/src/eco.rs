@@ -6143,7 +6143,7 @@ pub mod types {
     ///
     /// | Bits | Name | Meaning |
     /// |---|---|---|
-    /// | 0–15 | [`profile`](Self::profile) | Number of the device profile; 0 if the device follows no profile. |
+    /// | 0–15 | [`profile`](Self::profile) | Number of the device profile, or 0 if the device follows no profile. |
     /// | 16–31 | [`additional_information`](Self::additional_information) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DeviceType(u32);
@@ -6160,7 +6160,7 @@ pub mod types {
         pub const fn raw(self) -> u32 {
             self.0
         }
-        /// Bits 15 to 0: profile. Number of the device profile; 0 if the device follows no profile.
+        /// Bits 15 to 0: profile. Number of the device profile, or 0 if the device follows no profile.
         pub const fn profile(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF) as u16
         }
@@ -6280,7 +6280,7 @@ pub mod types {
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
+    /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | [`generates`](Self::generates) | The device transmits SYNC messages. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct SyncIdentifier(u32);
@@ -6306,7 +6306,7 @@ pub mod types {
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
-        /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
+        /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
@@ -6360,7 +6360,7 @@ pub mod types {
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
+    /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | reserved | A write to an item sets the value 0. |
     /// | 31 | [`valid`](Self::valid) | 0 if the COB-ID is in use. Active low: the flag is true if the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
@@ -6387,7 +6387,7 @@ pub mod types {
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
-        /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
+        /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
@@ -6442,7 +6442,7 @@ pub mod types {
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
+    /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Active low: the flag is true if the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ReceivePdoIdentifier(u32);
@@ -6468,7 +6468,7 @@ pub mod types {
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
-        /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
+        /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
@@ -6520,7 +6520,7 @@ pub mod types {
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
+    /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | [`remote_request`](Self::remote_request) | 0 if a remote frame may request the PDO. Active low: the flag is true if the bit is 0. |
     /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Active low: the flag is true if the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
@@ -6547,7 +6547,7 @@ pub mod types {
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
-        /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
+        /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }

@@ -26311,7 +26311,7 @@ pub mod types {
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | 1: 29-bit CAN-ID; 0: 11-bit CAN-ID. |
+    /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | [`dynamic`](Self::dynamic) | 1 if the COB-ID is assigned at run time. |
     /// | 31 | [`valid`](Self::valid) | 0 if the COB-ID is in use. Active low: the flag is true if the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
@@ -26338,7 +26338,7 @@ pub mod types {
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
-        /// Bit 29: extended. 1: 29-bit CAN-ID; 0: 11-bit CAN-ID.
+        /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }

@@ -192,7 +192,7 @@ impl<C> Ax1<C> {
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
-    /// Requested mode of operation; the active mode is in 0x6061.
+    /// Requested mode of operation. The active mode is in 0x6061.
     ///
     /// Modes of operation: 0x6060:00, INTEGER8, read-write, mappable into RPDOs.
     /// Constant: [`objects::MODES_OF_OPERATION`]. Value type: [`ModesOfOperation`](types::ModesOfOperation). Mapped in [`SetPoints`](pdo::SetPoints).
@@ -419,11 +419,11 @@ pub mod types {
     /// | 3 | [`enable_operation`](Self::enable_operation) |  |
     /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | A rising edge makes the drive accept the target position. The device reacts to the rising edge. |
     /// | 4 | [`in_velocity().enable_ramp()`](ControlwordInVelocity::enable_ramp) |  |
-    /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | 1 starts homing; 0 aborts homing. |
+    /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | 1 starts homing. 0 aborts homing. |
     /// | 4 | [`in_interpolated_position().enable_interpolation()`](ControlwordInInterpolatedPosition::enable_interpolation) |  |
-    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlwordInProfilePosition::change_set_immediately) | 1: the new set-point replaces the active set-point; 0: the move to the active set-point is … |
+    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlwordInProfilePosition::change_set_immediately) | 1: the new set-point replaces the active set-point. 0: the axis first completes the move to the … |
     /// | 5 | [`in_velocity().unlock_ramp()`](ControlwordInVelocity::unlock_ramp) |  |
-    /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | 1: the target position is relative; 0: the target position is absolute. |
+    /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | 1: the target position is relative. 0: the target position is absolute. |
     /// | 6 | [`in_velocity().reference_ramp()`](ControlwordInVelocity::reference_ramp) |  |
     /// | 7 | [`fault_reset`](Self::fault_reset) | The device reacts to the rising edge. |
     /// | 8 | [`halt`](Self::halt) | 1 stops the axis with the reaction that the halt option code (0x605D) selects. |
@@ -571,7 +571,7 @@ pub mod types {
         pub const fn with_new_set_point(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
-        /// Bit 5: change set immediately. 1: the new set-point replaces the active set-point; 0: the move to the active set-point is completed first.
+        /// Bit 5: change set immediately. 1: the new set-point replaces the active set-point. 0: the axis first completes the move to the active set-point.
         pub const fn change_set_immediately(self) -> bool {
             rt::bits16::flag(self.0, 0x20)
         }
@@ -580,7 +580,7 @@ pub mod types {
         pub const fn with_change_set_immediately(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
-        /// Bit 6: relative. 1: the target position is relative; 0: the target position is absolute.
+        /// Bit 6: relative. 1: the target position is relative. 0: the target position is absolute.
         pub const fn relative(self) -> bool {
             rt::bits16::flag(self.0, 0x40)
         }
@@ -643,7 +643,7 @@ pub mod types {
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
-        /// Bit 4: homing start. 1 starts homing; 0 aborts homing.
+        /// Bit 4: homing start. 1 starts homing. 0 aborts homing.
         pub const fn homing_start(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
@@ -2086,7 +2086,7 @@ pub mod objects {
     /// Modes of operation: 0x6060:00, INTEGER8, read-write, mappable into RPDOs.
     /// Accessor: [`modes_of_operation`](super::Ax1::modes_of_operation). Value type: [`ModesOfOperation`](super::types::ModesOfOperation). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
-    /// Requested mode of operation; the active mode is in 0x6061.
+    /// Requested mode of operation. The active mode is in 0x6061.
     ///
     /// Values from CiA 402, 10.3.8.
     ///

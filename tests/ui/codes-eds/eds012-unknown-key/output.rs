@@ -1,6 +1,4 @@
-    /// Speed.
-    ///
-    /// At most 100, 0x2000:00, UNSIGNED8, read-write.
+    /// Speed: At most 100, 0x2000:00, UNSIGNED8, read-write.
     /// Accessor: [`speed`](super::Pump::speed).
     pub const SPEED: ReadWrite<u8> = ReadWriteU8::new(
         rt::OnCanOpen::canopen(0x2000, 0x00),

@@ -1,6 +1,4 @@
-    /// Suffix.
-    ///
-    /// Default 31, 0x2000:00, UNSIGNED8, read-write.
+    /// Suffix: Default 31, 0x2000:00, UNSIGNED8, read-write.
     /// Accessor: [`suffix`](super::Pump::suffix).
     pub const SUFFIX: ReadWrite<u8> = ReadWriteU8::object_with_default(
         0x2000,
@@ -8,9 +6,7 @@
         "Suffix",
         31,
     );
-    /// Prefix.
-    ///
-    /// Default 31, 0x2001:00, UNSIGNED8, read-write.
+    /// Prefix: Default 31, 0x2001:00, UNSIGNED8, read-write.
     /// Accessor: [`prefix`](super::Pump::prefix).
     pub const PREFIX: ReadWrite<u8> = ReadWriteU8::object_with_default(
         0x2001,

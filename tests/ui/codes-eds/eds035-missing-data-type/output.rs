@@ -1,15 +1,11 @@
-    /// Missing.
-    ///
-    /// 0x2000:00, unknown type, read-only.
+    /// Missing: 0x2000:00, unknown type, read-only.
     /// Accessor: [`missing`](super::Pump::missing).
     pub const MISSING: ReadOnly<rt::Opaque> = ReadOnlyOpaque::object(
         0x2000,
         0x00,
         "Missing",
     );
-    /// Empty.
-    ///
-    /// 0x2001:00, unknown type, read-only.
+    /// Empty: 0x2001:00, unknown type, read-only.
     /// Accessor: [`empty`](super::Pump::empty).
     pub const EMPTY: ReadOnly<rt::Opaque> = ReadOnlyOpaque::object(
         0x2001,

@@ -2,39 +2,33 @@
     ///
     /// ARRAY 0x2000.
     pub mod speeds {
-        /// NrOfObjects.
-        ///
-        /// Default 2, 0x2000:00, UNSIGNED8, read-only.
-        /// Accessor: [`Accessors::nr_of_objects`].
+        /// NrOfObjects: Default 2, 0x2000:00, UNSIGNED8, read-only.
+        /// Accessor: [`SpeedsAccessors::nr_of_objects`].
         pub const NR_OF_OBJECTS: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x2000,
             0x00,
             "NrOfObjects",
             2,
         );
-        /// Described.
-        ///
-        /// 0x2000:01, UNSIGNED16, read-write.
-        /// Accessor: [`Accessors::described`].
+        /// Described: 0x2000:01, UNSIGNED16, read-write.
+        /// Accessor: [`SpeedsAccessors::described`].
         pub const DESCRIBED: super::ReadWrite<u16> = super::ReadWriteU16::object(
             0x2000,
             0x01,
             "Described",
         );
-        /// Speeds2.
-        ///
-        /// 0x2000:02, UNSIGNED16, read-only.
-        /// Accessor: [`Accessors::speeds2`].
+        /// Speeds2: 0x2000:02, UNSIGNED16, read-only.
+        /// Accessor: [`SpeedsAccessors::speeds2`].
         pub const SPEEDS2: super::ReadOnly<u16> = super::ReadOnlyU16::object(
             0x2000,
             0x02,
             "Speeds2",
         );
         /// Accessors for the entries of Speeds: 0x2000.
-        pub struct Accessors<'c, C> {
+        pub struct SpeedsAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
-        impl<C> Accessors<'_, C> {
+        impl<C> SpeedsAccessors<'_, C> {
             /// NrOfObjects.
             ///
             /// Default 2, 0x2000:00, UNSIGNED8, read-only.

@@ -1,7 +1,5 @@
-        /// Second.
-        ///
-        /// 0x2002:02, unknown type, read-only.
-        /// Accessor: [`Accessors::second`].
+        /// Second: 0x2002:02, unknown type, read-only.
+        /// Accessor: [`ArrayAccessors::second`].
         pub const SECOND: super::ReadOnly<rt::Opaque> = super::ReadOnlyOpaque::object(
             0x2002,
             0x02,

@@ -1,16 +1,12 @@
-        /// A.
-        ///
-        /// 0x2000:01, UNSIGNED16, read-write.
-        /// Accessor: [`Accessors::a_1`].
+        /// A: 0x2000:01, UNSIGNED16, read-write.
+        /// Accessor: [`SetAccessors::a_1`].
         pub const A_1: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
             0x2000,
             0x01,
             "A",
         );
-        /// A.
-        ///
-        /// 0x2000:02, UNSIGNED16, read-write.
-        /// Accessor: [`Accessors::a_2`].
+        /// A: 0x2000:02, UNSIGNED16, read-write.
+        /// Accessor: [`SetAccessors::a_2`].
         pub const A_2: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
             0x2000,
             0x02,

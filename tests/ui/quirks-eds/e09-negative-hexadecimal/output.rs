@@ -1,6 +1,4 @@
-    /// Speed.
-    ///
-    /// Default -2000000000, 0x2000:00, INTEGER32, read-write.
+    /// Speed: Default -2000000000, 0x2000:00, INTEGER32, read-write.
     /// Accessor: [`speed`](super::Pump::speed).
     pub const SPEED: ReadWrite<i32> = ReadWriteI32::object_with_default(
         0x2000,

@@ -1,6 +1,4 @@
-    /// Lower case.
-    ///
-    /// Default \$NODEID+0x180, 0x2000:00, UNSIGNED32, read-write.
+    /// Lower case: Default \$NODEID+0x180, 0x2000:00, UNSIGNED32, read-write.
     /// Accessor: [`lower_case`](super::Pump::lower_case).
     pub const LOWER_CASE: ReadWrite<u32> = ReadWriteU32::new(
         rt::OnCanOpen::canopen(0x2000, 0x00),
@@ -10,9 +8,7 @@
         "",
         rt::Flags::NONE,
     );
-    /// Mixed case.
-    ///
-    /// Default \$NODEID+0x180, 0x2001:00, UNSIGNED32, read-write.
+    /// Mixed case: Default \$NODEID+0x180, 0x2001:00, UNSIGNED32, read-write.
     /// Accessor: [`mixed_case`](super::Pump::mixed_case).
     pub const MIXED_CASE: ReadWrite<u32> = ReadWriteU32::new(
         rt::OnCanOpen::canopen(0x2001, 0x00),

@@ -1,6 +1,4 @@
-    /// Speed.
-    ///
-    /// Range 1 to 9, default 4, 0x2000:00, UNSIGNED8, read-write, mappable into any PDO.
+    /// Speed: Range 1 to 9, default 4, 0x2000:00, UNSIGNED8, read-write, mappable into any PDO.
     /// Accessor: [`speed`](super::Valve::speed).
     pub const SPEED: ReadWrite<u8> = ReadWriteU8::new(
         rt::OnCanOpen::canopen(0x2000, 0x00),

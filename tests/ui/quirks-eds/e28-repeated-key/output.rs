@@ -1,6 +1,4 @@
-    /// Speed.
-    ///
-    /// Default 2, 0x2000:00, UNSIGNED8, read-write.
+    /// Speed: Default 2, 0x2000:00, UNSIGNED8, read-write.
     /// Accessor: [`speed`](super::Pump::speed).
     pub const SPEED: ReadWrite<u8> = ReadWriteU8::object_with_default(
         0x2000,

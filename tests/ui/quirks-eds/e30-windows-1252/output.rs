@@ -1,7 +1,5 @@
 == byte-order-mark.eds
-    /// Gerät.
-    ///
-    /// Default "5 €", 0x2000:00, VISIBLE_STRING, read-write.
+    /// Gerät: Default "5 €", 0x2000:00, VISIBLE_STRING, read-write.
     /// Accessor: [`geraet`](super::Pump::geraet).
     pub const GERAET: ReadWrite<rt::VisibleString> = ReadWriteVisibleString::object_with_default(
         0x2000,
@@ -10,9 +8,7 @@
         "5 €",
     );
 == input.eds
-    /// Gerät.
-    ///
-    /// Default "5 €", 0x2000:00, VISIBLE_STRING, read-write.
+    /// Gerät: Default "5 €", 0x2000:00, VISIBLE_STRING, read-write.
     /// Accessor: [`geraet`](super::Pump::geraet).
     pub const GERAET: ReadWrite<rt::VisibleString> = ReadWriteVisibleString::object_with_default(
         0x2000,

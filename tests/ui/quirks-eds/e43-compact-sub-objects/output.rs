@@ -1,7 +1,5 @@
-        /// Arr1.
-        ///
-        /// At least \-9, default 5, 0x2000:01, INTEGER16, read-write, mappable into any PDO.
-        /// Accessor: [`Accessors::arr1`].
+        /// Arr1: At least \-9, default 5, 0x2000:01, INTEGER16, read-write, mappable into any PDO.
+        /// Accessor: [`ArrAccessors::arr1`].
         pub const ARR1: super::ReadWrite<i16> = super::ReadWriteI16::new(
             rt::OnCanOpen::canopen(0x2000, 0x01),
             "Arr1",
@@ -10,10 +8,8 @@
             "",
             rt::Flags::PDO,
         );
-        /// Arr2.
-        ///
-        /// At least \-9, default 5, 0x2000:02, INTEGER16, read-write, mappable into any PDO.
-        /// Accessor: [`Accessors::arr2`].
+        /// Arr2: At least \-9, default 5, 0x2000:02, INTEGER16, read-write, mappable into any PDO.
+        /// Accessor: [`ArrAccessors::arr2`].
         pub const ARR2: super::ReadWrite<i16> = super::ReadWriteI16::new(
             rt::OnCanOpen::canopen(0x2000, 0x02),
             "Arr2",
@@ -22,10 +18,8 @@
             "",
             rt::Flags::PDO,
         );
-        /// Arr3.
-        ///
-        /// At least \-9, default 5, 0x2000:03, INTEGER16, read-write, mappable into any PDO.
-        /// Accessor: [`Accessors::arr3`].
+        /// Arr3: At least \-9, default 5, 0x2000:03, INTEGER16, read-write, mappable into any PDO.
+        /// Accessor: [`ArrAccessors::arr3`].
         pub const ARR3: super::ReadWrite<i16> = super::ReadWriteI16::new(
             rt::OnCanOpen::canopen(0x2000, 0x03),
             "Arr3",

@@ -1,8 +1,6 @@
 /// Node-ID of this device in the configuration file.
 pub const NODE_ID: Option<rt::NodeId> = rt::NodeId::new(17);
-    /// COB-ID.
-    ///
-    /// Default \$NODEID+0x180, configured to \$NODEID+0x200, 0x2000:00, UNSIGNED32, read-write.
+    /// COB-ID: Default \$NODEID+0x180, configured to \$NODEID+0x200, 0x2000:00, UNSIGNED32, read-write.
     /// Accessor: [`cob_id`](super::Pump::cob_id).
     pub const COB_ID: ReadWrite<u32> = ReadWriteU32::new(
         rt::OnCanOpen::canopen(0x2000, 0x00),

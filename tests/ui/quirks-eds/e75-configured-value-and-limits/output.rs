@@ -1,6 +1,4 @@
-    /// Speed.
-    ///
-    /// Range 5 to 9, configured to 10, 0x2000:00, INTEGER16, read-write.
+    /// Speed: Range 5 to 9, configured to 10, 0x2000:00, INTEGER16, read-write.
     /// Accessor: [`speed`](super::Pump::speed).
     pub const SPEED: ReadWrite<i16> = ReadWriteI16::new(
         rt::OnCanOpen::canopen(0x2000, 0x00),

@@ -1,6 +1,4 @@
-    /// Swapped.
-    ///
-    /// Range 9 to 5, default 7, 0x2002:00, INTEGER16, read-write.
+    /// Swapped: Range 9 to 5, default 7, 0x2002:00, INTEGER16, read-write.
     /// Accessor: [`swapped`](super::Pump::swapped).
     pub const SWAPPED: ReadWrite<i16> = ReadWriteI16::object_with_default(
         0x2002,
@@ -8,9 +6,7 @@
         "Swapped",
         7,
     );
-    /// No default.
-    ///
-    /// Range 5 to 9, 0x2005:00, INTEGER16, read-write.
+    /// No default: Range 5 to 9, 0x2005:00, INTEGER16, read-write.
     /// Accessor: [`no_default`](super::Pump::no_default).
     pub const NO_DEFAULT: ReadWrite<i16> = ReadWriteI16::new(
         rt::OnCanOpen::canopen(0x2005, 0x00),

@@ -1,6 +1,4 @@
-    /// Stop.
-    ///
-    /// 0x2000:00, UNSIGNED8, read-only, mappable into TPDOs.
+    /// Stop: 0x2000:00, UNSIGNED8, read-only, mappable into TPDOs.
     /// Accessor: [`stop`](super::StopButton::stop).
     ///
     /// Mappable into SRDOs. The inverted data are in 0x2001:00.

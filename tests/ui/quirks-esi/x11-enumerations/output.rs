@@ -15,9 +15,7 @@
         /// A number that no other variant represents.
         Unknown(u8),
     }
-    /// Mode.
-    ///
-    /// Default 16, 0x2000:00, UNSIGNED8, read-only, mappable into TPDOs.
+    /// Mode: Default 16, 0x2000:00, UNSIGNED8, read-only, mappable into TPDOs.
     /// Accessor: [`mode`](super::D1::mode). Value type: [`Dt0800En08`](super::types::Dt0800En08). Mapped in [`Sensors`](super::pdo::Sensors).
     pub const MODE: ReadOnly<super::types::Dt0800En08> = ReadOnlyNamedDt0800En08::flagged_coe_object_with_default(
         0x2000,

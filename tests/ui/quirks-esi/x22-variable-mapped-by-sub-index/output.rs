@@ -1,17 +1,13 @@
-        /// Temperature.
-        ///
-        /// 0x2000:00, UNSIGNED32, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::temperature`]. Mapped in [`Values`](super::super::pdo::Values).
+        /// Temperature: 0x2000:00, UNSIGNED32, read-only, mappable into TPDOs.
+        /// Accessor: [`TemperatureAccessors::temperature`]. Mapped in [`Values`](super::super::pdo::Values).
         pub const TEMPERATURE: super::ReadOnly<u32> = super::ReadOnlyU32::flagged_coe_object(
             0x2000,
             0x00,
             "Temperature",
             rt::Flags::TPDO,
         );
-        /// Peak.
-        ///
-        /// 0x2000:01, UNSIGNED16, read-only, mappable into TPDOs.
-        /// Accessor: [`Accessors::peak`]. Mapped in [`Values`](super::super::pdo::Values).
+        /// Peak: 0x2000:01, UNSIGNED16, read-only, mappable into TPDOs.
+        /// Accessor: [`TemperatureAccessors::peak`]. Mapped in [`Values`](super::super::pdo::Values).
         ///
         /// Access rights from the rule for objects that only a PDO describes.
         pub const PEAK: super::ReadOnly<u16> = super::ReadOnlyU16::flagged_coe_object(

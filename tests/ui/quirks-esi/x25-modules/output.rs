@@ -52,18 +52,14 @@
                 /// A number that no other variant represents.
                 Unknown(u8),
             }
-            /// Filter.
-            ///
-            /// 0x8000:00, UNSIGNED8, read-write.
+            /// Filter: 0x8000:00, UNSIGNED8, read-write.
             /// Value type: [`Filter`](super::types::Filter).
             pub const FILTER: ReadWrite<super::types::Filter> = ReadWriteNamedFilter::coe_object(
                 0x8000,
                 0x00,
                 "Filter",
             );
-                /// In 1.
-                ///
-                /// 0x6000:01, BOOLEAN, read-only, mappable into TPDOs.
+                /// In 1: 0x6000:01, BOOLEAN, read-only, mappable into TPDOs.
                 /// Mapped in [`Inputs`](super::super::pdo::Inputs).
                 ///
                 /// Access rights from the rule for objects that only a PDO describes.

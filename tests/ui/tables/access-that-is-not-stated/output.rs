@@ -1,6 +1,4 @@
-    /// Gain.
-    ///
-    /// Modbus 0 (holding; wire address 0; FC 3/6/16), UNSIGNED16, read-write (assumed).
+    /// Gain: Modbus 0 (holding; wire address 0; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Accessor: [`gain`](super::Press::gain).
     ///
     /// Gain of the speed controller.
@@ -17,12 +15,11 @@
     ///
     /// Gain: Modbus 0 (holding; wire address 0; FC 3/6/16), UNSIGNED16, read-write (assumed).
     /// Constant: [`objects::GAIN`].
+    #[doc(alias("0"))]
     pub fn gain(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::GAIN.at(&mut self.client)
     }
-    /// Speed.
-    ///
-    /// Modbus 1 (holding; wire address 1; FC 3), UNSIGNED16, read-only.
+    /// Speed: Modbus 1 (holding; wire address 1; FC 3), UNSIGNED16, read-only.
     /// Accessor: [`speed`](super::Press::speed).
     ///
     /// Actual speed.

@@ -1,6 +1,4 @@
-    /// Speed.
-    ///
-    /// Modbus 0 (holding; wire address 0; FC 3/6/16), UNSIGNED16, read-write.
+    /// Speed: Modbus 0 (holding; wire address 0; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`speed`](super::Press::speed).
     ///
     /// Speed of the slide.
@@ -11,9 +9,7 @@
         "Speed",
         rt::Flags::NONE,
     );
-    /// Mode.
-    ///
-    /// Modbus 1 (holding; wire address 1; FC 3/6/16), UNSIGNED16, read-write.
+    /// Mode: Modbus 1 (holding; wire address 1; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`mode`](super::Press::mode).
     ///
     /// Mode of operation.

@@ -1,7 +1,5 @@
-        /// Torque.
-        ///
-        /// 0x2000:01, INTEGER16, read-only.
-        /// Accessor: [`Accessors::torque`].
+        /// Torque: 0x2000:01, INTEGER16, read-only.
+        /// Accessor: [`LimitsAccessors::torque`].
         ///
         /// Actual torque.
         ///
@@ -11,10 +9,8 @@
             0x01,
             "Torque",
         );
-        /// Reserve 2.
-        ///
-        /// 0x2000:02, INTEGER16, read-only.
-        /// Accessor: [`Accessors::reserve_2`].
+        /// Reserve 2: 0x2000:02, INTEGER16, read-only.
+        /// Accessor: [`LimitsAccessors::reserve_2`].
         ///
         /// Second reserve.
         ///

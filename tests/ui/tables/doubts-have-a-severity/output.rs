@@ -1,6 +1,4 @@
-    /// Torque.
-    ///
-    /// 1 LSB = 0.1 Nm, Modbus 0 (holding; wire address 0; FC 3/6/16), INTEGER16, read-write.
+    /// Torque: 1 LSB = 0.1 Nm, Modbus 0 (holding; wire address 0; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`torque`](super::Press::torque).
     ///
     /// Torque limit.

@@ -10,9 +10,7 @@
                 rt::Range::Between(-30, 2000),
                 rt::Initial::Value(7),
             );
-    /// Level.
-    ///
-    /// 1 LSB = 0.1 °C, range -2.0 … 200.0 °C (raw \-20 … 2000), default 5.0 °C (raw 50), Modbus 0 (holding; wire address 0; FC 3/6/16), INTEGER16, read-write.
+    /// Level: 1 LSB = 0.1 °C, range -2.0 … 200.0 °C (raw \-20 … 2000), default 5.0 °C (raw 50), Modbus 0 (holding; wire address 0; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`level`](super::Press::level).
     ///
     /// Models that are not listed below have the item's default value and range.

@@ -1,6 +1,4 @@
-    /// Speed.
-    ///
-    /// Modbus R01 (holding; wire address 0x8001; FC 3/6/16; 32 bits per address; high word first), INTEGER32, read-write.
+    /// Speed: Modbus R01 (holding; wire address 0x8001; FC 3/6/16; 32 bits per address; high word first), INTEGER32, read-write.
     /// Accessor: [`speed`](super::Press::speed).
     ///
     /// Speed of the slide: −10 … 10, ×2, the drive’s.
@@ -15,12 +13,11 @@
     ///
     /// Speed: Modbus R01 (holding; wire address 0x8001; FC 3/6/16; 32 bits per address; high word first), INTEGER32, read-write.
     /// Constant: [`objects::SPEED`].
+    #[doc(alias("R01"))]
     pub fn speed(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::SPEED.at(&mut self.client)
     }
-    /// Gain.
-    ///
-    /// Modbus 1 (holding; wire address 1; FC 3/6/16), UNSIGNED16, read-write.
+    /// Gain: Modbus 1 (holding; wire address 1; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`gain`](super::Press::gain).
     ///
     /// Chapter: Parameters.
@@ -29,9 +26,7 @@
         "Gain",
         rt::Flags::NONE,
     );
-    /// Time.
-    ///
-    /// Modbus 2–3 (holding; wire address 2–3; FC 3/16; low word first (assumed)), UNSIGNED32, read-write.
+    /// Time: Modbus 2–3 (holding; wire address 2–3; FC 3/16; low word first (assumed)), UNSIGNED32, read-write.
     /// Accessor: [`time`](super::Press::time).
     ///
     /// Chapter: Parameters.

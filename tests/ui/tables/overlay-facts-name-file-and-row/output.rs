@@ -1,6 +1,4 @@
-    /// Torque actual value.
-    ///
-    /// 1 LSB = 0.01 %, 0x6077:00, INTEGER16, read-only.
+    /// Torque actual value: 1 LSB = 0.01 %, 0x6077:00, INTEGER16, read-only.
     /// Accessor: [`torque_actual_value`](super::Axis::torque_actual_value).
     ///
     /// Changed by an overlay: the data sheet has other values.
@@ -14,9 +12,7 @@
         "%",
         rt::Flags::NONE,
     );
-    /// Ramp.
-    ///
-    /// Unit ms, range 1 to 200, default 10, 0x2000:00, UNSIGNED16, read-write.
+    /// Ramp: Unit ms, range 1 to 200, default 10, 0x2000:00, UNSIGNED16, read-write.
     /// Accessor: [`ramp`](super::Axis::ramp).
     ///
     /// Changed by an overlay: the data sheet has other values.

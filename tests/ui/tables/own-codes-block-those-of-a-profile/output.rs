@@ -75,6 +75,22 @@
                 Some(Command::EnableOperation),
             ),
         ];
+        const FAULTS: &'static [u8] = &[
+            Self::FaultReactionActive as u8,
+            Self::Fault as u8,
+        ];
+        fn name(self) -> &'static str {
+            match self {
+                Self::NotReadyToSwitchOn => "not ready to switch on",
+                Self::SwitchOnDisabled => "switch on disabled",
+                Self::ReadyToSwitchOn => "ready to switch on",
+                Self::SwitchedOn => "switched on",
+                Self::OperationEnabled => "operation enabled",
+                Self::QuickStopActive => "quick stop active",
+                Self::FaultReactionActive => "fault reaction active",
+                Self::Fault => "fault",
+            }
+        }
     /// faults.
     ///
     /// Faults of the axis.

@@ -4,9 +4,7 @@
                 rt::Range::Between(-200, 1000),
                 rt::Initial::Value(300),
             );
-    /// Temperature.
-    ///
-    /// 1 LSB = 0.1 °C, range -20.0 … 200.0 °C (raw \-200 … 2000), default 25.0 °C (raw 250), Modbus 0 (holding; wire address 0; FC 3/6/16), INTEGER16, read-write.
+    /// Temperature: 1 LSB = 0.1 °C, range -20.0 … 200.0 °C (raw \-200 … 2000), default 25.0 °C (raw 250), Modbus 0 (holding; wire address 0; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`temperature`](super::Press::temperature).
     ///
     /// The device rounds to steps of 0.5 °C (raw 5).
@@ -24,9 +22,7 @@
         "°C",
         rt::Flags::NONE,
     );
-    /// Speed.
-    ///
-    /// 1 LSB = -0.01 rev/s, range -100.00 … 100.00 rev/s (raw \-10000 … 10000), Modbus 1 (holding; wire address 1; FC 3/6/16), INTEGER16, read-write.
+    /// Speed: 1 LSB = -0.01 rev/s, range -100.00 … 100.00 rev/s (raw \-10000 … 10000), Modbus 1 (holding; wire address 1; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`speed`](super::Press::speed).
     ///
     /// Chapter: Values.
@@ -37,9 +33,7 @@
         "rev/s",
         rt::Flags::NONE,
     );
-    /// Frequency.
-    ///
-    /// Physical value = 1000 / raw Hz, range 250 … 1000 Hz (raw 1 … 4), default 500 Hz (raw 2), Modbus 2 (holding; wire address 2; FC 3/6/16), UNSIGNED16, read-write.
+    /// Frequency: Physical value = 1000 / raw Hz, range 250 … 1000 Hz (raw 1 … 4), default 500 Hz (raw 2), Modbus 2 (holding; wire address 2; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`frequency`](super::Press::frequency).
     ///
     /// Chapter: Values.
@@ -51,9 +45,7 @@
         "Hz",
         rt::Flags::NONE,
     );
-    /// Time.
-    ///
-    /// Unit ms, at most 1000, default 250, Modbus 3 (holding; wire address 3; FC 3/6/16), UNSIGNED16, read-write.
+    /// Time: Unit ms, at most 1000, default 250, Modbus 3 (holding; wire address 3; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`time`](super::Press::time).
     ///
     /// Chapter: Values.
@@ -65,9 +57,7 @@
         "ms",
         rt::Flags::NONE,
     );
-    /// Level.
-    ///
-    /// Physical value = raw × 0.1 / [Time](TIME) V, range raw ≤ 100, default raw 10, Modbus 4 (holding; wire address 4; FC 3/6/16), UNSIGNED16, read-write.
+    /// Level: Physical value = raw × 0.1 / [Time](TIME) V, range raw ≤ 100, default raw 10, Modbus 4 (holding; wire address 4; FC 3/6/16), UNSIGNED16, read-write.
     /// Accessor: [`level`](super::Press::level).
     ///
     /// Chapter: Values.
@@ -79,9 +69,7 @@
         "V",
         rt::Flags::NONE,
     );
-    /// Steps.
-    ///
-    /// Physical value = raw × 0.5 − 273.15 °C, one of -273.15 °C (raw 0), -268.15 … -263.15 °C (raw 10 … 20), default -268.15 °C (raw 10), Modbus 5 (holding; wire address 5; FC 3/6/16), INTEGER16, read-write.
+    /// Steps: Physical value = raw × 0.5 − 273.15 °C, one of -273.15 °C (raw 0), -268.15 … -263.15 °C (raw 10 … 20), default -268.15 °C (raw 10), Modbus 5 (holding; wire address 5; FC 3/6/16), INTEGER16, read-write.
     /// Accessor: [`steps`](super::Press::steps).
     ///
     /// Chapter: Values.

@@ -1,6 +1,4 @@
-    /// Speed.
-    ///
-    /// Modbus 40101 (holding; wire address 100; FC 3/16), UNSIGNED16, read-write.
+    /// Speed: Modbus 40101 (holding; wire address 100; FC 3/16), UNSIGNED16, read-write.
     /// Accessor: [`speed`](super::Press::speed).
     ///
     /// Chapter: Holding.
@@ -13,12 +11,11 @@
     ///
     /// Modbus 40101 (holding; wire address 100; FC 3/16), UNSIGNED16, read-write.
     /// Constant: [`objects::SPEED`].
+    #[doc(alias("40101"))]
     pub fn speed(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::SPEED.at(&mut self.client)
     }
-    /// Position.
-    ///
-    /// Modbus 40102–40103 (holding; wire address 101–102; FC 3/16; low word first), INTEGER32, read-write.
+    /// Position: Modbus 40102–40103 (holding; wire address 101–102; FC 3/16; low word first), INTEGER32, read-write.
     /// Accessor: [`position`](super::Press::position).
     ///
     /// Chapter: Holding.
@@ -27,9 +24,7 @@
         "Position",
         rt::Flags::NONE,
     );
-    /// Input.
-    ///
-    /// Modbus 30005–30006 (input; wire address 4–5; FC 4; high word first; bytes swapped), UNSIGNED32, read-only.
+    /// Input: Modbus 30005–30006 (input; wire address 4–5; FC 4; high word first; bytes swapped), UNSIGNED32, read-only.
     /// Accessor: [`input`](super::Press::input).
     ///
     /// Chapter: Others.
@@ -38,9 +33,7 @@
         "Input",
         rt::Flags::NONE,
     );
-    /// Lamp.
-    ///
-    /// Modbus 7 (coil; wire address 6; FC 1/5/15), BOOLEAN, read-write.
+    /// Lamp: Modbus 7 (coil; wire address 6; FC 1/5/15), BOOLEAN, read-write.
     /// Accessor: [`lamp`](super::Press::lamp).
     ///
     /// Chapter: Coils.
@@ -49,9 +42,7 @@
         "Lamp",
         rt::Flags::NONE,
     );
-    /// Flags.
-    ///
-    /// Modbus 40104 (holding; wire address 103; FC 3; from bit 3), BOOLEAN, read-only.
+    /// Flags: Modbus 40104 (holding; wire address 103; FC 3; from bit 3), BOOLEAN, read-only.
     /// Accessor: [`flags`](super::Press::flags).
     ///
     /// Chapter: Holding.

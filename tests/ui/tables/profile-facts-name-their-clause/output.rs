@@ -1,6 +1,4 @@
-    /// Torque actual value.
-    ///
-    /// 1 LSB = 0.1 %, 0x6077:00, INTEGER16, read-only.
+    /// Torque actual value: 1 LSB = 0.1 %, 0x6077:00, INTEGER16, read-only.
     /// Accessor: [`torque_actual_value`](super::Axis::torque_actual_value).
     ///
     /// Actual torque, relative to the rated torque.
@@ -16,9 +14,7 @@
         "%",
         rt::Flags::NONE,
     );
-    /// Digital inputs.
-    ///
-    /// 0x60FD:00, UNSIGNED32, read-only.
+    /// Digital inputs: 0x60FD:00, UNSIGNED32, read-only.
     /// Accessor: [`digital_inputs`](super::Axis::digital_inputs). Value type: [`DigitalInputs`](super::types::DigitalInputs).
     ///
     /// Digital inputs: limit switches, home switch and manufacturer-specific inputs.

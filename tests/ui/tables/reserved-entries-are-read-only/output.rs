@@ -1,7 +1,5 @@
-        /// Reserved.
-        ///
-        /// 0x1800:04, UNSIGNED8, read-only.
-        /// Accessor: [`Accessors::reserved`].
+        /// Reserved: 0x1800:04, UNSIGNED8, read-only.
+        /// Accessor: [`Tpdo1Accessors::reserved`].
         pub const RESERVED: super::ReadOnly<u8> = super::ReadOnlyU8::object(
             0x1800,
             0x04,
