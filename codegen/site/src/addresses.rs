@@ -113,7 +113,7 @@ fn folder_of_number(number: u32) -> String {
 
 /// Returns a folder name for a text: lowercase letters, digits and `-`. If the name does not contain all letters of the text, it
 /// ends with a checksum, so that different texts have different names.
-fn folder_name(text: &str) -> String {
+pub(super) fn folder_name(text: &str) -> String {
     let mut name = slug(text);
     let is_complete =
         name.len() <= LONGEST && text.chars().all(|letter| letter.is_ascii() || !letter.is_alphanumeric());
