@@ -134,10 +134,15 @@ impl CanPort for Bus {
             };
             let (at, frame) = self.frames.remove(first);
             self.now = self.now.max(at);
+            let frame = frame.at(Some(self.now));
             if wanted(&frame) {
                 return Ok(Some(frame));
             }
         }
+    }
+
+    fn now(&mut self) -> Option<Duration> {
+        Some(self.now)
     }
 }
 
@@ -163,6 +168,10 @@ impl AsyncCanPort for AsyncBus {
             std::future::pending::<()>().await;
         }
         self.bus.receive(patience, wanted)
+    }
+
+    fn now(&mut self) -> Option<Duration> {
+        CanPort::now(&mut self.bus)
     }
 }
 
@@ -336,6 +345,25 @@ fn the_latest_pdo_is_the_newest_one() {
     let mut node = Node::new(behind().into_port().into_inner().bus, NodeId::new(NODE).expect("a node-ID"));
     assert_eq!(node.latest_pdo(PDO).map(|pdo| pdo.map(sample)), Ok(Some(200)));
     assert_eq!(node.latest_pdo(PDO), Ok(None));
+}
+
+#[test]
+fn the_latest_pdo_has_the_time_at_which_it_was_taken_from_the_interface() {
+    let time = |pdo: Result<Option<CanFrame>, _>| pdo.expect("no fault").and_then(|pdo: CanFrame| pdo.time());
+    let mut node = behind();
+    let start = node.port().now();
+    assert_eq!(time(now(node.latest_pdo_async(PDO))), start, "the PDOs were in the queue of the interface");
+    // The PDO arrives 1 ms after SYNC, during an SDO transfer, and is kept in the buffer.
+    now(node.sync_async()).expect("it is sent");
+    now(AsyncClient::read(&mut node, TEXT, &mut [0; 20])).expect("a value");
+    let (arrival, after) = (start.map(|start| start + Duration::from_millis(1)), node.port().now());
+    assert!(arrival < after);
+    assert_eq!(time(now(node.latest_pdo_async(PDO))), arrival);
+    let bus = node.into_port().into_inner().bus;
+    let mut node = Node::new(Buffered::<_, 16>::new(bus), NodeId::new(NODE).expect("a node-ID"));
+    node.sync().expect("it is sent");
+    Client::read(&mut node, TEXT, &mut [0; 20]).expect("a value");
+    assert_eq!(time(node.latest_pdo(PDO)), after.map(|after| after + Duration::from_millis(1)));
 }
 
 /// Returns the rows for SDO transfers in the table of faults.
