@@ -38,6 +38,8 @@ enum Fault {
     Foreign,
     /// A thousand frames of other nodes arrive before the reply.
     Noise,
+    /// Each reply arrives just before the timeout.
+    Slow,
 }
 
 struct Objects(HashMap<Object, Vec<u8>>);
@@ -87,6 +89,7 @@ impl Bus {
             Fault::Nothing => self.frames.push((soon, reply)),
             Fault::Late(delay) => self.frames.push((self.now + delay, reply)),
             Fault::Lost => {}
+            Fault::Slow => self.frames.push((self.now + TIMEOUT - Duration::from_millis(1), reply)),
             Fault::Duplicated => self.frames.extend([(soon, reply), (soon, reply)]),
             Fault::Truncated => self.frames.extend(CanFrame::new(reply.id(), &reply.data()[..4]).map(|it| (soon, it))),
             Fault::Noise => {
@@ -274,6 +277,53 @@ fn a_repeated_segment_isnt_data() {
     node.port().count(8);
     let mut buffer = [0; 20];
     assert_eq!((Client::read(&mut node, TEXT, &mut buffer), &buffer[..]), (Ok(20), &text(8)[..]));
+}
+
+/// Length of a value that has 100 segments. Its transfer may take one timeout, plus one tenth of the timeout for each
+/// segment.
+const LONG: usize = 700;
+const LIMIT: Duration = Duration::from_millis(11 * 500);
+
+#[test]
+fn a_node_that_replies_just_in_time_doesnt_block_for_ever() {
+    let value = [7; LONG];
+    let mut node = node();
+    for writes in [false, true] {
+        node.port().objects.0.insert(TEXT, value.to_vec());
+        node.port().fault = Fault::Slow;
+        let (start, aborts) = (node.port().now, node.port().aborts);
+        let result = match writes {
+            false => Client::read(&mut node, TEXT, &mut [0; LONG]).map(|_| ()),
+            true => Client::write(&mut node, TEXT, &value),
+        };
+        assert_eq!((result, node.port().now - start), (Err(Error::Timeout), LIMIT));
+        assert_eq!(node.port().aborts - aborts, 1);
+        node.port().fault = Fault::Nothing;
+        node.port().count(8);
+        let mut buffer = [0; 20];
+        assert_eq!((Client::read(&mut node, TEXT, &mut buffer), &buffer[..]), (Ok(20), &text(8)[..]));
+    }
+}
+
+#[test]
+fn async_transfers_have_the_same_limit() {
+    let mut bus = Bus::new();
+    bus.objects.0.insert(TEXT, vec![7; LONG]);
+    bus.fault = Fault::Slow;
+    let bus = AsyncBus { bus, is_pending: false };
+    let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
+    assert_eq!(now(AsyncClient::read(&mut node, TEXT, &mut [0; LONG])), Err(Error::Timeout));
+    assert_eq!((node.port().bus.now, node.port().bus.aborts), (LIMIT, 1));
+}
+
+#[test]
+fn slow_segments_within_the_limit_are_right() {
+    let mut node = node();
+    node.port().objects.0.insert(TEXT, vec![7; LONG]);
+    node.port().fault = Fault::Late(TIMEOUT / 11);
+    let mut buffer = [0; LONG];
+    assert_eq!((Client::read(&mut node, TEXT, &mut buffer), buffer), (Ok(LONG), [7; LONG]));
+    assert_eq!(Client::write(&mut node, TEXT, &buffer), Ok(()));
 }
 
 #[test]

@@ -26,6 +26,14 @@ pub const TIMEOUT: Duration = Duration::from_millis(500);
 /// still arrive. The next transfer therefore waits for the late reply, for at most one more timeout, and discards it.
 /// After an async transfer that was dropped, the next transfer sends the abort first. Therefore, a transfer after a
 /// timeout takes up to one timeout longer. Replies to other requests don't prolong a transfer.
+///
+/// # Duration of a transfer
+///
+/// Each reply must arrive within the timeout. In addition, a transfer as a whole ends after one timeout, plus one tenth
+/// of the timeout for each segment of 7 bytes. For an upload without an announced length, the received segments count.
+/// For example, a value of 70 bytes takes at most two timeouts, even if the node sends each segment just before the
+/// timeout of a reply. If the limit is exceeded, the client aborts the transfer and returns [`Error::Timeout`]. The
+/// client measures this time with [`CanPort::now`]. Without a clock, only the timeout of each reply applies.
 #[derive(Clone, Debug)]
 pub struct Node<P> {
     port: P,
@@ -67,7 +75,7 @@ impl<P> Node<P> {
     }
 }
 
-fn sent<E>(is_sent: bool) -> Result<(), Error<E>> {
+pub(super) fn sent<E>(is_sent: bool) -> Result<(), Error<E>> {
     if is_sent {
         Ok(())
     } else {
