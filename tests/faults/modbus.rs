@@ -245,6 +245,22 @@ fn blocking_calls_after_a_late_reply() {
     }
 }
 
+#[tokio::test(start_paused = true)]
+async fn a_timeout_of_any_length_is_valid() {
+    for is_rtu in [true, false] {
+        let world = world();
+        let (line, device) = duplex(0x1_0000);
+        tokio::spawn(serve(device, is_rtu, world.clone()));
+        let link = if is_rtu { Link::rtu } else { Link::tcp };
+        let mut device = ModbusClient::new(link(line, Slave(DEVICE), Duration::MAX));
+        request(&mut device, &world, 1, false).await.expect("the reply");
+        world.lock().unwrap().fault = Fault::Late(Duration::from_millis(100));
+        assert!(timeout(Duration::from_millis(20), request(&mut device, &world, 2, false)).await.is_err());
+        world.lock().unwrap().fault = Fault::Nothing;
+        request(&mut device, &world, 3, false).await.expect("the reply");
+    }
+}
+
 /// Shows why [`Link`] exists: without it, `tokio-modbus` keeps a late reply, and all later requests fail.
 #[tokio::test(start_paused = true)]
 async fn contexts_without_a_link_are_out_of_step() {
