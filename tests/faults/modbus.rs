@@ -246,6 +246,23 @@ fn blocking_calls_after_a_late_reply() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn the_rest_of_a_request_is_not_sent_after_the_timeout() {
+    // The line accepts four bytes until the device reads.
+    let (line, mut far) = duplex(4);
+    let mut device = ModbusClient::new(Link::rtu(line, Slave(DEVICE), TIMEOUT));
+    assert!(matches!(device.write(SETPOINT, &[1, 0]).await, Err(Error::Timeout)));
+    let received = tokio::spawn(async move {
+        let mut bytes = Vec::new();
+        far.read_to_end(&mut bytes).await.map(|_| bytes)
+    });
+    assert!(matches!(device.write(SETPOINT, &[2, 0]).await, Err(Error::Timeout)));
+    drop(device);
+    let request = |value| frame(true, [0; 2], DEVICE, &[6, 0, 20, 0, value]);
+    let bytes = received.await.expect("the task ends").expect("the line is closed");
+    assert_eq!(bytes, [&request(1)[..4], &request(2)].concat());
+}
+
+#[tokio::test(start_paused = true)]
 async fn a_timeout_of_any_length_is_valid() {
     for is_rtu in [true, false] {
         let world = world();

@@ -132,6 +132,11 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
                 Err(_) => break,
             }
         }
+        if self.is_unsettled && self.is_rtu {
+            // A context keeps the unsent bytes of a request that timed out. Discard them, because the device would
+            // execute the old request. On TCP, a part of a request would confuse the device.
+            self.context = attach(self.line.clone(), self.device, self.is_rtu);
+        }
         self.is_unsettled = false;
         Ok(())
     }
