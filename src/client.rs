@@ -10,6 +10,56 @@ use crate::error::Error;
 ///
 /// Values have their least significant byte first, as in CANopen, on every bus. A client converts values if the bus
 /// uses another byte order.
+///
+/// # Example
+///
+/// ```
+/// use lexibus::{CanOpen, Client, Error, Flags, Initial, Item, Object, OnCanOpen, OutOfRange, Range, Ro, Rw};
+///
+/// // The compiler generates this for two objects of a drive:
+/// const TARGET_POSITION: Item<i32, Rw, OnCanOpen> = Item::new(
+///     OnCanOpen::canopen(0x607A, 0x00),
+///     "Target position",
+///     Range::Between(-200_000, 200_000),
+///     Initial::Value(0),
+///     "inc",
+///     Flags::RPDO,
+/// );
+/// const STATUSWORD: Item<u16, Ro, OnCanOpen> =
+///     Item::new(OnCanOpen::canopen(0x6041, 0x00), "Statusword", Range::Full, Initial::Unknown, "", Flags::TPDO);
+///
+/// // A bus library implements this trait. This example is a device that stores its last write:
+/// struct Echo([u8; 4]);
+///
+/// impl Client for Echo {
+///     type Bus = CanOpen;
+///     type Error = core::convert::Infallible;
+///
+///     fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>> {
+///         for (to, from) in buffer.iter_mut().zip(self.0) {
+///             *to = from;
+///         }
+///         Ok(buffer.len())
+///     }
+///
+///     fn write(&mut self, _: Object, data: &[u8]) -> Result<(), Error<Self::Error>> {
+///         for (to, from) in self.0.iter_mut().zip(data) {
+///             *to = *from;
+///         }
+///         Ok(())
+///     }
+/// }
+///
+/// let mut client = Echo([0; 4]);
+/// TARGET_POSITION.at(&mut client).write(100_000)?;
+/// assert_eq!(TARGET_POSITION.at(&mut client).read()?, 100_000);
+/// assert_eq!(STATUSWORD.at(&mut client).read()?, 0x86A0);
+///
+/// // 300,000 is outside the range of the item, so nothing is sent:
+/// let refused = TARGET_POSITION.at(&mut client).write(300_000);
+/// assert_eq!(refused, Err(Error::OutOfRange(OutOfRange)));
+/// # Ok::<(), Error<core::convert::Infallible>>(())
+/// ```
 pub trait Client {
     /// Bus of the device.
     type Bus: Bus;

@@ -9,53 +9,41 @@
 //!
 //! # Example
 //!
+//! The compiler generated the module `demo_drive` from the EDS of a drive. A simulated drive replaces the CAN bus here;
+//! with the feature `canopen`, `clients::canopen::Node` is the client of a real drive.
+//!
 //! ```
-//! use lexibus::{CanOpen, Client, Error, Flags, Initial, Item, Object, OnCanOpen, OutOfRange, Range, Ro, Rw};
+//! # #[cfg(feature = "std")] {
+//! # use lexibus_drives::demo_drive::{objects, types::{Controlword, Statusword}};
+//! # let mut device = lexibus::sim::Device::new(lexibus_drives::demo_drive::ENTRIES);
+//! # device.on_write(objects::CONTROLWORD, |device, controlword: Controlword| {
+//! #     let status = match controlword.raw() & 0x8F { 0x06 => 0x21, 0x07 => 0x23, 0x0F => 0x27, _ => 0x40 };
+//! #     device.set(objects::STATUSWORD, Statusword::from_raw(status))
+//! # })?;
+//! # device.set_initial(objects::STATUSWORD, Statusword::from_raw(0x08))?;
+//! # let client = device.client::<lexibus::CanOpen>();
+//! use std::time::Duration;
 //!
-//! // The compiler generates this for two objects of a drive:
-//! const TARGET_POSITION: Item<i32, Rw, OnCanOpen> = Item::new(
-//!     OnCanOpen::canopen(0x607A, 0x00),
-//!     "Target position",
-//!     Range::Between(-200_000, 200_000),
-//!     Initial::Value(0),
-//!     "inc",
-//!     Flags::RPDO,
-//! );
-//! const STATUSWORD: Item<u16, Ro, OnCanOpen> =
-//!     Item::new(OnCanOpen::canopen(0x6041, 0x00), "Statusword", Range::Full, Initial::Unknown, "", Flags::TPDO);
+//! use lexibus::Error;
+//! use lexibus_drives::demo_drive::types::{ModesOfOperation, State};
+//! use lexibus_drives::demo_drive::DemoDrive;
 //!
-//! // A bus library implements this trait. This example is a device that stores its last write:
-//! struct Echo([u8; 4]);
+//! let mut drive = DemoDrive::new(client);
+//! // Resets a fault if there is one, and enables the drive.
+//! drive.walk(State::OperationEnabled, Duration::from_secs(2)).unwrap();
+//! drive.modes_of_operation().write(ModesOfOperation::ProfilePosition).unwrap();
+//! drive.target_position().write(-4711).unwrap();
+//! let position = drive.position_actual_value().read().unwrap();
+//! # assert_eq!(position, 0);
 //!
-//! impl Client for Echo {
-//!     type Bus = CanOpen;
-//!     type Error = core::convert::Infallible;
-//!
-//!     fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>> {
-//!         for (to, from) in buffer.iter_mut().zip(self.0) {
-//!             *to = from;
-//!         }
-//!         Ok(buffer.len())
-//!     }
-//!
-//!     fn write(&mut self, _: Object, data: &[u8]) -> Result<(), Error<Self::Error>> {
-//!         for (to, from) in self.0.iter_mut().zip(data) {
-//!             *to = *from;
-//!         }
-//!         Ok(())
-//!     }
-//! }
-//!
-//! let mut client = Echo([0; 4]);
-//! TARGET_POSITION.at(&mut client).write(100_000)?;
-//! assert_eq!(TARGET_POSITION.at(&mut client).read()?, 100_000);
-//! assert_eq!(STATUSWORD.at(&mut client).read()?, 0x86A0);
-//!
-//! // 300,000 is outside the range of the item, so nothing is sent:
-//! let refused = TARGET_POSITION.at(&mut client).write(300_000);
-//! assert_eq!(refused, Err(Error::OutOfRange(OutOfRange)));
-//! # Ok::<(), Error<core::convert::Infallible>>(())
+//! // 600,000 is outside the range that the EDS declares, so nothing is sent:
+//! assert!(matches!(drive.profile_velocity().write(600_000), Err(Error::OutOfRange(_))));
+//! // drive.position_actual_value().write(0) does not compile, because the object is read-only.
+//! # }
+//! # Ok::<(), lexibus::AbortCode>(())
 //! ```
+//!
+//! The documentation of [`Client`] shows a client for another bus library.
 //!
 //! # Overview
 //!

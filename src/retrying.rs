@@ -10,7 +10,8 @@ use crate::error::Error;
 use crate::modbus::{AsyncRegisterClient, Limits, RegisterClient};
 
 /// Client that repeats an access after an error of the bus: [`Error::Timeout`], [`Error::UnexpectedReply`] or
-/// [`Error::Client`]. After any other error, the access isn't repeated, because the device replied.
+/// [`Error::Client`]. After any other error, the access isn't repeated, because the device replied. The exceptions of
+/// Modbus are [`Error::Client`] errors, too, so an access that a Modbus device refuses is repeated.
 ///
 /// Writes are not repeated by default: the device may have executed a write whose reply is lost. Don't use this client
 /// for reads that change the device, for example reads of a queue.

@@ -2,13 +2,12 @@
 //! process; no network interface is used.
 
 use std::cell::RefCell;
-use std::future::Future;
 use std::rc::Rc;
 use std::time::Duration;
 
 use ethercrab::error::{Error as BusError, MailboxError};
 use ethercrab::subdevice_group::{Op, PreOp};
-use ethercrab::{DefaultLock, MainDevice, MainDeviceConfig, PduStorage, SubDeviceGroup, SubDeviceState, Timeouts};
+use ethercrab::{DefaultLock, MainDevice, SubDeviceGroup, SubDeviceState};
 use lexibus::clients::ethercat::{is_a, Cycle, CycleError, Memory, Sdo};
 use lexibus::ethercat::{configure_async, Assignment, Device, Mailbox, StartupCommand, Transition};
 use lexibus::Emergency;
@@ -19,9 +18,12 @@ use lexibus::{
 
 #[path = "../examples/support/ethercat/mod.rs"]
 mod ethercat;
+#[path = "support/segment.rs"]
+mod segment;
 
 use ethercat::objects::Dictionary;
-use ethercat::{Segment, Servo, SubDevice};
+use ethercat::{Servo, SubDevice};
+use segment::with_segment;
 
 lexibus::dictionary! {
     /// The bindings of the demo servo.
@@ -32,34 +34,6 @@ use servo::types::{Controlword, ModesOfOperation, State};
 use servo::{image, objects, pdo, view, DemoServo};
 
 type Group<S = PreOp> = SubDeviceGroup<4, 64, DefaultLock, S>;
-
-/// Runs `work` concurrently with a simulated segment. The timeouts are long enough for a machine under load.
-fn with_segment<F: Future>(
-    subdevices: Vec<SubDevice>,
-    work: impl FnOnce(&'static MainDevice<'static>) -> F,
-) -> F::Output {
-    let storage: &'static PduStorage<8, 1100> = Box::leak(Box::new(PduStorage::new()));
-    let (tx, rx, pdu_loop) = storage.try_split().expect("a new storage");
-    let long = Duration::from_secs(60);
-    let timeouts = Timeouts {
-        state_transition: long,
-        pdu: long,
-        eeprom: long,
-        wait_loop_delay: Duration::ZERO,
-        mailbox_echo: long,
-        mailbox_response: long,
-    };
-    let config = MainDeviceConfig { dc_static_sync_iterations: 8, ..MainDeviceConfig::default() };
-    let maindevice = Box::leak(Box::new(MainDevice::new(pdu_loop, timeouts, config)));
-    let runtime = tokio::runtime::Builder::new_current_thread().build().expect("a runtime");
-    runtime.block_on(async {
-        let mut segment = Segment::new(subdevices);
-        tokio::select! {
-            ended = segment.run(tx, rx) => panic!("the segment ended: {ended:?}"),
-            done = work(maindevice) => done,
-        }
-    })
-}
 
 /// Returns a SubDevice and the servo in it, which a test can inspect.
 fn servo() -> (SubDevice, Rc<RefCell<Servo>>) {

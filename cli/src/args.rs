@@ -195,6 +195,9 @@ pub(super) struct Docs {
     /// Format of the pages.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = DocsFormat::Html)]
     pub format: DocsFormat,
+    /// Add a page with the changes between two descriptions. Can be given up to 20 times.
+    #[arg(long, num_args = 2, value_names = ["OLD", "NEW"])]
+    pub compare: Vec<PathBuf>,
     /// Write nothing, and fail if a page is missing or out of date.
     #[arg(long)]
     pub check: bool,

@@ -3,6 +3,8 @@
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
+use lexibus_codegen::compile::Compilation;
+use lexibus_codegen::ir::Catalog;
 use lexibus_codegen::output::write_if_changed;
 use lexibus_site::{Format, Page, Site};
 
@@ -26,8 +28,7 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     let names = Names::new(&inputs::sorted(&docs.inputs)?);
     // A second reading costs little, compared with writing the pages.
     inputs::each_by_path(&docs.inputs, &options, |input, compilation| {
-        let catalog = compilation.catalog.as_ref().filter(|_| compilation.is_usable());
-        catalog.into_iter().for_each(|catalog| site.announce(names.of(input), catalog));
+        usable(&compilation).into_iter().for_each(|catalog| site.announce(names.of(input), catalog));
         Ok(())
     })?;
     let mut written = HashSet::new();
@@ -46,6 +47,15 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
         put(&site.add_compilation(names.of(input), &compilation), &mut reporter);
         Ok(())
     })?;
+    for pair in pairs(&docs.compare)? {
+        let compilations = pair.map(|path| inputs::compile_file(path, &options));
+        let [Some(old), Some(new)] = compilations.each_ref().map(|compilation| usable(compilation)) else {
+            compilations.iter().try_for_each(|compilation| reporter.report(compilation))?;
+            continue;
+        };
+        let [old_name, new_name] = pair.map(stem);
+        put(&[site.compare((&old_name, old), (&new_name, new))], &mut reporter);
+    }
     put(&site.finish(), &mut reporter);
     for path in stale(&docs.out, &written) {
         let error = match docs.check {
@@ -57,12 +67,34 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     reporter.finish()
 }
 
+/// Maximum number of comparisons.
+const MAX_COMPARISONS: usize = 20;
+
+/// Returns the pairs of descriptions to compare.
+fn pairs(paths: &[PathBuf]) -> Result<impl Iterator<Item = [&Path; 2]>, Failure> {
+    if paths.len() > 2 * MAX_COMPARISONS {
+        return Err(Failure::Usage(format!("--compare can be given up to {MAX_COMPARISONS} times")));
+    }
+    Ok(paths.chunks(2).filter_map(|pair| match pair {
+        [old, new] => Some([old.as_path(), new.as_path()]),
+        _ => None,
+    }))
+}
+
+/// Returns the catalog of a description without errors.
+fn usable(compilation: &Compilation) -> Option<&Catalog> {
+    compilation.catalog.as_ref().filter(|_| compilation.is_usable())
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
 /// The names of the descriptions: file names without extension, or whole paths if several files have the same name.
 struct Names(HashMap<PathBuf, String>);
 
 impl Names {
     fn new(files: &[PathBuf]) -> Self {
-        let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let mut counts: HashMap<String, usize> = HashMap::new();
         files.iter().for_each(|path| *counts.entry(stem(path)).or_default() += 1);
         let name = |path: &PathBuf| match counts[&stem(path)] {

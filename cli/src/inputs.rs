@@ -100,7 +100,7 @@ fn in_order(
 }
 
 /// Compiles a file. If the file is unreadable, the result contains a diagnostic.
-fn compile_file(path: &Path, options: &Options) -> Compilation {
+pub(super) fn compile_file(path: &Path, options: &Options) -> Compilation {
     match Source::read(path) {
         Ok(source) => compile::check(source, options),
         Err(error) => {

@@ -634,6 +634,16 @@ fn pages_of_markdown() {
     assert_eq!(code(&call(&[])), 0);
     assert_eq!(code(&call(&["--check"])), 0);
     let summary = std::fs::read_to_string(out.join("SUMMARY.md")).expect("a summary");
+    // Pages with the changes between two descriptions, which the list of devices leads to.
+    assert_eq!(code(&call(&["--compare", DEMO, COUPLER])), 0);
+    let page = out.join("_compare/demo-drive-to-coupler-esi.md");
+    let changes = std::fs::read_to_string(&page).expect("a comparison");
+    let has = |text: &str| changes.contains(text);
+    assert!(has("# demo-drive → coupler.esi") && has("| breaks api, wire | device |"), "{changes}");
+    let first = std::fs::read_to_string(out.join("README.md")).expect("a list");
+    assert!(first.contains("(_compare/demo-drive-to-coupler-esi.md)"), "{first}");
+    assert_eq!(code(&call(&[])), 0);
+    assert!(!page.exists(), "comparisons that are not asked for are removed");
     assert!(
         summary.contains(
             "\n- [Demo Drive](lexibus/demo-drive-0x00004021/0x00010000/index.md)\n  - [Communication objects]"

@@ -77,6 +77,7 @@ use self::mailbox::{Mailbox, Sought};
 use self::protocol::{Answer, Command};
 use crate::bus::{CoE, Object};
 use crate::client::AsyncClient;
+use crate::clock::{DefaultClock, Timer};
 use crate::emergency::Emergency;
 use crate::error::Error;
 use crate::ethercat::StartupCommand;
@@ -99,16 +100,44 @@ pub fn is_a(subdevice: &SubDevice, identity: &Identity) -> bool {
 /// (ETG.1000.6 5.6.2).
 ///
 /// Run only one transfer with a SubDevice at a time, including those of `ethercrab`, because the SubDevice has only one
-/// mailbox. You can drop a transfer before it ends; the next transfer clears the mailbox.
+/// mailbox. You can drop a transfer before it ends.
+///
+/// # Late replies
+///
+/// A reply doesn't identify its request, except by the object. After a timeout, an unexpected reply or a dropped
+/// transfer, the next transfer first waits for the missing reply, for at most one timeout, and discards it. If a
+/// datagram with a reply is lost, the client requests the reply again.
+///
+/// # Pauses between polls
+///
+/// The client polls the mailbox until it contains the reply. `T` is the [`Timer`] that pauses between two polls, for
+/// half a millisecond. The default timer doesn't pause, because a timer depends on the executor. Without a pause, each
+/// poll takes one frame round trip:
+///
+/// ```no_run
+/// # use ethercrab::{MainDevice, SubDevice};
+/// # use lexibus::clients::ethercat::Sdo;
+/// # fn client(maindevice: &'static MainDevice<'static>, subdevice: &SubDevice) {
+/// let client = Sdo::new(maindevice, subdevice).with_timer(tokio::time::sleep); // or `embassy_time::Timer::after`
+/// # }
+/// ```
 #[derive(Debug)]
-pub struct Sdo<'m> {
-    mailbox: Mailbox<'m>,
+pub struct Sdo<'m, T = DefaultClock> {
+    mailbox: Mailbox<'m, T>,
 }
 
 impl<'m> Sdo<'m> {
     /// Creates the client for `subdevice`.
     pub fn new(maindevice: &'m MainDevice<'m>, subdevice: &SubDevice) -> Self {
         Self { mailbox: Mailbox::new(maindevice, subdevice.configured_address()) }
+    }
+}
+
+impl<'m, T: Timer> Sdo<'m, T> {
+    /// Returns the client with a timer, which pauses between two polls of the mailbox.
+    #[must_use]
+    pub fn with_timer<U: Timer>(self, timer: U) -> Sdo<'m, U> {
+        Sdo { mailbox: self.mailbox.with_timer(timer) }
     }
 
     /// Returns the client with another timeout for each mailbox exchange: a request and its reply. The default is
@@ -120,7 +149,8 @@ impl<'m> Sdo<'m> {
     }
 
     /// Returns the client with a clock: a function that returns the time since any fixed moment. Without the feature
-    /// `std` and without a clock, an exchange ends after 20,000 polls of the mailbox. Each poll takes one frame round
+    /// `std` and without a clock, an exchange ends when its pauses amount to the timeout. Without a clock and without a
+    /// [timer](Self::with_timer), an exchange ends after 20,000 polls of the mailbox. Each poll takes one frame round
     /// trip, typically 50 to 200 µs.
     #[must_use]
     pub fn with_clock(mut self, clock: fn() -> Duration) -> Self {
@@ -238,7 +268,7 @@ fn fill(buffer: &mut [u8], at: usize, data: &[u8]) -> usize {
     data.len()
 }
 
-impl AsyncClient for Sdo<'_> {
+impl<T: Timer> AsyncClient for Sdo<'_, T> {
     type Bus = CoE;
     type Error = BusError;
 

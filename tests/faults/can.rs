@@ -38,6 +38,8 @@ enum Fault {
     Foreign,
     /// A thousand frames of other nodes arrive before the reply.
     Noise,
+    /// Each reply arrives just before the timeout.
+    Slow,
 }
 
 struct Objects(HashMap<Object, Vec<u8>>);
@@ -87,6 +89,7 @@ impl Bus {
             Fault::Nothing => self.frames.push((soon, reply)),
             Fault::Late(delay) => self.frames.push((self.now + delay, reply)),
             Fault::Lost => {}
+            Fault::Slow => self.frames.push((self.now + TIMEOUT - Duration::from_millis(1), reply)),
             Fault::Duplicated => self.frames.extend([(soon, reply), (soon, reply)]),
             Fault::Truncated => self.frames.extend(CanFrame::new(reply.id(), &reply.data()[..4]).map(|it| (soon, it))),
             Fault::Noise => {
@@ -134,10 +137,15 @@ impl CanPort for Bus {
             };
             let (at, frame) = self.frames.remove(first);
             self.now = self.now.max(at);
+            let frame = frame.at(Some(self.now));
             if wanted(&frame) {
                 return Ok(Some(frame));
             }
         }
+    }
+
+    fn now(&mut self) -> Option<Duration> {
+        Some(self.now)
     }
 }
 
@@ -163,6 +171,10 @@ impl AsyncCanPort for AsyncBus {
             std::future::pending::<()>().await;
         }
         self.bus.receive(patience, wanted)
+    }
+
+    fn now(&mut self) -> Option<Duration> {
+        CanPort::now(&mut self.bus)
     }
 }
 
@@ -267,6 +279,53 @@ fn a_repeated_segment_isnt_data() {
     assert_eq!((Client::read(&mut node, TEXT, &mut buffer), &buffer[..]), (Ok(20), &text(8)[..]));
 }
 
+/// Length of a value that has 100 segments. Its transfer may take one timeout, plus one tenth of the timeout for each
+/// segment.
+const LONG: usize = 700;
+const LIMIT: Duration = Duration::from_millis(11 * 500);
+
+#[test]
+fn a_node_that_replies_just_in_time_doesnt_block_for_ever() {
+    let value = [7; LONG];
+    let mut node = node();
+    for writes in [false, true] {
+        node.port().objects.0.insert(TEXT, value.to_vec());
+        node.port().fault = Fault::Slow;
+        let (start, aborts) = (node.port().now, node.port().aborts);
+        let result = match writes {
+            false => Client::read(&mut node, TEXT, &mut [0; LONG]).map(|_| ()),
+            true => Client::write(&mut node, TEXT, &value),
+        };
+        assert_eq!((result, node.port().now - start), (Err(Error::Timeout), LIMIT));
+        assert_eq!(node.port().aborts - aborts, 1);
+        node.port().fault = Fault::Nothing;
+        node.port().count(8);
+        let mut buffer = [0; 20];
+        assert_eq!((Client::read(&mut node, TEXT, &mut buffer), &buffer[..]), (Ok(20), &text(8)[..]));
+    }
+}
+
+#[test]
+fn async_transfers_have_the_same_limit() {
+    let mut bus = Bus::new();
+    bus.objects.0.insert(TEXT, vec![7; LONG]);
+    bus.fault = Fault::Slow;
+    let bus = AsyncBus { bus, is_pending: false };
+    let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
+    assert_eq!(now(AsyncClient::read(&mut node, TEXT, &mut [0; LONG])), Err(Error::Timeout));
+    assert_eq!((node.port().bus.now, node.port().bus.aborts), (LIMIT, 1));
+}
+
+#[test]
+fn slow_segments_within_the_limit_are_right() {
+    let mut node = node();
+    node.port().objects.0.insert(TEXT, vec![7; LONG]);
+    node.port().fault = Fault::Late(TIMEOUT / 11);
+    let mut buffer = [0; LONG];
+    assert_eq!((Client::read(&mut node, TEXT, &mut buffer), buffer), (Ok(LONG), [7; LONG]));
+    assert_eq!(Client::write(&mut node, TEXT, &buffer), Ok(()));
+}
+
 #[test]
 fn a_dropped_transfer_is_aborted_and_the_next_one_is_right() {
     let bus = AsyncBus { bus: Bus::new(), is_pending: true };
@@ -336,6 +395,25 @@ fn the_latest_pdo_is_the_newest_one() {
     let mut node = Node::new(behind().into_port().into_inner().bus, NodeId::new(NODE).expect("a node-ID"));
     assert_eq!(node.latest_pdo(PDO).map(|pdo| pdo.map(sample)), Ok(Some(200)));
     assert_eq!(node.latest_pdo(PDO), Ok(None));
+}
+
+#[test]
+fn the_latest_pdo_has_the_time_at_which_it_was_taken_from_the_interface() {
+    let time = |pdo: Result<Option<CanFrame>, _>| pdo.expect("no fault").and_then(|pdo: CanFrame| pdo.time());
+    let mut node = behind();
+    let start = node.port().now();
+    assert_eq!(time(now(node.latest_pdo_async(PDO))), start, "the PDOs were in the queue of the interface");
+    // The PDO arrives 1 ms after SYNC, during an SDO transfer, and is kept in the buffer.
+    now(node.sync_async()).expect("it is sent");
+    now(AsyncClient::read(&mut node, TEXT, &mut [0; 20])).expect("a value");
+    let (arrival, after) = (start.map(|start| start + Duration::from_millis(1)), node.port().now());
+    assert!(arrival < after);
+    assert_eq!(time(now(node.latest_pdo_async(PDO))), arrival);
+    let bus = node.into_port().into_inner().bus;
+    let mut node = Node::new(Buffered::<_, 16>::new(bus), NodeId::new(NODE).expect("a node-ID"));
+    node.sync().expect("it is sent");
+    Client::read(&mut node, TEXT, &mut [0; 20]).expect("a value");
+    assert_eq!(time(node.latest_pdo(PDO)), after.map(|after| after + Duration::from_millis(1)));
 }
 
 /// Returns the rows for SDO transfers in the table of faults.

@@ -4,7 +4,22 @@
 mod now;
 
 mod can;
+#[cfg(all(feature = "ethercat", feature = "macros"))]
+mod coe;
+#[cfg(all(feature = "ethercat", feature = "macros"))]
+#[path = "../../examples/support/ethercat/mod.rs"]
+#[allow(dead_code, unused_imports)] // the application of the servo
+mod ethercat;
 mod matrix;
 mod modbus;
 mod random;
+#[cfg(all(feature = "ethercat", feature = "macros"))]
+#[path = "../support/segment.rs"]
+mod segment;
 mod serial;
+
+#[cfg(all(feature = "ethercat", feature = "macros"))]
+lexibus::dictionary! {
+    /// The bindings of the demo servo.
+    pub mod servo = "examples/support/servo.esi.xml" { table: true, strict: true }
+}

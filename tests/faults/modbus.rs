@@ -245,6 +245,39 @@ fn blocking_calls_after_a_late_reply() {
     }
 }
 
+#[tokio::test(start_paused = true)]
+async fn the_rest_of_a_request_is_not_sent_after_the_timeout() {
+    // The line accepts four bytes until the device reads.
+    let (line, mut far) = duplex(4);
+    let mut device = ModbusClient::new(Link::rtu(line, Slave(DEVICE), TIMEOUT));
+    assert!(matches!(device.write(SETPOINT, &[1, 0]).await, Err(Error::Timeout)));
+    let received = tokio::spawn(async move {
+        let mut bytes = Vec::new();
+        far.read_to_end(&mut bytes).await.map(|_| bytes)
+    });
+    assert!(matches!(device.write(SETPOINT, &[2, 0]).await, Err(Error::Timeout)));
+    drop(device);
+    let request = |value| frame(true, [0; 2], DEVICE, &[6, 0, 20, 0, value]);
+    let bytes = received.await.expect("the task ends").expect("the line is closed");
+    assert_eq!(bytes, [&request(1)[..4], &request(2)].concat());
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_timeout_of_any_length_is_valid() {
+    for is_rtu in [true, false] {
+        let world = world();
+        let (line, device) = duplex(0x1_0000);
+        tokio::spawn(serve(device, is_rtu, world.clone()));
+        let link = if is_rtu { Link::rtu } else { Link::tcp };
+        let mut device = ModbusClient::new(link(line, Slave(DEVICE), Duration::MAX));
+        request(&mut device, &world, 1, false).await.expect("the reply");
+        world.lock().unwrap().fault = Fault::Late(Duration::from_millis(100));
+        assert!(timeout(Duration::from_millis(20), request(&mut device, &world, 2, false)).await.is_err());
+        world.lock().unwrap().fault = Fault::Nothing;
+        request(&mut device, &world, 3, false).await.expect("the reply");
+    }
+}
+
 /// Shows why [`Link`] exists: without it, `tokio-modbus` keeps a late reply, and all later requests fail.
 #[tokio::test(start_paused = true)]
 async fn contexts_without_a_link_are_out_of_step() {

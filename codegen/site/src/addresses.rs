@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use super::anchor::slug;
 use lexibus_codegen::facts;
 use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{Catalog, Device};
@@ -113,7 +114,7 @@ fn folder_of_number(number: u32) -> String {
 
 /// Returns a folder name for a text: lowercase letters, digits and `-`. If the name does not contain all letters of the text, it
 /// ends with a checksum, so that different texts have different names.
-fn folder_name(text: &str) -> String {
+pub(super) fn folder_name(text: &str) -> String {
     let mut name = slug(text);
     let is_complete =
         name.len() <= LONGEST && text.chars().all(|letter| letter.is_ascii() || !letter.is_alphanumeric());
@@ -124,20 +125,6 @@ fn folder_name(text: &str) -> String {
     // FNV-1a.
     let checksum = text.bytes().fold(0x811C_9DC5_u32, |sum, byte| (sum ^ u32::from(byte)).wrapping_mul(0x0100_0193));
     format!("{}{}{checksum:08x}", name.trim_end_matches('-'), if name.is_empty() { "" } else { "-" })
-}
-
-/// Returns a text as lowercase letters, digits and `-`.
-pub(super) fn slug(text: &str) -> String {
-    let mut name = String::new();
-    for letter in text.chars().flat_map(char::to_lowercase) {
-        match letter {
-            'a'..='z' | '0'..='9' => name.push(letter),
-            _ if name.ends_with('-') || name.is_empty() => {}
-            _ => name.push('-'),
-        }
-    }
-    name.truncate(name.trim_end_matches('-').len());
-    name
 }
 
 #[cfg(test)]

@@ -23,14 +23,7 @@ impl Names {
 
     /// Returns a file name for `text`. The name consists of lowercase letters, digits and `-`.
     pub fn file(&mut self, text: &str) -> String {
-        let mut name = String::new();
-        for letter in text.chars().flat_map(char::to_lowercase) {
-            match letter {
-                'a'..='z' | '0'..='9' => name.push(letter),
-                _ if name.ends_with('-') || name.is_empty() => {}
-                _ => name.push('-'),
-            }
-        }
+        let mut name = slug(text);
         name.truncate(LONGEST);
         let name = name.trim_end_matches('-');
         self.once(if name.is_empty() { "device" } else { name }, '-')
@@ -48,6 +41,20 @@ impl Names {
     fn once(&mut self, name: &str, separator: char) -> String {
         self.given.unique(name, |number| format_compact!("{name}{separator}{number}")).into_string()
     }
+}
+
+/// Returns a text as lowercase letters, digits and `-`.
+pub(super) fn slug(text: &str) -> String {
+    let mut name = String::new();
+    for letter in text.chars().flat_map(char::to_lowercase) {
+        match letter {
+            'a'..='z' | '0'..='9' => name.push(letter),
+            _ if name.ends_with('-') || name.is_empty() => {}
+            _ => name.push('-'),
+        }
+    }
+    name.truncate(name.trim_end_matches('-').len());
+    name
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ use super::overview::{Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages};
 use super::process::{ProcessPart, SyncManager};
 use super::protocol::Protocol;
-use super::revisions::Revision;
+use super::revisions::Comparison;
 use super::Page;
 
 /// The style sheet of the pages.
@@ -57,7 +57,7 @@ templates! {
     ModulesPage = "modules.html" { modules: &'p [ModuleModel], grids: &'p Grids }
     AssumptionsPage = "assumptions.html" { ranked: &'p [Ranked<'p>] }
     DiagnosticsPage = "diagnostics.html" { groups: &'p [DiagnosticGroup<'p>] }
-    ChangesPage = "changes.html" { revision: &'p Revision<'p> }
+    ChangesPage = "changes.html" { comparison: &'p Comparison }
     ListPage = "list.html" { devices: &'p [Listed] }
 }
 
@@ -183,7 +183,7 @@ impl Pages for Html {
             }
             Content::Assumptions(ranked) => written(&AssumptionsPage { frame, file, ranked }),
             Content::Diagnostics(groups) => written(&DiagnosticsPage { frame, file, groups }),
-            Content::Changes(revision) => written(&ChangesPage { frame, file, revision }),
+            Content::Changes(comparison) => written(&ChangesPage { frame, file, comparison }),
             Content::List(devices) => written(&ListPage { frame, file, devices }),
         }
     }
@@ -196,7 +196,7 @@ impl Pages for Html {
         vec![Page::new("search.js", search())]
     }
 
-    fn of_site(&self, _: &[ListedCatalog], search: Option<&dyn Fn() -> String>) -> Vec<Page> {
+    fn of_site(&self, _: &[ListedCatalog], _: &[(String, String)], search: Option<&dyn Fn() -> String>) -> Vec<Page> {
         let files = [("site.css", STYLE), ("site.js", SCRIPT), ("latest.js", LATEST)];
         let mut pages: Vec<Page> = files.iter().map(|(path, text)| Page::new(path, (*text).to_owned())).collect();
         pages.extend(search.map(|search| Page::new("search.js", search())));

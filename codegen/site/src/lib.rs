@@ -55,14 +55,17 @@ mod split;
 mod tools;
 mod words;
 
+use std::rc::Rc;
+
 use addresses::Addresses;
 use diagnostics::ShownDiagnostics;
 use folder::Folder;
 pub use format::Format;
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::ir::Catalog;
+use links::Links;
 use pages::{Content, Frameset, Listed, ListedCatalog};
-use revisions::Revisions;
+use revisions::{Comparison, Revisions};
 use search::Index;
 
 /// A file of the documentation.
@@ -104,6 +107,8 @@ pub struct Site {
     revisions: Revisions,
     index: Index,
     catalogs: Vec<ListedCatalog>,
+    /// Paths and titles of the comparisons that the user chose.
+    comparisons: Vec<(String, String)>,
 }
 
 impl Site {
@@ -148,6 +153,17 @@ impl Site {
         pages
     }
 
+    /// Returns a page with the changes between two descriptions, each with its name. The list of devices leads to this page.
+    pub fn compare(&mut self, old: (&str, &Catalog), new: (&str, &Catalog)) -> Page {
+        let format = self.format.pages();
+        let comparison = Comparison::of_catalogs(old, new);
+        let name = format!("{} to {}", old.0, new.0);
+        let path = format!("_compare/{}{}", addresses::folder_name(&name), format.ending());
+        self.comparisons.push((path.clone(), comparison.title.clone()));
+        let frame = Frameset { title: "Devices".to_owned(), root: "..", ..Frameset::default() };
+        Page { text: format.page(&frame, &path, Content::Changes(&comparison)), path }
+    }
+
     /// Returns the pages that all catalogs share: the list of devices and the support files of the format.
     pub fn finish(self) -> Vec<Page> {
         let format = self.format.pages();
@@ -160,12 +176,13 @@ impl Site {
             [only] => only.first.rsplit_once('/').map(|(folder, _)| format!("{folder}/")).unwrap_or_default(),
             _ => String::new(),
         };
-        let frame = Frameset { title: "Devices".to_owned(), root: ".", index, ..Frameset::default() };
+        let shared = Rc::new(Links::new(self.comparisons.clone(), 0..0));
+        let frame = Frameset { title: "Devices".to_owned(), root: ".", index, shared, ..Frameset::default() };
         let list = format.page(&frame, &file, Content::List(&devices));
         let script = || self.index.script();
         let search: Option<&dyn Fn() -> String> = if frame.index.is_empty() { Some(&script) } else { None };
         let mut pages = vec![Page { path: file, text: list }];
-        pages.extend(format.of_site(&self.catalogs, search));
+        pages.extend(format.of_site(&self.catalogs, &self.comparisons, search));
         pages.extend(latest::pages(&devices, format));
         pages
     }

@@ -17,7 +17,7 @@ use super::overview::{Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST};
 use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
-use super::revisions::Revision;
+use super::revisions::Comparison;
 use super::Page;
 use lexibus_codegen::facts::markdown;
 
@@ -63,9 +63,9 @@ templates! {
     ModulesPage = "markdown/modules.md" { modules: &'p [ModuleModel] }
     AssumptionsPage = "markdown/assumptions.md" { ranked: &'p [Ranked<'p>] }
     DiagnosticsPage = "markdown/diagnostics.md" { groups: &'p [DiagnosticGroup<'p>] }
-    ChangesPage = "markdown/changes.md" { revision: &'p Revision<'p> }
+    ChangesPage = "markdown/changes.md" { comparison: &'p Comparison }
     ListPage = "markdown/list.md" { title: &'p str, root: &'p str, devices: &'p [Listed], links: PageLinks<'p> }
-    SummaryPage = "markdown/summary.md" { catalogs: &'p [ListedCatalog] }
+    SummaryPage = "markdown/summary.md" { catalogs: &'p [ListedCatalog], comparisons: &'p [(String, String)] }
 }
 
 /// Renders a template and reduces consecutive empty lines to one. Rendering cannot fail because the templates contain
@@ -117,7 +117,7 @@ impl Pages for Markdown {
             Content::Modules(modules) => written(&ModulesPage { modules }),
             Content::Assumptions(ranked) => written(&AssumptionsPage { ranked }),
             Content::Diagnostics(groups) => written(&DiagnosticsPage { groups }),
-            Content::Changes(revision) => written(&ChangesPage { revision }),
+            Content::Changes(comparison) => written(&ChangesPage { comparison }),
             Content::List(devices) => written(&ListPage { title, root: frame.root, devices, links: &links }),
         }
     }
@@ -130,8 +130,13 @@ impl Pages for Markdown {
         Vec::new()
     }
 
-    fn of_site(&self, catalogs: &[ListedCatalog], _: Option<&dyn Fn() -> String>) -> Vec<Page> {
-        vec![Page::new("SUMMARY.md", written(&SummaryPage { catalogs }))]
+    fn of_site(
+        &self,
+        catalogs: &[ListedCatalog],
+        comparisons: &[(String, String)],
+        _: Option<&dyn Fn() -> String>,
+    ) -> Vec<Page> {
+        vec![Page::new("SUMMARY.md", written(&SummaryPage { catalogs, comparisons }))]
     }
 }
 

@@ -13,7 +13,7 @@ use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
 use super::process::{ProcessPart, SyncManager};
 use super::protocol::Protocol;
-use super::revisions::Revision;
+use super::revisions::Comparison;
 use super::Page;
 use lexibus_codegen::facts;
 use lexibus_codegen::facts::number::hex32;
@@ -181,7 +181,7 @@ pub(super) enum Content<'p> {
     Modules(&'p [ModuleModel]),
     Assumptions(&'p [Ranked<'p>]),
     Diagnostics(&'p [DiagnosticGroup<'p>]),
-    Changes(&'p Revision<'p>),
+    Changes(&'p Comparison),
     /// A list of devices, in a catalog or in the site.
     List(&'p [Listed]),
 }
@@ -201,7 +201,12 @@ pub(super) trait Pages {
 
     /// Returns the files that the pages of one catalog share.
     fn of_catalog(&self, search: &dyn Fn() -> String) -> Vec<Page>;
-    /// Returns the files that all pages share. `search` returns the search index of all catalogs if there are several
+    /// Returns the files that all pages share. `comparisons` are the paths and titles of comparisons. `search` returns the search index of all catalogs if there are several
     /// catalogs.
-    fn of_site(&self, catalogs: &[ListedCatalog], search: Option<&dyn Fn() -> String>) -> Vec<Page>;
+    fn of_site(
+        &self,
+        catalogs: &[ListedCatalog],
+        comparisons: &[PageLink],
+        search: Option<&dyn Fn() -> String>,
+    ) -> Vec<Page>;
 }

@@ -1,10 +1,11 @@
-//! Changes between adjacent revisions of a device. Both revisions can be in one description or in two.
+//! Changes between adjacent revisions of a device, which can be in one description or in two, and between descriptions that the
+//! user chooses.
 
 use std::collections::HashSet;
 use std::rc::Rc;
 
 use super::addresses::{Addresses, DeviceKey};
-use super::compare::{compare_devices, Change, Summary};
+use super::compare::{compare, compare_devices, Change, Summary};
 use super::pages::{Content, Frameset, Pages};
 use super::Page;
 use lexibus_codegen::facts::number::hex32;
@@ -31,12 +32,24 @@ impl Previous {
     }
 }
 
-/// The changes from one revision of a device to the next, as a page shows them.
+/// The changes from one revision or description to another, as a page shows them.
 #[derive(Debug)]
-pub(super) struct Revision<'p> {
-    pub of: &'p Previous,
+pub(super) struct Comparison {
+    pub title: String,
+    /// Names of both sides.
+    pub old: String,
+    pub new: String,
     pub changes: Vec<Change>,
     pub summary: Summary,
+}
+
+impl Comparison {
+    /// Compares two descriptions.
+    pub fn of_catalogs(old: (&str, &Catalog), new: (&str, &Catalog)) -> Self {
+        let changes = compare(old.1, new.1);
+        let (old, new) = (old.0.to_owned(), new.0.to_owned());
+        Comparison { title: format!("{old} → {new}"), old, new, summary: Summary::of(&changes), changes }
+    }
 }
 
 /// A page of changes that is written when both descriptions are known.
@@ -92,8 +105,10 @@ impl Revisions {
 impl Changes {
     fn page(&self, format: &dyn Pages, old: (&Catalog, &Device), new: (&Catalog, &Device)) -> Page {
         let changes = compare_devices(old, new);
-        let revision = Revision { of: &self.previous, summary: Summary::of(&changes), changes };
-        let text = format.page(&self.frame, &self.file, Content::Changes(&revision));
+        let (old, new) = (format!("Revision {}", self.previous.old), self.previous.new.clone());
+        let title = self.previous.title();
+        let comparison = Comparison { title, old, new, summary: Summary::of(&changes), changes };
+        let text = format.page(&self.frame, &self.file, Content::Changes(&comparison));
         Page { path: format!("{}/{}", self.folder, self.file), text }
     }
 }

@@ -49,6 +49,14 @@ pub fn wire_address(address: u16) -> String {
     }
 }
 
+/// Returns the CRC of a Modbus RTU frame (MODBUS over Serial Line V1.02, 6.2.2).
+pub fn crc(bytes: &[u8]) -> u16 {
+    bytes.iter().fold(0xFFFF, |crc, byte| {
+        let crc = crc ^ u16::from(*byte);
+        (0..8).fold(crc, |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xA001 } else { crc >> 1 })
+    })
+}
+
 /// Returns addresses with facts: `40102–40103 (holding; wire address 101–102; FC 3/16; low word first)`. `tables`
 /// contains the function codes that the device accepts.
 pub fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> String {

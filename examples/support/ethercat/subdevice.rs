@@ -26,6 +26,10 @@ const INVALID_MAILBOX: u16 = 0x0016;
 const INVALID_OUTPUTS: u16 = 0x001D;
 const INVALID_INPUTS: u16 = 0x001E;
 
+/// Filter for the messages to the master, which simulates faults. The firmware calls the filter after each frame, with
+/// its new message if there is one. The filter returns the messages to send now.
+pub type Filter = Box<dyn FnMut(Option<Vec<u8>>) -> Vec<Vec<u8>>>;
+
 /// A simulated SubDevice.
 pub struct SubDevice {
     pub(super) controller: Controller,
@@ -35,6 +39,7 @@ pub struct SubDevice {
     server: Server,
     /// Messages to the master that wait for an empty mailbox.
     messages: VecDeque<Vec<u8>>,
+    filter: Option<Filter>,
     state: u8,
 }
 
@@ -48,8 +53,15 @@ impl SubDevice {
             pdos: Pdos::new(device),
             server: Server::default(),
             messages: VecDeque::new(),
+            filter: None,
             state: INIT,
         }
+    }
+
+    /// Returns the device with a filter for its messages.
+    #[allow(dead_code)]
+    pub fn with_filter(self, filter: Filter) -> Self {
+        Self { filter: Some(filter), ..self }
     }
 
     /// Returns the number of mailbox reads whose replies will be lost. Set the number to simulate lost replies. A read
@@ -138,7 +150,10 @@ impl SubDevice {
         for emergency in self.objects.emergencies() {
             self.messages.push_back(self.server.emergency(emergency));
         }
-        self.messages.extend(answer);
+        match &mut self.filter {
+            Some(filter) => self.messages.extend(filter(answer)),
+            None => self.messages.extend(answer),
+        }
         if let Some(message) = self.messages.pop_front() {
             if !self.controller.put(&back, &message) {
                 self.messages.push_front(message);

@@ -121,6 +121,10 @@ macro_rules! buffered {
                 let kept = &mut self.kept;
                 self.port.receive(patience, &mut |frame| kept.check(frame, wanted))$(.$await)?
             }
+
+            fn now(&mut self) -> Option<Duration> {
+                self.port.now()
+            }
         }
     };
 }

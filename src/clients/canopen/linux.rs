@@ -7,6 +7,7 @@ use socketcan::{CanError, CanSocket, Error, Socket};
 
 use super::frame::CanFrame;
 use super::port::{CanPort, BACKLOG};
+use crate::clock::{Clock, DefaultClock};
 
 impl CanPort for CanSocket {
     type Error = Error;
@@ -43,7 +44,7 @@ impl CanPort for CanSocket {
             let left = end.map_or(patience, |end| end.saturating_duration_since(Instant::now()));
             match self.read_frame_timeout(left) {
                 Ok(frame) => {
-                    if let Some(found) = from_socket(&frame)?.filter(|found| wanted(found)) {
+                    if let Some(found) = received(&frame)?.filter(|found| wanted(found)) {
                         return Ok(Some(found));
                     }
                     waiting -= usize::from(left.is_zero());
@@ -71,7 +72,7 @@ pub(super) fn is_full(error: &io::Error) -> bool {
 ///
 /// Returns the error in an error frame. The interface itself generates error frames, and the socket receives only those
 /// that match its error filter.
-pub(super) fn from_socket(frame: &socketcan::CanFrame) -> Result<Option<CanFrame>, CanError> {
+fn from_socket(frame: &socketcan::CanFrame) -> Result<Option<CanFrame>, CanError> {
     match frame {
         socketcan::CanFrame::Data(_) => Ok(CanFrame::from_frame(frame)),
         socketcan::CanFrame::Remote(_) => Ok(None),
@@ -79,6 +80,11 @@ pub(super) fn from_socket(frame: &socketcan::CanFrame) -> Result<Option<CanFrame
         socketcan::CanFrame::Error(error) if error.error_bits() & BUS_OFF != 0 => Err(CanError::BusOff),
         socketcan::CanFrame::Error(error) => Err(CanError::from(*error)),
     }
+}
+
+/// Converts a frame as [`from_socket`] does, and sets its time.
+pub(super) fn received(frame: &socketcan::CanFrame) -> Result<Option<CanFrame>, CanError> {
+    Ok(from_socket(frame)?.map(|frame| frame.at(DefaultClock.now())))
 }
 
 /// Bit of an error frame that reports bus-off.
@@ -105,5 +111,7 @@ mod tests {
         assert!(matches!(from_socket(&error(0x020)), Err(CanError::NoAck)));
         let remote = SocketFrame::new_remote(id, 2).expect("a request");
         assert_eq!(from_socket(&remote).ok(), Some(None));
+        let time = received(&data).ok().flatten().and_then(|frame| frame.time());
+        assert!(time.is_some_and(|time| Some(time) <= DefaultClock.now()));
     }
 }

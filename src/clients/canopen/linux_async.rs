@@ -8,7 +8,7 @@ use socketcan::{CanFrame as SocketFrame, Error};
 use tokio::time::{sleep, timeout, Instant};
 
 use super::frame::CanFrame;
-use super::linux::{from_socket, is_full, PAUSE};
+use super::linux::{is_full, received as frame_of, PAUSE};
 use super::port::{AsyncCanPort, BACKLOG};
 
 impl AsyncCanPort for CanSocket {
@@ -46,7 +46,7 @@ impl AsyncCanPort for CanSocket {
             };
             match received {
                 Ok(frame) => {
-                    if let Some(found) = from_socket(&frame?)?.filter(|found| wanted(found)) {
+                    if let Some(found) = frame_of(&frame?)?.filter(|found| wanted(found)) {
                         return Ok(Some(found));
                     }
                     waiting -= usize::from(left.is_zero());

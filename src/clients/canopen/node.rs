@@ -26,6 +26,14 @@ pub const TIMEOUT: Duration = Duration::from_millis(500);
 /// still arrive. The next transfer therefore waits for the late reply, for at most one more timeout, and discards it.
 /// After an async transfer that was dropped, the next transfer sends the abort first. Therefore, a transfer after a
 /// timeout takes up to one timeout longer. Replies to other requests don't prolong a transfer.
+///
+/// # Duration of a transfer
+///
+/// Each reply must arrive within the timeout. In addition, a transfer as a whole ends after one timeout, plus one tenth
+/// of the timeout for each segment of 7 bytes. For an upload without an announced length, the received segments count.
+/// For example, a value of 70 bytes takes at most two timeouts, even if the node sends each segment just before the
+/// timeout of a reply. If the limit is exceeded, the client aborts the transfer and returns [`Error::Timeout`]. The
+/// client measures this time with [`CanPort::now`]. Without a clock, only the timeout of each reply applies.
 #[derive(Clone, Debug)]
 pub struct Node<P> {
     port: P,
@@ -67,7 +75,7 @@ impl<P> Node<P> {
     }
 }
 
-fn sent<E>(is_sent: bool) -> Result<(), Error<E>> {
+pub(super) fn sent<E>(is_sent: bool) -> Result<(), Error<E>> {
     if is_sent {
         Ok(())
     } else {
@@ -211,25 +219,22 @@ macro_rules! methods {
             /// Returns the newest PDO with this COB-ID that has arrived since the last call, without waiting. Discards
             /// older PDOs, including those in the receive queue of the interface. Returns `None` if no PDO has arrived.
             ///
-            /// A control loop that calls this method in each cycle never uses a PDO that is older than one cycle. If
-            /// several cycles return `None`, the node no longer sends the PDO:
+            /// The [time](CanFrame::time) of the frame is the time at which it was taken from the interface. A PDO that
+            /// a [`Buffered`](super::Buffered) interface kept during an SDO transfer has the time of its arrival. A PDO
+            /// in the receive queue of the interface has the time of this call. A control loop that calls this method
+            /// in each cycle therefore knows the age of its data with an error of at most one cycle:
             ///
             /// ```
-            /// # use lexibus::clients::canopen::{CanPort, Node};
+            /// # use lexibus::clients::canopen::{CanFrame, CanPort, Node};
             /// # use lexibus::{CobId, Error};
-            /// # use std::time::{Duration, Instant};
+            /// # use std::time::Duration;
             /// const STATUS: CobId = CobId::from_node(0x180);
             ///
-            /// fn cycle<P: CanPort>(node: &mut Node<P>, last: &mut Instant) -> Result<(), Error<P::Error>> {
-            ///     match node.latest_pdo(STATUS)? {
-            ///         Some(pdo) => {
-            ///             *last = Instant::now();
-            ///             println!("{:?}", pdo.data());
-            ///         }
-            ///         None if last.elapsed() > Duration::from_millis(20) => return Err(Error::Timeout),
-            ///         None => {}
-            ///     }
-            ///     Ok(())
+            /// /// Returns the newest data, which are at most 20 ms old.
+            /// fn status<P: CanPort>(node: &mut Node<P>, last: &mut CanFrame) -> Result<CanFrame, Error<P::Error>> {
+            ///     *last = node.latest_pdo(STATUS)?.unwrap_or(*last);
+            ///     let age = node.port().now().zip(last.time()).map(|(now, time)| now.saturating_sub(time));
+            ///     if age.is_some_and(|age| age <= Duration::from_millis(20)) { Ok(*last) } else { Err(Error::Timeout) }
             /// }
             /// ```
             ///

@@ -51,10 +51,13 @@ impl<C: embedded_can::nb::Can, T: FnMut() -> Duration> CanPort for Polled<C, T> 
         let end = (self.clock)().saturating_add(patience);
         let mut waiting = BACKLOG;
         while waiting > 0 {
-            let is_late = (self.clock)() >= end;
+            let now = (self.clock)();
+            let is_late = now >= end;
             match self.can.receive() {
                 Ok(frame) => {
-                    if let Some(found) = CanFrame::from_frame(&frame).filter(|found| wanted(found)) {
+                    if let Some(found) =
+                        CanFrame::from_frame(&frame).map(|found| found.at(Some(now))).filter(|found| wanted(found))
+                    {
                         return Ok(Some(found));
                     }
                     waiting -= usize::from(is_late);
@@ -65,6 +68,10 @@ impl<C: embedded_can::nb::Can, T: FnMut() -> Duration> CanPort for Polled<C, T> 
             }
         }
         Ok(None)
+    }
+
+    fn now(&mut self) -> Option<Duration> {
+        Some((self.clock)())
     }
 }
 

@@ -3,6 +3,7 @@
 use core::time::Duration;
 
 use super::frame::CanFrame;
+use crate::clock::{Clock, DefaultClock};
 
 /// Maximum number of frames that are read from an interface after the timeout. Frames that have already arrived are
 /// therefore found even with a timeout of zero, and a busy bus doesn't block the caller forever.
@@ -72,6 +73,13 @@ pub trait CanPort {
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, Self::Error>;
+
+    /// Returns the time since a fixed moment, or `None` if the port has no clock. The port sets this time in received
+    /// frames with [`CanFrame::at`], and a [`Node`](super::Node) limits the duration of a transfer with it. The default
+    /// implementation uses the [`DefaultClock`].
+    fn now(&mut self) -> Option<Duration> {
+        DefaultClock.now()
+    }
 }
 
 /// Non-blocking CAN interface with timeouts, under the same rules as [`CanPort`].
@@ -97,6 +105,11 @@ pub trait AsyncCanPort {
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, Self::Error>;
+
+    /// Returns the time since a fixed moment, as [`CanPort::now`] does.
+    fn now(&mut self) -> Option<Duration> {
+        DefaultClock.now()
+    }
 }
 
 macro_rules! borrowed {
@@ -114,6 +127,10 @@ macro_rules! borrowed {
                 wanted: &mut dyn FnMut(&CanFrame) -> bool,
             ) -> Result<Option<CanFrame>, P::Error> {
                 P::receive(self, patience, wanted)$(.$await)?
+            }
+
+            fn now(&mut self) -> Option<Duration> {
+                P::now(self)
             }
         }
     };

@@ -5,7 +5,7 @@ use core::time::Duration;
 use canopen_sdo::{SdoAbortCode, SdoClient, SdoConfig, SdoError, SdoFrame, SdoOutcome};
 
 use super::frame::CanFrame;
-use super::node::Node;
+use super::node::{sent, Node};
 use super::port::{AsyncCanPort, CanPort, BACKLOG};
 use crate::abort::AbortCode;
 use crate::bus::{CanOpen, Object};
@@ -20,6 +20,18 @@ const DOWNLOAD_SEGMENT: u8 = 1;
 const UPLOAD: u8 = 2;
 const DOWNLOAD: u8 = 3;
 const ABORT: u8 = 4;
+
+/// Length of the data in a segment in bytes.
+const SEGMENT: usize = 7;
+
+/// The timeout divided by this number is the time by which each segment prolongs a transfer.
+const SEGMENTS_PER_TIMEOUT: u32 = 10;
+
+/// Returns the maximum duration of a transfer of `length` bytes.
+fn limit(timeout: Duration, length: usize) -> Duration {
+    let segments = u32::try_from(length.div_ceil(SEGMENT)).unwrap_or(u32::MAX);
+    timeout.saturating_add((timeout / SEGMENTS_PER_TIMEOUT).saturating_mul(segments))
+}
 
 /// The expected reply to a request: a reply with this command specifier, or an abort for the same object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,6 +94,11 @@ struct Transfer {
     expected: Expected,
     /// Size of the caller's buffer in bytes.
     room: usize,
+    /// Length of the value in bytes, as far as it is known. An upload without an announced length has the length of the
+    /// received segments.
+    length: usize,
+    /// Time of the first request.
+    start: Option<Duration>,
     /// Number of received bytes of a segmented upload.
     received: Option<usize>,
     /// True if the reply contains the whole value but no length.
@@ -110,6 +127,8 @@ impl Transfer {
             client,
             expected: Expected { answers: SdoFrame::tsdo_id(node.get()), object, specifier },
             room,
+            length: 0,
+            start: None,
             received: None,
             is_unsized: false,
             next: None,
@@ -130,7 +149,7 @@ impl Transfer {
             // An SDO transfer cannot have the length 0.
             return Err(Error::Length(LengthError::new(1, 0)));
         }
-        let mut transfer = Self::new(node, object, DOWNLOAD, data.len());
+        let mut transfer = Self { length: data.len(), ..Self::new(node, object, DOWNLOAD, data.len()) };
         let begun = transfer.client.begin_download(node.get(), object.index, object.sub_index, data, 0);
         begun.map_err(|_| Error::UnexpectedReply)?;
         Ok(transfer)
@@ -140,6 +159,15 @@ impl Transfer {
     fn request(&mut self) -> Option<CanFrame> {
         let frame = self.next.take().or_else(|| self.client.poll_transmit())?;
         CanFrame::new(frame.cob_id, &frame.data)
+    }
+
+    /// Returns how long to wait for the bus or the next reply: at most `timeout`, and at most until the transfer exceeds
+    /// its limit. The message that aborts a transfer always has the whole timeout.
+    fn patience(&self, now: Option<Duration>, timeout: Duration) -> Duration {
+        match self.start.zip(now).filter(|_| self.outcome.is_none()) {
+            Some((start, now)) => limit(timeout, self.length).saturating_sub(now.saturating_sub(start)).min(timeout),
+            None => timeout,
+        }
     }
 
     /// Returns the reply that the node still has to send after this request.
@@ -208,12 +236,13 @@ impl Transfer {
             }
             // This is a segment of seven bytes. Bits 1 to 3 contain the number of unused bytes.
             (UPLOAD_SEGMENT, Some(received)) => {
-                let received = received + 7 - usize::from(command >> 1 & 7);
+                let received = received + SEGMENT - usize::from(command >> 1 & 7);
                 self.received = Some(received);
                 received
             }
             _ => 0,
         };
+        self.length = self.length.max(length);
         Some(length).filter(|length| *length > self.room)
     }
 
@@ -279,10 +308,13 @@ macro_rules! transfers {
             $($async)? fn $run(&mut self, mut transfer: Transfer) -> Result<Done, Error<P::Error>> {
                 let timeout = self.timeout();
                 self.$settle(transfer.expected.answers)$(.$await)??;
+                transfer.start = self.port().now();
                 loop {
                     while let Some(frame) = transfer.request() {
                         self.owed = transfer.owed(&frame);
-                        if let Err(error) = self.$send(&frame)$(.$await)? {
+                        let patience = transfer.patience(self.port().now(), timeout);
+                        let is_sent = self.port().send(&frame, patience)$(.$await)?;
+                        if let Err(error) = is_sent.map_err(Error::Client).and_then(sent) {
                             // A node that did not receive the first request of a transfer does not reply.
                             self.owed = self.owed.filter(|owed| owed.reply.is_segment());
                             return Err(error);
@@ -291,8 +323,8 @@ macro_rules! transfers {
                     if let Some(end) = transfer.end() {
                         return end;
                     }
-                    let expected = transfer.expected;
-                    match self.port().receive(timeout, &mut |frame| expected.is(frame))$(.$await)? {
+                    let (expected, patience) = (transfer.expected, transfer.patience(self.port().now(), timeout));
+                    match self.port().receive(patience, &mut |frame| expected.is(frame))$(.$await)? {
                         Ok(answer) => {
                             self.owed = None;
                             transfer.answer(answer);

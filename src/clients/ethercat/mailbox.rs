@@ -1,5 +1,6 @@
 //! Mailbox of a SubDevice: sends one message and receives one message (ETG.1000.4 6.7, ETG.1000.6 5.3).
 
+use core::future::pending;
 use core::ops::Deref;
 use core::time::Duration;
 
@@ -9,7 +10,7 @@ use ethercrab::{Command, EtherCrabWireWrite, MainDevice, RegisterAddress};
 use super::protocol::{Answer, Request, SMALLEST};
 use super::TIMEOUT;
 use crate::bus::Object;
-use crate::clock::{Clock, DefaultClock};
+use crate::clock::{Clock, DefaultClock, Timer};
 use crate::emergency::Emergency;
 use crate::error::Error;
 
@@ -34,36 +35,49 @@ const REPEAT: u8 = 0x02;
 /// Maximum number of repeat requests for one message.
 const MOST_REPEATS: u32 = 3;
 
-/// Maximum number of polls in an exchange without a clock.
+/// Maximum number of polls in an exchange without a clock and without pauses.
 const POLLS: u32 = 20_000;
 
-/// Limit of an exchange: its end time, or the number of remaining polls.
-struct Deadline {
+/// Pause between two polls of a mailbox.
+const PAUSE: Duration = Duration::from_micros(500);
+
+/// Limit of an exchange: its end time, or the number of remaining polls. The timer pauses between polls.
+struct Deadline<'t, T> {
+    timer: &'t mut T,
     clock: Option<fn() -> Duration>,
     end: Option<Duration>,
     polls: u32,
 }
 
-impl Deadline {
+impl<'t, T: Timer> Deadline<'t, T> {
     fn now(clock: Option<fn() -> Duration>) -> Option<Duration> {
         clock.map(|clock| clock()).or_else(|| DefaultClock.now())
     }
 
-    fn new(clock: Option<fn() -> Duration>, timeout: Duration) -> Self {
-        Self { clock, end: Self::now(clock).map(|now| now.saturating_add(timeout)), polls: POLLS }
+    fn new(timer: &'t mut T, clock: Option<fn() -> Duration>, timeout: Duration) -> Self {
+        let pauses = timeout.as_micros() / PAUSE.as_micros();
+        let polls = if T::EXPIRES { u32::try_from(pauses).unwrap_or(u32::MAX) } else { POLLS };
+        Self { timer, clock, end: Self::now(clock).map(|now| now.saturating_add(timeout)), polls }
     }
 
     /// Counts a poll. Returns an error if the limit is exceeded.
-    fn poll(&mut self) -> Result<(), Error<BusError>> {
-        self.polls = self.polls.saturating_sub(1);
+    fn check(&mut self) -> Result<(), Error<BusError>> {
         let is_late = match (self.end, Self::now(self.clock)) {
             (Some(end), Some(now)) => now >= end,
             _ => self.polls == 0,
         };
+        self.polls = self.polls.saturating_sub(1);
         if is_late {
             Err(Error::Timeout)
         } else {
             Ok(())
+        }
+    }
+
+    /// Waits before the next poll if there is a timer.
+    async fn pause(&mut self) {
+        if T::EXPIRES {
+            self.timer.limit(PAUSE, pending::<()>()).await;
         }
     }
 }
@@ -77,16 +91,25 @@ struct Buffer {
     length: u16,
 }
 
-#[derive(Debug)]
-pub(super) struct Mailbox<'m> {
+/// Access to the slave controller of one SubDevice.
+#[derive(Clone, Copy, Debug)]
+struct Controller<'m> {
     maindevice: &'m MainDevice<'m>,
     station: u16,
+}
+
+#[derive(Debug)]
+pub(super) struct Mailbox<'m, T> {
+    controller: Controller<'m>,
     pub(super) timeout: Duration,
     pub(super) clock: Option<fn() -> Duration>,
+    timer: T,
     /// Mailbox buffers for sending and receiving. The client reads their addresses and lengths from the registers at
     /// the first use.
     buffers: Option<(Buffer, Buffer)>,
     pub(super) emergency: Option<Emergency>,
+    /// True if the reply to the last request may still arrive.
+    is_unsettled: bool,
 }
 
 /// Result of comparing a received message with the expected reply.
@@ -117,9 +140,19 @@ impl<T> Sought<T> {
     }
 }
 
-impl<'m> Mailbox<'m> {
+impl<'m> Mailbox<'m, DefaultClock> {
     pub(super) const fn new(maindevice: &'m MainDevice<'m>, station: u16) -> Self {
-        Self { maindevice, station, timeout: TIMEOUT, clock: None, buffers: None, emergency: None }
+        let controller = Controller { maindevice, station };
+        let (clock, timer) = (None, DefaultClock);
+        Self { controller, timeout: TIMEOUT, clock, timer, buffers: None, emergency: None, is_unsettled: false }
+    }
+}
+
+impl<'m, T: Timer> Mailbox<'m, T> {
+    /// Returns the mailbox with another timer.
+    pub(super) fn with_timer<U>(self, timer: U) -> Mailbox<'m, U> {
+        let Self { controller, timeout, clock, buffers, emergency, is_unsettled, .. } = self;
+        Mailbox { controller, timeout, clock, timer, buffers, emergency, is_unsettled }
     }
 
     /// Returns the maximum length of a message to the device in bytes.
@@ -129,56 +162,101 @@ impl<'m> Mailbox<'m> {
 
     /// Sends `request`, followed by `data`, and passes each received message to `seek` until it finds the reply.
     /// Messages of other protocols are ignored.
-    pub(super) async fn exchange<T>(
+    pub(super) async fn exchange<V>(
         &mut self,
         request: &Request,
         data: &[u8],
-        mut seek: impl FnMut(Answer<'_>) -> Sought<T>,
-    ) -> Result<T, Error<BusError>> {
+        mut seek: impl FnMut(Answer<'_>) -> Sought<V>,
+    ) -> Result<V, Error<BusError>> {
         let (out, back) = self.buffers().await?;
-        let mut deadline = Deadline::new(self.clock, self.timeout);
-        self.clear(back, &mut deadline).await?;
-        self.wait(out, false, &mut deadline).await?;
-        let message = Message { head: request.head(), data, length: usize::from(out.length) };
-        let written = Command::fpwr(self.station, out.address).send_receive_slice(self.maindevice, message);
-        written.await.map_err(Error::Client)?;
+        self.settle(back).await?;
+        let controller = self.controller;
+        let mut deadline = Deadline::new(&mut self.timer, self.clock, self.timeout);
+        controller.wait(out, false, &mut deadline).await?;
+        // The mailbox stays unsettled if the exchange fails or is dropped.
+        self.is_unsettled = true;
+        controller.send(out, Message { head: request.head(), data, length: usize::from(out.length) }).await?;
         loop {
-            self.wait(back, true, &mut deadline).await?;
-            let received = self.take(back, &mut deadline).await?;
+            controller.wait(back, true, &mut deadline).await?;
+            let received = controller.take(back, &mut deadline).await?;
             let answer = Answer::parse(&received);
             if let Answer::Emergency(emergency) = answer {
                 self.emergency = Some(emergency);
             }
-            match seek(answer) {
-                Sought::Found(found) => return Ok(found),
-                Sought::Failed(error) => return Err(error),
-                Sought::Other => {}
-            }
+            let result = match seek(answer) {
+                Sought::Other => continue,
+                Sought::Found(found) => Ok(found),
+                Sought::Failed(error) => Err(error),
+            };
+            // After an unexpected reply, the right one may still arrive.
+            self.is_unsettled = matches!(result, Err(Error::UnexpectedReply));
+            return result;
         }
     }
 
-    /// Removes messages of earlier transfers from the mailbox. Keeps the last emergency message.
-    async fn clear(&mut self, back: Buffer, deadline: &mut Deadline) -> Result<(), Error<BusError>> {
-        while self.is_full(back).await? {
-            deadline.poll()?;
-            let received = self.take(back, deadline).await?;
-            if let Answer::Emergency(emergency) = Answer::parse(&received) {
-                self.emergency = Some(emergency);
+    /// Removes messages of earlier transfers from the mailbox. If the last reply is missing, waits for this reply, for
+    /// at most one timeout. Keeps the last emergency message.
+    async fn settle(&mut self, back: Buffer) -> Result<(), Error<BusError>> {
+        let controller = self.controller;
+        let mut deadline = Deadline::new(&mut self.timer, self.clock, self.timeout);
+        loop {
+            if !controller.is_full(back).await? {
+                if !self.is_unsettled || deadline.check().is_err() {
+                    break;
+                }
+                deadline.pause().await;
+                continue;
+            }
+            deadline.check()?;
+            let received = controller.take(back, &mut deadline).await?;
+            match Answer::parse(&received) {
+                Answer::Emergency(emergency) => self.emergency = Some(emergency),
+                Answer::Foreign => {}
+                _ => self.is_unsettled = false,
             }
         }
+        self.is_unsettled = false;
         Ok(())
+    }
+
+    async fn buffers(&mut self) -> Result<(Buffer, Buffer), Error<BusError>> {
+        if let Some(known) = self.buffers {
+            return Ok(known);
+        }
+        let first = u16::from(RegisterAddress::Sm0);
+        let registers = self.controller.read(first, MANAGERS * REGISTERS).await.map_err(Error::Client)?;
+        let missing = |error| Error::Client(BusError::Mailbox(error));
+        let out = find(&registers, first, true).ok_or(missing(MailboxError::NoWriteMailbox))?;
+        let back = find(&registers, first, false).ok_or(missing(MailboxError::NoReadMailbox))?;
+        Ok(*self.buffers.insert((out, back)))
+    }
+}
+
+impl<'m> Controller<'m> {
+    async fn read(self, address: u16, length: u16) -> Result<impl Deref<Target = [u8]> + 'm, BusError> {
+        Command::fprd(self.station, address).receive_slice(self.maindevice, length).await
+    }
+
+    async fn register(self, address: u16) -> Result<u8, Error<BusError>> {
+        Command::fprd(self.station, address).receive::<u8>(self.maindevice).await.map_err(Error::Client)
+    }
+
+    /// Writes a message to the mailbox.
+    async fn send(self, out: Buffer, message: Message<'_>) -> Result<(), Error<BusError>> {
+        let written = Command::fpwr(self.station, out.address).send_receive_slice(self.maindevice, message);
+        written.await.map(|_| ()).map_err(Error::Client)
     }
 
     /// Reads the message in the mailbox. If the datagram is lost after the device has emptied the mailbox, requests the
     /// message again.
-    async fn take(
-        &self,
+    async fn take<T: Timer>(
+        self,
         back: Buffer,
-        deadline: &mut Deadline,
+        deadline: &mut Deadline<'_, T>,
     ) -> Result<impl Deref<Target = [u8]> + 'm, Error<BusError>> {
         let mut repeats = MOST_REPEATS;
         loop {
-            match Command::fprd(self.station, back.address).receive_slice(self.maindevice, back.length).await {
+            match self.read(back.address, back.length).await {
                 Ok(received) => return Ok(received),
                 Err(error) if repeats == 0 => return Err(Error::Client(error)),
                 Err(_) => self.repeat(back, deadline).await?,
@@ -189,7 +267,7 @@ impl<'m> Mailbox<'m> {
 
     /// Waits until the last message is in the mailbox again. Toggles the repeat request if the device has emptied the
     /// mailbox.
-    async fn repeat(&self, back: Buffer, deadline: &mut Deadline) -> Result<(), Error<BusError>> {
+    async fn repeat<T: Timer>(self, back: Buffer, deadline: &mut Deadline<'_, T>) -> Result<(), Error<BusError>> {
         if self.is_full(back).await? {
             return Ok(());
         }
@@ -197,39 +275,30 @@ impl<'m> Mailbox<'m> {
         let written = Command::fpwr(self.station, back.state + ACTIVATE).send(self.maindevice, request).await;
         written.map_err(Error::Client)?;
         while (self.register(back.state + PDI_CONTROL).await? ^ request) & REPEAT != 0 {
-            deadline.poll()?;
+            deadline.check()?;
+            deadline.pause().await;
         }
         self.wait(back, true, deadline).await
     }
 
-    async fn register(&self, address: u16) -> Result<u8, Error<BusError>> {
-        Command::fprd(self.station, address).receive::<u8>(self.maindevice).await.map_err(Error::Client)
-    }
-
-    async fn wait(&self, buffer: Buffer, full: bool, deadline: &mut Deadline) -> Result<(), Error<BusError>> {
+    /// Waits until the mailbox is full or empty.
+    async fn wait<T: Timer>(
+        self,
+        buffer: Buffer,
+        full: bool,
+        deadline: &mut Deadline<'_, T>,
+    ) -> Result<(), Error<BusError>> {
         loop {
-            deadline.poll()?;
+            deadline.check()?;
             if self.is_full(buffer).await? == full {
                 return Ok(());
             }
+            deadline.pause().await;
         }
     }
 
-    async fn is_full(&self, buffer: Buffer) -> Result<bool, Error<BusError>> {
+    async fn is_full(self, buffer: Buffer) -> Result<bool, Error<BusError>> {
         Ok(self.register(buffer.state).await? & FULL != 0)
-    }
-
-    async fn buffers(&mut self) -> Result<(Buffer, Buffer), Error<BusError>> {
-        if let Some(known) = self.buffers {
-            return Ok(known);
-        }
-        let first = u16::from(RegisterAddress::Sm0);
-        let registers = Command::fprd(self.station, first).receive_slice(self.maindevice, MANAGERS * REGISTERS);
-        let registers = registers.await.map_err(Error::Client)?;
-        let missing = |error| Error::Client(BusError::Mailbox(error));
-        let out = find(&registers, first, true).ok_or(missing(MailboxError::NoWriteMailbox))?;
-        let back = find(&registers, first, false).ok_or(missing(MailboxError::NoReadMailbox))?;
-        Ok(*self.buffers.insert((out, back)))
     }
 }
 

@@ -33,8 +33,8 @@ const TURN: Duration = Duration::from_millis(1);
 ///
 /// Modbus RTU has no transaction ID, so a reply cannot be matched to its request. After a timeout, an invalid reply or
 /// a dropped call, the link waits before it sends the next request. The link discards the late reply, or it waits until
-/// the line has been silent for twice the timeout. A call that first waits for a late reply takes at most four
-/// timeouts. Every other call takes at most one timeout.
+/// the line has been silent for twice the timeout. A call that first waits for a late reply, or for the end of noise,
+/// takes at most four timeouts. Every other call takes at most one timeout.
 ///
 /// Before each RTU request, the link waits for the silence that separates frames.
 ///
@@ -113,16 +113,16 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
     /// Waits until no earlier reply can arrive any more. Discards all received bytes.
     async fn settle(&mut self) -> io::Result<()> {
         let pause = match (self.is_unsettled, self.is_rtu) {
-            (true, _) => 2 * self.timeout,
+            (true, _) => self.timeout.saturating_mul(2),
             (false, true) => GAP,
             (false, false) => return Ok(()),
         };
-        let end = Instant::now() + 3 * self.timeout;
+        let end = after(Instant::now(), self.timeout.saturating_mul(3));
         let mut discarded = Vec::new();
         loop {
             // A complete frame is the missing reply.
             let pause = if self.is_unsettled && self.is_frame(&discarded) { GAP } else { pause };
-            let silent = (self.line.lock().last + pause).max(Instant::now() + TURN);
+            let silent = after(self.line.lock().last, pause).max(Instant::now() + TURN);
             match timeout_at(silent.min(end), self.line.discard(&mut discarded)).await {
                 Ok(Ok(0)) => return Err(io::ErrorKind::UnexpectedEof.into()),
                 Ok(Ok(_)) => {}
@@ -131,6 +131,11 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
                 Err(_) if Instant::now() < silent => return Err(late()),
                 Err(_) => break,
             }
+        }
+        if self.is_unsettled && self.is_rtu {
+            // A context keeps the unsent bytes of a request that timed out. Discard them, because the device would
+            // execute the old request. On TCP, a part of a request would confuse the device.
+            self.context = attach(self.line.clone(), self.device, self.is_rtu);
         }
         self.is_unsettled = false;
         Ok(())
@@ -157,6 +162,12 @@ where
     } else {
         tcp::attach_slave(line, device)
     }
+}
+
+/// Returns the end of a time, or a far moment if the time is too long.
+fn after(start: Instant, time: Duration) -> Instant {
+    const YEARS: Duration = Duration::from_secs(30 * 365 * 24 * 3600);
+    start.checked_add(time).unwrap_or(start + YEARS)
 }
 
 fn late() -> io::Error {

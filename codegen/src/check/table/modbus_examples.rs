@@ -3,6 +3,7 @@
 
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
+use crate::facts::register::crc;
 use crate::ir::{Binding, RegisterBinding, RegisterSpace};
 use crate::source::Span;
 use crate::text::count_of;
@@ -138,14 +139,6 @@ fn ending(bytes: &[u8], length: usize) -> Option<String> {
         }
         _ => Some(format!("has {} bytes, but its fields need {length}", bytes.len())),
     }
-}
-
-/// Returns the CRC-16 of Modbus over serial line, 6.2.2.
-fn crc(bytes: &[u8]) -> u16 {
-    bytes.iter().fold(0xFFFF, |crc, byte| {
-        let crc = crc ^ u16::from(*byte);
-        (0..8).fold(crc, |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xA001 } else { crc >> 1 })
-    })
 }
 
 #[cfg(test)]
