@@ -127,6 +127,8 @@ impl CanNode {
         if !self.is_connected {
             return;
         }
+        let time = self.device.access_time();
+        self.advance(time);
         self.settle();
         let node = u16::from(self.device.node_id().get());
         match frame.id() {
@@ -149,17 +151,24 @@ impl CanNode {
         let end = self.now.saturating_add(time);
         self.settle();
         while let Some(next) = self.next_event().filter(|next| *next <= end) {
-            self.now = next;
+            self.set_time(next);
             self.settle();
         }
-        self.now = end;
+        self.set_time(end);
+    }
+
+    /// Moves the clocks of the node and of the device forward.
+    fn set_time(&mut self, now: Duration) {
+        self.device.step(now.saturating_sub(self.now));
+        self.now = now;
     }
 
     /// Returns the time of the next timer event.
     fn next_event(&self) -> Option<Duration> {
         let heartbeat = self.heartbeat.map(|heartbeat| heartbeat.due);
         let pdos = if self.state == NmtState::Operational { self.pdos.next_event(&self.device) } else { None };
-        let events = [heartbeat, pdos, self.channel.deadline()];
+        let step = self.device.next_step().map(|time| self.now.saturating_add(time));
+        let events = [heartbeat, pdos, step, self.channel.deadline()];
         events.into_iter().flatten().filter(|event| *event > self.now).min()
     }
 
@@ -301,9 +310,9 @@ impl CanPort for CanNode {
                 }
             }
             match self.next_event().filter(|next| *next <= end) {
-                Some(next) => self.now = next,
+                Some(next) => self.set_time(next),
                 None => {
-                    self.now = end;
+                    self.set_time(end);
                     return Ok(None);
                 }
             }

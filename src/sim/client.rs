@@ -78,8 +78,9 @@ macro_rules! client {
                 $write(self.device(), address, data)
             }
 
-            /// Returns at once, because a simulated device has no real time.
-            $($async)? fn wait(&mut self, _: Duration) -> Result<(), Error<Fault>> {
+            /// Advances the simulated time of the device, and returns at once.
+            $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<Fault>> {
+                self.device().step(time);
                 Ok(())
             }
         }
@@ -98,11 +99,13 @@ clients! { CoE, Object, upload, |device, object, data| download(device, Network:
 clients! { Modbus, Register, Device::read_register, Device::write_register }
 
 fn upload(device: &mut Device, object: Object, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
+    device.access();
     let value = device.upload(object)?;
     buffer.iter_mut().zip(value).for_each(|(to, from)| *to = *from);
     Ok(value.len())
 }
 
 fn download(device: &mut Device, network: Network, object: Object, data: &[u8]) -> Result<(), Error<Fault>> {
+    device.access();
     Ok(device.download(network, object, data)?)
 }

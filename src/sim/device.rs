@@ -6,6 +6,8 @@ use std::collections::VecDeque;
 use std::vec::Vec;
 
 use super::cells::Cells;
+use super::clock::Clock;
+use super::drive::Drive;
 use super::fault::Fault;
 use super::item_address::ItemAddress;
 use super::limits::Limits;
@@ -63,6 +65,11 @@ pub struct Device {
     node: NodeId,
     hooks: Vec<Hook>,
     faults: VecDeque<Fault>,
+    pub(super) clock: Clock,
+    pub(super) has_cia402: bool,
+    pub(super) drives: Vec<Drive>,
+    /// True if the next step of the simulation changes nothing.
+    pub(super) is_settled: bool,
 }
 
 impl Device {
@@ -81,6 +88,10 @@ impl Device {
             node: FIRST_NODE,
             hooks: Vec::new(),
             faults: VecDeque::new(),
+            clock: Clock::default(),
+            has_cia402: false,
+            drives: Vec::new(),
+            is_settled: true,
         };
         device.power_cycle();
         device
@@ -111,8 +122,10 @@ impl Device {
 
     /// Switches the device off and on. All items return to their stored values (0x1010) or their initial values.
     pub fn power_cycle(&mut self) {
+        self.declare_drive_defaults();
         self.reset(|_| true);
         self.emergencies.clear();
+        self.start_drives();
     }
 
     pub(super) fn reset(&mut self, which: impl Fn(&Entry) -> bool) {
@@ -201,6 +214,10 @@ impl Device {
         slot.initial = Some(slot.value.clone());
     }
 
+    pub(super) fn axis_count(&self) -> u8 {
+        self.axes.map_or(1, |axes| axes.count.max(1))
+    }
+
     /// Returns axis `number` of the device, from 1. The axis has the same items at its own addresses.
     pub fn axis(&mut self, number: u8) -> DeviceAxis<'_> {
         DeviceAxis { device: self, number }
@@ -275,6 +292,7 @@ impl Device {
 
     /// Sets the value of an item and returns the old value.
     pub(super) fn store(&mut self, at: usize, value: Vec<u8>) -> Vec<u8> {
+        self.is_settled = !self.has_cia402;
         let old = core::mem::replace(&mut self.slots.get_mut(at).value, value);
         self.cells.spread(&mut self.slots, at);
         old
@@ -289,10 +307,12 @@ impl Device {
         // A reaction may have added reactions, which are kept.
         hooks.append(&mut self.hooks);
         self.hooks = hooks;
-        result
+        result?;
+        self.observe_drives();
+        Ok(())
     }
 
-    fn slot(&self, address: &impl ItemAddress, axis: u8) -> Result<usize, AbortCode> {
+    pub(super) fn slot(&self, address: &impl ItemAddress, axis: u8) -> Result<usize, AbortCode> {
         let registered = address.register().filter(|_| axis == 1);
         let Some(object) = address.object() else {
             return registered.and_then(|register| self.slots.of_register(register)).ok_or(AbortCode::NO_OBJECT);
@@ -372,6 +392,14 @@ pub struct DeviceAxis<'d> {
 }
 
 impl DeviceAxis<'_> {
+    pub(super) fn device(&mut self) -> &mut Device {
+        self.device
+    }
+
+    pub(super) const fn number(&self) -> u8 {
+        self.number
+    }
+
     /// Returns the value of an item, as [`Device::get`] does.
     ///
     /// # Errors

@@ -45,6 +45,8 @@
 //! - CAN: with the feature `canopen`, a `CanNode` is a device on a simulated CAN bus. The CANopen clients of this crate
 //!   can use a `CanNode`.
 //! - Further axes: [`Device::with_axes`] adds further axes.
+//! - Drives: [`Device::with_cia402`] adds the behavior of CiA 402, and [`Device::fail`] simulates faults of a drive.
+//! - Time: [`Device::step`] advances the simulated time.
 //! - Parameters: the device stores parameters (0x1010) and restores parameters (0x1011) if it has these objects.
 //!
 //! A simulated device checks only the data in the table. The device doesn't check the length of texts, the values of
@@ -54,7 +56,9 @@
 mod can;
 mod cells;
 mod client;
+mod clock;
 mod device;
+mod drive;
 mod emergency;
 mod fault;
 mod item_address;

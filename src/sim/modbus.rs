@@ -128,6 +128,7 @@ impl Device {
     }
 
     fn request(&mut self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<u16>, Fault> {
+        self.access();
         self.take_fault()?;
         self.check_count(table, count.into(), |limits| limits.read)?;
         let word = |at: u16| -> Option<u16> {
@@ -142,6 +143,7 @@ impl Device {
 
     /// Writes registers. If the write fails, all registers are restored.
     fn command_cells(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), Fault> {
+        self.access();
         self.take_fault()?;
         self.check_count(table, words.len(), |limits| limits.write)?;
         let addresses = (address..=u16::MAX).map(|address| (table, address)).take(words.len());

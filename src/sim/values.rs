@@ -14,7 +14,7 @@ pub(super) fn byte_length(data_type: DataType) -> Option<usize> {
     data_type.bits().map(|bits| bits.div_ceil(8) as usize)
 }
 
-fn is_signed(data_type: DataType) -> bool {
+pub(super) fn is_signed(data_type: DataType) -> bool {
     matches!(
         data_type,
         DataType::Integer8

@@ -1,0 +1,191 @@
+//! Drives of a simulated device.
+
+use std::vec::Vec;
+
+use super::super::device::{Device, DeviceAxis};
+use super::objects::Objects;
+use super::Drive;
+use crate::abort::AbortCode;
+
+impl Device {
+    /// Returns the device after power-on, with the behavior of CiA 402 for each axis that has a controlword (0x6040)
+    /// and a statusword (0x6041).
+    ///
+    /// The drive has the state machine, the modes 1 (profile position), 3 (profile velocity), 6 (homing) and 8 to 10
+    /// (cyclic synchronous position, velocity and torque), halt, quick stop and [faults](Self::fail). The axis moves on
+    /// ramps. The drive accesses all objects by index, so it works on every bus and with process data. Objects that the
+    /// table lacks are ignored, and default values apply.
+    ///
+    /// The drive executes the controlword at once. Everything else happens when the simulated time advances
+    /// ([`step`](Self::step)), for example motion, the change of the mode, and the transition after power-on. If the
+    /// test changes the actual position (0x6064), the axis continues there. The bits 7, 8, 14 and 15 of the statusword
+    /// stay as the test sets them.
+    ///
+    /// ```
+    /// use core::time::Duration;
+    ///
+    /// use lexibus::sim::Device;
+    /// use lexibus::CanOpen;
+    /// use lexibus_drives::demo_drive::types::{Controlword, State};
+    /// use lexibus_drives::demo_drive::{objects, DemoDrive, ENTRIES};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let mut device = Device::new(ENTRIES).with_cia402();
+    /// // The driver under test. Its waiting advances the simulated time.
+    /// let mut drive = DemoDrive::new(device.client::<CanOpen>());
+    /// drive.walk(State::OperationEnabled, Duration::from_secs(1))?;
+    /// drive.target_position().write(500)?;
+    /// drive.controlword().write(Controlword::from_raw(0x1F))?;
+    /// assert!(drive.statusword().read()?.in_profile_position().set_point_acknowledge());
+    ///
+    /// device.step(Duration::from_secs(1));
+    /// assert_eq!(device.get(objects::POSITION_ACTUAL_VALUE)?, 500);
+    /// assert!(device.get(objects::STATUSWORD)?.target_reached());
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// Velocities are in position units per second, and accelerations in position units per second squared, also if the
+    /// device description declares other units. Homing takes 100 ms, and the current position becomes the home
+    /// position. The drive doesn't simulate gears, polarity, switches, other modes, and the loss of the connection.
+    #[must_use]
+    pub fn with_cia402(mut self) -> Self {
+        self.has_cia402 = true;
+        self.power_cycle();
+        self
+    }
+
+    /// Simulates a fault of the drive whose cause is already gone. The drive stops with the fault reaction (0x605E), and
+    /// then enters the state "Fault". `code` becomes the error code (0x603F), and is reported in the error list (0x1003)
+    /// and in an emergency message.
+    ///
+    /// # Errors
+    ///
+    /// Returns [`AbortCode::NO_OBJECT`] if the device isn't a [simulated drive](Self::with_cia402).
+    pub fn fail(&mut self, code: u16) -> Result<(), AbortCode> {
+        self.axis(1).fail(code)
+    }
+
+    /// Simulates a fault, as [`fail`](Self::fail) does, whose cause persists. A fault reset has no effect until
+    /// [`clear_cause`](Self::clear_cause).
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`fail`](Self::fail).
+    pub fn fail_persistently(&mut self, code: u16) -> Result<(), AbortCode> {
+        self.axis(1).fail_persistently(code)
+    }
+
+    /// Removes the cause of a [persistent fault](Self::fail_persistently). The drive stays in its state until the fault
+    /// is reset.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`fail`](Self::fail).
+    pub fn clear_cause(&mut self) -> Result<(), AbortCode> {
+        self.axis(1).clear_cause()
+    }
+
+    /// Declares the initial values of drives before power-on.
+    pub(in super::super) fn declare_drive_defaults(&mut self) {
+        for axis in self.drive_axes() {
+            Objects { device: self, axis }.declare_defaults();
+        }
+    }
+
+    /// Creates the drives after power-on.
+    pub(in super::super) fn start_drives(&mut self) {
+        self.drives.clear();
+        for axis in self.drive_axes() {
+            let drive = Drive::new(axis, &mut Objects { device: self, axis });
+            self.drives.push(drive);
+        }
+        self.is_settled = !self.has_cia402;
+    }
+
+    fn drive_axes(&mut self) -> Vec<u8> {
+        let count = if self.has_cia402 { self.axis_count() } else { 0 };
+        let is_drive = |axis: &u8| {
+            let objects = Objects { device: self, axis: *axis };
+            objects.has(0x6040) && objects.has(0x6041)
+        };
+        (1..=count).filter(is_drive).collect()
+    }
+
+    /// Executes `action` with each drive.
+    fn for_each_drive(&mut self, mut action: impl FnMut(&mut Drive, &mut Objects<'_>)) {
+        let mut drives = core::mem::take(&mut self.drives);
+        for drive in &mut drives {
+            let axis = drive.axis;
+            action(drive, &mut Objects { device: self, axis });
+        }
+        self.drives = drives;
+    }
+
+    /// Executes one step of all drives.
+    pub(in super::super) fn step_drives(&mut self) {
+        self.is_settled = true;
+        let mut is_changed = false;
+        self.for_each_drive(|drive, objects| {
+            let before = drive.clone();
+            drive.step(objects);
+            is_changed |= before != *drive;
+        });
+        // A change of an object clears `is_settled`.
+        self.is_settled &= !is_changed;
+    }
+
+    /// Lets all drives react to a write.
+    pub(in super::super) fn observe_drives(&mut self) {
+        if !self.drives.is_empty() {
+            self.is_settled = false;
+            self.for_each_drive(Drive::observe);
+        }
+    }
+}
+
+impl DeviceAxis<'_> {
+    /// Simulates a fault of the axis, as [`Device::fail`] does.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Device::fail`].
+    pub fn fail(&mut self, code: u16) -> Result<(), AbortCode> {
+        self.with_drive(|drive, objects| drive.fail(code, false, objects))
+    }
+
+    /// Simulates a fault whose cause persists, as [`Device::fail_persistently`] does.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Device::fail`].
+    pub fn fail_persistently(&mut self, code: u16) -> Result<(), AbortCode> {
+        self.with_drive(|drive, objects| drive.fail(code, true, objects))
+    }
+
+    /// Removes the cause of a persistent fault, as [`Device::clear_cause`] does.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Device::fail`].
+    pub fn clear_cause(&mut self) -> Result<(), AbortCode> {
+        self.with_drive(|drive, _| drive.clear_cause())
+    }
+
+    fn with_drive(&mut self, action: impl Fn(&mut Drive, &mut Objects<'_>)) -> Result<(), AbortCode> {
+        let (mut is_found, number) = (false, self.number());
+        let device = self.device();
+        device.is_settled = !device.has_cia402;
+        device.for_each_drive(|drive, objects| {
+            if drive.axis == number {
+                is_found = true;
+                action(drive, objects);
+            }
+        });
+        if is_found {
+            Ok(())
+        } else {
+            Err(AbortCode::NO_OBJECT)
+        }
+    }
+}
