@@ -1,17 +1,15 @@
-//! Simulated time of a device.
+//! The clock of a simulated device.
 
 use core::time::Duration;
 use std::time::Instant;
-
-use super::device::Device;
 
 /// Duration of one step of the simulation. All times are rounded down to whole steps, and the rest counts for the next
 /// step. The result therefore doesn't depend on how a test divides the time.
 pub(super) const STEP: Duration = Duration::from_millis(1);
 
-/// What makes the time advance, in addition to [`Device::step`].
+/// What makes the time advance, in addition to `Device::step`.
 #[derive(Clone, Copy, Debug, Default)]
-enum Pace {
+pub(super) enum Pace {
     /// Nothing.
     #[default]
     Manual,
@@ -24,66 +22,7 @@ enum Pace {
 /// Clock of a device.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Clock {
-    pace: Pace,
+    pub(super) pace: Pace,
     /// Time since the last step.
-    rest: Duration,
-}
-
-impl Device {
-    /// Returns the device with a fixed duration for each access of a client. The simulated time advances by `time`
-    /// before each access. Use this method for a driver that polls the device without [waiting](crate::Client::wait),
-    /// and for a `CanNode`, where each received frame is an access.
-    #[must_use]
-    pub fn with_access_time(mut self, time: Duration) -> Self {
-        self.clock.pace = Pace::PerAccess(time);
-        self
-    }
-
-    /// Returns the device with a clock that also follows the real time. Before each access of a client, the simulated
-    /// time advances by the real time since the last access. Use this method for demonstrations. Tests with real time
-    /// are not deterministic.
-    #[must_use]
-    pub fn with_real_time(mut self) -> Self {
-        self.clock.pace = Pace::Real(Instant::now());
-        self
-    }
-
-    /// Advances the simulated time. Simulated drives ([`with_cia402`](Self::with_cia402)) move in steps of 1 ms.
-    ///
-    /// A client of the device also advances the time when the driver [waits](crate::Client::wait). A `CanNode` advances
-    /// the time with its own clock.
-    pub fn step(&mut self, time: Duration) {
-        self.clock.rest = self.clock.rest.saturating_add(time);
-        while self.clock.rest >= STEP {
-            if self.is_settled {
-                // All further steps have the same result.
-                let rest = self.clock.rest.as_nanos() % STEP.as_nanos();
-                self.clock.rest = Duration::from_nanos(rest as u64);
-                return;
-            }
-            self.clock.rest -= STEP;
-            self.step_drives();
-        }
-    }
-
-    /// Returns the time by which an access of a client advances the simulated time.
-    pub(super) fn access_time(&mut self) -> Duration {
-        match &mut self.clock.pace {
-            Pace::Manual => Duration::ZERO,
-            Pace::PerAccess(time) => *time,
-            Pace::Real(last) => core::mem::replace(last, Instant::now()).elapsed(),
-        }
-    }
-
-    /// Advances the simulated time before an access of a client.
-    pub(super) fn access(&mut self) {
-        let time = self.access_time();
-        self.step(time);
-    }
-
-    /// Returns the time until the next step, or `None` if the next step changes nothing.
-    #[cfg(feature = "canopen")]
-    pub(super) fn next_step(&self) -> Option<Duration> {
-        (!self.is_settled).then(|| STEP.saturating_sub(self.clock.rest))
-    }
+    pub(super) rest: Duration,
 }

@@ -5,9 +5,9 @@ use std::boxed::Box;
 use std::collections::VecDeque;
 use std::vec::Vec;
 
+use super::behavior::Behavior;
 use super::cells::Cells;
 use super::clock::Clock;
-use super::drive::Drive;
 use super::fault::Fault;
 use super::item_address::ItemAddress;
 use super::limits::Limits;
@@ -67,7 +67,7 @@ pub struct Device {
     faults: VecDeque<Fault>,
     pub(super) clock: Clock,
     pub(super) has_cia402: bool,
-    pub(super) drives: Vec<Drive>,
+    pub(super) drives: Vec<Box<dyn Behavior>>,
     /// True if the next step of the simulation changes nothing.
     pub(super) is_settled: bool,
 }

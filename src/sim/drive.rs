@@ -63,7 +63,7 @@ impl Drive {
     }
 
     /// Executes one step of the simulation.
-    fn step(&mut self, objects: &mut Objects<'_>) {
+    fn advance(&mut self, objects: &mut Objects<'_>) {
         self.follow_mode(objects);
         self.control(objects);
         self.motion.begin();
@@ -77,7 +77,7 @@ impl Drive {
     }
 
     /// Reacts to a write of a client or to a change by the test.
-    fn observe(&mut self, objects: &mut Objects<'_>) {
+    fn react(&mut self, objects: &mut Objects<'_>) {
         self.control(objects);
         self.publish(objects);
     }

@@ -52,6 +52,7 @@
 //! A simulated device checks only the data in the table. The device doesn't check the length of texts, the values of
 //! enumerations, or gaps in a range.
 
+mod behavior;
 #[cfg(feature = "canopen")]
 mod can;
 mod cells;
@@ -68,6 +69,7 @@ mod parameters;
 mod process;
 mod slots;
 mod store;
+mod time;
 mod values;
 
 #[cfg(feature = "canopen")]

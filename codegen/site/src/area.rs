@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use super::anchor::Names;
 use super::diagnostics::ShownDiagnostic;
 use super::entry::{self, Doubt, Known, Row, Rows};
-use super::html;
 use super::split::Fill;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::number::hex16;
@@ -54,9 +53,12 @@ struct Part<'g> {
     groups: Vec<(u32, &'g Group)>,
 }
 
-/// Returns the pages for these groups.
-pub(super) fn areas(groups: &[Group], types: &[TypeDef], known: Known<'_>, files: &mut Names) -> Vec<Area> {
-    parts(groups).iter().flat_map(|part| pages(part, types, known, files)).collect()
+/// Returns the size of a section in bytes.
+pub(super) type Size = fn(&Section) -> usize;
+
+/// Returns the pages for these groups. `size` decides how many sections a page has.
+pub(super) fn areas(groups: &[Group], types: &[TypeDef], known: Known<'_>, size: Size, files: &mut Names) -> Vec<Area> {
+    parts(groups).iter().flat_map(|part| pages(part, Filler::new(types, known, size), files)).collect()
 }
 
 /// Returns the parts of a device: one for each chapter and process image, and one for each range of objects (CiA 301
@@ -87,13 +89,14 @@ struct Filler<'p> {
     /// Types whose bits or values the last page already shows.
     shown: Vec<(Type, String, String)>,
     fill: Fill,
+    size: Size,
     pages: Vec<Vec<Section>>,
 }
 
 impl<'p> Filler<'p> {
-    fn new(types: &'p [TypeDef], known: Known<'p>) -> Self {
+    fn new(types: &'p [TypeDef], known: Known<'p>, size: Size) -> Self {
         let (names, shown, pages) = (Names::default(), Vec::new(), vec![Vec::new()]);
-        Filler { types, known, names, shown, fill: Fill::new(PAGE), pages }
+        Filler { types, known, names, shown, fill: Fill::new(PAGE), size, pages }
     }
 
     /// Adds items under one heading. They are all on the same page.
@@ -101,7 +104,7 @@ impl<'p> Filler<'p> {
         let (mut section, mut size) = self.section(group, items);
         if !self.fill.has_room(items.len(), size) {
             let pages = std::mem::take(&mut self.pages);
-            *self = Filler { pages, ..Filler::new(self.types, self.known) };
+            *self = Filler { pages, ..Filler::new(self.types, self.known, self.size) };
             self.pages.push(Vec::new());
             // The first row of a page with a type shows its bits or values.
             (section, size) = self.section(group, items);
@@ -118,13 +121,13 @@ impl<'p> Filler<'p> {
         let mut rows = Rows { types: self.types, known: self.known, names: &mut self.names, shown };
         let section = section(group, items, &mut rows);
         self.shown = rows.shown;
-        let size = html::size_of_section(&section);
+        let size = (self.size)(&section);
         (section, size)
     }
 }
 
-fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names) -> Vec<Area> {
-    let mut filler = Filler::new(types, known);
+fn pages(part: &Part<'_>, mut filler: Filler<'_>, files: &mut Names) -> Vec<Area> {
+    let known = filler.known;
     for &(position, group) in &part.groups {
         let items: Vec<(ItemId, &Item)> = group.items_at(position).collect();
         match group.kind {

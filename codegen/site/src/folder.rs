@@ -12,6 +12,7 @@ use super::builder;
 use super::codes::{self, Codes};
 use super::diagnostics::{self, ShownDiagnostics};
 use super::entry::{Known, Row};
+use super::html;
 use super::links::Links;
 use super::machines;
 use super::modules::Modules;
@@ -290,7 +291,7 @@ impl<'a> Folder<'a> {
             calls: &usage.calls,
             diagnostics: &self.diagnostics,
         };
-        let mut areas = area::areas(&device.groups, &device.types, known, &mut self.files);
+        let mut areas = area::areas(&device.groups, &device.types, known, html::size_of_section, &mut self.files);
         for area in &mut areas {
             area.file += self.format.ending();
         }
@@ -368,7 +369,7 @@ impl<'a> Folder<'a> {
 
     fn modules(&mut self, catalog: &Catalog) -> Modules {
         let (files, ending) = (&mut self.files, self.format.ending());
-        Modules::new(catalog, &self.diagnostics, || files.file("modules") + ending)
+        Modules::new(catalog, &self.diagnostics, html::size_of_module, || files.file("modules") + ending)
     }
 
     fn module_pages(&mut self, modules: &Modules, frame: &Frameset) {

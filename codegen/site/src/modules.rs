@@ -7,7 +7,6 @@ use super::anchor::Names;
 use super::area::Section;
 use super::diagnostics::ShownDiagnostics;
 use super::entry::{Calls, Known, Rows};
-use super::html;
 use super::process::{self, About, Frame};
 use super::split;
 use super::words::{self, PLAIN};
@@ -56,10 +55,16 @@ pub(super) struct Modules {
 }
 
 impl Modules {
-    /// Creates the modules of a catalog. `file` returns the file name of the next page.
-    pub fn new(catalog: &Catalog, diagnostics: &ShownDiagnostics, mut file: impl FnMut() -> String) -> Self {
+    /// Creates the modules of a catalog. `file` returns the file name of the next page. `size` returns the size of a module in bytes,
+    /// which decides how many modules a page has.
+    pub fn new(
+        catalog: &Catalog,
+        diagnostics: &ShownDiagnostics,
+        size: fn(&ModuleModel) -> usize,
+        mut file: impl FnMut() -> String,
+    ) -> Self {
         let all = models(catalog, diagnostics);
-        let ranges = split::ranges(all.iter().map(html::size_of_module), PAGE);
+        let ranges = split::ranges(all.iter().map(size), PAGE);
         let title = |at: usize| match ranges.len() {
             1 => "Modules".to_owned(),
             count => format!("Modules ({} of {count})", at + 1),

@@ -1,7 +1,9 @@
 //! Drives of a simulated device.
 
+use std::boxed::Box;
 use std::vec::Vec;
 
+use super::super::behavior::Behavior;
 use super::super::device::{Device, DeviceAxis};
 use super::objects::Objects;
 use super::Drive;
@@ -98,7 +100,7 @@ impl Device {
         self.drives.clear();
         for axis in self.drive_axes() {
             let drive = Drive::new(axis, &mut Objects { device: self, axis });
-            self.drives.push(drive);
+            self.drives.push(Box::new(drive));
         }
         self.is_settled = !self.has_cia402;
     }
@@ -113,11 +115,10 @@ impl Device {
     }
 
     /// Executes `action` with each drive.
-    fn for_each_drive(&mut self, mut action: impl FnMut(&mut Drive, &mut Objects<'_>)) {
+    fn for_each_drive(&mut self, mut action: impl FnMut(&mut dyn Behavior, &mut Device)) {
         let mut drives = core::mem::take(&mut self.drives);
         for drive in &mut drives {
-            let axis = drive.axis;
-            action(drive, &mut Objects { device: self, axis });
+            action(drive.as_mut(), self);
         }
         self.drives = drives;
     }
@@ -126,11 +127,7 @@ impl Device {
     pub(in super::super) fn step_drives(&mut self) {
         self.is_settled = true;
         let mut is_changed = false;
-        self.for_each_drive(|drive, objects| {
-            let before = drive.clone();
-            drive.step(objects);
-            is_changed |= before != *drive;
-        });
+        self.for_each_drive(|drive, device| is_changed |= drive.step(device));
         // A change of an object clears `is_settled`.
         self.is_settled &= !is_changed;
     }
@@ -139,8 +136,35 @@ impl Device {
     pub(in super::super) fn observe_drives(&mut self) {
         if !self.drives.is_empty() {
             self.is_settled = false;
-            self.for_each_drive(Drive::observe);
+            self.for_each_drive(|drive, device| drive.observe(device));
         }
+    }
+}
+
+impl Behavior for Drive {
+    fn axis(&self) -> u8 {
+        self.axis
+    }
+
+    fn step(&mut self, device: &mut Device) -> bool {
+        let before = self.clone();
+        let axis = self.axis;
+        self.advance(&mut Objects { device, axis });
+        before != *self
+    }
+
+    fn observe(&mut self, device: &mut Device) {
+        let axis = self.axis;
+        self.react(&mut Objects { device, axis });
+    }
+
+    fn fail(&mut self, code: u16, persists: bool, device: &mut Device) {
+        let axis = self.axis;
+        self.enter_fault(code, persists, &mut Objects { device, axis });
+    }
+
+    fn clear_cause(&mut self) {
+        self.has_cause = false;
     }
 }
 
@@ -151,7 +175,7 @@ impl DeviceAxis<'_> {
     ///
     /// Returns the errors of [`Device::fail`].
     pub fn fail(&mut self, code: u16) -> Result<(), AbortCode> {
-        self.with_drive(|drive, objects| drive.fail(code, false, objects))
+        self.with_drive(|drive, device| drive.fail(code, false, device))
     }
 
     /// Simulates a fault whose cause persists, as [`Device::fail_persistently`] does.
@@ -160,7 +184,7 @@ impl DeviceAxis<'_> {
     ///
     /// Returns the errors of [`Device::fail`].
     pub fn fail_persistently(&mut self, code: u16) -> Result<(), AbortCode> {
-        self.with_drive(|drive, objects| drive.fail(code, true, objects))
+        self.with_drive(|drive, device| drive.fail(code, true, device))
     }
 
     /// Removes the cause of a persistent fault, as [`Device::clear_cause`] does.
@@ -172,14 +196,14 @@ impl DeviceAxis<'_> {
         self.with_drive(|drive, _| drive.clear_cause())
     }
 
-    fn with_drive(&mut self, action: impl Fn(&mut Drive, &mut Objects<'_>)) -> Result<(), AbortCode> {
+    fn with_drive(&mut self, action: impl Fn(&mut dyn Behavior, &mut Device)) -> Result<(), AbortCode> {
         let (mut is_found, number) = (false, self.number());
         let device = self.device();
         device.is_settled = !device.has_cia402;
-        device.for_each_drive(|drive, objects| {
-            if drive.axis == number {
+        device.for_each_drive(|drive, device| {
+            if drive.axis() == number {
                 is_found = true;
-                action(drive, objects);
+                action(drive, device);
             }
         });
         if is_found {

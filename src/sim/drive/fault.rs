@@ -19,7 +19,7 @@ const fn error_register(code: u16) -> u8 {
 
 impl Drive {
     /// Enters the fault reaction and reports the fault.
-    pub(super) fn fail(&mut self, code: u16, persists: bool, objects: &mut Objects<'_>) {
+    pub(super) fn enter_fault(&mut self, code: u16, persists: bool, objects: &mut Objects<'_>) {
         // Stores the controlword, so that a reset bit that is already set isn't a rising edge.
         self.control(objects);
         self.has_cause = persists;
@@ -30,11 +30,6 @@ impl Drive {
         let register = objects.device.slots.number(0x1001, 0).unwrap_or(0) as u8;
         objects.device.emit_emergency(code, register | error_register(code), [0; 5]);
         self.publish(objects);
-    }
-
-    /// Removes the cause of the fault, so that the fault can be reset.
-    pub(super) fn clear_cause(&mut self) {
-        self.has_cause = false;
     }
 
     /// Leaves the state "Fault". The error code (0x603F) remains the code of the last error.

@@ -51,7 +51,6 @@ impl Code {
     }
 
     /// Writes a line that closes a block and opens the next one.
-    #[cfg(any(feature = "messages", feature = "gsdml"))]
     pub fn reopen(&mut self, line: &str) {
         self.close(line);
         self.indent += STEP;

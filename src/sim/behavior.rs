@@ -1,0 +1,23 @@
+//! Behavior of a simulated axis.
+
+use core::fmt;
+
+use super::device::Device;
+
+/// Behavior of one axis of a device, such as that of a drive.
+pub(super) trait Behavior: fmt::Debug + Send {
+    /// Returns the number of the axis, from 1.
+    fn axis(&self) -> u8;
+
+    /// Executes one step of the simulation. Returns whether the state of the axis has changed.
+    fn step(&mut self, device: &mut Device) -> bool;
+
+    /// Reacts to a write of a client or to a change by the test.
+    fn observe(&mut self, device: &mut Device);
+
+    /// Enters the fault reaction with an error code. `persists` means that the cause of the fault persists.
+    fn fail(&mut self, code: u16, persists: bool, device: &mut Device);
+
+    /// Removes the cause of the fault, so that the fault can be reset.
+    fn clear_cause(&mut self);
+}
