@@ -53,6 +53,11 @@ impl<C: Copy> Step<C> {
     /// path that starts with a command is preferred.
     #[must_use]
     pub fn toward(transitions: &[Transition<C>], state: u8, target: u8) -> Self {
+        Self::toward_without(transitions, state, target, &[])
+    }
+
+    /// Returns the first step of the shortest path that doesn't pass through the states `avoided`, except the target.
+    pub(crate) fn toward_without(transitions: &[Transition<C>], state: u8, target: u8, avoided: &[u8]) -> Self {
         if state == target {
             return Step::Reached;
         }
@@ -64,7 +69,8 @@ impl<C: Copy> Step<C> {
             for (at, transition) in transitions.iter().enumerate() {
                 let goes_on =
                     |(next, other): (usize, &Transition<C>)| leads >> next & 1 == 1 && transition.to == other.from;
-                if transition.to == target || transitions.iter().enumerate().any(goes_on) {
+                let is_avoided = avoided.contains(&transition.to);
+                if transition.to == target || (!is_avoided && transitions.iter().enumerate().any(goes_on)) {
                     more |= 1 << at;
                 }
             }

@@ -57,7 +57,9 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
         put(&[site.compare((&old_name, old), (&new_name, new))], &mut reporter);
     }
     put(&site.finish(), &mut reporter);
-    for path in stale(&docs.out, &written) {
+    // After an error, the pages of an earlier run stay: this run may only have failed to write them.
+    let stale = if reporter.has_errors() { Vec::new() } else { stale(&docs.out, &written) };
+    for path in stale {
         let error = match docs.check {
             true => Some(format!("{} is not part of this documentation any more", path.display())),
             false => remove(&docs.out, &path).err(),
@@ -109,15 +111,23 @@ impl Names {
     }
 }
 
-/// Returns the pages in the folder that an earlier run wrote, but not this run.
+/// Files that only the folder of a site contains.
+const FILES_OF_SITES: [&str; 2] = ["site.js", "SUMMARY.md"];
+
+/// Returns the pages in the folder that an earlier run wrote, but not this run. Hidden folders, and folders with another site, are
+/// left out.
 fn stale(folder: &Path, written: &HashSet<PathBuf>) -> Vec<PathBuf> {
     let mut stale = Vec::new();
     let entries = std::fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
     for path in entries {
         // Do not follow links, which can lead out of the folder.
         let is_link = path.symlink_metadata().is_ok_and(|data| data.is_symlink());
+        let is_hidden = path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
         if path.is_dir() && !is_link {
-            stale.extend(self::stale(&path, written));
+            let is_site = FILES_OF_SITES.iter().any(|name| path.join(name).exists());
+            if !is_hidden && !is_site {
+                stale.extend(self::stale(&path, written));
+            }
         } else if !is_link && !written.contains(&path) && was_written(&path) {
             stale.push(path);
         }

@@ -124,6 +124,11 @@ impl Reporter {
         }
     }
 
+    /// Returns whether errors occurred.
+    pub(super) fn has_errors(&self) -> bool {
+        self.errors > 0
+    }
+
     /// Prints the summary or the SARIF document. Returns whether no errors occurred.
     pub(super) fn finish(self) -> Result<bool, Failure> {
         match self.format {

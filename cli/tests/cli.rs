@@ -609,6 +609,10 @@ fn a_site_of_documentation() {
     let coupler = coupler.filter(|path| path.is_dir() && !path.ends_with("lexibus")).collect::<Vec<_>>();
     assert_eq!(coupler.len(), 1, "{coupler:?}");
     std::fs::write(coupler[0].join("notes.html"), "<title>My notes</title>").expect("a file");
+    // A description with errors removes nothing.
+    let broken = file(&folder, "broken.eds", "");
+    assert_eq!(code(&lexibus(&["docs", DEMO, &broken, "--out", &out.to_string_lossy()])), 1);
+    assert!(std::fs::read_dir(&coupler[0]).expect("a folder").count() > 1);
     let call = |further: &[&str]| lexibus(&[&["docs", DEMO, "--out", &out.to_string_lossy()], further].concat());
     let output = call(&["--check"]);
     assert!(code(&output) == 1 && err(&output).contains("modules.html is not part of"), "{}", err(&output));

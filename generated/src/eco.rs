@@ -6761,6 +6761,7 @@ pub mod types {
             Self::FaultReactionActive as u8,
             Self::Fault as u8,
         ];
+        const ENERGIZED: &'static [u8] = &[Self::OperationEnabled as u8];
         fn of_status(bits: u32) -> Option<Self> {
             Self::from_raw(bits as u16)
         }

@@ -43,7 +43,8 @@ pub enum WalkError<S, E> {
         /// State of the device.
         state: S,
     },
-    /// The device was not in the target state at the deadline.
+    /// The device was not in the target state at the deadline. Its control word still contains the last command, which the
+    /// device can execute later.
     Deadline {
         /// State of the device, or `None` if its status word matches no state.
         state: Option<S>,
@@ -169,17 +170,18 @@ macro_rules! walks {
                 M: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {
                 let (mut walker, mut control) = (Walker::new(target), control);
-                let mut remaining = Remaining::new(deadline);
+                let (mut remaining, mut is_written) = (Remaining::new(deadline), false);
                 loop {
                     let status = self.status.at(client).$read()$(.$await)??;
                     let walked = walker.cycle(status, control).map_err(|stopped| match stopped {
                         Stopped::Fault(state) => WalkError::Fault { state, code: None },
-                        Stopped::Unreachable(state) => WalkError::Unreachable { state },
+                        Stopped::Unreachable(state) | Stopped::Left(state) => WalkError::Unreachable { state },
                     })?;
                     if walked.is_reached {
                         return Ok(());
                     }
-                    if walked.control.bits() != control.bits() {
+                    // The first command is always written, because `control` can be unknown.
+                    if !core::mem::replace(&mut is_written, true) || walked.control.bits() != control.bits() {
                         self.control.at(client).$write(walked.control)$(.$await)??;
                         control = walked.control;
                     }

@@ -16,6 +16,10 @@ pub trait MachineState: Copy + 'static {
     /// Numbers of the states that the device enters because of a fault.
     const FAULTS: &'static [u8];
 
+    /// Numbers of the states in which the machine is energized, such as "Operation enabled" of CiA 402. A walker passes
+    /// through these states only if one of them is its target.
+    const ENERGIZED: &'static [u8] = &[];
+
     /// Returns the state that the bits of a status word encode, or `None` if they match no state.
     fn of_status(bits: u32) -> Option<Self>;
 
@@ -41,6 +45,9 @@ pub trait MachineState: Copy + 'static {
 ///   clears the bit for one cycle.
 /// - The walker waits for transitions that the device makes by itself.
 /// - A fault that is active at the start is reset. A fault that occurs later stops the walker.
+/// - The walker passes through energized states, such as "Operation enabled", only if one of them is its target.
+/// - In the target state, the control word contains no command that leads away from it.
+/// - A device that leaves the target state by itself stops the walker. To continue, create a new walker.
 /// - Bits of the control word that no command uses stay as the program sets them.
 ///
 /// ```
@@ -73,8 +80,10 @@ pub struct Walker<S> {
     target: S,
     /// State number of the device, and pattern of the command that the walker sends in this state.
     sent: Option<(u8, (u32, u32))>,
-    /// True if the device had no fault since the start.
+    /// True if the device was in a state without a fault from which a command leads on.
     was_healthy: bool,
+    /// True if the device was in the target state.
+    was_reached: bool,
 }
 
 /// Result of a cycle of a [`Walker`].
@@ -86,13 +95,16 @@ pub struct Walked<W> {
     pub is_reached: bool,
 }
 
-/// Reason why a [`Walker`] cannot continue. The control word should stay as it is.
+/// Reason why a [`Walker`] cannot continue. The control word that the device has can still contain a command, so the program
+/// must decide which command is safe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stopped<S> {
     /// A fault occurred on the way. The device is in this state.
     Fault(S),
     /// No sequence of commands leads from this state to the target state.
     Unreachable(S),
+    /// The device left the target state without a command, and is in this state.
+    Left(S),
 }
 
 impl<S: MachineState> fmt::Display for Stopped<S> {
@@ -101,6 +113,9 @@ impl<S: MachineState> fmt::Display for Stopped<S> {
             Self::Fault(state) => write!(f, "a fault occurred: the device is in the state \"{}\"", state.name()),
             Self::Unreachable(state) => {
                 write!(f, "no command leads from the state \"{}\" to the target state", state.name())
+            }
+            Self::Left(state) => {
+                write!(f, "the device left the target state, and is in the state \"{}\"", state.name())
             }
         }
     }
@@ -112,14 +127,15 @@ impl<S: MachineState> Walker<S> {
     /// Creates a walker to the state `target`.
     #[must_use]
     pub const fn new(target: S) -> Self {
-        Self { target, sent: None, was_healthy: false }
+        Self { target, sent: None, was_healthy: false, was_reached: false }
     }
 
     /// Returns the control word for the next cycle. `control` is the control word that the device has now.
     ///
     /// # Errors
     ///
-    /// Returns [`Stopped`] if a fault occurred on the way, or if no command leads to the target state.
+    /// Returns [`Stopped`] if a fault occurred on the way, if no command leads to the target state, or if the device left
+    /// the target state.
     pub fn cycle<W: StateWord>(&mut self, status: impl StateWord, control: W) -> Result<Walked<W>, Stopped<S>> {
         let walked = self.bits(status.bits(), control.bits())?;
         Ok(Walked { control: W::from_bits(walked.control), is_reached: walked.is_reached })
@@ -132,9 +148,18 @@ impl<S: MachineState> Walker<S> {
         if state.is_fault() && self.was_healthy {
             return Err(Stopped::Fault(state));
         }
-        self.was_healthy |= !state.is_fault();
-        match Step::toward(S::TRANSITIONS, state.number(), self.target.number()) {
-            Step::Reached => Ok(Walked { is_reached: true, ..unchanged }),
+        if self.was_reached && state.number() != self.target.number() {
+            return Err(Stopped::Left(state));
+        }
+        let step = Step::toward_without(S::TRANSITIONS, state.number(), self.target.number(), S::ENERGIZED);
+        // A status word of 0, which a process image contains before the first cycle, can encode a state of the start-up.
+        self.was_healthy |= !state.is_fault() && !matches!(step, Step::Wait);
+        match step {
+            Step::Reached => {
+                let held = hold(state, control);
+                self.was_reached = held == control;
+                Ok(Walked { control: held, is_reached: self.was_reached })
+            }
             Step::Wait => Ok(unchanged),
             Step::Unreachable => Err(Stopped::Unreachable(state)),
             Step::Command(command) => Ok(Walked { control: self.send(state, command, control), ..unchanged }),
@@ -148,17 +173,45 @@ impl<S: MachineState> Walker<S> {
         let sent = Some((state.number(), (mask, value)));
         let is_new = self.sent != sent;
         self.sent = sent;
-        if is_new && control & mask == value {
-            return control & !exclusive::<S>(mask, value);
+        let others = control & !used::<S>();
+        if is_new && control == others | value {
+            return others | (value & !exclusive::<S>(mask, value));
         }
-        control & !mask | value
+        others | value
     }
+}
+
+/// Returns the patterns of the commands of a machine.
+fn patterns<S: MachineState>(is_it: impl Fn(&Transition<S::Command>) -> bool) -> impl Iterator<Item = (u32, u32)> {
+    let transitions = S::TRANSITIONS.iter().filter(move |transition| is_it(transition));
+    transitions.filter_map(Transition::command).map(S::pattern)
+}
+
+/// Returns the bits of the control word that belong to commands.
+fn used<S: MachineState>() -> u32 {
+    patterns::<S>(|_| true).fold(0, |bits, (mask, _)| bits | mask)
+}
+
+/// Returns the control word for a device that is in the target state. If a command in the control word leads away from the
+/// state, replaces it with a command that leads to the state.
+fn hold<S: MachineState>(state: S, control: u32) -> u32 {
+    let number = state.number();
+    let leads_away = |control: u32| {
+        let mut leaving = patterns::<S>(|transition| transition.from == number && transition.to != number);
+        leaving.any(|(mask, value)| control & mask == value)
+    };
+    if !leads_away(control) {
+        return control;
+    }
+    let entering = patterns::<S>(|transition| transition.to == number);
+    let mut words = entering.map(|(_, value)| control & !used::<S>() | value);
+    words.find(|word| !leads_away(*word)).unwrap_or(control)
 }
 
 /// Returns the bits that only the command with this pattern sets.
 fn exclusive<S: MachineState>(mask: u32, value: u32) -> u32 {
-    let commands = S::TRANSITIONS.iter().filter_map(Transition::command).map(S::pattern);
-    let others = commands.filter(|pattern| *pattern != (mask, value)).fold(0, |bits, (_, value)| bits | value);
+    let others =
+        patterns::<S>(|_| true).filter(|pattern| *pattern != (mask, value)).fold(0, |bits, (_, value)| bits | value);
     value & !others
 }
 
@@ -238,7 +291,8 @@ mod tests {
         assert_eq!(controls(0, &states), [0, 0x80, 0x80, 0x80, 0x06, 0x0F, 0x0F]);
         // The reset bit is already set: a level would fail forever.
         assert_eq!(controls(0x80, &states), [0x80, 0, 0x80, 0x80, 0x06, 0x0F, 0x0F]);
-        assert_eq!(controls(0x8F, &states), [0x8F, 0x0F, 0x8F, 0x8F, 0x0E, 0x0F, 0x0F]);
+        // Bits of other commands are cleared with each command.
+        assert_eq!(controls(0x8F, &states), [0x8F, 0x80, 0x80, 0x80, 0x06, 0x0F, 0x0F]);
     }
 
     #[test]
@@ -255,6 +309,35 @@ mod tests {
         assert_eq!(stopped, Stopped::Fault(State::Reaction));
         assert_eq!(stopped.to_string(), "a fault occurred: the device is in the state \"a state\"");
         assert_eq!(Walker::new(State::Fault).cycle(0x21_u16, 0_u16), Err(Stopped::Unreachable(State::Ready)));
+    }
+
+    #[test]
+    fn the_target_state_is_held() {
+        // The drive is ready, but the control word still enables it.
+        let mut walker = Walker::new(State::Ready);
+        assert_eq!(walker.cycle(0x21_u16, 0x010F_u16), Ok(Walked { control: 0x0106, is_reached: false }));
+        assert_eq!(walker.cycle(0x21_u16, 0x0106_u16), Ok(Walked { control: 0x0106, is_reached: true }));
+        // Afterwards, another state stops the walker, so that it never enables the drive again by itself.
+        assert_eq!(walker.cycle(0x40_u16, 0x0106_u16), Err(Stopped::Left(State::Disabled)));
+    }
+
+    #[test]
+    fn energized_states_are_only_targets() {
+        let both =
+            [Transition::new(3, 1, Some('e')), Transition::new(1, 0, Some('d')), Transition::new(3, 2, Some('v'))];
+        let all = [both[0], both[1], both[2], Transition::new(2, 4, Some('s')), Transition::new(4, 0, Some('t'))];
+        assert_eq!(Step::toward(&all, 3, 0), Step::Command('e'));
+        assert_eq!(Step::toward_without(&all, 3, 0, &[1]), Step::Command('v'));
+        assert_eq!(Step::toward_without(&all, 3, 1, &[1]), Step::Command('e'));
+        assert_eq!(Step::toward_without(&both, 3, 0, &[1]), Step::Unreachable);
+    }
+
+    #[test]
+    fn a_fault_after_the_start_up_is_reset() {
+        let mut walker = Walker::new(State::Enabled);
+        // The process image is 0 before the first cycle.
+        assert_eq!(walker.cycle(0_u16, 0_u16), Ok(Walked { control: 0, is_reached: false }));
+        assert_eq!(walker.cycle(0x08_u16, 0_u16), Ok(Walked { control: 0x80, is_reached: false }));
     }
 
     #[test]

@@ -306,7 +306,7 @@ impl CanPort for CanNode {
         loop {
             while let Some(frame) = self.next_frame() {
                 if wanted(&frame) {
-                    return Ok(Some(frame));
+                    return Ok(Some(frame.at(Some(self.now))));
                 }
             }
             match self.next_event().filter(|next| *next <= end) {
@@ -317,6 +317,10 @@ impl CanPort for CanNode {
                 }
             }
         }
+    }
+
+    fn now(&mut self) -> Option<Duration> {
+        Some(self.now)
     }
 }
 
@@ -334,6 +338,10 @@ impl AsyncCanPort for CanNode {
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, Infallible> {
         CanPort::receive(self, patience, wanted)
+    }
+
+    fn now(&mut self) -> Option<Duration> {
+        Some(self.now)
     }
 }
 

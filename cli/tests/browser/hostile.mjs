@@ -45,7 +45,7 @@ async function search(window) {
     const found = await window.search("onerror=alert");
     assert.ok(found.length >= 3 && found.every((item) => item.includes("<img src=x onerror=alert")), found.join("\n"));
     assert.deepEqual(await page.evaluate(() => [...new Set([...document.querySelectorAll("#found *")].map((item) => item.tagName))].sort()), ["A", "LI", "SMALL"]);
-    await page.keyboard.press("Enter");
+    await page.locator('#found a[href*="#"]').first().click();
     await page.waitForURL(/#/);
     await page.waitForFunction(() => document.querySelector(":target"));
   }

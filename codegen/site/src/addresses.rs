@@ -59,9 +59,13 @@ impl Addresses {
         if keys.len() < 2 {
             return folder;
         }
+        let name = folder_name(&key.0);
+        // Descriptions whose names differ only in punctuation have a checksum.
+        let is_ambiguous = keys.iter().any(|other| other.0 != key.0 && folder_name(&other.0) == name);
+        let name = if is_ambiguous { format!("{name}-{:08x}", checksum(&key.0)) } else { name };
         match keys.iter().filter(|other| other.0 == key.0).position(|other| other == key) {
-            None | Some(0) => format!("{folder}-{}", folder_name(&key.0)),
-            Some(number) => format!("{folder}-{}-{}", folder_name(&key.0), number + 1),
+            None | Some(0) => format!("{folder}-{name}"),
+            Some(number) => format!("{folder}-{name}-{}", number + 1),
         }
     }
 
@@ -122,9 +126,12 @@ pub(super) fn folder_name(text: &str) -> String {
         return name;
     }
     name.truncate(LONGEST);
-    // FNV-1a.
-    let checksum = text.bytes().fold(0x811C_9DC5_u32, |sum, byte| (sum ^ u32::from(byte)).wrapping_mul(0x0100_0193));
-    format!("{}{}{checksum:08x}", name.trim_end_matches('-'), if name.is_empty() { "" } else { "-" })
+    format!("{}{}{:08x}", name.trim_end_matches('-'), if name.is_empty() { "" } else { "-" }, checksum(text))
+}
+
+/// Returns the checksum FNV-1a of a text.
+fn checksum(text: &str) -> u32 {
+    text.bytes().fold(0x811C_9DC5, |sum, byte| (sum ^ u32::from(byte)).wrapping_mul(0x0100_0193))
 }
 
 #[cfg(test)]
@@ -178,6 +185,15 @@ mod tests {
         assert_eq!(previous, Some(&(1, ("Y y".to_owned(), 0))));
         assert_eq!(previous, other.previous(&first.devices[2]));
         assert_eq!(one.previous(&first.devices[0]), None);
+    }
+
+    #[test]
+    fn names_that_differ_in_punctuation() {
+        let one = catalog(&[("Drive", Some(7), Some(1))]);
+        let mut addresses = Addresses::default();
+        addresses.add("drive_v1", &one);
+        addresses.add("drive-v1", &one);
+        assert_ne!(folders(&addresses, "drive_v1", &one), folders(&addresses, "drive-v1", &one));
     }
 
     #[test]

@@ -22,7 +22,7 @@ impl Drive {
     pub(super) fn enter_fault(&mut self, code: u16, persists: bool, objects: &mut Objects<'_>) {
         // Stores the controlword, so that a reset bit that is already set isn't a rising edge.
         self.control(objects);
-        self.has_cause = persists;
+        self.has_cause |= persists;
         if !matches!(self.state, State::FaultReactionActive | State::Fault) {
             self.enter(State::FaultReactionActive, objects);
         }

@@ -153,7 +153,8 @@ impl Constant<'_> {
     }
 }
 
-fn goal(states: &PatternsModel) -> Option<String> {
+/// Returns the variant of the state "Operation enabled" of CiA 402, in which the drive is energized.
+pub(super) fn goal(states: &PatternsModel) -> Option<String> {
     let is_it = |pattern: &&PatternModel| pattern.title.eq_ignore_ascii_case("operation enabled");
     states.patterns.iter().find(is_it).map(|pattern| pattern.name.clone())
 }

@@ -79,6 +79,7 @@
             Self::FaultReactionActive as u8,
             Self::Fault as u8,
         ];
+        const ENERGIZED: &'static [u8] = &[Self::OperationEnabled as u8];
         fn name(self) -> &'static str {
             match self {
                 Self::NotReadyToSwitchOn => "not ready to switch on",

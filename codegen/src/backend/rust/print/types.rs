@@ -7,6 +7,7 @@ use crate::backend::rust::literal;
 use crate::backend::rust::machine::{MachineModel, PatternsModel};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::reexport::Section;
+use crate::backend::rust::walk::goal;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let types = &model.types;
@@ -117,6 +118,9 @@ fn machine_state(
     line!(code, "const TRANSITIONS: &'static [rt::Transition<", commands.name, ">] = ", transitions, ";");
     let faults: Vec<String> = faults.iter().map(|fault| format!("Self::{fault} as u8")).collect();
     line!(code, "const FAULTS: &'static [u8] = ", list("&[", &faults, "]"), ";");
+    if let Some(goal) = goal(states) {
+        line!(code, "const ENERGIZED: &'static [u8] = &[Self::", goal, " as u8];");
+    }
     open!(code, "fn of_status(bits: u32) -> Option<Self> {");
     // Clippy reports casts to the same type.
     let cast = |from: &str, to: &str| if from == to { String::new() } else { format!(" as {to}") };
