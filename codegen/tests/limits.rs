@@ -276,7 +276,7 @@ fn the_book_has_each_limit() {
         ("`CompactPDO`", limits::MAX_IMPLICIT_PDOS.into()),
         ("modules that the slots", limits::MAX_MODULE_USES),
         ("copies of data types", limits::MAX_COPIES_PER_BYTE),
-        ("unknown keys that are reported", limits::MAX_UNKNOWN_KEYS),
+        ("unknown keys that the compiler reports", limits::MAX_UNKNOWN_KEYS),
         ("messages of a register table", limits::MAX_MESSAGES),
         ("state machines of a device", limits::MAX_MACHINE_ROWS),
         ("items that `import` creates", limits::MAX_DERIVED_ITEMS),

@@ -92,7 +92,7 @@ fn references_are_links() {
                 "    /// View of [`Control`] with the bits that are defined while [mode](super::objects::MODE) is \"press\" (1).",
                 "    /// States of ram, read from [status](super::objects::STATUS).",
                 "    /// | [`Ready`](Self::Ready) | `xxxx xxxx xxxx x001` |",
-                "    /// Physical value = raw × 0.5 / [gain](GAIN) N, 0x200C:01, Modbus 12 (holding; wire address 12; FC 3), INTEGER16, read-only.",
+                "    /// force: Physical value = raw × 0.5 / [gain](GAIN) N, 0x200C:01, Modbus 12 (holding; wire address 12; FC 3), INTEGER16, read-only.",
                 "    /// Removed in firmware 2\\.0. Replaced by [position](POSITION_8).",
             ][..],
         ),
@@ -118,7 +118,7 @@ fn references_are_links() {
             "dictionaries/demo-drive.eds",
             &[
                 "    /// | 2–5 | [`target_position`](Self::target_position) | [0x607A:00](super::objects::TARGET_POSITION) | `i32` |",
-                "        /// Accessor: [`Accessors::vendor_id`].",
+                "        /// Accessor: [`IdentityObjectAccessors::vendor_id`].",
             ],
         ),
     ] {

@@ -145,7 +145,7 @@ fn levels_of_inputs_are_the_printed_ones() {
     assert_eq!(rows.len(), 4);
     let definition = device.types.iter().find(|definition| definition.name == "InvertedInputs").expect("bits");
     let doc = definition.documentation.as_ref().expect("a text");
-    assert!(doc.text.contains("1 inverts the input: 0 V is high and 24 V is low"));
+    assert!(doc.text.contains("If a bit is 1, its input is inverted: 0 V is high, and 24 V is low."));
     assert_eq!(doc.cite.as_deref(), Some("2225-2262"));
     for (at, cells) in rows {
         let is_inverted = number(&cells[0]) == Some(1);
