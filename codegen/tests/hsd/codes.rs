@@ -152,7 +152,7 @@ fn levels_of_inputs_are_the_printed_ones() {
         // The manual prints 1 V in one cell, which has a `doubt` entry.
         let is_odd = cells[1] == "1";
         assert_eq!(is_odd, at == 2237, "line {at}");
-        assert!(!is_odd || doubts(device).iter().any(|doubt| doubt.contains("Its first row prints 0, 1 V and low")));
+        assert!(!is_odd || doubts(device).iter().any(|doubt| doubt.contains("Its first row contains 0, 1 V and low")));
         let has_voltage = number(&cells[1]) == Some(24);
         assert_eq!(cells[2], if has_voltage != is_inverted { "Alto" } else { "Basso" }, "line {at}");
     }
