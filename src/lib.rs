@@ -14,13 +14,7 @@
 //!
 //! ```
 //! # #[cfg(feature = "std")] {
-//! # use lexibus_drives::demo_drive::{objects, types::{Controlword, Statusword}};
-//! # let mut device = lexibus::sim::Device::new(lexibus_drives::demo_drive::ENTRIES);
-//! # device.on_write(objects::CONTROLWORD, |device, controlword: Controlword| {
-//! #     let status = match controlword.raw() & 0x8F { 0x06 => 0x21, 0x07 => 0x23, 0x0F => 0x27, _ => 0x40 };
-//! #     device.set(objects::STATUSWORD, Statusword::from_raw(status))
-//! # })?;
-//! # device.set_initial(objects::STATUSWORD, Statusword::from_raw(0x08))?;
+//! # let mut device = lexibus::sim::Device::new(lexibus_drives::demo_drive::ENTRIES).with_cia402();
 //! # let client = device.client::<lexibus::CanOpen>();
 //! use std::time::Duration;
 //!

@@ -22,14 +22,6 @@ impl<C> Transition<C> {
     pub const fn new(from: u8, to: u8, command: Option<C>) -> Self {
         Self { from, to, command }
     }
-
-    /// Returns the command that triggers the transition.
-    fn command(&self) -> Option<C>
-    where
-        C: Copy,
-    {
-        self.command
-    }
 }
 
 /// Next step on the path of a device to a target state.

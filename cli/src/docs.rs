@@ -1,10 +1,9 @@
 //! `lexibus docs`: writes a documentation site, or Markdown pages.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use lexibus_codegen::compile::Compilation;
-use lexibus_codegen::ir::Catalog;
 use lexibus_codegen::output::write_if_changed;
 use lexibus_site::{Format, Page, Site};
 
@@ -25,12 +24,15 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
         return reporter.finish();
     }
     let mut site = Site::new(format);
-    let names = Names::new(&inputs::sorted(&docs.inputs)?);
-    // A second reading costs little, compared with writing the pages.
-    inputs::each_by_path(&docs.inputs, &options, |input, compilation| {
-        usable(&compilation).into_iter().for_each(|catalog| site.announce(names.of(input), catalog));
-        Ok(())
-    })?;
+    let files = inputs::sorted(&docs.inputs)?;
+    let names = Names::new(&files);
+    // The addresses of a single file need no other file. Reading several files twice costs less than keeping all of them in memory.
+    if files.len() > 1 {
+        inputs::compile_all(&files, &docs.inputs, &options, |input, compilation| {
+            compilation.usable().into_iter().for_each(|catalog| site.announce(names.of(input), catalog));
+            Ok(())
+        })?;
+    }
     let mut written = HashSet::new();
     let mut put = |pages: &[Page], reporter: &mut Reporter| {
         for page in pages {
@@ -42,19 +44,20 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
             }
         }
     };
-    inputs::each_by_path(&docs.inputs, &options, |input, compilation| {
+    inputs::compile_all(&files, &docs.inputs, &options, |input, compilation| {
         reporter.report(&compilation)?;
         put(&site.add_compilation(names.of(input), &compilation), &mut reporter);
         Ok(())
     })?;
+    let names = Names::new(&docs.compare);
     for pair in pairs(&docs.compare)? {
         let compilations = pair.map(|path| inputs::compile_file(path, &options));
-        let [Some(old), Some(new)] = compilations.each_ref().map(|compilation| usable(compilation)) else {
+        let [Some(old), Some(new)] = compilations.each_ref().map(Compilation::usable) else {
             compilations.iter().try_for_each(|compilation| reporter.report(compilation))?;
             continue;
         };
-        let [old_name, new_name] = pair.map(stem);
-        put(&[site.compare((&old_name, old), (&new_name, new))], &mut reporter);
+        let [old_name, new_name] = pair.map(|path| names.of(path));
+        put(&[site.compare((old_name, old), (new_name, new))], &mut reporter);
     }
     put(&site.finish(), &mut reporter);
     // After an error, the pages of an earlier run stay: this run may only have failed to write them.
@@ -83,27 +86,20 @@ fn pairs(paths: &[PathBuf]) -> Result<impl Iterator<Item = [&Path; 2]>, Failure>
     }))
 }
 
-/// Returns the catalog of a description without errors.
-fn usable(compilation: &Compilation) -> Option<&Catalog> {
-    compilation.catalog.as_ref().filter(|_| compilation.is_usable())
-}
-
-fn stem(path: &Path) -> String {
-    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
-}
-
 /// The names of the descriptions: file names without extension, or whole paths if several files have the same name.
 struct Names(HashMap<PathBuf, String>);
 
 impl Names {
     fn new(files: &[PathBuf]) -> Self {
+        let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let files: BTreeSet<&PathBuf> = files.iter().collect();
         let mut counts: HashMap<String, usize> = HashMap::new();
         files.iter().for_each(|path| *counts.entry(stem(path)).or_default() += 1);
         let name = |path: &PathBuf| match counts[&stem(path)] {
             1 => stem(path),
             _ => path.display().to_string(),
         };
-        Names(files.iter().map(|path| (path.clone(), name(path))).collect())
+        Names(files.into_iter().map(|path| (path.clone(), name(path))).collect())
     }
 
     fn of(&self, path: &Path) -> &str {

@@ -88,7 +88,7 @@ pub(super) fn run(export: &Export) -> Result<bool, Failure> {
         if let (Format::Eds(_), Some(catalog)) = (&format, &mut compilation.catalog) {
             options.select.mapping_objects(catalog);
         }
-        match compilation.catalog.as_ref().filter(|_| compilation.is_usable()) {
+        match compilation.usable() {
             Some(catalog) => write(&format, input, &compilation, catalog, &mut target, &mut reporter),
             None => Ok(()),
         }

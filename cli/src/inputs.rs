@@ -22,7 +22,7 @@ pub(super) fn each(
     options: &Options,
     use_it: impl FnMut(&Path, Compilation) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    compile_all(files(&inputs.paths)?, inputs, options, use_it)
+    compile_all(&files(&inputs.paths)?, inputs, options, use_it)
 }
 
 /// Compiles all inputs like [`each`], but in the order of their paths and without duplicates.
@@ -33,7 +33,7 @@ pub(super) fn each_by_path(
     options: &Options,
     use_it: impl FnMut(&Path, Compilation) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    compile_all(sorted(inputs)?, inputs, options, use_it)
+    compile_all(&sorted(inputs)?, inputs, options, use_it)
 }
 
 /// Returns the input files in the order of their paths, without duplicates.
@@ -44,8 +44,9 @@ pub(super) fn sorted(inputs: &Inputs) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-fn compile_all(
-    files: Vec<PathBuf>,
+/// Compiles files in parallel, and passes the results to `use_it` in the order of the files.
+pub(super) fn compile_all(
+    files: &[PathBuf],
     inputs: &Inputs,
     options: &Options,
     mut use_it: impl FnMut(&Path, Compilation) -> Result<(), Failure>,
@@ -57,7 +58,7 @@ fn compile_all(
     let progress = progress(files.len());
     let (sender, receiver) = mpsc::channel();
     std::thread::scope(|scope| {
-        let (files, pool) = (&files, &pool);
+        let pool = &pool;
         scope.spawn(move || {
             pool.scope(|scope| {
                 for (position, path) in files.iter().enumerate() {

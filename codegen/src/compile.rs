@@ -58,6 +58,11 @@ impl Compilation {
         self.catalog.is_some() && !self.diagnostics.has_errors()
     }
 
+    /// Returns the catalog, or `None` if the compilation has errors.
+    pub fn usable(&self) -> Option<&Catalog> {
+        self.catalog.as_ref().filter(|_| self.is_usable())
+    }
+
     /// Returns a diagnostic of this compilation on one line: `file:line:column: message [EDS020]`.
     pub fn one_line(&self, diagnostic: &Diagnostic) -> String {
         let mut text = String::new();

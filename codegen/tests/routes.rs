@@ -80,7 +80,7 @@ fn code_of_a_window() {
     let text = rust(&table(WINDOW, rows, ""));
     insta::assert_snapshot!("window", part(&text, "pub mod windows", "pub mod objects"));
     insta::assert_snapshot!("maker", part(&text, "const fn location_1", "    }"));
-    insta::assert_snapshot!("behind_a_window", part(&text, "    /// Gain.", "pub const FAR"));
+    insta::assert_snapshot!("behind_a_window", part(&text, "    /// Gain:", "pub const FAR"));
 }
 
 #[test]
@@ -108,7 +108,7 @@ fn code_of_an_image() {
                   [[images]]\nname = \"in\"\ndirection = \"tx\"\nbytes = 8\norder = \"little\"\n[images.fields]\nAlarm = { at = 7 }\nTorque = { at = 1, type = \"i16\" }\n";
     let text = rust(&table("", rows, images));
     insta::assert_snapshot!("image", part(&text, "pub mod objects", "Handle of a read-only register or entry."));
-    insta::assert_snapshot!("widths", part(&text, "    /// Mode.", "    /// Alarm."));
+    insta::assert_snapshot!("widths", part(&text, "    /// Mode:", "    /// Alarm:"));
     let compilation = read(&table("", rows, images));
     let mode = item(&compilation, "Mode");
     assert_eq!((mode.type_on(Bus::CanOpen), mode.access_on(Bus::CanOpen)), (Type::Integer(8), Access::WriteOnly));

@@ -143,11 +143,10 @@ impl<V: Fixed, A, L, W: Fixed, B, M> fmt::Debug for Machine<V, A, L, W, B, M> {
 /// Defines the methods that lead a machine to a state, blocking and async.
 macro_rules! walks {
     ($Client:ident $walk:ident $read:ident $write:ident $(#[$doc:meta])* $($async:ident $await:ident)?) => {
-        impl<V: Fixed<Native: StateWord>, A: Readable, L: Copy, W: Fixed<Native: StateWord>, B, M>
-            Machine<V, A, L, W, B, M>
+        impl<V, A: Readable, L: Copy, W, B: Writable, M: Copy> Machine<V, A, L, W, B, M>
         where
-            B: Writable,
-            M: Copy,
+            V: Fixed<Native: StateWord>,
+            W: Fixed<Native: StateWord>,
         {
             $(#[$doc])*
             ///
@@ -180,10 +179,11 @@ macro_rules! walks {
                     if walked.is_reached {
                         return Ok(());
                     }
-                    // The first command is always written, because `control` can be unknown.
-                    if !core::mem::replace(&mut is_written, true) || walked.control.bits() != control.bits() {
+                    // The first command is always written, because the device can have another control word than `control`.
+                    let is_first = walker.has_sent() && !is_written;
+                    if is_first || walked.control.bits() != control.bits() {
                         self.control.at(client).$write(walked.control)$(.$await)??;
-                        control = walked.control;
+                        (control, is_written) = (walked.control, true);
                     }
                     match remaining.pause() {
                         Some(pause) => client.wait(pause)$(.$await)??,
@@ -209,5 +209,86 @@ fn late<S: MachineState, E>(status: u32) -> WalkError<S, E> {
     match S::of_status(status) {
         Some(state) if state.is_fault() => WalkError::Fault { state, code: None },
         state => WalkError::Deadline { state, status },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::Transition;
+    use crate::{CanOpen, Object, OnCanOpen, Ro, Wo};
+    use std::vec::Vec;
+
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    enum State {
+        Starting,
+        On,
+        Off,
+    }
+
+    impl MachineState for State {
+        type Command = (u32, u32);
+        const TRANSITIONS: &'static [Transition<(u32, u32)>] =
+            &[Transition::new(0, 1, None), Transition::new(1, 2, Some((1, 0))), Transition::new(2, 1, Some((1, 1)))];
+        const FAULTS: &'static [u8] = &[];
+
+        fn of_status(bits: u32) -> Option<Self> {
+            [Self::Starting, Self::On, Self::Off].get(bits as usize).copied()
+        }
+
+        fn number(self) -> u8 {
+            self as u8
+        }
+
+        fn name(self) -> &'static str {
+            "a state"
+        }
+
+        fn pattern(command: (u32, u32)) -> (u32, u32) {
+            command
+        }
+    }
+
+    /// A device whose control item can only be written. Bit 0 switches it on.
+    struct Device {
+        status: u8,
+        writes: Vec<u8>,
+    }
+
+    impl Client for Device {
+        type Bus = CanOpen;
+        type Error = ();
+
+        fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, Error<()>> {
+            buffer.fill(self.status);
+            Ok(buffer.len())
+        }
+
+        fn write(&mut self, _: Object, data: &[u8]) -> Result<(), Error<()>> {
+            self.writes.extend(data);
+            self.status = if data == [0] { 2 } else { 1 };
+            Ok(())
+        }
+
+        fn wait(&mut self, _: Duration) -> Result<(), Error<()>> {
+            // The device starts while the client waits.
+            self.status = self.status.max(1);
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn the_first_command_is_written_and_waiting_writes_nothing() {
+        let status: Item<u8, Ro, OnCanOpen> = Item::object(0x2000, 0, "status");
+        let control: Item<u8, Wo, OnCanOpen> = Item::object(0x2001, 0, "control");
+        let machine = || Machine::new(status, control);
+        let mut device = Device { status: 0, writes: Vec::new() };
+        let deadline = Duration::from_secs(1);
+        assert_eq!(machine().walk(&mut device, 0, State::On, deadline), Ok(()));
+        // Only the control word that holds the target is written: 0 would switch the device off.
+        assert_eq!(device.writes, [1]);
+        // The command "off" equals the control word that the program assumes, but not that of the device.
+        assert_eq!(machine().walk(&mut device, 0, State::Off, deadline), Ok(()));
+        assert_eq!(device.writes, [1, 0]);
     }
 }

@@ -43,11 +43,11 @@ pub trait MachineState: Copy + 'static {
 ///
 /// - A command that reacts to an edge, such as a fault reset, works even if its bit is already set: the walker first
 ///   clears the bit for one cycle.
-/// - The walker waits for transitions that the device makes by itself.
+/// - The walker waits for automatic transitions of the device.
 /// - A fault that is active at the start is reset. A fault that occurs later stops the walker.
 /// - The walker passes through energized states, such as "Operation enabled", only if one of them is its target.
 /// - In the target state, the control word contains no command that leads away from it.
-/// - A device that leaves the target state by itself stops the walker. To continue, create a new walker.
+/// - A device that leaves the target state without a command stops the walker. To continue, create a new walker.
 /// - Bits of the control word that no command uses stay as the program sets them.
 ///
 /// ```
@@ -130,6 +130,11 @@ impl<S: MachineState> Walker<S> {
         Self { target, sent: None, was_healthy: false, was_reached: false }
     }
 
+    /// Returns whether the walker has sent a command.
+    pub(super) const fn has_sent(&self) -> bool {
+        self.sent.is_some()
+    }
+
     /// Returns the control word for the next cycle. `control` is the control word that the device has now.
     ///
     /// # Errors
@@ -184,7 +189,7 @@ impl<S: MachineState> Walker<S> {
 /// Returns the patterns of the commands of a machine.
 fn patterns<S: MachineState>(is_it: impl Fn(&Transition<S::Command>) -> bool) -> impl Iterator<Item = (u32, u32)> {
     let transitions = S::TRANSITIONS.iter().filter(move |transition| is_it(transition));
-    transitions.filter_map(Transition::command).map(S::pattern)
+    transitions.filter_map(|transition| transition.command).map(S::pattern)
 }
 
 /// Returns the bits of the control word that belong to commands.
@@ -317,7 +322,7 @@ mod tests {
         let mut walker = Walker::new(State::Ready);
         assert_eq!(walker.cycle(0x21_u16, 0x010F_u16), Ok(Walked { control: 0x0106, is_reached: false }));
         assert_eq!(walker.cycle(0x21_u16, 0x0106_u16), Ok(Walked { control: 0x0106, is_reached: true }));
-        // Afterwards, another state stops the walker, so that it never enables the drive again by itself.
+        // Afterwards, another state stops the walker, so that it never enables the drive again.
         assert_eq!(walker.cycle(0x40_u16, 0x0106_u16), Err(Stopped::Left(State::Disabled)));
     }
 

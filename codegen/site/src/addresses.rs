@@ -35,11 +35,10 @@ impl Addresses {
     pub fn add(&mut self, name: &str, catalog: &Catalog) {
         for (at, device) in catalog.devices.iter().enumerate() {
             let (identity, key) = (&device.identity, (name.to_owned(), at));
-            if let (Some(product), Some(revision)) = (identity.product_code, identity.revision_number) {
-                self.products.entry((identity.vendor_id, product)).or_default().push((revision, key.clone()));
+            if let (Some(code), Some(number)) = (identity.product_code, identity.revision_number) {
+                self.products.entry((identity.vendor_id, code)).or_default().push((number, key.clone()));
             }
-            let revision = identity.revision_number.map_or_else(|| "no-revision".to_owned(), folder_of_number);
-            self.devices.entry((product(device), revision)).or_default().push(key);
+            self.devices.entry((product(device), revision(device))).or_default().push(key);
         }
         let vendor = catalog.devices.first().map_or_else(|| "unknown-vendor".to_owned(), vendor);
         self.shared.insert(name.to_owned(), format!("{vendor}/_files/{}", folder_name(name)));
@@ -52,8 +51,7 @@ impl Addresses {
 
     /// Returns the folder of a device, relative to the folder of the site.
     pub fn device(&self, device: &Device, key: &DeviceKey) -> String {
-        let revision = device.identity.revision_number.map_or_else(|| "no-revision".to_owned(), folder_of_number);
-        let of = (product(device), revision);
+        let of = (product(device), revision(device));
         let keys = self.devices.get(&of).map_or(&[][..], Vec::as_slice);
         let folder = format!("{}/{}", of.0, of.1);
         if keys.len() < 2 {
@@ -104,12 +102,17 @@ fn vendor(device: &Device) -> String {
 
 /// Returns the folder of a device's product in the folder of its vendor. The folder contains the product code, because
 /// products can have equal names.
-pub(super) fn product(device: &Device) -> String {
+fn product(device: &Device) -> String {
     let title = folder_name(facts::device::title(device));
     match device.identity.product_code {
         Some(code) => format!("{}/{title}-{}", vendor(device), folder_of_number(code)),
         None => format!("{}/{title}", vendor(device)),
     }
+}
+
+/// Returns the folder of a device's revision in the folder of its product.
+fn revision(device: &Device) -> String {
+    device.identity.revision_number.map_or_else(|| "no-revision".to_owned(), folder_of_number)
 }
 
 fn folder_of_number(number: u32) -> String {

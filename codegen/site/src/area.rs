@@ -102,7 +102,7 @@ impl<'p> Filler<'p> {
     /// Adds items under one heading. They are all on the same page.
     fn add(&mut self, group: &Group, items: &[(ItemId, &Item)]) {
         let (mut section, mut size) = self.section(group, items);
-        if !self.fill.has_room(items.len(), size) {
+        if !self.fill.fits(items.len(), size) {
             let pages = std::mem::take(&mut self.pages);
             *self = Filler { pages, ..Filler::new(self.types, self.known, self.size) };
             self.pages.push(Vec::new());

@@ -19,8 +19,7 @@ pub(super) fn data(device: &Device, usage: &Usage) -> Option<String> {
         device.process_data.pdos.iter().filter_map(|pdo| self::pdo(device, pdo, &usage.pdos)).collect();
     let mapped = pdo::mapped_objects(&device.process_data.pdos);
     let groups = (0..).zip(&device.groups).flat_map(|(position, group)| group.items_at(position));
-    let objects: Vec<Json> =
-        groups.filter_map(|(id, item)| object(device, (id, item), &mapped, &usage.calls)).collect();
+    let objects: Vec<Json> = groups.filter_map(|(id, item)| object(device, id, item, &mapped, &usage.calls)).collect();
     let data = json!({ "granularity": granularity.unwrap_or(1), "pdos": pdos, "objects": objects });
     (!pdos.is_empty() && !objects.is_empty()).then(|| data.to_string())
 }
@@ -53,7 +52,8 @@ fn pdo(device: &Device, pdo: &Pdo, names: &HashMap<u16, String>) -> Option<Json>
 /// the object.
 fn object(
     device: &Device,
-    (id, item): (ItemId, &Item),
+    id: ItemId,
+    item: &Item,
     mapped: &HashMap<(u16, u8), Mappable>,
     calls: &Calls,
 ) -> Option<Json> {

@@ -174,12 +174,12 @@ impl<'a> Folder<'a> {
         let here = Common { modules: &modules, path: String::new(), list, shared };
         let languages_of_modules = languages_of_modules(catalog);
         if let Some(device) = only {
-            self.device((0, device), catalog, &languages_of_modules, &here);
+            self.device(0, device, catalog, &languages_of_modules, &here);
         } else {
             let there = here.from(&format!("{ROOT}/{}/", self.home));
             for (at, device) in catalog.devices.iter().enumerate() {
                 self.open(self.addresses.device(device, &(self.name.clone(), at)));
-                self.device((at, device), catalog, &languages_of_modules, &there);
+                self.device(at, device, catalog, &languages_of_modules, &there);
             }
             self.open(self.home.clone());
         }
@@ -226,7 +226,8 @@ impl<'a> Folder<'a> {
     /// Writes the pages of a device at this position in its catalog.
     fn device(
         &mut self,
-        (at, device): (usize, &Device),
+        at: usize,
+        device: &Device,
         catalog: &Catalog,
         languages_of_modules: &BTreeSet<&str>,
         common: &Common<'_>,

@@ -135,8 +135,10 @@ impl Site {
 
     /// Returns the pages of a compilation, including its diagnostics. Returns no pages if the compilation has errors.
     pub fn add_compilation(&mut self, name: &str, compilation: &Compilation) -> Vec<Page> {
-        let catalog = compilation.catalog.as_ref().filter(|_| compilation.is_usable());
-        catalog.map(|catalog| self.folder(name, catalog, ShownDiagnostics::of(compilation))).unwrap_or_default()
+        compilation
+            .usable()
+            .map(|catalog| self.folder(name, catalog, ShownDiagnostics::of(compilation)))
+            .unwrap_or_default()
     }
 
     fn folder(&mut self, name: &str, catalog: &Catalog, diagnostics: ShownDiagnostics) -> Vec<Page> {

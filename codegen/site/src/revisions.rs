@@ -104,7 +104,7 @@ impl Revisions {
 
 impl Changes {
     fn page(&self, format: &dyn Pages, old: (&Catalog, &Device), new: (&Catalog, &Device)) -> Page {
-        let changes = compare_devices(old, new);
+        let changes = compare_devices(old.0, old.1, new.0, new.1);
         let (old, new) = (format!("Revision {}", self.previous.old), self.previous.new.clone());
         let title = self.previous.title();
         let comparison = Comparison { title, old, new, summary: Summary::of(&changes), changes };

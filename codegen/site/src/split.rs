@@ -21,8 +21,8 @@ impl Fill {
         Fill { most, count: 0, size: 0 }
     }
 
-    /// Returns whether `count` more elements with this total size fit on the page. An empty page has room for all elements.
-    pub fn has_room(&self, count: usize, size: usize) -> bool {
+    /// Returns whether `count` more elements with this total size fit on the page. All elements fit on an empty page.
+    pub fn fits(&self, count: usize, size: usize) -> bool {
         self.count == 0 || (self.count + count <= self.most && self.size + size <= SIZE)
     }
 
@@ -37,7 +37,7 @@ pub(super) fn ranges(sizes: impl IntoIterator<Item = usize>, most: usize) -> Vec
     let mut ranges: Vec<Range<usize>> = Vec::new();
     let mut fill = Fill::new(most);
     for (at, size) in sizes.into_iter().enumerate() {
-        match ranges.last_mut().filter(|_| fill.has_room(1, size)) {
+        match ranges.last_mut().filter(|_| fill.fits(1, size)) {
             Some(range) => range.end = at + 1,
             None => {
                 ranges.push(at..at + 1);

@@ -137,8 +137,8 @@ impl FactOrigin {
         }
     }
 
-    /// Returns whether a fact of this origin replaces a fact of the origin `present`. `None` means that there is no
-    /// such fact yet. The later of two overlays takes precedence, and the first of two standards.
+    /// Returns whether a fact of this origin replaces a fact of the origin `present`. `None` means that the
+    /// fact does not exist yet. The later of two overlays takes precedence, and the first of two standards.
     pub(crate) fn takes_precedence_over(&self, present: Option<&FactOrigin>) -> bool {
         let Some(present) = present else { return true };
         self.rank() > present.rank() || matches!(self, FactOrigin::Overlay { .. })

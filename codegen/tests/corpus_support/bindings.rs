@@ -19,7 +19,7 @@ pub fn body(text: &str) -> &str {
 /// Splits the catalog of a file into catalogs with one device each, except for GSDML. Many files contain the same
 /// devices, and generating code for a single device needs little memory.
 pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Catalog>> + '_> {
-    let Some(catalog) = compilation.catalog.as_ref().filter(|_| compilation.is_usable()) else {
+    let Some(catalog) = compilation.usable() else {
         return Box::new(std::iter::empty());
     };
     if catalog.devices.len() <= 1 || compilation.format == Some(Format::Gsdml) {

@@ -26,10 +26,7 @@ pub fn compare(old: &Catalog, new: &Catalog) -> Vec<Change> {
 }
 
 /// Compares two revisions of a device, each with its catalog. The changes have the same order as those of [`compare`].
-pub fn compare_devices(
-    (old_catalog, old): (&Catalog, &Device),
-    (new_catalog, new): (&Catalog, &Device),
-) -> Vec<Change> {
+pub fn compare_devices(old_catalog: &Catalog, old: &Device, new_catalog: &Catalog, new: &Device) -> Vec<Change> {
     let mut comparison = Comparison::new(old_catalog, new_catalog);
     comparison.in_types(&old.types, &new.types, |comparison| devices::compare(old, new, comparison));
     let mut changes = comparison.changes;

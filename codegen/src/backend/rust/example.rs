@@ -4,6 +4,7 @@ use super::context::Context;
 use super::docs::{typed, WORDS};
 use super::naming::handles::NamedItem;
 use super::objects;
+use super::value_type;
 use super::walk::WalkModel;
 use crate::ir::{Binding, Item, Type, Value};
 
@@ -11,10 +12,7 @@ use crate::ir::{Binding, Item, Type, Value};
 /// Returns no lines if a program cannot access any value of the device.
 pub(super) fn lines(context: &Context<'_>, device_name: &str, walks: &[WalkModel]) -> Vec<String> {
     let calls: Vec<(&NamedItem<'_>, String)> = objects::calls(context).collect();
-    let is_number = |item: &Item| {
-        let is_native = matches!(context.base(item.ty), Type::Unsigned(8 | 16 | 32) | Type::Integer(8 | 16 | 32));
-        is_native && context.enumeration(item.ty).is_none()
-    };
+    let is_number = |item: &Item| value_type::is_word(context.base(item.ty)) && context.enumeration(item.ty).is_none();
     let is_measured = |item: &Item| is_number(item) && item.quantity.is_some() && !is_communication(item);
     let is_actual = |item: &Item| is_measured(item) && item.access.readable() && !item.access.writable();
     let by_preference: [&dyn Fn(&Item) -> bool; 3] =
@@ -32,8 +30,8 @@ pub(super) fn lines(context: &Context<'_>, device_name: &str, walks: &[WalkModel
     }
     let mut lines = vec![String::new(), "```ignore".to_owned(), format!("let mut drive = {device_name}::new(client);")];
     lines.extend(walks.iter().find_map(|walk| {
-        let goal = walk.goal.as_ref()?;
-        Some(format!("drive.{}(types::{}::{goal}, Duration::from_secs(2))?;", walk.method, walk.states))
+        let state = walk.energized.as_ref()?;
+        Some(format!("drive.{}(types::{}::{state}, Duration::from_secs(2))?;", walk.method, walk.states))
     }));
     lines.extend(read.map(|(entry, path)| {
         let unit = entry.item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());

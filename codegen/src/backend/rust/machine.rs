@@ -24,6 +24,8 @@ pub(super) struct MachineModel {
     pub transitions: Option<Doc>,
     /// Variants of the states that the device enters because of a fault.
     pub faults: Vec<String>,
+    /// Variant of the state "Operation enabled" of CiA 402, in which the drive is energized.
+    pub energized: Option<String>,
 }
 
 impl MachineModel {
@@ -117,7 +119,8 @@ pub(super) fn models(
             states.docs.extend(listed.into_iter().filter(|_| !has_commands));
         }
         let faults = states.as_ref().map(|states| faults(&machine.transitions, states)).unwrap_or_default();
-        MachineModel { states, commands, transitions, faults }
+        let energized = states.as_ref().and_then(energized);
+        MachineModel { states, commands, transitions, faults, energized }
     };
     context.names.types.machines.iter().map(model).collect()
 }
@@ -250,8 +253,8 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
     (!steps.is_empty()).then_some(Data::slice(steps))
 }
 
-/// Returns the states that the device enters by itself from any state, and those that follow them without a command. These
-/// transitions are reactions to faults.
+/// Returns the states that the device enters without a command from any state, and the states that follow without a command.
+/// These transitions are reactions to faults.
 fn faults(transitions: &[Transition], states: &PatternsModel) -> Vec<String> {
     let mut names: Vec<&str> = Vec::new();
     loop {
@@ -266,6 +269,11 @@ fn faults(transitions: &[Transition], states: &PatternsModel) -> Vec<String> {
     }
     let variants = states.by_name();
     names.iter().filter_map(|name| variants.get(*name).cloned()).collect()
+}
+
+fn energized(states: &PatternsModel) -> Option<String> {
+    let is_it = |pattern: &&PatternModel| pattern.title.eq_ignore_ascii_case("operation enabled");
+    states.patterns.iter().find(is_it).map(|pattern| pattern.name.clone())
 }
 
 fn patterns(

@@ -91,7 +91,7 @@ fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>)
     let code = group.object_code().map_or("", ObjectCode::name);
     ObjectModel {
         area: area::objects(index).to_owned(),
-        aliases: vec![format!("{index:04X}"), address.clone()],
+        aliases: index_aliases(index).into(),
         accessors: named.accessors(),
         docs: vec![docs::sentence(&title), String::new(), format!("{code} {address}.")],
         heading: item::heading(&group.name, &address),
@@ -106,6 +106,10 @@ fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>)
     }
 }
 
+fn index_aliases(index: u16) -> [String; 2] {
+    [format!("{index:04X}"), hex16(index)]
+}
+
 /// Returns the printed addresses of a register, and the numbers of a parameter.
 fn aliases(item: &Item) -> Vec<String> {
     let of = |binding: &Binding| match binding {
@@ -114,7 +118,7 @@ fn aliases(item: &Item) -> Vec<String> {
             vec![printed.split('–').next().unwrap_or_default().to_owned()]
         }
         Binding::Parameter { code, .. } => vec![code.to_string(), format!("0x{code:04X}")],
-        Binding::Object { index, .. } => vec![format!("{index:04X}"), hex16(*index)],
+        Binding::Object { index, .. } => index_aliases(*index).into(),
         _ => Vec::new(),
     };
     let mut all: Vec<String> = item.bindings.iter().flat_map(of).collect();

@@ -254,6 +254,11 @@ pub(super) fn number(value: i128, unsigned: bool) -> String {
     }
 }
 
+/// Returns whether a type is an integer of 8, 16 or 32 bits.
+pub(super) fn is_word(ty: Type) -> bool {
+    matches!(ty, Type::Unsigned(8 | 16 | 32) | Type::Integer(8 | 16 | 32))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -9,11 +9,12 @@ use super::item::ItemModel;
 use super::item_addresses::ItemAddresses;
 use super::links::DocModule;
 use super::locations::Locations;
-use super::machine::{MachineModel, PatternModel, PatternsModel};
+use super::machine::MachineModel;
 use super::method_names::{unused_name, RESERVED};
 use super::naming::machines::NamedMachine;
 use super::objects::ObjectModel;
-use crate::ir::{ItemRef, StateMachine, Type};
+use super::value_type;
+use crate::ir::{ItemRef, StateMachine};
 use crate::names::{self, Case, NameRequest};
 
 /// A method that leads a state machine to a state, ready to be printed.
@@ -23,7 +24,7 @@ pub(super) struct WalkModel {
     /// Name of the type of states.
     pub states: String,
     /// Variant of the state "Operation enabled" of CiA 402, if the machine has it.
-    pub goal: Option<String>,
+    pub energized: Option<String>,
     /// Paths of the constants of the status item and the control item.
     pub status: String,
     pub control: String,
@@ -58,8 +59,7 @@ pub(super) fn models(
         let name = names::identifier(&request, Case::Snake);
         let method = unused_name(|name| used.contains(name), name);
         used.extend([method.clone(), format!("{method}_async")]);
-        let walk = constants.walk(named.machine, &named.states, method)?;
-        Some(WalkModel { goal: model.states.as_ref().and_then(goal), ..walk })
+        constants.walk(named, model.energized.clone(), method)
     };
     named.filter_map(model).collect()
 }
@@ -79,7 +79,8 @@ struct Constant<'c> {
 }
 
 impl Constants<'_, '_> {
-    fn walk(&self, machine: &StateMachine, states: &str, method: String) -> Option<WalkModel> {
+    fn walk(&self, named: &NamedMachine<'_>, energized: Option<String>, method: String) -> Option<WalkModel> {
+        let machine = named.machine;
         let (status, control) = (self.word(&machine.status_item)?, self.word(&machine.control_item)?);
         if !status.is_readable() || !control.is_writable() {
             return None;
@@ -91,31 +92,27 @@ impl Constants<'_, '_> {
         *of_control = (of_control.0 | reads_control, true);
         // The error code must exist on all buses on which the machine is accessed.
         let code = self.error_code().filter(|code| accesses.get(code.location.as_str()).is_some_and(|access| access.0));
-        let bounds = accesses.iter().map(|(location, access)| bound(location, *access)).collect();
-        let links = [Some(&status), Some(&control), code.as_ref()].map(|constant| self.link(constant));
-        let docs = documentation(machine, &links);
-        let (code, states) = (code.map(|code| code.path), states.to_owned());
-        let goal = None;
+        let bounds = accesses.iter().map(|(location, (reads, writes))| bound(location, *reads, *writes)).collect();
+        let error_code = code.as_ref().map(|code| self.link(code)).unwrap_or_default();
+        let docs = documentation(machine, &self.link(&status), &self.link(&control), &error_code);
         Some(WalkModel {
-            goal,
             method,
             docs,
-            states,
+            states: named.states.clone(),
+            energized,
             status: status.path,
             control: control.path,
             reads_control,
-            code,
+            code: code.map(|code| code.path),
             bounds,
         })
     }
 
-    /// Returns a link to the accessor of an item. The text is empty without an item.
-    fn link(&self, constant: Option<&Constant<'_>>) -> String {
-        let link = |constant: &Constant<'_>| {
-            let name = &self.context.item(constant.model.id)?.name;
-            self.context.link_to(constant.model.id.into(), name, DocModule::TOP)
-        };
-        constant.and_then(link).unwrap_or_default()
+    /// Returns a link to the constant of an item.
+    fn link(&self, constant: &Constant<'_>) -> String {
+        let id = constant.model.id;
+        let name = self.context.item(id).map_or("", |item| item.name.as_str());
+        self.context.link_to(id.into(), name, DocModule::TOP).unwrap_or_default()
     }
 
     /// Returns the constant of a status item or control item.
@@ -133,13 +130,16 @@ impl Constants<'_, '_> {
         let all = self.objects.iter().flat_map(|object| object.items.iter().map(move |item| (object, item)));
         let (object, model) = all.into_iter().find(|(_, item)| is_it(item))?;
         let item = self.context.item(model.id)?;
-        let is_word = matches!(self.context.base(item.ty), Type::Unsigned(8 | 16 | 32) | Type::Integer(8 | 16 | 32));
         let path = match object.is_module {
             true => format!("objects::{}::{}", object.name, model.constant),
             false => format!("objects::{}", model.constant),
         };
         let location = self.locations.name(ItemAddresses::of(self.context, item).buses(), "objects::");
-        (is_word && item.quantity.is_none()).then_some(Constant { model, path, location })
+        (value_type::is_word(self.context.base(item.ty)) && item.quantity.is_none()).then_some(Constant {
+            model,
+            path,
+            location,
+        })
     }
 }
 
@@ -153,14 +153,8 @@ impl Constant<'_> {
     }
 }
 
-/// Returns the variant of the state "Operation enabled" of CiA 402, in which the drive is energized.
-pub(super) fn goal(states: &PatternsModel) -> Option<String> {
-    let is_it = |pattern: &&PatternModel| pattern.title.eq_ignore_ascii_case("operation enabled");
-    states.patterns.iter().find(is_it).map(|pattern| pattern.name.clone())
-}
-
 /// Returns the bound of a location type that a client reads, writes or both.
-fn bound(location: &str, (reads, writes): (bool, bool)) -> Doc {
+fn bound(location: &str, reads: bool, writes: bool) -> Doc {
     let route = match (reads, writes) {
         (true, true) => "Route: rt::ReadRoute<C::Bus> + rt::WriteRoute<C::Bus>",
         (true, false) => "Route: rt::ReadRoute<C::Bus>",
@@ -169,9 +163,9 @@ fn bound(location: &str, (reads, writes): (bool, bool)) -> Doc {
     seq![location, ": ", generic!("rt::On", "C::Bus", route), ","]
 }
 
-/// Returns the documentation of the method. `links` are the links to the status item, the control item and the item that
-/// contains the error code.
-fn documentation(machine: &StateMachine, [status, control, code]: &[String; 3]) -> Vec<String> {
+/// Returns the documentation of the method. It links to the status item, the control item and the item that contains the
+/// error code. Without such an item, `code` is empty.
+fn documentation(machine: &StateMachine, status: &str, control: &str, code: &str) -> Vec<String> {
     let mut lines = vec![
         format!("Leads the state machine \"{}\" to the state `target`.", docs::escape(&machine.name)),
         String::new(),

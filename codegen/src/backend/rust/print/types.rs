@@ -7,7 +7,6 @@ use crate::backend::rust::literal;
 use crate::backend::rust::machine::{MachineModel, PatternsModel};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::reexport::Section;
-use crate::backend::rust::walk::goal;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let types = &model.types;
@@ -99,7 +98,7 @@ pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel)
         line!(code, call!("rt::Step::toward", transitions_of_trait, "self as u8", "target as u8"));
         code.close("}");
         code.close("}");
-        machine_state(code, states, commands, (transitions, &machine.faults));
+        machine_state(code, machine, states, commands, transitions);
     }
     if let Some(commands) = &machine.commands {
         self::commands(code, commands);
@@ -109,17 +108,18 @@ pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel)
 /// Writes the implementation of the trait with which the runtime leads a machine to a state.
 fn machine_state(
     code: &mut Code,
+    machine: &MachineModel,
     states: &PatternsModel,
     commands: &PatternsModel,
-    (transitions, faults): (&Doc, &[String]),
+    transitions: &Doc,
 ) {
     open!(code, "impl rt::MachineState for ", states.name, " {");
     line!(code, "type Command = ", commands.name, ";");
     line!(code, "const TRANSITIONS: &'static [rt::Transition<", commands.name, ">] = ", transitions, ";");
-    let faults: Vec<String> = faults.iter().map(|fault| format!("Self::{fault} as u8")).collect();
+    let faults: Vec<String> = machine.faults.iter().map(|fault| format!("Self::{fault} as u8")).collect();
     line!(code, "const FAULTS: &'static [u8] = ", list("&[", &faults, "]"), ";");
-    if let Some(goal) = goal(states) {
-        line!(code, "const ENERGIZED: &'static [u8] = &[Self::", goal, " as u8];");
+    if let Some(state) = &machine.energized {
+        line!(code, "const ENERGIZED: &'static [u8] = &[Self::", state, " as u8];");
     }
     open!(code, "fn of_status(bits: u32) -> Option<Self> {");
     // Clippy reports casts to the same type.

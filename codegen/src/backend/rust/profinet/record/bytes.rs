@@ -102,7 +102,8 @@ pub(super) fn value_of(field: &Field<'_>, bytes: &[u8]) -> Doc {
 }
 
 /// Returns the value that an integer with this minimum and maximum has if its bits are `bits`. Excess bits are ignored.
-fn wrapped(bits: u64, (low, high): (i128, i128)) -> i128 {
+fn wrapped(bits: u64, range: (i128, i128)) -> i128 {
+    let (low, high) = range;
     (i128::from(bits) - low).rem_euclid(high - low + 1) + low
 }
 
