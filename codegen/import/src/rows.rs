@@ -394,7 +394,7 @@ impl Reader<'_, '_> {
                         None => self.assume(
                             "type",
                             span,
-                            "no column states data types, so each type is derived from the length, or is u16 without a length",
+                            "no column states data types, so each type is derived from the length, or is u16 if the length is missing",
                         ),
                     }
                 }

@@ -109,19 +109,33 @@ fn names(one: &Shape, other: &Shape) -> Option<String> {
         _ => "value",
     };
     let (one, other) = (labels(one), labels(other));
-    let mut differing = one.iter().filter_map(|(values, names)| {
+    let differing = one.iter().filter_map(|(values, names)| {
         let others = other.get(values).filter(|others| !others.keys().eq(names.keys()))?;
-        Some((values, names.values().next()?, others.values().next()?))
+        Some((*values, (*names.values().next()?, *others.values().next()?)))
     });
-    let (values, one, other) = differing.next()?;
-    let more = more(differing.count(), |more| format!(" ({})", count_of(more, "more difference")));
+    let differing = joined(differing);
+    let ((values, (one, other)), others) = differing.split_first()?;
+    let more = more(others.len(), |more| format!(" ({})", count_of(more, "more difference")));
     let named = numbered(what, &[range(values)]);
     Some(format!("the names of {named} are `{}` and `{}`{more}", brief(one), brief(other)))
 }
 
+/// Joins adjacent ranges of values or bits that have equal data.
+fn joined<T: PartialEq>(ranges: impl Iterator<Item = ((i128, i128), T)>) -> Vec<((i128, i128), T)> {
+    let mut joined: Vec<((i128, i128), T)> = Vec::new();
+    for ((first, last), data) in ranges {
+        match joined.last_mut() {
+            Some((before, same)) if before.1 + 1 == first && *same == data => before.1 = last,
+            _ => joined.push(((first, last), data)),
+        }
+    }
+    joined
+}
+
 type Labels<'n> = BTreeMap<(i128, i128), BTreeMap<String, &'n str>>;
 
-/// Returns the names of values or bits by range. The inner key is the name in lower case without punctuation.
+/// Returns the names of values by range, or the names of single bits. The inner key is the name in lower case without
+/// punctuation.
 fn labels(shape: &Shape) -> Labels<'_> {
     let mut labels = Labels::new();
     fn add<'n>(labels: &mut Labels<'n>, values: (i128, i128), name: &'n str) {
@@ -137,7 +151,9 @@ fn labels(shape: &Shape) -> Labels<'_> {
         Shape::BitField { fields, .. } => {
             for field in fields.iter().filter(|field| !field.is_reserved()) {
                 let first = i128::from(field.offset);
-                add(&mut labels, (first, first + i128::from(field.bits.max(1)) - 1), &field.name);
+                for bit in first..first + i128::from(field.bits.max(1)) {
+                    add(&mut labels, (bit, bit), &field.name);
+                }
             }
         }
         _ => {}
@@ -152,7 +168,8 @@ fn meanings(one: &Shape, other: &Shape) -> Option<String> {
         (Shape::BitField { .. }, Shape::BitField { .. }) => ("bit", named(one), named(other)),
         _ => return Some("one is an enumeration and the other is a bit field".to_owned()),
     };
-    let only: Vec<String> = one.symmetric_difference(&other).map(range).collect();
+    let only = joined(one.symmetric_difference(&other).map(|&values| (values, ())));
+    let only: Vec<String> = only.iter().map(|(values, _)| range(values)).collect();
     (!only.is_empty()).then(|| format!("only one of them has names for {}", numbered(what, &only)))
 }
 
@@ -163,7 +180,7 @@ fn range(range: &(i128, i128)) -> String {
     }
 }
 
-/// Returns the ranges of values or bits that have a name.
+/// Returns the ranges of values, or the single bits, that have a name.
 fn named(shape: &Shape) -> BTreeSet<(i128, i128)> {
     labels(shape).into_keys().collect()
 }
@@ -171,7 +188,7 @@ fn named(shape: &Shape) -> BTreeSet<(i128, i128)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::{Binding, Type, Value};
+    use crate::ir::{Binding, BitFieldEntry, BitMeaning, Type, Value};
 
     #[test]
     fn type_and_limits_are_compared() {
@@ -191,5 +208,17 @@ mod tests {
         let half = item(Type::Unsigned(16), 0, 65_535);
         assert_eq!(differences(owner, &half, &one), [""; 0]);
         assert_eq!(differences(owner, &one, &half)[0], "their types are INTEGER32 and UNSIGNED16");
+    }
+
+    #[test]
+    fn bits_are_compared_one_by_one() {
+        let field = |name: &str, offset, bits| {
+            BitFieldEntry::new(name.into(), offset, bits, BitMeaning::Flag { inverted: false })
+        };
+        let one = Shape::BitField { base: Type::Unsigned(16), fields: vec![field("edge", 2, 1)] };
+        let fields = vec![field("edge", 2, 2), field("fault", 5, 1)];
+        let other = Shape::BitField { base: Type::Unsigned(16), fields };
+        assert_eq!(meanings(&one, &other).as_deref(), Some("only one of them has names for bits 3, 5"));
+        assert_eq!(names(&one, &other), None);
     }
 }

@@ -51,7 +51,7 @@ fn window(what: &str, availability: &Availability, span: Span, diagnostics: &mut
             let found = codes::VERSION_FORM.at(span, message).label("not compared with other versions");
             diagnostics.push(found.help(match corrected(text) {
                 Some(version) => format!("write `{version}`"),
-                None => "write the version as numbers separated by points, such as `6.15`".to_owned(),
+                None => "write the version as numbers separated by dots, such as `6.15`".to_owned(),
             }));
         }
     }

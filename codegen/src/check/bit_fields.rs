@@ -33,6 +33,20 @@ pub(super) fn called(field: &BitFieldEntry) -> String {
     }
 }
 
+/// Returns the bits that are 1 in `mask` as text for diagnostics, such as `bit 3` or `bits 15-8, 3`.
+pub(super) fn set_bits(mask: u64) -> String {
+    let mut ranges = Vec::new();
+    let mut rest = mask;
+    while rest != 0 {
+        let last = rest.ilog2();
+        let length = (rest << rest.leading_zeros()).leading_ones();
+        let first = last + 1 - length;
+        ranges.push(if length == 1 { last.to_string() } else { format!("{last}-{first}") });
+        rest &= (1u64 << first) - 1;
+    }
+    format!("bit{} {}", if mask.is_power_of_two() { "" } else { "s" }, ranges.join(", "))
+}
+
 /// Returns a diagnostic if bit-field entries are outside of the underlying integer. `used` returns the first use of the
 /// type.
 fn outside(

@@ -82,7 +82,7 @@ fn outside(definition: &TypeDef, base: Type, values: &[EnumValue], used: impl Fn
     let found = codes::NAME_OUTSIDE_TYPE.at(used(), message);
     let found = found.note_at(first.at.0.or(definition.origin.span), "definition of the value");
     Some(match (base, value) {
-        (Type::Unsigned(bits), ..0) => found.help(format!("use the signed type `i{bits}`, or correct the value")),
+        (Type::Unsigned(_), ..0) => found.help("use a signed type, or correct the value"),
         _ => found.help("use a longer type, or correct the value"),
     })
 }

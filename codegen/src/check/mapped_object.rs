@@ -87,7 +87,7 @@ impl Mapped {
         let bits = owner.definition(item.ty).map_or(item.ty.bits(), |definition| definition.bits);
         let length = bits.filter(|&bits| !is_resolved && bits != self.bits);
         let length = length.map(|bits| {
-            (&codes::MAPPED_LENGTH, format!("is mapped with {}, but the object has {bits}", count_of(self.bits, "bit")))
+            (&codes::MAPPED_LENGTH, format!("is mapped with {}, but its type has {bits}", count_of(self.bits, "bit")))
         });
         // Any mapping is accepted if the source does not state whether PDOs can map the item.
         let unmappable = !item.mappable.any() && !item.at.mappable.is_empty();

@@ -60,7 +60,9 @@ impl Mapping<'_> {
         }
         let bits = self.bits(index, value);
         if self.described.device.ethercat.is_none() && bits > i128::from(CAN_BITS) {
-            let message = format!("the mapping 0x{index:04X} has {bits} bits after this step, but a CAN frame has 64");
+            let message = format!(
+                "the mapping 0x{index:04X} has {bits} bits after this step, but a CAN frame carries at most 64 data bits"
+            );
             diagnostics.push(codes::PDO_TOO_LONG.at(span, message));
         }
     }

@@ -1,6 +1,6 @@
 //! Enumerations and bit fields: limits and defaults that contradict the named values and bits.
 
-use super::bit_fields::called;
+use super::bit_fields::{called, set_bits};
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::owner::{fixed, reserved, Owner};
 use crate::ir::{BitFieldEntry, BitMeaning, EnumValue, Item, Shape, Type, TypeDef, Value};
@@ -153,13 +153,16 @@ impl Check<'_, '_> {
         let is_limit = matches!(what, "minimum" | "maximum");
         for field in always(fields) {
             let BitMeaning::Reserved { write } = field.meaning else { continue };
-            let problem = match write {
-                Some(true) if !is_limit && bits & field.mask() != field.mask() => "clears",
-                Some(false) | None if bits & field.mask() != 0 => "sets",
+            let (problem, wrong) = match write {
+                Some(true) if !is_limit => ("clears", !bits & field.mask()),
+                Some(false) | None => ("sets", bits & field.mask()),
                 _ => continue,
             };
-            let (named, name) = (called(field), brief(&self.definition.name));
-            let message = format!("the {what} {bits:#X} {problem} {named} of `{name}`");
+            if wrong == 0 {
+                continue;
+            }
+            let (wrong, name) = (set_bits(wrong), brief(&self.definition.name));
+            let message = format!("the {what} {bits:#X} {problem} {wrong} (reserved) of `{name}`");
             self.report(&codes::RESERVED_BITS, span, message);
         }
     }
@@ -169,8 +172,8 @@ impl Check<'_, '_> {
         let Number { what, span, .. } = number;
         let named = fields.iter().fold(0, |all, field| all | field.mask());
         if bits & !named != 0 && named != 0 {
-            let (unnamed, name) = (bits & !named, brief(&self.definition.name));
-            let message = format!("the {what} {bits:#X} sets the bits {unnamed:#X}, which have no name in `{name}`");
+            let (unnamed, name) = (set_bits(bits & !named), brief(&self.definition.name));
+            let message = format!("the {what} {bits:#X} sets {unnamed} (unnamed) of `{name}`");
             self.report(&codes::RESERVED_BITS, span, message);
         }
         for field in always(fields) {
@@ -297,14 +300,14 @@ mod tests {
         let max = found(flags(), limits(0, 0x4000));
         assert_eq!(max, [("TAB016", "the maximum 16384 excludes bit 15 (`error`)".to_owned())]);
         let holes = found(flags(), limits(0, 0xF0F7));
-        assert_eq!(holes, [("TAB019", "the maximum 0xF0F7 sets bits 7-3 (reserved) of `Mode`".to_owned())]);
+        assert_eq!(holes, [("TAB019", "the maximum 0xF0F7 sets bits 7-4 (reserved) of `Mode`".to_owned())]);
         let constant = found(flags(), |item| {
             limits(0x0005, 0x0005)(item);
             item.default = Some(Value::Int(5));
         });
         let expected = [
             ("TAB019", "the fixed value 0x5 clears bit 8 (reserved) of `Mode`".to_owned()),
-            ("TAB019", "the fixed value 0x5 sets the bits 0x4, which have no name in `Mode`".to_owned()),
+            ("TAB019", "the fixed value 0x5 sets bit 2 (unnamed) of `Mode`".to_owned()),
         ];
         assert_eq!(constant, expected);
     }

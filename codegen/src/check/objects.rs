@@ -115,7 +115,9 @@ fn highest_sub(group: &Group, index: u16, format: Format, diagnostics: &mut Diag
     let highest = highest(group);
     if default != i128::from(highest) {
         let span = sub0.at.default.or(sub0.origin.span);
-        let message = format!("sub-index 0 of 0x{index:04X} is {default}, but the highest sub-index is {highest}");
+        let message = format!(
+            "sub-index 0 of 0x{index:04X} has the default value {default}, but the highest sub-index is {highest}"
+        );
         let found = codes::SUB0_MISMATCH.at(span, message);
         // The fix must be within the limits of sub-index 0.
         let is_possible = excluded(&sub0.limits, &Value::Int(highest.into())).is_none();

@@ -55,7 +55,8 @@ impl Mapping<'_, '_> {
         let bits = self.values(mapping, objects.mapping_index());
         if bits > CAN_BITS {
             let index = objects.mapping_index();
-            let message = format!("the mapping 0x{index:04X} has {bits} bits, but a CAN frame has 64");
+            let message =
+                format!("the mapping 0x{index:04X} has {bits} bits, but a CAN frame carries at most 64 data bits");
             self.report(&codes::PDO_TOO_LONG, mapping.origin.span, message);
         }
     }
@@ -116,7 +117,7 @@ impl Mapping<'_, '_> {
         }
         let span = mapping.sub(0).map_or(mapping.origin.span, |item| item.at.configured.or(item.at.default));
         let message = format!(
-            "sub-index 0 declares {}, but the number of mapping entries that have a value is only {found}",
+            "sub-index 0 declares {}, but the number of entries with a value is only {found}",
             count_of(announced, "mapped object")
         );
         self.report(&codes::MAPPING_COUNT, span.or(mapping.origin.span), message);

@@ -119,8 +119,8 @@ codes! {
         file matches, so Lexibus produces no output. Run `lexibus info` to list what the file contains."
     EDS001 ETHERNET_IP_EDS Error Deny "the file is an EtherNet/IP EDS, not a CANopen EDS"
         "ODVA uses the name EDS for descriptions of EtherNet/IP, DeviceNet and ControlNet devices. Their sections are \
-        `[File]`, `[Device]` and `[Params]`, and their lists end in `;`. They share only the name and the square \
-        brackets with CANopen files. Lexibus rejects the file. Ask the vendor for the CANopen EDS of the device."
+        `[File]`, `[Device]` and `[Params]`, and their lists end in `;`. The two formats share only the name and the \
+        square brackets. Lexibus rejects the file. Ask the vendor for the CANopen EDS of the device."
     EDS002 NOT_AN_EDS Error Deny "the file has no section that CiA 306 defines"
         "The file name ends in `.eds` or `.dcf`, but the file has no `[DeviceInfo]`, no object list and no object such \
         as `[1000]`. The file may be a symbolic link that was checked out as text. Lexibus rejects the file. Check \
@@ -208,9 +208,9 @@ codes! {
         "Lexibus reads a hexadecimal number as an IEEE 754 bit pattern if it has 8 digits for a REAL32, or 16 for a \
         REAL64. With fewer or more digits, it reads the digits as an integer: `0x02` is 2. Write the number in \
         decimal, or write all digits of the bit pattern."
-    EDS031 DOMAIN_DEFAULT Repair Warn "a domain has a default value"
-        "A DOMAIN is a block of data of any length, and has no default value. Lexibus keeps the value as text. Delete \
-        the value, or correct the data type."
+    EDS031 DOMAIN_DEFAULT Repair Warn "a domain has a default value or a limit"
+        "A DOMAIN is a block of data of any length. It has no default value and no limits. Lexibus keeps the value or \
+        limit as text. Delete the value or limit, or correct the data type."
     EDS032 NOT_BOOLEAN Repair Warn "a flag is neither 0 nor 1"
         "The key is a flag, such as PDOMapping. Lexibus reads `True`, `0x1` and `2` as 1, and `no` as 0. Write 0 or 1, \
         because other tools may read the value differently."
@@ -315,7 +315,8 @@ codes! {
         without the missing object. Check that the file is complete, and add the object."
     EDS064 VALUE_NOT_ALLOWED Lint Warn "a value is not allowed for its key"
         "The key has a small set or range of values, such as 1 to 127 for a node-ID. Lexibus keeps the value if the \
-        intermediate representation can hold it. Correct the value."
+        intermediate representation can hold it. Lexibus reads a CompactSubObj above 254 as 254, and leaves out any \
+        other value. Correct the value."
     EDS065 COMPACT_WITHOUT_TYPE Lint Warn "a compact object has no data type"
         "The elements of CompactSubObj have the data type of the object. Lexibus keeps the elements as read-only raw \
         bytes if DataType is missing. Add DataType."
@@ -343,14 +344,15 @@ codes! {
     XML001 MALFORMED_XML Error Deny "the XML is not well-formed"
         "A tag is not closed, an attribute is not quoted, or the file is cut off. Lexibus cannot read beyond this \
         position and rejects the file. Correct the XML, or get a complete copy of the file."
-    XML002 ENTITY_REFERENCE Repair Warn "an entity is not defined in XML"
-        "XML defines the entities `&amp;`, `&lt;`, `&gt;`, `&quot;` and `&apos;`. Lexibus expands no other entities, \
+    XML002 ENTITY_REFERENCE Repair Warn "a reference is neither a predefined entity nor a valid character reference"
+        "XML predefines the entities `&amp;`, `&lt;`, `&gt;`, `&quot;` and `&apos;`. Lexibus expands no other entities, \
         so that a small file cannot grow into a large one. Lexibus keeps other references as text. Write the character \
         itself, and `&amp;` for `&`."
     XML003 WRONG_ENCODING Repair Warn "the file is not in its declared encoding"
         "The XML declaration names an encoding. The default is UTF-8. Lexibus reads a file that is valid UTF-8 as \
         UTF-8, even if the declaration names another encoding. It reads other files in the declared encoding, or as \
-        Windows-1252 if that fails. Bytes that are invalid in that encoding are lost. Declare the actual encoding."
+        Windows-1252 if that fails. Bytes that are invalid in the encoding are lost. Save the file as UTF-8, and \
+        declare UTF-8 in the XML declaration."
     XML004 SECOND_ROOT Repair Warn "content follows the root element"
         "A document has one root element, and only comments may follow it. The content is often the rest of an older, \
         longer version of the file. Lexibus ignores the content. Delete the content."
@@ -439,9 +441,9 @@ codes! {
         "An object without an index cannot be addressed. A module without an ident number fits no slot. Lexibus leaves \
         out such objects and modules. Lexibus keeps a PDO entry without an index if the entry has a name and a type, \
         and otherwise reads the entry as padding. Add the index or the ident number."
-    ESI034 SUB_INDEX_RANGE Repair Warn "an object has more than 255 sub-indices"
-        "A sub-index is a number of one byte. Lexibus keeps an array with too many elements as one value, and leaves \
-        out a sub-item after sub-index 255. Check the number of elements of the array, which is often wrong."
+    ESI034 SUB_INDEX_RANGE Repair Warn "a sub-index is above 255"
+        "A sub-index is a number from 0 to 255. Lexibus keeps an array that extends beyond sub-index 255 as one value, \
+        and leaves out other sub-items beyond it. Check the number of elements of the array, which is often wrong."
     ESI040 SYNC_MANAGER_PURPOSE Repair Warn "the purpose of a sync manager is unknown"
         "The text of Sm is MBoxOut, MBoxIn, Outputs or Inputs. If Sm has another text, Lexibus derives the purpose \
         from the PDOs that name the sync manager, or from its control byte or position. Write one of the four words."
@@ -450,8 +452,8 @@ codes! {
         Ref of a PDO names a template: the Pdo with this RefName in Descriptions/Pdos of the same file. Add the index \
         or the template."
     ESI042 DUPLICATE_PDO Lint Warn "two PDOs have the same index"
-        "Some devices describe a PDO twice, once for each of two sync managers. A master assigns it to only one of \
-        them. Lexibus keeps both PDOs. Correct the index, or allow this code if the device works this way."
+        "Some files describe a PDO twice, once for each of two sync managers. A master assigns the PDO to only one of \
+        the sync managers. Lexibus keeps both PDOs. Correct the index, or allow this code if the device works this way."
     ESI043 UNNAMED_PDO Lint Warn "a PDO has no name"
         "The element Name is mandatory. Generated code names the PDO by its index. Add the name of the PDO."
     ESI044 ENTRY_LENGTH Lint Warn "the length of a PDO entry differs from the length of its data type"
@@ -482,8 +484,8 @@ codes! {
         default. Turn the lint on to find misspelled names."
     XDD006 XDD_VALUE Repair Warn "the value of an attribute has an unknown form"
         "CiA 311 fixes the form of the attribute. Indices and data types, for example, are hexadecimal digits without \
-        a prefix. Lexibus skips a prefix. Lexibus leaves out any other value, or keeps it as text if the intermediate \
-        representation can hold it. Correct the value."
+        a prefix. Lexibus skips the prefix `0x`. Lexibus leaves out any other invalid value, or keeps it as text if \
+        the intermediate representation can hold it. Correct the value."
     XDD007 DUPLICATE_OBJECT Repair Warn "an object or sub-object occurs twice"
         "An index must be unique in an object list, and a sub-index in its object. Lexibus uses the last definition. \
         Delete the wrong definition."
@@ -572,9 +574,10 @@ codes! {
     PDO003 WRONG_DIRECTION Lint Warn "a PDO maps an object in a direction that its access rights do not allow"
         "A TPDO carries readable objects (ro, const, rw, rwr), and an RPDO writable ones (wo, rw, rww). In EtherCAT, \
         PdoMapping states the direction. Lexibus keeps the entry. Correct the mapping or the object."
-    PDO004 PDO_TOO_LONG Lint Warn "a PDO is longer than 64 bits"
-        "A CAN frame carries 8 bytes (CiA 301, 7.5.2.36). The device rejects the mapping with abort code 0x06040042. \
-        Lexibus keeps the PDO. Map fewer or shorter objects."
+    PDO004 PDO_TOO_LONG Lint Warn "a PDO is longer than its maximum length"
+        "A CAN frame carries at most 8 data bytes (CiA 301, 7.5.2.36). The device rejects a longer mapping with abort \
+        code 0x06040042. In a register table, `max` declares the maximum length of a PDO in bytes. Lexibus keeps the \
+        PDO. Map fewer or shorter objects."
     PDO005 MAPPED_LENGTH Lint Warn "a PDO maps an object with the wrong length"
         "The length in the mapping is not the length of the object's data type. Lexibus uses the length in the mapping \
         for the layout. Correct the mapping or the data type."
@@ -636,7 +639,7 @@ codes! {
         "An RxPDO carries an object that is read-only by SDO, or a TxPDO one that is write-only. Many slaves state the \
         access rights for SDO only, so this lint is off by default. Compare the access rights with the manual."
     PDO024 TOO_MANY_PDOS Lint Warn "a sync manager has more default PDOs than its assignment can hold"
-        "The assignment object of a sync manager has 254 sub-indices, so no master can write a longer list. The \
+        "The assignment object of a sync manager holds at most 254 PDOs, so no master can write a longer list. The \
         generated code has no constant `STARTUP`. Assign fewer PDOs by default."
     TAB001 REGISTER_FORMULA Lint Warn "the object of a register does not match the rule of its space"
         "The rule of a space derives the object from the register number. This row names another object, or names no \
@@ -679,10 +682,10 @@ codes! {
         and scale. An unknown symbol is often a misspelled name, and then the scale is missing. Lexibus keeps the text \
         as the symbol. Correct the name, or define the unit in `[units]`."
     TAB012 HEX_DIGITS Lint Warn "the number of hexadecimal digits does not match the type"
-        "A number has more digits than its type, such as `0x007FFFFFFF` for 32 bits, or fewer digits with leading \
-        zeros, such as `0x0000`. Or an index does not have four digits (`0x20A`), or has no prefix `0x`. Usually a \
-        digit was doubled or lost, or the type is wrong. This code also reports the prefix `0X`. Lexibus uses the \
-        number. Compare the number with the manual.\n\
+        "A number has more digits than its type needs, such as `0x007FFFFFFF` for 32 bits, or fewer digits with \
+        leading zeros, such as `0x0000`. Or an index does not have four digits (`0x20A`), or has no prefix `0x`. \
+        Usually a digit was doubled or lost, or the type is wrong. This code also reports the prefix `0X`. Lexibus uses \
+        the number. Compare the number with the manual.\n\
         In an EDS, numbers with exactly as many digits as a longer type are reported only if you set a level for this \
         code."
     TAB013 BIT_OUTSIDE_TYPE Lint Warn "a bit is outside of its integer type"
@@ -703,15 +706,16 @@ codes! {
         number. If the name depends on the firmware or the model, state this in each entry."
     TAB018 UNNAMED_VALUE Lint Warn "a default value, limit or condition is a reserved or unnamed value"
         "The enumeration reserves the value, or is closed and does not name it. The code also reports unnamed writable \
-        values, and a limit next to the last named value. In a bit field, the lint checks the default and fixed values \
-        of each field. Name the value if the manual does, or correct the number."
+        values, and a limit just outside of the named values. In a bit field, the lint checks the default and fixed \
+        values of each field. Name the value if the manual does, or correct the number."
     TAB019 RESERVED_BITS Lint Warn "a default value, limit or fixed value sets reserved or unnamed bits"
-        "The number sets a bit that is reserved or has no name, or clears a bit that is always set. A limit that sets \
-        all bits up to the end of the type or the last named bit is not reported. Correct the number, or name the bits \
-        if the manual does."
-    TAB020 LENGTH_MISMATCH Lint Warn "a length is not the length of the type"
-        "A default text is longer than its type, or a printed `length` is not the length of the item's type or the \
-        PDO's entries. Compare the lengths with the manual, and correct the wrong one."
+        "The number sets a bit that is reserved or has no name, or clears a reserved bit that must be 1. Limits are \
+        only checked for reserved bits that they set. A limit is exempt if it has a single bit, or all bits up to the \
+        end of the type or the last named bit. Correct the number, or name the bits if the manual does."
+    TAB020 LENGTH_MISMATCH Lint Warn "a length does not match the type or the entries of a PDO"
+        "A default text is longer than its type. Or a printed `length` differs from the length of the item's type or \
+        of the PDO's entries. Or an item has more or fewer bytes of ESC memory than its type needs. Compare the \
+        lengths with the manual, and correct the wrong length."
     TAB021 SUMMARY_DIFFERS Lint Warn "another section of the manual contradicts the row"
         "`summary` of the row holds what a table of contents, an overview or the prose says about the item. Lexibus \
         uses the row. Write the correct fact in the row and the other fact in `doubt`, and `allow` this code on the \
@@ -722,7 +726,7 @@ codes! {
         rows with the manual, and correct the wrong one."
     TAB023 READING_LIMITS Lint Warn "a read-only signed value has a minimum above zero"
         "A measured value is signed because it can be negative, so the value can be zero too. Often the limits were \
-        copied from a set-point, or the type is unsigned. Lexibus keeps the limit. Correct the limit or the type."
+        copied from a setpoint, or the type is unsigned. Lexibus keeps the limit. Correct the limit or the type."
     TAB024 ACCESS_CONFLICT Lint Warn "access rights contradict storage or process data"
         "For example, a read-only value is saved or in an RPDO, a write-only value is in a TPDO, or a Modbus input is \
         writable. Lexibus keeps all facts. Keep the fact that the manual's text supports, and record the other fact in \
@@ -738,8 +742,8 @@ codes! {
         version that does not have it. A range is empty, or the replacement of an item appears before or after the \
         item ends. Compare the versions with the manual, and correct the wrong one."
     TAB027 VERSION_FORM Lint Warn "a firmware version cannot be compared"
-        "A firmware version consists of numbers separated by points. Each number is compared separately: 6.27 is later \
-        than 6.3. Lexibus does not compare this version with others. Write the version as numbers separated by points."
+        "A firmware version consists of numbers separated by dots. Each number is compared separately: 6.27 is later \
+        than 6.3. Lexibus does not compare this version with others. Write the version as numbers separated by dots."
     TAB028 STATES_OVERLAP Lint Deny "two states of a state machine match the same status value"
         "Some values of the status item match both states, so the state of the device is ambiguous. This lint is an \
         error by default. Correct the mask or value of one state."
@@ -840,15 +844,16 @@ codes! {
         "A reply usually begins with a constant of its own request. This reply begins with a constant that is only in \
         the request of another message, so the manual's table was probably copied. Compare both tables with the prose, \
         and correct the constant."
-    MSG005 ERROR_ALIKE Lint Warn "a reply and its error message can have the same bytes"
-        "A client cannot determine from the bytes whether the device answered or refused. Correct a constant. If the \
-        device never refuses the request, delete `error`."
+    MSG005 ERROR_ALIKE Lint Warn "a reply and its error reply can have the same bytes"
+        "A client cannot determine from the bytes whether the device accepted or refused the request. Correct a \
+        constant. If the device never refuses the request, delete `error`."
     MSG006 BYTE_NUMBERS Lint Warn "the printed byte numbers of a message are not consecutive"
         "The byte numbers of the manual (`at`) skip or repeat bytes between two fields. A row of the manual's table is \
         missing or shifted, or a number is misprinted. Compare the fields with the manual."
-    MSG007 ODD_REQUEST Lint Warn "one request begins with a different constant than all others of its form"
-        "At least nine requests have the same form, and all except one begin with the same constant. That request is \
-        an exception, or its constant is a misprint. Record the assumption in a `doubt`, and `allow` this code."
+    MSG007 ODD_REQUEST Lint Warn "the first constant of one request differs from that of all other requests"
+        "At least nine requests have a constant that is directly followed by another constant. The first constant is \
+        the same in all of these requests except one. This request is an exception, or its constant is a misprint. \
+        Record the assumption in a `doubt`, and `allow` this code."
     MSG008 STATES_DIFFER Lint Warn "a message contradicts the table of commands and states"
         "One section of the manual lists the states that accept the command. The table of commands and states \
         contradicts this list for a state. Keep the statement that lists the states one by one, and record the other \

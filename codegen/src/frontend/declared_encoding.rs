@@ -23,7 +23,7 @@ pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
     diagnostics.push(
         Diagnostic::new(&codes::WRONG_ENCODING, span, message)
             .label(label)
-            .help("declare the actual encoding of the file: `<?xml version=\"1.0\" encoding=\"…\"?>`"),
+            .help("save the file as UTF-8 with the declaration `<?xml version=\"1.0\" encoding=\"UTF-8\"?>`"),
     );
 }
 

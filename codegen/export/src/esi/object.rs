@@ -116,7 +116,8 @@ fn display_name(xml: &mut Xml, context: &mut Context<'_>, group: &Group, item: &
     }
 }
 
-/// Writes the unit if ETG.2000 has a number for it. Adds a note for the scale and other quantity facts.
+/// Writes the unit if ETG.2000 has a number for it. Adds a note if the unit has no number, or if the quantity has a
+/// scale, sentinel values, a step or further units.
 fn unit(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     let Some(quantity) = &item.quantity else { return };
     let number = context.unit(&quantity.unit);

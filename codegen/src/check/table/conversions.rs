@@ -17,16 +17,21 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in owner.items().chain(fields) {
         let Some(quantity) = &item.quantity else { continue };
         for conversion in &quantity.conversions {
-            if let Some(text) = problem(device, item, quantity, conversion) {
-                let found = codes::CONVERSION_DIFFERS.at(conversion.at, text);
-                diagnostics.push(found.help("keep the numbers that are consistent, and add a `doubt`"));
+            if let Some((text, help)) = problem(device, item, quantity, conversion) {
+                diagnostics.push(codes::CONVERSION_DIFFERS.at(conversion.at, text).help(help));
             }
         }
     }
 }
 
-/// Returns the problem in an example conversion: the physical values differ by more than 1 LSB, or cannot be computed.
-fn problem(device: &Device, item: &Item, quantity: &Quantity, conversion: &Conversion) -> Option<String> {
+/// Returns the problem in an example conversion, and a help text. The physical values differ by more than 1 LSB, or
+/// cannot be computed.
+fn problem(
+    device: &Device,
+    item: &Item,
+    quantity: &Quantity,
+    conversion: &Conversion,
+) -> Option<(String, &'static str)> {
     let (raw, value) = (conversion.raw? as f64, conversion.value?);
     let name = brief(&item.name);
     let unit = conversion.unit.as_ref().unwrap_or(&quantity.unit);
@@ -36,17 +41,19 @@ fn problem(device: &Device, item: &Item, quantity: &Quantity, conversion: &Conve
     let (below, exact, above) = match (convert(raw - 1.0), convert(raw), convert(raw + 1.0)) {
         (Ok(below), Ok(exact), Ok(above)) => (below, exact, above),
         (Err(why), ..) | (_, Err(why), _) | (.., Err(why)) => {
-            return Some(format!("the conversion of `{name}` cannot be checked: {why}"))
+            let text = format!("the conversion of `{name}` cannot be checked: {why}");
+            return Some((text, "correct the keys of the conversion, or delete the conversion"));
         }
     };
     let (low, high) = (below.min(above), below.max(above));
     let is_within = low <= value && value <= high || low.is_nan() || high.is_nan();
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     (!is_within).then(|| {
-        format!(
+        let text = format!(
             "according to the scale of `{name}`, the raw value {raw} is {}{unit}, not {value}",
             physical::rounded(exact, DIGITS)
-        )
+        );
+        (text, "keep the numbers that are consistent, and add a `doubt`")
     })
 }
 

@@ -32,7 +32,7 @@ fn length(device: &Device, pdo: &Pdo, diagnostics: &mut Diagnostics) {
         report(format!("the PDO 0x{index:04X} has {bits} bits, but at most {max} bits are allowed"));
     }
     if device.canopen.is_some() && device.ethercat.is_none() && bits > CAN_BITS {
-        report(format!("the PDO 0x{index:04X} has {bits} bits, but a CAN frame has 64"));
+        report(format!("the PDO 0x{index:04X} has {bits} bits, but a CAN frame carries at most 64 data bits"));
     }
 }
 

@@ -74,7 +74,8 @@ impl Converter<'_> {
             }
             Parsed::Text => {
                 let message = format!("`{text}` is not a number");
-                self.report(&codes::ILLEGAL_NUMBER, span, message, "expected a decimal or 0x number");
+                let label = "expected a decimal number, or a hexadecimal number with `0x`";
+                self.report(&codes::ILLEGAL_NUMBER, span, message, label);
                 None
             }
         }

@@ -95,7 +95,7 @@ fn nothing_to_refine(
             format!("0x{index:04X} has no sub-index {key}"),
         )
         .label("kept as an extension attribute")
-        .help("write the sub-index in decimal"),
+        .help("write the number of an existing sub-index, in decimal"),
     );
     reader.foreign(section, entry, extensions);
 }

@@ -377,7 +377,7 @@ impl<'a> Reader<'a, '_> {
         }
         let count = self.converter().number(text, span)?.as_int().unwrap_or(-1);
         if !(0..=254).contains(&count) {
-            let message = format!("CompactSubObj is {text}, but an object has at most 254 sub-indices");
+            let message = format!("CompactSubObj is {text}, expected a number from 0 to 254");
             let label = if count > 0 { "read as 254" } else { "left out" };
             self.diagnostics.push(Diagnostic::new(&codes::VALUE_NOT_ALLOWED, span, message).label(label));
         }

@@ -41,7 +41,7 @@ pub(super) fn of_object<'t, 'a>(
         let (first, mut count, mut element) = span_of(types, field, field_type, next, following);
         if count > 1 && first.saturating_add(count) > SUB_INDICES {
             let message = format!(
-                "the {count} elements of `{}` exceed the 255 sub-indices that an object can have",
+                "the {count} elements of `{}` extend beyond sub-index 255, the highest sub-index",
                 brief(&field.name.text)
             );
             reader.report(&codes::SUB_INDEX_RANGE, raw.origin.span, message, "kept as a single array value");

@@ -149,7 +149,7 @@ fn open(
             let found = found.label("the content of the file is missing");
             // Only the first unreadable file is reported with the help text.
             diagnostics.push(match std::mem::replace(is_reported, true) {
-                false => found.help("put the file in the folder of the description"),
+                false => found.help("put the file in the folder of the description, and make the file readable"),
                 true => found,
             });
             return None;

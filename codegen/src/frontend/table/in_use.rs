@@ -10,7 +10,7 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::firmware::apart;
 use crate::ir::{Availability, Binding, Buses, Item, ObjectBuses, RegisterBinding, RegisterSpace};
 use crate::source::Span;
-use crate::text::brief;
+use crate::text::{brief, numbered};
 
 /// Names and addresses that are in use, with the spans of their items.
 #[derive(Default)]
@@ -127,11 +127,11 @@ impl InUse {
         let other = other.filter(|(_, other)| !apart(other.availability.as_deref(), item.availability.as_deref()));
         if let Some(((_, start), other)) = other {
             let message = format!(
-                "`{}` ({space} register {}) overlaps `{}` (register {})",
+                "`{}` ({}) overlaps `{}` ({})",
                 brief(&item.name),
-                numbers(first, last),
+                numbered(space, &[numbers(first, last)]),
                 brief(&other.name),
-                numbers(*start, other.last)
+                numbered(space, &[numbers(*start, other.last)])
             );
             let found = Diagnostic::new(&codes::SHARED_REGISTERS, item.at.name, message);
             let found = found.note_at(other.span, "the other item");
@@ -183,8 +183,8 @@ fn numbers(first: u32, last: u32) -> String {
 
 fn space_name(space: RegisterSpace) -> &'static str {
     match space {
-        RegisterSpace::Holding => "holding",
-        RegisterSpace::Input => "input",
+        RegisterSpace::Holding => "holding register",
+        RegisterSpace::Input => "input register",
         RegisterSpace::Coil => "coil",
         RegisterSpace::DiscreteInput => "discrete input",
     }
@@ -194,7 +194,7 @@ fn space_name(space: RegisterSpace) -> &'static str {
 fn address(binding: &Binding) -> Option<CompactString> {
     Some(match binding {
         Binding::Object { index, sub_index, .. } => format_compact!("object 0x{index:04X}:{sub_index}"),
-        Binding::Register(register) => format_compact!("{} register {}", space_name(register.space), register.address),
+        Binding::Register(register) => format_compact!("{} {}", space_name(register.space), register.address),
         Binding::Parameter { space, code } => format_compact!("parameter {code} of `{space}`"),
         Binding::Ascii(name) => format_compact!("`{name}`"),
         _ => return None,

@@ -62,11 +62,10 @@ pub(super) fn objects(
 
 fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, message: String) {
     let found = Diagnostic::new(&codes::SUMMARY_DIFFERS, span, message).label("the fact in the row is used");
-    let found = found.help(
-        "write the correct value in the row, record the other value in a `doubt`, and allow this code on the row",
-    );
+    let found = found
+        .help("write the correct fact in the row, record the other fact in a `doubt`, and allow this code on the row");
     reader.diagnostics.push(match &summary.cite {
-        Some(cite) => found.note(format!("`summary` cites page or line {} of the manual", cited(cite))),
+        Some(cite) => found.note(format!("citation of `summary` in the manual: {}", cited(cite))),
         None => found,
     });
 }

@@ -9,8 +9,8 @@ use crate::ir::Extension;
 use crate::source::{FileId, Span};
 use crate::syntax::xml::Attribute;
 
-/// Trimmed value of an attribute, or trimmed content of an element. The span is empty if the attribute is missing, or
-/// if the element is missing or has no text.
+/// Value of an attribute, or text of an element. The span is empty if the attribute or element is missing, or if the
+/// element has no text.
 #[derive(Clone, Debug, Default)]
 pub struct Given<'a> {
     /// Text of the attribute or element.

@@ -87,13 +87,12 @@ fn reference_at(text: &str) -> (Option<char>, usize) {
 fn unknown_reference(reference: &str, span: Span, offset: usize, diagnostics: &mut Diagnostics) {
     let start = span.start + offset as u32;
     let span = Span::new(span.file, start, start + reference.len() as u32);
-    let message = match reference {
-        "&" => "this `&` does not start a reference".to_owned(),
-        _ => format!("XML does not define the entity `{reference}`"),
+    let (message, help) = match reference {
+        "&" => ("this `&` does not start a reference".to_owned(), "write `&amp;` for the character `&`"),
+        _ => (
+            format!("`{reference}` is neither a predefined XML entity nor a valid character reference"),
+            "write the character itself, or `&amp;` if the text contains `&`",
+        ),
     };
-    diagnostics.push(
-        Diagnostic::new(&codes::ENTITY_REFERENCE, span, message)
-            .label("kept as text")
-            .help("write `&amp;` for the character `&`"),
-    );
+    diagnostics.push(Diagnostic::new(&codes::ENTITY_REFERENCE, span, message).label("kept as text").help(help));
 }

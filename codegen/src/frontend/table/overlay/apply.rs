@@ -303,7 +303,7 @@ impl<'o> Applied<'o> {
                 RowEffect::NoMatch => self.no_match(reader, row),
                 RowEffect::NoChange => {
                     let message =
-                        format!("the description already has all values of the row `{}`", brief(&row.key.value));
+                        format!("the description already contains everything in the row `{}`", brief(&row.key.value));
                     let found = Diagnostic::new(&codes::OVERLAY_NO_CHANGE, reader.span(&row.key), message);
                     reader.diagnostics.push(found.label("the row changes nothing"));
                 }
