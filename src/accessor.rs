@@ -23,8 +23,8 @@ use crate::value_error::LengthError;
 ///
 /// # Errors
 ///
-/// Every method returns the errors of the client (see [`Client::read`]) and the errors that its own documentation
-/// lists. If a reply has the wrong length, the method returns [`Error::Length`] and doesn't panic.
+/// Every read and write returns the errors of the client (see [`Client::read`]) and the errors that its own
+/// documentation lists. If a reply has the wrong length, the method returns [`Error::Length`] and doesn't panic.
 pub struct Accessor<'c, C, V: Value, A, L> {
     client: &'c mut C,
     item: Item<V, A, L>,

@@ -50,7 +50,7 @@ pub enum AxisStep {
     Index(u16),
     /// The sub-index is the axis number.
     SubIndex,
-    /// The next axis adds this number to the sub-index.
+    /// The next axis adds this number to the sub-index, except to sub-index 0.
     SubIndexStride(u8),
 }
 
@@ -58,8 +58,8 @@ impl Axes {
     /// Returns the address that `object`, an object of the first axis, has on axis `axis`. Axis numbers start at 1.
     /// Shared objects and objects outside all ranges have the same address on every axis.
     ///
-    /// Returns `None` if the axis doesn't exist or doesn't have the object. With [`AxisStep::SubIndex`], only the
-    /// objects at sub-index 1 belong to an axis.
+    /// Returns `None` if the axis doesn't exist or doesn't have the object. With [`AxisStep::SubIndex`], further axes
+    /// have only the objects at sub-index 1.
     #[must_use]
     pub fn object(&self, axis: u8, object: Object) -> Option<Object> {
         if axis == 0 || axis > self.count {

@@ -20,8 +20,8 @@ pub const fn check_length(data: &[u8], bits: usize) -> Result<(), LengthError> {
     Ok(())
 }
 
-/// Returns the field of `width` bits at bit offset `bit`. Bits beyond the end of `data`, and beyond the 64th bit of the
-/// field, are 0.
+/// Returns the field of `width` bits at bit offset `bit` of `data`. Bits beyond the end of `data`, and beyond the 64th
+/// bit of the field, are 0.
 #[must_use]
 #[inline]
 pub const fn get(data: &[u8], bit: usize, width: u32) -> u64 {
@@ -71,7 +71,7 @@ pub const fn put<const N: usize>(buffer: [u8; N], bit: usize, width: u32, value:
     out
 }
 
-/// Returns the bytes of `words`. Each word starts with its lowest byte. Bytes after the last word are 0.
+/// Returns the first `N` bytes of `words`. Each word starts with its lowest byte. Bytes after the last word are 0.
 #[must_use]
 #[inline]
 pub const fn from_words<const W: usize, const N: usize>(words: [u64; W]) -> [u8; N] {
@@ -149,7 +149,7 @@ pub fn set_bits(data: &mut [u8], bit: usize, width: usize, bytes: &[u8]) {
     }
 }
 
-/// Returns the `N` bytes at bit offset `bit`. Bits beyond the end of `data` are 0.
+/// Returns the `N` bytes at bit offset `bit` of `data`. Bits beyond the end of `data` are 0.
 #[must_use]
 #[inline]
 pub const fn get_bytes<const N: usize>(data: &[u8], bit: usize) -> [u8; N] {
@@ -225,14 +225,15 @@ const fn skip(data: &[u8], count: usize) -> &[u8] {
     }
 }
 
-/// Returns `buffer` with the bytes of `word` from byte `first` on. Ignores bytes beyond the end of `buffer`.
+/// Writes the bytes of `word` to `buffer` at byte offset `first`, lowest byte first, and returns `buffer`. Ignores
+/// bytes beyond the end of `buffer`.
 #[inline]
 const fn put_word<const N: usize>(buffer: [u8; N], first: usize, word: u64) -> [u8; N] {
     put_first(buffer, first, 8, word)
 }
 
-/// Returns `buffer` with the first `count` bytes of `word` from byte `first` on. Ignores bytes beyond the end of
-/// `buffer`.
+/// Writes the `count` lowest bytes of `word` to `buffer`, lowest byte first, and returns `buffer`. `first` is the byte
+/// offset in `buffer`. Writes at most eight bytes, and ignores bytes beyond the end of `buffer`.
 #[inline]
 const fn put_first<const N: usize>(buffer: [u8; N], first: usize, count: usize, word: u64) -> [u8; N] {
     let bytes = word.to_le_bytes();
@@ -245,13 +246,14 @@ const fn put_first<const N: usize>(buffer: [u8; N], first: usize, count: usize, 
     out
 }
 
-/// Returns the bits of `byte` that follow the remaining bits of a word after a right shift by `shift` bits, 0 to 7.
+/// Returns the bits that a right shift by `shift` bits moves into a word. `byte` is the byte after the word, and
+/// `shift` is at most 7.
 #[inline]
 const fn above(byte: u64, shift: u32) -> u64 {
     byte << 1 << (63 - shift)
 }
 
-/// Returns the bits that are shifted out of `word` by a left shift of `shift` bits, 0 to 7.
+/// Returns the bits that a left shift by `shift` bits moves out of `word`. `shift` is at most 7.
 #[inline]
 const fn beyond(word: u64, shift: u32) -> u64 {
     word >> 1 >> (63 - shift)

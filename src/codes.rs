@@ -36,7 +36,7 @@ pub enum Cell {
     Text(&'static str),
 }
 
-/// A code of a table as a Rust type. Generated code implements this trait with one enumeration per table.
+/// A code of a table as a Rust type. Generated code contains one enumeration per table, which implements this trait.
 ///
 /// ```
 /// use lexibus::codes::{Code, CodeTable};

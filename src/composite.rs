@@ -29,8 +29,8 @@ pub struct Composite<const N: usize> {
 }
 
 impl<const N: usize> Composite<N> {
-    /// Creates an unsigned encoding with this base. Digits are 0 to `base` - 1. If the base is below 2, every number is
-    /// out of range.
+    /// Creates an unsigned encoding with this base. Digits are 0 to `base` - 1. If the base is below 2,
+    /// [`split`](Self::split) rejects every number.
     #[must_use]
     pub const fn new(base: u16) -> Self {
         Self { base, negative: None }

@@ -2,9 +2,10 @@
 
 use core::fmt;
 
-/// A basic or extended data type of CiA 301 (7.1.4 and 7.1.6), or [`Opaque`](DataType::Opaque).
+/// A basic or extended data type of CiA 301 (7.1.4 and 7.1.6), [`Bits`](DataType::Bits) or
+/// [`Opaque`](DataType::Opaque).
 ///
-/// `Display` writes the name that CiA 301 uses, for example `INTEGER32`.
+/// `Display` writes the name in the standard, for example `INTEGER32`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DataType {
@@ -65,7 +66,7 @@ pub enum DataType {
 }
 
 impl DataType {
-    /// Returns the size in bits, or `None` if the size depends on the value.
+    /// Returns the size in bits, or `None` if the type has no fixed size.
     #[must_use]
     pub const fn bits(self) -> Option<u32> {
         Some(match self {

@@ -8,7 +8,7 @@ use crate::value_error::{LengthError, OutOfRange};
 /// An integer with named values. Bit fields, whose bits have names, also implement this trait.
 ///
 /// Generated enumerations have a variant for all other values, so a value that isn't in the device description can
-/// still be read. A type with this trait is the [`Value`] of an item:
+/// still be read. A type with this trait can be the [`Value`] of an item:
 ///
 /// ```
 /// use lexibus::{Enumeration, Fixed};

@@ -40,7 +40,7 @@ pub struct Device {
     pub pdos: &'static [PdoInfo],
     /// Indices of the PDOs that are assigned by default, in the order of the process image.
     pub default_pdos: &'static [u16],
-    /// Mailbox of the slave.
+    /// Mailbox protocols that the slave supports.
     pub mailbox: Mailbox,
     /// Slots and modules; `None` if the device isn't modular.
     pub slots: Option<Slots>,
@@ -66,9 +66,9 @@ impl Device {
         self.sync_managers.iter().find(|manager| manager.number == number)
     }
 
-    /// Returns the number of the sync manager for a PDO. The result is the default sync manager of the PDO, or the
-    /// first sync manager for the PDO's direction if the PDO has no default. If the description lists no sync managers,
-    /// the default sync manager of another PDO with the same direction is used.
+    /// Returns the number of the sync manager for a PDO. The result is the default sync manager of the PDO. If the PDO
+    /// has no default, the result is the first sync manager for the PDO's direction that the PDO doesn't exclude. If
+    /// the description lists no sync managers, the default sync manager of another PDO with the same direction is used.
     #[must_use]
     pub fn sync_manager_of(&self, pdo: &PdoInfo) -> Option<u8> {
         let purpose = match pdo.direction {
@@ -86,7 +86,7 @@ impl Device {
 }
 
 impl Device {
-    /// Returns the default sync manager of the first PDO with this direction.
+    /// Returns the default sync manager of the first PDO with this direction that has one.
     fn named_by_others(&self, direction: Direction) -> Option<u8> {
         self.pdos.iter().filter(|pdo| pdo.direction == direction).find_map(|pdo| pdo.sync_manager)
     }

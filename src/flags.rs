@@ -1,6 +1,6 @@
 //! Additional properties of an item.
 
-/// Set of properties of an item, which constants can also use.
+/// Set of properties of an item. [`union`](Self::union) combines two sets, also in constants.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Flags(u8);
 

@@ -1,8 +1,9 @@
 //! Framing of messages in a byte stream.
 //!
 //! [`Framing`] is a trait for framing protocols. [`Delimited`] implements the trait for protocols with start and end
-//! bytes. A [`Delimited`] is a constant with delimiters, escape bytes and checksum. The types of this module neither
-//! allocate nor perform I/O. The feature `serial` applies framing to a byte stream of `embedded-io`.
+//! bytes. A [`Delimited`] contains delimiters, escape bytes and the type of the checksum, and can be a constant. The
+//! types of this module neither allocate nor perform I/O. The feature `serial` applies framing to a byte stream of
+//! `embedded-io`.
 //!
 //! ```
 //! use lexibus::framing::{Check, Delimited, Framing};

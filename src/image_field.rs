@@ -18,7 +18,7 @@ pub enum ImageOrder {
     Bytes,
 }
 
-/// A bit field in a fixed process image.
+/// A field in a fixed process image: a number, a text or a byte string.
 ///
 /// Values in a [`Client`](crate::Client) have their least significant byte first. In an image, each field has its own
 /// byte order:

@@ -15,7 +15,7 @@ use crate::register::Register;
 use crate::value::Value;
 use crate::value_error::OutOfRange;
 
-/// One value of a device: an entry of its object dictionary, a register or a parameter.
+/// One value of a device, for example an entry of its object dictionary, a register or a parameter.
 ///
 /// `V` is the type of the value. `A` is the access right: [`Ro`](crate::Ro), [`Wo`](crate::Wo), [`Rw`](crate::Rw) or
 /// [`Const`](crate::Const). `L` is the [`Location`](crate::Location) of the item. The type of the location determines
@@ -176,7 +176,7 @@ where
 macro_rules! objects {
     ($location:ty, $on:ident: $object:ident, $with_default:ident, $flagged:ident, $flagged_with_default:ident) => {
         impl<V: Value, A> Item<V, A, $location> {
-            /// Creates an entry of the object dictionary with default properties.
+            /// Creates an entry of the object dictionary with the full range, without initial value, unit and flags.
             #[must_use]
             pub const fn $object(index: u16, sub_index: u8, name: &'static str) -> Self {
                 Self::new(<$location>::$on(index, sub_index), name, Range::Full, Initial::Unknown, "", Flags::NONE)

@@ -1,9 +1,9 @@
 //! Runtime of Lexibus, the object-dictionary compiler.
 //!
 //! Generated bindings describe every value of a fieldbus device as a `const` [`Item`]. An item has a type, access
-//! rights and an address on each [`Bus`]. A [`Client`] or an [`AsyncClient`] transfers the bytes. [`Item::at`] combines
-//! an item and a client into an [`Accessor`]. The accessor's methods `read` and `write` exist only if the device and
-//! the bus allow them.
+//! rights and an address on each [`Bus`] on which it exists. A [`Client`] or an [`AsyncClient`] transfers the bytes.
+//! [`Item::at`] combines an item and a client into an [`Accessor`]. The accessor's methods `read` and `write` exist
+//! only if the device and the bus allow them.
 //!
 //! The crate is `no_std`, doesn't allocate, contains no `unsafe` code and has no dependencies in its default build.
 //!

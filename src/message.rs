@@ -154,8 +154,8 @@ pub trait Request<'r>: Message + Sized {
 ///
 /// # Errors
 ///
-/// Returns [`Error::Refused`] if the device refuses the request, [`Error::UnexpectedReply`] if the data contain another
-/// reply.
+/// Returns [`Error::Refused`] if the device refuses the request, or [`Error::UnexpectedReply`] if the data contain
+/// another reply.
 pub fn read<'r, M: Message, E>(request: &[u8], reply: &'r [u8]) -> Result<M::Reply<'r>, Error<E>> {
     answer::<E, M>(request, reply).map_err(Failure::into_error)
 }

@@ -21,8 +21,8 @@ pub trait Number: Copy + sealed::Sealed {
     #[must_use]
     fn integer(self) -> i128;
 
-    /// Returns the number of this type that is nearest to `real`. Halves are rounded away from zero. Returns `None` if
-    /// `real` is NaN or outside the limits of the type.
+    /// Returns the number of this type that is nearest to `real`. An integer type rounds halves away from zero. Returns
+    /// `None` if `real` is NaN or outside the limits of the type.
     #[must_use]
     fn nearest(real: f64) -> Option<Self>;
 }
@@ -112,7 +112,7 @@ pub trait Quantity: Fixed {
     fn raw(physical: f64, other: Self::Other) -> Result<Self::Native, OutOfRange>;
 }
 
-/// Linear scaling: physical = (raw × `NUM` + `OFFSET`) / `DEN`, rounded once.
+/// Linear scaling: physical = (raw × `NUM` + `OFFSET`) / `DEN`, computed with `f64`.
 ///
 /// ```
 /// use lexibus::{Quantity, Scaled};

@@ -70,7 +70,7 @@ pub struct Register {
     /// True if the two bytes of each register are swapped.
     pub bytes_swapped: bool,
     /// Bit field of the number that forms the value, or `None` if the value is the whole number. To write a bit field,
-    /// a client first reads the registers.
+    /// a client first reads the registers, unless it uses function 22.
     pub part: Option<RegisterPart>,
     /// Number of 16-bit registers per address: 1 on most devices, 2 on devices with one address per 32-bit register.
     /// With 2 registers per address, a 32-bit value at `address` is followed by the next value at `address + 1`.

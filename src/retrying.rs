@@ -10,8 +10,8 @@ use crate::error::Error;
 use crate::modbus::{AsyncRegisterClient, Limits, RegisterClient};
 
 /// Client that repeats an access after an error of the bus: [`Error::Timeout`], [`Error::UnexpectedReply`] or
-/// [`Error::Client`]. After any other error, the access isn't repeated, because the device replied. The exceptions of
-/// Modbus are [`Error::Client`] errors, too, so an access that a Modbus device refuses is repeated.
+/// [`Error::Client`]. The access isn't repeated after any other error, for example a refusal by the device. The
+/// exceptions of Modbus are [`Error::Client`] errors, too, so an access that a Modbus device refuses is repeated.
 ///
 /// Writes are not repeated by default: the device may have executed a write whose reply is lost. Don't use this client
 /// for reads that change the device, for example reads of a queue.
@@ -138,7 +138,7 @@ retrying! { AsyncClient AsyncRegisterClient async await }
 /// `embassy_time::Timer::after`.
 ///
 /// When the timeout expires, the transfer is dropped. After a dropped transfer, the next transfer of any client of this
-/// crate is correct, except with contexts of `tokio-modbus` without a `Link`.
+/// crate is correct. The exceptions are contexts of `tokio-modbus` without a `Link`, and serial lines without a timer.
 ///
 /// ```
 /// # use core::time::Duration;
@@ -185,7 +185,7 @@ impl<C, T> Deadline<C, T> {
     }
 }
 
-/// Returns the result of an access, or a timeout.
+/// Returns the result of an access, or [`Error::Timeout`] if the access takes longer than `timeout`.
 async fn limit<T: Timer, O, E>(
     timer: &mut T,
     timeout: Duration,

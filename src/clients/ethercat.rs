@@ -158,7 +158,8 @@ impl<'m, T: Timer> Sdo<'m, T> {
         self
     }
 
-    /// Returns the last emergency message that arrived before a reply, and removes it.
+    /// Returns the last emergency message that arrived during a transfer or was waiting before it, and removes the
+    /// message from the client.
     pub fn take_emergency(&mut self) -> Option<Emergency> {
         self.mailbox.emergency.take()
     }

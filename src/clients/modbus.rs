@@ -33,8 +33,8 @@
 //! [`Link`] or a context of [`tcp`] or [`rtu`], it is an [`AsyncClient`] and an [`AsyncRegisterClient`].
 //!
 //! Some devices don't support all requests. Generated bindings list the supported requests in the constant `MODBUS`,
-//! for [`with_limits`](ModbusClient::with_limits). With the option `with_limits`, the client uses only supported
-//! requests. If no supported request fits, the client returns an error and sends nothing:
+//! for [`with_limits`](ModbusClient::with_limits). A client with these limits uses only supported requests. If no
+//! supported request fits, the client returns an error and sends nothing:
 //!
 //! ```
 //! use lexibus::clients::modbus::ModbusClient;
@@ -49,9 +49,9 @@
 //! let device = ModbusClient::new(context).with_limits(MODBUS);
 //! ```
 //!
-//! If a value is a part of a register, the client reads the register and then writes it. No other client should write
-//! the register between the read and the write. If the limits contain function 22, the device changes the bits in one
-//! step.
+//! To write a value that is a part of a register, the client reads the register and then writes it. No other client
+//! should write the register between the read and the write. If the limits contain function 22, the device changes the
+//! bits in one step.
 
 use std::error;
 use std::fmt;

@@ -135,8 +135,8 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
     }
 
     /// Returns the line with a timeout for each exchange. `time` is the [`Clock`] of a blocking line or the [`Timer`]
-    /// of an async line. An exchange of a blocking line ends when the timeout has expired and the next byte arrives, or
-    /// a read times out.
+    /// of an async line. After the timeout, an exchange of a blocking line ends when the next byte arrives or a read
+    /// times out.
     #[must_use]
     pub fn with_time<T>(self, time: T, timeout: Duration) -> SerialLine<S, F, N, T> {
         let Self { line, is_unsettled, times_out, .. } = self;
@@ -239,7 +239,7 @@ fn one<E>(byte: [u8; 1], count: usize) -> Result<u8, Error<SerialError<E>>> {
     }
 }
 
-/// Returns whether a read of the stream has timed out.
+/// Returns whether the error is a timeout of the stream.
 fn is_timeout<E: embedded_io::Error>(error: &Error<SerialError<E>>) -> bool {
     matches!(error, Error::Client(SerialError::Stream(error)) if error.kind() == embedded_io::ErrorKind::TimedOut)
 }

@@ -117,12 +117,12 @@ impl<const N: usize> Assignment<N> {
     }
 
     /// Replaces the mapping of one PDO by a custom mapping. `P` is a struct declared with [`pdo!`](crate::pdo!). The
-    /// offsets of all following PDOs change accordingly.
+    /// offsets of all following PDOs of the same sync manager change accordingly.
     ///
     /// # Errors
     ///
     /// - [`AssignmentError::Unknown`] if the PDO isn't assigned.
-    /// - [`AssignmentError::Fixed`] if the mapping of the PDO is read-only.
+    /// - [`AssignmentError::Fixed`] if the mapping of this PDO is read-only, or if all mappings of the device are.
     /// - [`AssignmentError::TooLong`] if the process data exceed the maximum length of the sync manager.
     pub fn with_mapping<P: Pdo>(mut self) -> Result<Self, AssignmentError> {
         let configures = self.device.mailbox.coe.is_some_and(|coe| coe.pdo_config);

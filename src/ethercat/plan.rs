@@ -33,7 +33,7 @@ pub struct SlotPlan<const N: usize> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// The device has no slots, or more than `N` slots.
+    /// The device isn't modular, or has more than `N` slots.
     Slots,
     /// The device has no slot with this number.
     NoSuchSlot(u16),
@@ -115,7 +115,7 @@ impl<const N: usize> SlotPlan<N> {
     ///
     /// # Errors
     ///
-    /// Returns [`PlanError::Slots`] if the device has no slots or more than `N` slots.
+    /// Returns [`PlanError::Slots`] if the device isn't modular or has more than `N` slots.
     pub fn new(device: &'static Device) -> Result<Self, PlanError> {
         let plan = Self { device, modules: [None; N] };
         let count: usize = plan.slots().iter().map(|slot| usize::from(slot.max)).sum();
@@ -209,8 +209,8 @@ impl<const N: usize> SlotPlan<N> {
         Some(self.objects(slot).of(depends_on))
     }
 
-    /// Returns the PDOs of a sync manager in the order of the process image. The PDOs of the device come first. The
-    /// PDOs of the modules follow, sorted by group and slot.
+    /// Returns the PDOs of a sync manager in the order of the process image. The default PDOs of the device come first.
+    /// The PDOs of the modules follow, sorted by group and slot.
     pub fn pdos(&self, sync_manager: u8) -> impl Iterator<Item = SlotPdo> + '_ {
         let manager = self.device.sync_manager(sync_manager);
         let pdos = manager.into_iter().flat_map(move |manager| {
@@ -308,7 +308,7 @@ impl<const N: usize> SlotPlan<N> {
         self.modules.iter().zip(0..).filter_map(|(module, slot)| Some(((*module)?, slot)))
     }
 
-    /// Returns the groups of modules, or a single `None` if the device has no groups.
+    /// Returns the numbers of the groups of modules, or a single `None` if the device has no groups.
     fn groups(&self) -> impl Iterator<Item = Option<u16>> {
         let count = self.device.slots.map_or(0, |slots| slots.pdo_groups.len()) as u16;
         (count == 0).then_some(None).into_iter().chain((0..count).map(Some))

@@ -11,7 +11,8 @@ pub enum Check {
     Xor(u8),
     /// One byte: the low eight bits of the sum of the data.
     Sum(u8),
-    /// One byte: the low eight bits of the negative sum. The sum of data and code is 0 if the initial value is 0.
+    /// One byte: the low eight bits of the negative sum. The low eight bits of the sum of data and code are 0 if the
+    /// initial value is 0.
     Lrc(u8),
     /// Two bytes, the low byte first: a CRC with the polynomial 0x8005. Modbus RTU uses this CRC with the initial value
     /// 0xFFFF.
@@ -35,7 +36,7 @@ impl Check {
         self.len() == 0
     }
 
-    /// Computes the error detection code of `data`. Only the first [`len`](Self::len) bytes are used.
+    /// Computes the error detection code of `data`. Only the first [`len`](Self::len) bytes of the result are used.
     #[must_use]
     pub fn of(self, data: &[u8]) -> [u8; 2] {
         let sum = |seed: u8| data.iter().fold(seed, |sum, byte| sum.wrapping_add(*byte));

@@ -62,7 +62,8 @@ impl Delimited {
         Self { escape: Some(Escape { byte, xor, escaped }), ..self }
     }
 
-    /// Returns the framing with a checksum over all data. The checksum is escaped, as the data are.
+    /// Returns the framing with a checksum. After [`new`](Self::new), the checksum covers all data and is escaped, as
+    /// the data are.
     #[must_use]
     pub const fn with_check(self, check: Check) -> Self {
         Self { check, ..self }
@@ -220,8 +221,8 @@ impl Delimited {
         }
     }
 
-    /// Decodes a byte in a frame whose checksum is escaped. In such a frame, start, end and escape bytes have the same
-    /// meaning at all positions.
+    /// Decodes a byte in a frame that has no checksum or an escaped checksum. In such a frame, start, end and escape
+    /// bytes have the same meaning at all positions.
     fn inside(&self, decoder: &mut DelimitedDecoder, byte: u8, data: &mut [u8]) -> Result<Option<usize>, FrameError> {
         let is_escaped = decoder.state == State::Escaped;
         match self.unescape(decoder, byte) {

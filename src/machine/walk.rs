@@ -1,4 +1,4 @@
-//! The way of a state machine to a state, by reading its status item and writing its control item.
+//! Leads a state machine to a state: reads its status item and writes its control item.
 
 use core::fmt;
 use core::time::Duration;
@@ -14,7 +14,7 @@ use crate::location::On;
 use crate::route::{ReadRoute, WriteRoute};
 use crate::value::Fixed;
 
-/// Time between two readings of the status word.
+/// Maximum pause between two readings of the status word.
 const PAUSE: Duration = Duration::from_millis(5);
 
 /// The items of a state machine: the status item `V` and the control item `W`, with their access rights and locations.

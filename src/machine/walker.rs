@@ -1,4 +1,4 @@
-//! The way of a state machine to a state, one control word at a time.
+//! Leads a state machine to a state in cyclic process data, one control word per cycle.
 
 use core::fmt;
 
@@ -16,8 +16,8 @@ pub trait MachineState: Copy + 'static {
     /// Numbers of the states that the device enters because of a fault.
     const FAULTS: &'static [u8];
 
-    /// Numbers of the states in which the machine is energized, such as "Operation enabled" of CiA 402. A walker passes
-    /// through these states only if one of them is its target.
+    /// Numbers of the states in which the machine is energized, such as "Operation enabled" of CiA 402. A walker enters
+    /// such a state only if the state is its target.
     const ENERGIZED: &'static [u8] = &[];
 
     /// Returns the state that the bits of a status word encode, or `None` if they match no state.
@@ -45,7 +45,7 @@ pub trait MachineState: Copy + 'static {
 ///   clears the bit for one cycle.
 /// - The walker waits for automatic transitions of the device.
 /// - A fault that is active at the start is reset. A fault that occurs later stops the walker.
-/// - The walker passes through energized states, such as "Operation enabled", only if one of them is its target.
+/// - The walker enters an energized state, such as "Operation enabled", only if the state is its target.
 /// - In the target state, the control word contains no command that leads away from it.
 /// - A device that leaves the target state without a command stops the walker. To continue, create a new walker.
 /// - Bits of the control word that no command uses stay as the program sets them.
@@ -80,9 +80,10 @@ pub struct Walker<S> {
     target: S,
     /// State number of the device, and pattern of the command that the walker sends in this state.
     sent: Option<(u8, (u32, u32))>,
-    /// True if the device was in a state without a fault from which a command leads on.
+    /// True if the device was in a state without a fault, other than the states in which the walker waits.
     was_healthy: bool,
-    /// True if the device was in the target state.
+    /// True if the device was in the target state and its control word contained no command that leads away from this
+    /// state.
     was_reached: bool,
 }
 
@@ -91,7 +92,8 @@ pub struct Walker<S> {
 pub struct Walked<W> {
     /// Control word to send in this cycle.
     pub control: W,
-    /// True if the device is in the target state.
+    /// True if the device is in the target state and its control word contains no command that leads away from this
+    /// state.
     pub is_reached: bool,
 }
 
@@ -186,7 +188,7 @@ impl<S: MachineState> Walker<S> {
     }
 }
 
-/// Returns the patterns of the commands of a machine.
+/// Returns the patterns of the commands of those transitions that `is_it` accepts.
 fn patterns<S: MachineState>(is_it: impl Fn(&Transition<S::Command>) -> bool) -> impl Iterator<Item = (u32, u32)> {
     let transitions = S::TRANSITIONS.iter().filter(move |transition| is_it(transition));
     transitions.filter_map(|transition| transition.command).map(S::pattern)

@@ -43,7 +43,7 @@ pub trait AsyncMessageClient {
 /// The result of sending the message `M`: a reply `T` or a [`Failure`]. `E` is the error type of the client.
 pub type Answer<T, E, M> = Result<T, Failure<E, <M as Message>::Refusal>>;
 
-/// Reasons why a message has no reply. `E` is the error type of the client. `R` is the type of the device's refusal.
+/// Reasons why a request failed. `E` is the error type of the client. `R` is the type of the device's refusal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Failure<E, R> {
     /// The device refused the request.

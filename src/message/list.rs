@@ -235,8 +235,8 @@ impl SettingsRule {
     ///
     /// # Errors
     ///
-    /// Returns [`WriteError::NoMessage`] if the parameter doesn't exist, or [`WriteError::Length`] if the buffer is too
-    /// short.
+    /// Returns [`WriteError::NoMessage`] if the parameter doesn't exist, [`WriteError::OutOfRange`] if the number has
+    /// more bits than the field, or [`WriteError::Length`] if the buffer is too short.
     pub fn write_blank(&self, parameter: Parameter, to: &mut Writer<'_>) -> Result<(), WriteError> {
         let length = self.length(parameter).ok_or(WriteError::NoMessage)?;
         self.write_code(parameter, to)?;
@@ -290,6 +290,7 @@ impl<'a> Settings<'a> {
     ///
     /// - [`WriteError::NoMessage`] if a parameter doesn't exist. Without the length of this parameter, the device
     ///   couldn't find the next parameter.
+    /// - [`WriteError::OutOfRange`] if a parameter number has more bits than the field.
     /// - [`WriteError::Length`] if the buffer is too short, or if the length of a value differs from the length of the
     ///   parameter's type.
     pub fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError> {

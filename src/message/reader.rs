@@ -2,8 +2,8 @@
 
 /// Reads the fields of a message in order.
 ///
-/// Numbers are big-endian unless the method has a parameter for the byte order. Bit fields start at the most
-/// significant bit. All methods return `None` if the data are too short or don't match the expected data.
+/// Numbers are big-endian unless the method has the parameter `order`. Bit fields start at the most significant bit.
+/// The methods that read or check data return `None` if the data are too short or don't match.
 #[derive(Clone, Copy, Debug)]
 pub struct Reader<'r> {
     data: &'r [u8],

@@ -75,7 +75,7 @@ impl<V: Fixed, A: Writable, L: On<Serial, Route = Parameter>> Item<V, A, L> {
 }
 
 impl Setting {
-    /// Copies the value into `value`.
+    /// Copies the value into `value` and returns the length in bytes.
     ///
     /// # Errors
     ///

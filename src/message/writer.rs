@@ -11,7 +11,7 @@ use crate::value_error::{LengthError, OutOfRange};
 
 /// Writes the fields of a message in order.
 ///
-/// Numbers are big-endian unless a byte order is given. Bit fields start at the most significant bit.
+/// Numbers are big-endian unless the method has the parameter `order`. Bit fields start at the most significant bit.
 #[derive(Debug)]
 pub struct Writer<'b> {
     data: &'b mut [u8],
@@ -202,7 +202,8 @@ impl<'b> Writer<'b> {
     ///
     /// # Errors
     ///
-    /// Returns [`WriteError::OutOfRange`] if the number doesn't fit into the field.
+    /// Returns [`WriteError::OutOfRange`] if the number doesn't fit into the field, or [`WriteError::Length`] if the
+    /// field ends after the end of the buffer.
     pub fn length(&mut self, at: usize, order: &[u8], first: usize) -> Result<(), WriteError> {
         let (length, bits) = (self.len().saturating_sub(first) as u64, self.bits);
         let room = 8 * order.len() as u32;

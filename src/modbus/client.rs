@@ -40,14 +40,14 @@ pub trait RegisterClient: Client<Bus = Modbus> {
     }
 
     /// Reads items with as few requests as the device allows. The [module documentation](super) describes which items
-    /// one request can read. If the device doesn't have one of the items, the whole request fails.
+    /// one request can read. The whole request fails if the device lacks one of its items.
     ///
     /// # Errors
     ///
     /// - The errors of [`Client::read`].
-    /// - [`Error::Length`] if an item is longer than the device allows in one request; the client then sends no
-    ///   request. [`Error::Length`] also occurs if the length of an item's type differs from the length of its
-    ///   registers.
+    /// - [`Error::Length`] if an item exceeds one request and the device doesn't allow a
+    ///   [split](super::TableLimits::split). The client then sends no request. [`Error::Length`] also occurs if the
+    ///   length of an item's type differs from the length of its registers.
     fn read_block<const N: usize, B: Block<N>>(&mut self, block: B) -> Result<B::Values, Error<Self::Error>>
     where
         Self: Sized,

@@ -99,7 +99,7 @@ impl TableLimits {
         self.functions.is_empty() || self.names(function)
     }
 
-    /// Returns whether the device description lists any function for the table.
+    /// Returns whether the device description lists this function for the table.
     #[must_use]
     pub const fn names(&self, function: u8) -> bool {
         let mut at = 0;

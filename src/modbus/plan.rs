@@ -110,8 +110,8 @@ impl<const N: usize> Plan<N> {
         }
     }
 
-    /// Returns the end address of the request that begins with item `first`. The request includes further items, and
-    /// readable addresses between the items, up to the limit.
+    /// Returns the address after the last address of the request that begins with item `first`. The request includes
+    /// further items, and readable addresses between the items, up to the limit.
     const fn reach(&self, items: &[Register; N], first: usize, limits: &Limits) -> u32 {
         let start = items[first];
         let max = limits.max_read(start.table);

@@ -17,7 +17,7 @@ pub struct MappedEntry {
 }
 
 impl MappedEntry {
-    /// Creates a mapping entry.
+    /// Creates an entry whose index doesn't depend on a slot.
     #[must_use]
     pub const fn new(index: u16, sub_index: u8, bits: u32) -> Self {
         Self::depending_on(index, sub_index, bits, DependsOn::Nothing)

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::image_field::ImageField;
 use crate::value_error::LengthError;
 
-/// Minimum time between two cycles during [`Cyclic::wait`](crate::Client::wait).
+/// Pause between two cycles during [`Cyclic::wait`](crate::Client::wait). The last pause can be shorter.
 const CYCLE: Duration = Duration::from_millis(1);
 
 /// A client for the items in the cyclic data of one submodule.

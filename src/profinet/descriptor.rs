@@ -157,7 +157,7 @@ impl Places {
         Self::new(allowed, &[], &[])
     }
 
-    /// Returns whether the slot or subslot is allowed or fixed.
+    /// Returns whether the slot or subslot is in one of the lists, or all lists are empty.
     #[must_use]
     pub const fn fits(&self, place: u16) -> bool {
         let anywhere = self.allowed.is_empty() && self.fixed.is_empty() && self.used.is_empty();

@@ -219,7 +219,7 @@ impl ChannelProperties {
         }
     }
 
-    /// Returns whether the diagnosis appears or disappears (bits 11 and 12).
+    /// Returns the change that the diagnosis reports (bits 11 and 12).
     #[must_use]
     pub const fn specifier(self) -> ChannelSpecifier {
         match self.0 >> 11 & 3 {

@@ -39,7 +39,7 @@ pub enum Sil {
 pub enum FCrcLength {
     /// A CRC of 3 bytes.
     ThreeBytes,
-    /// A CRC of 2 bytes, as in the obsolete first version.
+    /// A CRC of 2 bytes, as in the obsolete first version of PROFIsafe.
     TwoBytes,
     /// A CRC of 4 bytes.
     FourBytes,

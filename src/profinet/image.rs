@@ -201,7 +201,7 @@ impl SubmoduleIo {
     }
 
     /// Returns the device's consumer status of the outputs from the input frame. Returns [`IoStatus::BAD`] if the
-    /// submodule has no outputs.
+    /// submodule has no outputs or the frame is too short.
     #[must_use]
     pub fn consumer(&self, inputs: &[u8]) -> IoStatus {
         let status = self.outputs_consumer.and_then(|span| span.of(inputs).ok());
@@ -209,7 +209,7 @@ impl SubmoduleIo {
     }
 
     /// Writes the controller's consumer status of the inputs to the output frame. This method has no effect if the
-    /// submodule has no inputs.
+    /// submodule has only outputs.
     ///
     /// # Errors
     ///
@@ -238,8 +238,8 @@ fn take(end: &mut usize, length: usize) -> Option<IoSpan> {
 impl<const N: usize> Plan<N> {
     /// Returns the positions of all data and status in the frames, sorted by slot and subslot.
     ///
-    /// The controller chooses the positions and sends them to the device when it connects. The layout that this method
-    /// returns has no gaps. [`Plan::lengths`] returns the lengths of the frames.
+    /// The controller chooses the positions and sends them to the device during the connection setup. The layout that
+    /// this method returns has no gaps. [`Plan::lengths`] returns the lengths of the frames.
     pub fn layout(&self) -> impl Iterator<Item = SubmoduleIo> + '_ {
         self.expected().scan((0, 0), |(inputs, outputs), submodule| {
             let (provider, consumer) = (usize::from(submodule.provider_len), usize::from(submodule.consumer_len));

@@ -68,7 +68,7 @@ pub enum PlanError {
     ModuleNotAllowed,
     /// The slot is empty.
     EmptySlot,
-    /// The module doesn't have the subslot.
+    /// The module doesn't have the subslot, or the subslot contains no submodule to remove.
     NoSuchSubslot,
     /// The subslot already has a submodule.
     SubslotTaken,
@@ -76,7 +76,7 @@ pub enum PlanError {
     FixedSubmodule,
     /// The module doesn't support the submodule, or doesn't allow it in this subslot.
     SubmoduleNotAllowed,
-    /// The number of submodules exceeds `N`.
+    /// The number of submodules, plus the number of modules without submodules, exceeds `N`.
     Full,
     /// The inputs exceed the device's maximum length.
     InputsTooLong,

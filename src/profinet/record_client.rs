@@ -21,7 +21,7 @@ impl SubmoduleAddress {
         Self { api, slot, subslot }
     }
 
-    /// Returns the address of the record of this submodule with index `index`.
+    /// Returns the address of this submodule's record with index `index`.
     #[must_use]
     pub const fn record(self, index: u16) -> RecordAddress {
         RecordAddress { api: self.api, slot: self.slot, subslot: self.subslot, index }

@@ -12,7 +12,7 @@ pub(super) trait Behavior: fmt::Debug + Send {
     /// Executes one step of the simulation. Returns whether the state of the axis has changed.
     fn step(&mut self, device: &mut Device) -> bool;
 
-    /// Reacts to a write of a client or to a change by the test.
+    /// Reacts to a write by a client or in process data.
     fn observe(&mut self, device: &mut Device);
 
     /// Enters the fault reaction with an error code. `persists` means that the cause of the fault persists.

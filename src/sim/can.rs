@@ -26,7 +26,8 @@ const MOST_FRAMES: usize = 1024;
 ///
 /// The node simulates the SDO server, NMT, heartbeat and emergency messages. The node transmits PDOs on SYNC, on change
 /// and by timer. CANopen clients use the node as their CAN port. The clock of the node is simulated. The clock advances
-/// only by [`advance`](Self::advance) and by waiting for a frame, so tests never wait in real time.
+/// only by [`advance`](Self::advance), by waiting for a frame, and by the access time of the device for each received
+/// frame. Tests therefore never wait in real time.
 ///
 /// ```
 /// use core::time::Duration;
@@ -288,7 +289,7 @@ impl CanNode {
     }
 }
 
-/// A bus with only this node. When a client waits for a frame, the clock of the node moves forward.
+/// A bus with only this node. The clock of the node moves forward when a client waits for a frame.
 impl CanPort for CanNode {
     type Error = Infallible;
 

@@ -26,7 +26,7 @@ struct Cell {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cells(BTreeMap<Address, Cell>);
 
-/// Returns the addresses of a register.
+/// Returns the table and the address of each register or bit of a value.
 fn addresses(register: Register) -> impl Iterator<Item = Address> {
     (0..register.count).map_while(move |at| Some((register.table, register.address.checked_add(at)?)))
 }
@@ -35,7 +35,8 @@ const fn is_bits(table: RegisterTable) -> bool {
     matches!(table, RegisterTable::Coil | RegisterTable::DiscreteInput)
 }
 
-/// Returns the contents of an item's registers if the item has this value. `held` contains the current contents.
+/// Returns the words of an item's registers after a write of `value`. `held` contains the words before the write. Each
+/// coil or discrete input is one word.
 fn encode(register: Register, value: &[u8], held: Vec<u16>) -> Vec<u16> {
     if is_bits(register.table) {
         let bit = |at: usize| value.get(at / 8).map_or(0, |byte| u16::from(byte >> (at % 8) & 1));
@@ -131,7 +132,7 @@ impl Cells {
         }
     }
 
-    /// Returns the contents of a register.
+    /// Returns the words of a value's registers. Registers that don't exist contain 0.
     pub fn words(&self, register: Register) -> Vec<u16> {
         let held = |address| self.word(address).unwrap_or(0);
         let mut words: Vec<u16> = addresses(register).map(held).collect();
@@ -163,7 +164,7 @@ impl Cells {
         masks.fold(0, |all, mask| all | mask)
     }
 
-    /// Returns the value that the registers contain for an item.
+    /// Returns the value that the registers contain for an item, or `None` if the item has no register.
     pub fn value(&self, entry: &Entry) -> Option<Vec<u8>> {
         let register = entry.register?;
         Some(decode(entry, register, &self.words(register)))

@@ -7,15 +7,15 @@ use std::time::Instant;
 /// step. The result therefore doesn't depend on how a test divides the time.
 pub(super) const STEP: Duration = Duration::from_millis(1);
 
-/// What makes the time advance, in addition to `Device::step`.
+/// Source of the time of a device, in addition to `Device::step`.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) enum Pace {
-    /// Nothing.
+    /// No further source.
     #[default]
     Manual,
-    /// Each access of a client takes this time.
+    /// Each access of a client advances the time by this duration.
     PerAccess(Duration),
-    /// The time since this moment.
+    /// Each access of a client advances the time by the real time since this moment.
     Real(Instant),
 }
 

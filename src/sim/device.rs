@@ -298,7 +298,8 @@ impl Device {
         old
     }
 
-    /// Calls the reactions to a write of an item. A change by a reaction calls no further reactions.
+    /// Calls the reactions to a write of an item, and then lets the drives react. A change by a reaction calls no
+    /// further reactions.
     pub(super) fn react(&mut self, at: usize) -> Result<(), AbortCode> {
         let entry = self.slots.get(at).entry;
         let mut hooks = core::mem::take(&mut self.hooks);

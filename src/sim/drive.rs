@@ -76,7 +76,7 @@ impl Drive {
         self.publish(objects);
     }
 
-    /// Reacts to a write of a client or to a change by the test.
+    /// Reacts to a write by a client or in process data.
     fn react(&mut self, objects: &mut Objects<'_>) {
         self.control(objects);
         self.publish(objects);
@@ -120,7 +120,7 @@ impl Drive {
         }
     }
 
-    /// Enters a state.
+    /// Enters a state, and selects the ramp on which the axis stops in this state.
     fn enter(&mut self, next: State, objects: &Objects<'_>) {
         let from_operation = self.state == State::OperationEnabled;
         self.stop = match next {

@@ -64,7 +64,8 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`read_words`](Self::read_words).
+    /// Returns [`Exception::IllegalFunction`] if the table contains registers, otherwise the errors of
+    /// [`read_words`](Self::read_words).
     pub fn read_bits(&mut self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<bool>, Exception> {
         if !is_bits(table) {
             return Err(Exception::IllegalFunction);
@@ -77,7 +78,8 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`write_words`](Self::write_words).
+    /// Returns [`Exception::IllegalFunction`] if the table isn't [`Coil`](RegisterTable::Coil), otherwise the errors of
+    /// [`write_words`](Self::write_words).
     pub fn write_bits(&mut self, table: RegisterTable, address: u16, bits: &[bool]) -> Result<(), Exception> {
         if table != RegisterTable::Coil {
             return Err(Exception::IllegalFunction);

@@ -31,8 +31,8 @@ fn can_be_stored(entry: &Entry, group: u8) -> bool {
 }
 
 impl Device {
-    /// Executes a write if it is a command. Returns whether the write was a command. A command doesn't change the value
-    /// of the object.
+    /// Executes a write if it is a command. Returns whether the write was a command. The commands of 0x1010 and 0x1011
+    /// don't change the value of the object.
     pub(super) fn command(&mut self, object: Object, data: &[u8]) -> Result<bool, AbortCode> {
         match (object.index, object.sub_index) {
             (STORE, 1..) => self.save(object.sub_index, data)?,
@@ -59,7 +59,7 @@ impl Device {
         Ok(())
     }
 
-    /// Restores the initial values. The initial values become active at the next power-on.
+    /// Deletes the stored values. The initial values become active at the next power-on.
     fn load(&mut self, group: u8, signature: &[u8]) -> Result<(), AbortCode> {
         if signature != b"load" {
             return Err(AbortCode::CANNOT_STORE);

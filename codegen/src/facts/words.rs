@@ -247,14 +247,14 @@ impl Words<'_> {
         sentences
     }
 
-    /// Returns the storage: `volatile`, `non-volatile: stored on the command Save`. Returns `None` if the source does not state
+    /// Returns the storage: `volatile`, `non-volatile: stored by the command Save`. Returns `None` if the source does not state
     /// how the device stores the value.
     pub fn storage(&self, storage: &Storage) -> Option<String> {
         match storage {
             Storage::Unknown => None,
             Storage::Volatile => Some("volatile".to_owned()),
             Storage::Immediate => Some("non-volatile".to_owned()),
-            Storage::OnCommand(command) => Some(format!("non-volatile: stored on the command {}", self.name(command))),
+            Storage::OnCommand(command) => Some(format!("non-volatile: stored by the command {}", self.name(command))),
         }
     }
 

@@ -14,8 +14,8 @@ impl Emergency {
         Self::of_id(frame, EMERGENCY + u16::from(node.get()))
     }
 
-    /// Returns the emergency message in a frame with the COB-ID `id`, the value of object 0x1014. Returns `None` for
-    /// other frames.
+    /// Returns the emergency message in a frame with the COB-ID `id` (bits 0 to 10 of object 0x1014). Returns `None`
+    /// for other frames.
     #[must_use]
     pub fn of_id(frame: &CanFrame, id: u16) -> Option<Self> {
         Self::from_bytes(frame.data()).filter(|_| frame.id() == id)

@@ -61,7 +61,7 @@ impl CanPort for CanSocket {
 /// Pause before the next attempt if the transmit queue is full: about the duration of one frame at 125 kbit/s.
 pub(super) const PAUSE: Duration = Duration::from_millis(1);
 
-/// Returns whether the transmit queue is full. The queue fills up if no other node acknowledges frames.
+/// Returns whether the error reports a full transmit queue. The queue fills up if no other node acknowledges frames.
 pub(super) fn is_full(error: &io::Error) -> bool {
     error.raw_os_error() == Some(libc::ENOBUFS)
 }

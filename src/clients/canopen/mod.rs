@@ -33,8 +33,8 @@
 //! ```
 //!
 //! [`Polled`] converts an interface of `embedded-can` to a [`CanPort`]. The feature `socketcan` implements [`CanPort`]
-//! for SocketCAN, which this module re-exports. The feature `socketcan-tokio` implements [`AsyncCanPort`]. For any
-//! other library, implement [`CanPort`] as in the example of this trait.
+//! for the sockets of the crate `socketcan`, which this module re-exports. The feature `socketcan-tokio` implements
+//! [`AsyncCanPort`]. For any other library, implement [`CanPort`] as in the example of this trait.
 //!
 //! # Errors of the CAN interface
 //!

@@ -118,7 +118,7 @@ impl NmtState {
     }
 }
 
-/// Returns a SYNC message (CiA 301 7.2.5). When nodes receive SYNC, they send and apply their synchronous PDOs.
+/// Returns a SYNC message (CiA 301 7.2.5). Nodes send and apply their synchronous PDOs when they receive SYNC.
 #[must_use]
 pub fn sync() -> CanFrame {
     CanFrame::of(SYNC, [])

@@ -131,7 +131,7 @@ macro_rules! methods {
                 self.$send(&frame)$(.$await)?
             }
 
-            /// Sends SYNC. When the nodes of the network receive SYNC, they send and apply their synchronous PDOs.
+            /// Sends SYNC. The nodes of the network send and apply their synchronous PDOs when they receive SYNC.
             ///
             /// # Errors
             ///

@@ -75,8 +75,8 @@ pub trait CanPort {
     ) -> Result<Option<CanFrame>, Self::Error>;
 
     /// Returns the time since a fixed moment, or `None` if the port has no clock. The port sets this time in received
-    /// frames with [`CanFrame::at`], and a [`Node`](super::Node) limits the duration of a transfer with it. The default
-    /// implementation uses the [`DefaultClock`].
+    /// frames with [`CanFrame::at`]. A [`Node`](super::Node) uses the clock to limit the duration of a transfer. The
+    /// default implementation uses the [`DefaultClock`].
     fn now(&mut self) -> Option<Duration> {
         DefaultClock.now()
     }

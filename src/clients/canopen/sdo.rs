@@ -60,7 +60,7 @@ impl Expected {
         matches!(self.specifier, UPLOAD_SEGMENT | DOWNLOAD_SEGMENT)
     }
 
-    /// Returns the expected reply to the first segment.
+    /// Returns the expected reply to the next segment.
     const fn segment(self) -> Self {
         let specifier = match self.specifier {
             UPLOAD => UPLOAD_SEGMENT,
@@ -170,13 +170,13 @@ impl Transfer {
         }
     }
 
-    /// Returns the reply that the node still has to send after this request.
+    /// Returns the reply that the node still has to send after this request. Nodes don't reply to an abort message.
     fn owed(&self, request: &CanFrame) -> Option<Owed> {
         let is_aborted = request.data().first().is_some_and(|command| command >> 5 == ABORT);
         (self.is_owed || !is_aborted).then_some(Owed { reply: self.expected, is_aborted })
     }
 
-    /// Aborts the transfer and sends the abort code to the node.
+    /// Aborts the transfer with this outcome. The next [`request`](Self::request) is the abort message with this code.
     fn give_up(&mut self, code: SdoAbortCode, outcome: Outcome) {
         self.client.abort(code);
         self.outcome = Some(outcome);
@@ -272,8 +272,8 @@ struct Done {
 }
 
 impl Done {
-    /// Copies the uploaded value to the start of `buffer` and returns its length. If the node sent no length, the value
-    /// has the requested length.
+    /// Copies the uploaded value to the start of `buffer` and returns its length. If the node sent no length, the
+    /// length is that of `buffer`, but at most 4.
     fn uploaded<E>(&self, buffer: &mut [u8]) -> Result<usize, Error<E>> {
         let SdoOutcome::UploadCompleted(data) = &self.outcome else { return Err(Error::UnexpectedReply) };
         buffer.iter_mut().zip(data).for_each(|(to, from)| *to = *from);

@@ -247,8 +247,7 @@ impl<'m> Controller<'m> {
         written.await.map(|_| ()).map_err(Error::Client)
     }
 
-    /// Reads the message in the mailbox. If the datagram is lost after the device has emptied the mailbox, requests the
-    /// message again.
+    /// Reads the message in the mailbox. Requests the message again if the read fails, at most [`MOST_REPEATS`] times.
     async fn take<T: Timer>(
         self,
         back: Buffer,
@@ -265,8 +264,7 @@ impl<'m> Controller<'m> {
         }
     }
 
-    /// Waits until the last message is in the mailbox again. Toggles the repeat request if the device has emptied the
-    /// mailbox.
+    /// Waits until the last message is in the mailbox again. Toggles the repeat request if the mailbox is empty.
     async fn repeat<T: Timer>(self, back: Buffer, deadline: &mut Deadline<'_, T>) -> Result<(), Error<BusError>> {
         if self.is_full(back).await? {
             return Ok(());
@@ -281,7 +279,7 @@ impl<'m> Controller<'m> {
         self.wait(back, true, deadline).await
     }
 
-    /// Waits until the mailbox is full or empty.
+    /// Waits until the mailbox is full if `full` is set, and otherwise until the mailbox is empty.
     async fn wait<T: Timer>(
         self,
         buffer: Buffer,

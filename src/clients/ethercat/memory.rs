@@ -8,8 +8,8 @@ use crate::client::AsyncClient;
 use crate::error::Error;
 use crate::value_error::LengthError;
 
-/// Client for the memory of the slave controller of one SubDevice (ETG.1000.4), for items with an address in this
-/// memory.
+/// Client for the memory of one SubDevice's slave controller (ETG.1000.4). The client reads and writes items that have
+/// an address in this memory.
 ///
 /// The client needs no mailbox and works in every state. `ethercrab` and the device use this memory too. Don't write to
 /// registers that `ethercrab` or the device uses (states, sync managers, FMMUs).

@@ -28,7 +28,7 @@ const ERROR_REPLY: [u8; 2] = [1, 0];
 /// Protocol number of CoE in the header of a mailbox message.
 const COE: u8 = 3;
 
-/// Kind of a request.
+/// Says whether bytes of the value follow the head of a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Command {
     /// The head contains all data.
@@ -89,8 +89,8 @@ pub(super) fn upload_segment(toggle: bool) -> Request {
     Request::new(&[0x60 | u8::from(toggle) << 4, 0, 0, 0, 0, 0, 0, 0], INITIATE, Command::Short)
 }
 
-/// Returns the request to download a value, and the number of bytes of `data` that follow its head. `room` is the
-/// maximum length of a message.
+/// Returns the first request of a download, and the number of bytes of `data` that the request transfers. `room` is the
+/// maximum length of a message in bytes.
 pub(super) fn download(object: Object, complete: bool, data: &[u8], room: usize) -> (Request, usize) {
     if (1..=4).contains(&data.len()) {
         let mut bytes = [0; 4];
@@ -103,8 +103,8 @@ pub(super) fn download(object: Object, complete: bool, data: &[u8], room: usize)
     (Request::new(&initiate(0x21, object, complete, size), INITIATE + first, Command::Normal), first)
 }
 
-/// Returns the request for the next segment, and the number of bytes that follow its head. `rest` is the number of
-/// remaining bytes.
+/// Returns the request for the next segment of a download, and the number of bytes that follow its head. `rest` is the
+/// number of remaining bytes.
 pub(super) fn download_segment(toggle: bool, rest: usize, room: usize) -> (Request, usize) {
     let most = room.saturating_sub(MAILBOX_HEADER + COE_HEADER + 1).max(SEGMENT);
     let length = rest.min(most);

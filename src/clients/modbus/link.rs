@@ -1,4 +1,4 @@
-//! Connections with a timeout that discard late replies.
+//! Connections that have a timeout and discard late replies.
 
 use core::future::{poll_fn, Future};
 use core::pin::Pin;
@@ -72,8 +72,8 @@ impl<T> fmt::Debug for Link<T> {
 }
 
 impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
-    /// Creates a connection to `device` with Modbus RTU. `timeout` is the time from the request to the end of the
-    /// reply.
+    /// Creates a connection to `device` with Modbus RTU. `timeout` is the maximum time from the request to the end of
+    /// the reply.
     pub fn rtu(line: T, device: Slave, timeout: Duration) -> Self {
         Self::new(line, device, timeout, true)
     }
@@ -164,7 +164,7 @@ where
     }
 }
 
-/// Returns the end of a time, or a far moment if the time is too long.
+/// Returns `start` plus `time`, or `start` plus 30 years if the sum is too large.
 fn after(start: Instant, time: Duration) -> Instant {
     const YEARS: Duration = Duration::from_secs(30 * 365 * 24 * 3600);
     start.checked_add(time).unwrap_or(start + YEARS)

@@ -217,8 +217,8 @@ impl Writes {
     }
 }
 
-/// Returns whether the number in `data` fits in the [`part`](Register::part) of the register, or in its bits. The upper
-/// bits must be zero or copies of the sign bit.
+/// Returns whether the number in `data` fits in the [`part`](Register::part) of the register, or in the coils. The
+/// upper bits must be zero or copies of the sign bit.
 fn takes(register: Register, data: &[u8]) -> bool {
     let bits = match (register.part, register.table) {
         (Some(part), _) => u32::from(part.bits),

@@ -46,7 +46,7 @@ pub enum ParameterError {
     Format(Format),
     /// The response doesn't contain the requested value.
     NoValue,
-    /// A request or response is too short.
+    /// The buffer for a request is too short, or the response is incomplete.
     Length(LengthError),
 }
 

@@ -11,9 +11,9 @@ pub const MAX_PARAMETERS: usize = 39;
 pub(super) const READ: u8 = 0x01;
 /// Request ID of a change request.
 pub(super) const CHANGE: u8 = 0x02;
-/// Length of the header of requests and responses: reference, ID, axis, and number of parameters.
+/// Length of the header of requests and responses in bytes: reference, ID, axis, and number of parameters.
 pub(super) const HEADER_LEN: usize = 4;
-/// Length of a parameter address.
+/// Length of a parameter address in bytes.
 const ADDRESS_LEN: usize = 6;
 
 /// The attribute of a parameter that a request reads or changes.
@@ -87,8 +87,8 @@ impl<'v> Change<'v> {
     }
 }
 
-/// Encodes a request that reads `parameters` into `buffer` and returns the request. `axis` is the drive object number
-/// (DO-ID).
+/// Encodes a request into `buffer` and returns the request. The request reads `parameters`. `axis` is the drive object
+/// number (DO-ID).
 ///
 /// The drive copies `reference` to the response.
 ///
@@ -109,8 +109,8 @@ pub fn read_request<'b>(
     to.finish()
 }
 
-/// Encodes a request that makes `changes` to parameters into `buffer` and returns the request. `axis` is the drive
-/// object number (DO-ID).
+/// Encodes a request into `buffer` and returns the request. The request makes `changes` to parameters. `axis` is the
+/// drive object number (DO-ID).
 ///
 /// # Errors
 ///

@@ -145,7 +145,8 @@ impl<'r> Response<'r> {
     ///
     /// # Errors
     ///
-    /// Returns [`ParameterError::Refused`] with the first refusal.
+    /// Returns [`ParameterError::Refused`] with the first refusal. Returns [`ParameterError::NoValue`] if the response
+    /// reports a refusal but contains none.
     pub fn done(&self) -> Result<(), ParameterError> {
         match self.refusal() {
             Some(refusal) => Err(ParameterError::Refused(refusal)),

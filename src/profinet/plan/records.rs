@@ -59,8 +59,8 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// Returns [`PlanError::NoSuchRecord`] if the plan has no such record, or [`PlanError::RecordLength`] if the
-    /// lengths differ.
+    /// Returns [`PlanError::NoSuchRecord`] if the plan lacks the record of a replacement. Returns
+    /// [`PlanError::RecordLength`] if the lengths of record and replacement differ.
     pub fn records_with<'r>(&self, replacements: &'r [Replacement<'r>]) -> Result<Records<'r, N>, PlanError> {
         for replacement in replacements {
             let submodule = self.submodule(replacement.slot, replacement.subslot).ok_or(PlanError::NoSuchRecord)?;

@@ -55,7 +55,7 @@ struct Communication {
 }
 
 impl Communication {
-    /// Returns the communication parameters, or `None` if the PDO is disabled.
+    /// Returns the communication parameters, or `None` if the PDO doesn't exist or is disabled.
     fn of(device: &Device, index: u16) -> Option<Self> {
         let number = |sub| device.slots.number(index, sub);
         let cob_id = number(1).filter(|_| device.is_used(index))?;

@@ -47,7 +47,7 @@ impl Device {
     /// # }
     /// ```
     ///
-    /// Velocities are in position units per second, and accelerations in position units per second squared, also if the
+    /// Velocities are in position units per second, and accelerations in position units per second squared, even if the
     /// device description declares other units. Homing takes 100 ms, and the current position becomes the home
     /// position. The drive doesn't simulate gears, polarity, switches, other modes, and the loss of the connection.
     #[must_use]

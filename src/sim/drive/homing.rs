@@ -24,7 +24,7 @@ const fn is_reserved(method: i64) -> bool {
 }
 
 impl Homing {
-    /// Starts homing. A reserved homing method is a homing error.
+    /// Starts homing. A reserved homing method causes a homing error.
     pub fn start(&mut self, objects: &Objects<'_>) {
         *self = if is_reserved(objects.option(0x6098)) { Self::Failed } else { Self::Running(STEPS) };
     }

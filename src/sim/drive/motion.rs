@@ -25,17 +25,17 @@ fn step_time() -> f64 {
 }
 
 impl Motion {
-    /// Places the axis.
+    /// Moves the axis to a position at once.
     pub fn place(&mut self, position: f64) {
         *self = Self { position, demand: position, cyclic: None, ..*self };
     }
 
-    /// Begins a step.
+    /// Begins a step: clears the acceleration and the limit flag of the last step.
     pub fn begin(&mut self) {
         (self.is_limited, self.acceleration) = (false, 0.0);
     }
 
-    /// Discards the cyclic target position.
+    /// Discards the cyclic target position, and sets the demand to the actual position.
     pub fn hold(&mut self) {
         (self.demand, self.cyclic) = (self.position, None);
     }
@@ -44,7 +44,7 @@ impl Motion {
         self.velocity == 0.0
     }
 
-    /// Returns the value within the limits `low` and `high`, and stores whether the value was outside.
+    /// Limits `value` to the range from `low` to `high`, and stores whether it was outside this range.
     pub fn limited(&mut self, value: f64, low: f64, high: f64) -> f64 {
         let limited = value.max(low).min(high);
         self.is_limited |= limited != value;

@@ -12,8 +12,8 @@ const VELOCITY: f64 = 10_000.0;
 /// Default profile acceleration, in position units per second squared.
 const ACCELERATION: f64 = 100_000.0;
 
-/// Values of objects for which the device description declares no initial value, if 0 has a meaning of its own: stop
-/// reactions, homing method, and supported modes of operation.
+/// Initial values of objects without an initial value in the device description. For these objects, the value 0 would
+/// have an unwanted meaning: stop reactions, homing method, and supported modes of operation.
 const DEFAULTS: [(u16, i64); 6] =
     [(0x605A, 2), (0x605C, 1), (0x605D, 1), (0x605E, 2), (0x6098, 37), (0x6502, 0b11_1010_0101)];
 
@@ -33,7 +33,7 @@ impl Objects<'_> {
         is_integer.then_some(at)
     }
 
-    /// Returns whether the axis has the object.
+    /// Returns whether the axis has the object and the object is an integer.
     pub fn has(&self, index: u16) -> bool {
         self.slot(index, 0).is_some()
     }
@@ -51,17 +51,17 @@ impl Objects<'_> {
         Some(if values::is_signed(slot.entry.data_type) { sign_extend(raw, bits) } else { raw as i64 })
     }
 
-    /// Returns the value of an object of 16 bits, or 0.
+    /// Returns the low 16 bits of an object, or 0 if the axis doesn't have the object.
     pub fn word(&self, index: u16) -> u16 {
         self.number(index).unwrap_or(0) as u16
     }
 
-    /// Returns the value of an object, or 0.
+    /// Returns the value of an object, or 0 if the axis doesn't have the object.
     pub fn real(&self, index: u16) -> f64 {
         self.number(index).unwrap_or(0) as f64
     }
 
-    /// Returns the value of an object, or `None` if the value isn't positive.
+    /// Returns the value of an object, or `None` if the axis doesn't have the object or the value isn't positive.
     pub fn positive(&self, index: u16) -> Option<f64> {
         self.number(index).filter(|value| *value > 0).map(|value| value as f64)
     }
@@ -96,7 +96,7 @@ impl Objects<'_> {
         }
     }
 
-    /// Returns the maximum velocity (0x607F), or infinity.
+    /// Returns the maximum velocity (0x607F), or infinity if there is no positive maximum.
     pub fn max_velocity(&self) -> f64 {
         self.positive(0x607F).unwrap_or(f64::INFINITY)
     }

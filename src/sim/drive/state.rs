@@ -41,7 +41,7 @@ impl State {
         }
     }
 
-    /// Returns the bits of the statusword for the state, with the bits "voltage enabled" and "remote".
+    /// Returns the bits of the statusword for the state, including the bits "voltage enabled" and "remote".
     pub const fn bits(self) -> u16 {
         match self {
             Self::NotReadyToSwitchOn => 0x0000,

@@ -28,8 +28,9 @@ fn links_from<'c>(
     move |id, name| (id != entry.id.into()).then(|| context.link_to(id, name, doc_module))?
 }
 
-/// Returns the documentation of an item's constant. Its first paragraph, which lists of constants show, contains the name, the
-/// unit, the values, the address, the type and the access rights. Links to related elements and other facts come last. Links are relative to `doc_module`.
+/// Returns the documentation of an item's constant. The first paragraph contains the name, the unit, the values, the
+/// address, the type and the access rights. Lists of constants show only this paragraph. Links to related elements and
+/// other facts come last. Links are relative to `doc_module`.
 pub(super) fn item(
     entry: &NamedItem<'_>,
     name: &str,

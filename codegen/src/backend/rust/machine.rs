@@ -253,7 +253,7 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
     (!steps.is_empty()).then_some(Data::slice(steps))
 }
 
-/// Returns the states that the device enters without a command from any state, and the states that follow without a command.
+/// Returns the states to which automatic transitions from any state lead, and the states that follow automatically.
 /// These transitions are reactions to faults.
 fn faults(transitions: &[Transition], states: &PatternsModel) -> Vec<String> {
     let mut names: Vec<&str> = Vec::new();

@@ -310,7 +310,7 @@ impl<'a> PdoModels<'a> {
 }
 
 impl PdoModel {
-    /// Returns the names of enumerations that are types of fields.
+    /// Returns the names of the enumerations and bit fields that are types of fields.
     pub(super) fn type_names(&self) -> impl Iterator<Item = &str> {
         self.fields.iter().filter_map(|field| match &field.kind {
             FieldType::Named(name, _) => Some(name.as_str()),

@@ -170,9 +170,9 @@ fn documentation(machine: &StateMachine, status: &str, control: &str, code: &str
         format!("Leads the state machine \"{}\" to the state `target`.", docs::escape(&machine.name)),
         String::new(),
         format!(
-            "The method reads {status}, writes the commands to {control} and waits for transitions of the device. It first resets a \
-             fault that is already active. Other bits of {control} do not change. If the device receives {control} in process \
-             data, use [`rt::Walker`] instead."
+            "The method reads {status}, writes the commands to {control} and waits for transitions of the device. The method \
+             first resets a fault that is already active. Other bits of {control} do not change. Use [`rt::Walker`] instead if \
+             the device receives {control} in process data."
         ),
         String::new(),
         "# Errors".to_owned(),

@@ -19,10 +19,10 @@ pub(super) fn sentence(context: &Context<'_>, message: &Message, doc_module: Doc
         Completion::Polled { item, in_reply, .. } => {
             let item = context.link(item, doc_module).unwrap_or_else(|| docs::escape(item));
             let source = match *in_reply {
-                true => format!("The reply contains {item}."),
-                false => format!("Read {item} with another message."),
+                true => "The reply contains this value.",
+                false => "Read this value with another message.",
             };
-            format!("{item} indicates when the command is completed. {source}")
+            format!("\"{item}\" indicates when the command is completed. {source}")
         }
     })
 }

@@ -94,7 +94,7 @@ fn view(code: &mut Code, bits: &BitFieldModel, view: &ViewModel) {
     line!(code, "pub struct ", view.name, "(", bits.native, ");");
     code.lines(&view.allow);
     open!(code, "impl ", view.name, " {");
-    code.doc("Returns the bit field with all bits.");
+    code.doc("Returns the whole bit field.");
     open!(code, call!(seq!["pub const fn ", view.back], "self"), " -> ", bits.name, " {");
     line!(code, bits.name, "(self.0)");
     code.close("}");

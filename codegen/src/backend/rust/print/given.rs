@@ -44,9 +44,9 @@ fn items(code: &mut Code, model: &DeviceModel) {
 
 pub(super) fn machine(code: &mut Code, given: Option<&GivenModel>) {
     let Some(given) = given else { return };
-    code.doc("Properties of the machine, and unit conversions that depend on these properties.");
+    code.doc("Constants of the machine, and unit conversions that depend on these constants.");
     open!(code, "pub mod machine {");
-    code.doc("Properties of the machine that are not stored in the device.");
+    code.doc("Constants of the machine that are not stored in the device.");
     code.lines(&given.derives);
     open!(code, "pub struct Machine {");
     for number in &given.numbers {

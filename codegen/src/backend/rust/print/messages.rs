@@ -261,7 +261,7 @@ fn requests(code: &mut Code, protocol: &ProtocolModel) {
     code.close("}");
     open!(code, "impl", lifetime, " Request", lifetime, " {");
     code.doc("Decodes a request. Returns the station address of the device and the request, or `None` if the data");
-    code.doc("contain no request. If several requests match the data, the first one is returned.");
+    code.doc("contain no request. Returns the first request if several requests match the data.");
     open!(code, "pub fn parse(data: &", borrow, "[u8]) -> Option<(u32, Self)> {");
     line!(code, "let from = rt::message::Reader::new(data);");
     for (name, _) in &protocol.requests {

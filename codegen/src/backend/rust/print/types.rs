@@ -157,7 +157,7 @@ fn patterns(code: &mut Code, patterns: &PatternsModel) {
 fn states(code: &mut Code, patterns: &PatternsModel) {
     self::patterns(code, patterns);
     open!(code, "impl ", patterns.name, " {");
-    code.doc("Returns the state that these bits encode; `None` if no state matches.");
+    code.doc("Returns the state that these bits encode, or `None` if the bits match no state.");
     open!(code, "pub const fn from_raw(raw: ", patterns.native, ") -> Option<Self> {");
     for pattern in &patterns.patterns {
         let masked = if pattern.is_whole { seq![] } else { seq![" & ", pattern.mask] };
@@ -170,7 +170,7 @@ fn states(code: &mut Code, patterns: &PatternsModel) {
     code.close("}");
     if let Some((bits, method)) = &patterns.bits {
         open!(code, "impl ", bits, " {");
-        code.doc("Returns the state; `None` if the bits match no state.");
+        code.doc("Returns the state, or `None` if the bits match no state.");
         open!(code, call!(seq!["pub const fn ", method], "self"), " -> Option<", patterns.name, "> {");
         line!(code, patterns.name, "::from_raw(self.0)");
         code.close("}");
