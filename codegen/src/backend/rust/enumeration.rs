@@ -139,6 +139,7 @@ fn further_facts(value: &EnumValue, context: &Context<'_>) -> Vec<String> {
 
 fn zone(value: &EnumValue) -> Option<&'static str> {
     Some(match value.zone? {
+        Zone::Reserved if value.name.eq_ignore_ascii_case("reserved") => "Do not use this value.",
         Zone::Reserved => "This value is reserved. Do not use it.",
         Zone::Vendor => "This value is vendor-specific.",
     })

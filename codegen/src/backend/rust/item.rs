@@ -56,19 +56,15 @@ impl ItemModel {
         format!("{}{}", self.method, if hides { "_" } else { "" })
     }
 
-    /// Returns the expression that combines the handle with the device's client.
+    /// Returns the expression that combines the handle with the device's client. The expression is a function call for
+    /// long names, because the lines of a method chain would be broken.
     pub(super) fn at_client(&self) -> Doc {
-        at_client(&format!("objects::{}", self.constant))
-    }
-}
-
-/// Returns the expression that combines the handle at `path` with the device's client. The expression is a function call
-/// for long names, because the lines of a method chain would be broken.
-pub(super) fn at_client(path: &str) -> Doc {
-    const LONG: usize = 57;
-    match path.len() > LONG {
-        true => call!("rt::Item::at", path, "&mut self.client"),
-        false => seq![path, ".at(&mut self.client)"],
+        const LONG: usize = 57;
+        let path = format!("objects::{}", self.constant);
+        match path.len() > LONG {
+            true => call!("rt::Item::at", path, "&mut self.client"),
+            false => seq![path, ".at(&mut self.client)"],
+        }
     }
 }
 

@@ -3,7 +3,6 @@
 use super::objects::access;
 use crate::backend::rust::code::{call, generic, line, open, seq, Code};
 use crate::backend::rust::docs;
-use crate::backend::rust::item;
 use crate::backend::rust::literal;
 use crate::backend::rust::method_names::method_allow;
 use crate::backend::rust::model::Model;
@@ -101,7 +100,9 @@ fn methods(code: &mut Code, model: &Model) {
 fn walk(code: &mut Code, walk: &WalkModel, is_async: bool) {
     let (suffix, keyword, client, done) =
         if is_async { ("_async", "async ", "rt::AsyncClient", ".await") } else { ("", "", "rt::Client", "") };
-    let read = |path: &str| seq![item::at_client(path), ".read", suffix, "()", done];
+    // The handle has a line of its own, because the lines of a long method chain would be broken.
+    let handle = |code: &mut Code, path: &str| line!(code, "let item = ", path, ";");
+    let read = seq!["item.at(&mut self.client).read", suffix, "()", done];
     match is_async {
         false => code.docs(&walk.docs),
         true => code.doc(&format!("Does the same as [`{0}`](Self::{0}) without blocking.", walk.method)),
@@ -115,8 +116,12 @@ fn walk(code: &mut Code, walk: &WalkModel, is_async: bool) {
     line!(code, "C: ", client, ",");
     code.lines(&walk.bounds);
     code.reopen("{");
-    let control = if walk.reads_control { seq![read(&walk.control), "?"] } else { seq!["rt::StateWord::from_bits(0)"] };
-    line!(code, "let control = ", control, ";");
+    if walk.reads_control {
+        handle(code, &walk.control);
+        line!(code, "let control = ", read.clone(), "?;");
+    } else {
+        line!(code, "let control = rt::StateWord::from_bits(0);");
+    }
     line!(code, "let machine = ", call!("rt::Machine::new", walk.status, walk.control), ";");
     let arguments = call!(seq!["machine.walk", suffix], "&mut self.client", "control", "target", "deadline");
     match &walk.code {
@@ -124,7 +129,8 @@ fn walk(code: &mut Code, walk: &WalkModel, is_async: bool) {
         Some(path) => {
             open!(code, "match ", arguments, done, " {");
             open!(code, "Err(error) if error.is_fault() => {");
-            line!(code, "let code = ", read(path), ";");
+            handle(code, path);
+            line!(code, "let code = ", read, ";");
             line!(code, "Err(error.with_code(code))");
             code.close("}");
             line!(code, "walked => walked,");
