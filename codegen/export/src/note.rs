@@ -128,8 +128,8 @@ kinds! {
     Extension = "extension", "extension attribute left out: the format has no field for it";
     /// A module of another bus.
     Module = "module", "module of another bus left out";
-    /// A slot of a modular device.
-    Slot = "slot", "slot left out";
+    /// A slot of a modular device, or the class or name of a module that a slot accepts.
+    Slot = "slot", "slot, or class or name of a module that a slot accepts, left out";
     /// A setting of another bus.
     OtherBus = "other-bus", "settings of another bus left out";
     /// An additional axis. The objects of an additional axis are derived from the objects of the first axis.
