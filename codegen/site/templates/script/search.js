@@ -4,40 +4,51 @@
 // contains name, names in other languages, unit and description.
 let pages = [], titles = [], numbers = [], texts = [], anchors = [], isLoading = false, isLoaded = false;
 // For each entry, the positions of its page, number and text in these lists.
-let pageAt, numberAt, textAt, ownerAt;
+let pageAt, numberAt, textAt;
 
 function lexibusIndex(devices, pageList, numberLines, textLines, anchorLines, entries) {
   pages = pageList.map(([path, device, kind]) => ({ path, device, kind, title: devices[device][0] }));
   titles = devices.map((words) => plain(words.join(" ")));
-  numbers = numberLines.split("\n").map(numberFrom);
-  texts = textLines.split("\n").map((line) => ({ fields: line.split("\t"), plain: plain(line).split("\t") }));
+  numbers = linesOf(numberLines).map(([text, plain]) => ({ text, plain, isPart: PART.test(text), ranges: undefined }));
+  texts = linesOf(textLines).map(([text, plain]) => ({ text, plain, name: plain.slice(0, plain.indexOf("\t")) }));
   anchors = anchorLines.split("\n");
   [pageAt, numberAt, textAt] = [0, 1, 2].map(() => new Uint32Array(anchors.length));
   let at = 0;
   for (const [page, pairs] of entries.entries()) {
-    for (let next = 0; next < pairs.length; next += 2, at++) [pageAt[at], numberAt[at], textAt[at]] = [page, pairs[next], pairs[next + 1]];
+    for (let next = 0; next < pairs.length; next += 2, at++) {
+      pageAt[at] = page;
+      numberAt[at] = pairs[next];
+      textAt[at] = pairs[next + 1];
+    }
   }
-  // A bit or value belongs to the item before it.
-  ownerAt = new Uint32Array(anchors.length);
-  for (let entry = 1; entry < anchors.length; entry++) ownerAt[entry] = isPart(entry) ? ownerAt[entry - 1] : entry;
   isLoaded = true;
   lead();
   search();
 }
 
+// Returns each line with its plain text.
+function linesOf(lines) {
+  const plainLines = plain(lines).split("\n");
+  return lines.split("\n").map((line, at) => [line, plainLines[at]]);
+}
+
 // Numbers of bits and values, which are parts of an item.
 const PART = /^(bit|value) /;
 
-// Parses a number such as `0x6040:01`, `register 12–13 (wire 11–12)` or `0x6100 to 0x61FF`. Returns its text and its ranges.
-function numberFrom(text) {
-  const range = (pattern) => {
-    const [, first, last] = plain(text).match(pattern) || [];
-    return { first: Number(first), last: Number(last ?? first) };
-  };
-  if (PART.test(text)) return { text, plain: plain(text), ranges: [], isPart: true };
-  const printed = range(/^(?:[a-z_ ]+ )?(0x[0-9a-f]+|[0-9]+)(?:(?: to |–)(0x[0-9a-f]+|[0-9]+))?/);
-  return { text, plain: plain(text), ranges: [printed, range(/\(wire (0x[0-9a-f]+|[0-9]+)(?:–(0x[0-9a-f]+|[0-9]+))?\)/)] };
+// Returns the ranges of a number such as `0x6040:01`, `register 12–13 (wire 11–12)` or `0x6100 to 0x61FF`: printed, and on the wire.
+function rangesOf(number) {
+  if (number.ranges) return number.ranges;
+  const patterns = number.isPart ? [] : number.plain.includes("(wire ") ? [PRINTED, WIRE] : [PRINTED];
+  number.ranges = [];
+  for (const pattern of patterns) {
+    const range = pattern.exec(number.plain);
+    if (range) number.ranges.push({ first: Number(range[1]), last: Number(range[2] ?? range[1]) });
+  }
+  return number.ranges;
 }
+
+const PRINTED = /^(?:[a-z_ ]+ )?(0x[0-9a-f]+|[0-9]+)(?:(?: to |–)(0x[0-9a-f]+|[0-9]+))?/;
+const WIRE = /\(wire (0x[0-9a-f]+|[0-9]+)(?:–(0x[0-9a-f]+|[0-9]+))?\)/;
 
 // The folder of the site, and the folder of the index.
 const site = root.dataset.root + "/", folder = site + (root.dataset.index || "");
@@ -68,7 +79,7 @@ function values(word) {
 // Returns how well a number matches a word, in points. Returns 0 if the number does not contain the word.
 function numberPoints(number, { word, notations, values }) {
   if (notations.includes(number.plain)) return 150;
-  for (const { first, last } of number.ranges) {
+  for (const { first, last } of values.length ? rangesOf(number) : []) {
     if (values.includes(first)) return number.plain.includes(":") ? 90 : 100;
     if (values.some((value) => first < value && value <= last)) return 60;
   }
@@ -76,11 +87,13 @@ function numberPoints(number, { word, notations, values }) {
   return word.length > 2 ? 20 : 1;
 }
 
-const isLetter = (letter) => letter !== undefined && /[\p{L}\p{N}]/u.test(letter);
+const isLetter = (letter) => letter !== undefined && (letter < "\x80" ? letter >= "a" && letter <= "z" || letter >= "0" && letter <= "9" : /[\p{L}\p{N}]/u.test(letter));
 const isWhole = (text, at, length) => !isLetter(text[at - 1]) && !isLetter(text[at + length]);
 
 // Returns the points of a text for a word. A whole unit counts more than a part of a name: `v` is part of most names.
-function textPoints([name, names, unit, description], word) {
+function textPoints({ plain, name }, word) {
+  if (!plain.includes(word)) return 0;
+  const [, names, unit] = plain.split("\t");
   let points = 0;
   if (name === word) points += 100;
   if (name.startsWith(word)) points += 30;
@@ -88,7 +101,7 @@ function textPoints([name, names, unit, description], word) {
   if (at >= 0) points += isWhole(name, at, word.length) ? 35 : 10;
   if (names.includes(word)) points += 8;
   if (unit === word) points += 50;
-  return points || Number([unit, description].some((field) => field?.includes(word)));
+  return points || 1;
 }
 
 function each(list, points) {
@@ -104,7 +117,7 @@ function pointsOf(word) {
   if (!known.has(word)) {
     if (known.size > 20) known.clear();
     const exact = pointsOfExact(word);
-    const isFound = word.length < 4 || Object.values(exact).some((points) => points.some(Boolean));
+    const isFound = word.length < 4 || /^[0-9]/.test(word) || Object.values(exact).some((points) => points.some(Boolean));
     known.set(word, isFound ? exact : pointsOfSimilar(word) ?? exact);
   }
   return known.get(word);
@@ -114,7 +127,7 @@ function pointsOfExact(word) {
   const query = { word, notations: notations(word), values: values(word) };
   return {
     numbers: each(numbers, (number) => numberPoints(number, query)),
-    texts: each(texts, (text) => textPoints(text.plain, word)),
+    texts: each(texts, (text) => textPoints(text, word)),
     titles: each(titles, (title) => Number(title.includes(word))),
   };
 }
@@ -132,7 +145,7 @@ let vocabulary;
 const MOST_SIMILAR = 5;
 
 function similarWords(word) {
-  vocabulary ??= new Set([...texts.map((text) => text.plain.join(" ")), ...titles].join(" ").match(/[\p{L}\p{N}]{3,}/gu));
+  vocabulary ??= new Set([...texts.map((text) => text.plain), ...titles].join(" ").match(/[\p{L}\p{N}]{3,}/gu));
   const similar = [];
   for (const known of vocabulary) {
     if (Math.abs(known.length - word.length) <= 1 && isSimilar(known, word) && similar.push(known) === MOST_SIMILAR) break;
@@ -165,10 +178,10 @@ function add({ numbers, texts, titles }, sums) {
 function matches(query) {
   const wanted = plain(query).trim(), words = wanted.split(/\s+/).filter(Boolean), best = [];
   if (!words.length || !isLoaded) return best;
-  const sums = new Int32Array(anchors.length);
+  const sums = new Int32Array(anchors.length), isWanted = each(texts, (text) => Number(text.name === wanted));
   for (const word of words) add(pointsOf(word), sums);
   for (let entry = 0, minimum = 0; entry < sums.length; entry++) {
-    if (sums[entry] > 0 && texts[textAt[entry]].plain[0] === wanted) sums[entry] = 300 + 200 * words.length;
+    if (sums[entry] > 0 && isWanted[textAt[entry]]) sums[entry] = 300 + 200 * words.length;
     if (sums[entry] > minimum) minimum = insert(best, { points: sums[entry], entry });
   }
   // A row has one entry per address. Only the best entry of a row is shown.
@@ -185,9 +198,14 @@ function insert(best, match) {
 }
 
 const isPart = (entry) => numbers[numberAt[entry]].isPart;
+// Returns the item of a bit or value, which is the last item before it.
+const ownerOf = (entry) => {
+  while (entry > 0 && isPart(entry)) entry--;
+  return entry;
+};
 const anchorOf = (entry) => {
   const own = anchors[entry] || numbers[numberAt[entry]].text;
-  return isPart(entry) ? `${anchorOf(ownerAt[entry])}.${own.replace(" ", "-").replace(/ .*/, "")}` : own;
+  return isPart(entry) ? `${anchorOf(ownerOf(entry))}.${own.replace(" ", "-").replace(/ .*/, "")}` : own;
 };
 const linkOf = (entry) => {
   const anchor = anchorOf(entry);
@@ -202,8 +220,8 @@ found.after(announcement);
 function search() {
   const list = matches(input.value);
   found.replaceChildren(...list.map((entry, at) => {
-    const [name, names, unit] = texts[textAt[entry]].fields, page = pages[pageAt[entry]], number = numbers[numberAt[entry]].text;
-    const owner = isPart(entry) ? [numbers[numberAt[ownerAt[entry]]].text, texts[textAt[ownerAt[entry]]].fields[0]].join(" ") : "";
+    const [name, names, unit] = texts[textAt[entry]].text.split("\t"), page = pages[pageAt[entry]], number = numbers[numberAt[entry]].text;
+    const owner = isPart(entry) ? [numbers[numberAt[ownerOf(entry)]].text, texts[textAt[ownerOf(entry)]].text.split("\t")[0]].join(" ") : "";
     const kind = number || page.kind === "device" ? page.kind : "page";
     const more = element("small", { textContent: [owner, kind, names, unit, page.title].filter(Boolean).join(" · ") });
     const link = element("a", { role: "option", id: "found-" + at, href: linkOf(entry), tabIndex: -1 }, `${number} ${name} `.trimStart(), more);
