@@ -66,7 +66,7 @@ fn read(binary: &Path) -> Program {
     program
 }
 
-/// Returns all texts in the bindings that have at least five letters: names of registers, units, and texts of codes.
+/// Returns the string literals of at least five bytes in the bindings: names of registers, units, texts of codes and others.
 fn texts(bindings: &str) -> BTreeSet<&str> {
     let code = bindings.lines().filter(|line| !line.trim_start().starts_with("//"));
     code.flat_map(|line| line.split('"').skip(1).step_by(2)).filter(|text| text.len() >= 5).collect()

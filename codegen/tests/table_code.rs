@@ -43,7 +43,7 @@ const TABLES: [&str; 7] = [
 #[test]
 fn tables_compile() {
     for name in TABLES {
-        // Skip the drives in the fast lane, because the crate `lexibus-drives` compiles their generated code.
+        // In the fast lane, skip the drives, because the crate `lexibus-drives` already compiles their generated code.
         if name.starts_with("dictionaries") && !lane::is_full() {
             continue;
         }

@@ -117,8 +117,7 @@ impl CanNode {
         self.is_connected = is_connected;
     }
 
-    /// Returns and removes the errors of received PDOs. Each error is the mapping object of a PDO and the abort code
-    /// for a value that the device refused. A real device doesn't report refused values on the bus.
+    /// Returns and removes the errors of received PDOs. Each error consists of the index of the PDO's mapping object and the abort code of the refused value. A real device doesn't report refused values on the bus.
     pub fn take_refused(&mut self) -> Vec<(u16, AbortCode)> {
         core::mem::take(&mut self.refused)
     }

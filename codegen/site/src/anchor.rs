@@ -16,7 +16,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// Creates unique anchors for elements inside the element with the anchor `anchor`.
+    /// Returns an empty `Names` for the elements inside another element. Their anchors start with `anchor` and a dot.
     pub fn within(anchor: &str) -> Self {
         Names { prefix: format!("{anchor}."), ..Names::default() }
     }

@@ -1,5 +1,4 @@
-//! Writes the pages of a catalog. Each device has a folder. The pages that several devices share are in a folder of the
-//! description.
+//! Writes the pages of a catalog. Each device has a folder. If a description file has several devices, the pages that they share are in a separate folder for this file.
 
 use std::collections::BTreeSet;
 use std::rc::Rc;

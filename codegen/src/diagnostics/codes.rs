@@ -564,7 +564,7 @@ codes! {
     GSD022 UNUSED_TEXT Lint Allow "a text is not used"
         "Nothing in the file refers to the text. Lexibus keeps it as an extension attribute. Tools often leave such \
         texts in the file, so this lint is off by default. Delete the text, or refer to it."
-    PDO001 MAPPED_OBJECT_MISSING Lint Warn "a PDO maps an object that does not exist"
+    PDO001 MAPPED_OBJECT_MISSING Lint Warn "a PDO maps an object that is not described"
         "The mapping names an index and sub-index that the file does not describe. Lexibus keeps the field as raw \
         bits, or with the type that the PDO entry names. Describe the object, or correct the mapping."
     PDO002 NOT_MAPPABLE Lint Warn "a PDO maps an object that is not mappable"
@@ -793,7 +793,7 @@ codes! {
         "In a narrow column, the manual breaks a name with a hyphen. The text of the manual often has the whole name. \
         Or the cell with the name also contains values (`0 = Stop`) or a sentence. Or a bit has the title of a column, \
         such as `Definition`, because a line of the table is shifted. Write only the name, and the rest as `doc`."
-    TAB042 EMPTY_LIMIT Lint Warn "the only limit of a row is the limit of its type"
+    TAB042 EMPTY_LIMIT Lint Warn "a row states only one limit, which equals that limit of its type"
         "A minimum of 0, for example, does not restrict an unsigned value. The manual does not state the other limit, \
         or the limit was lost. Write both limits, or neither."
     TAB043 SHARED_REGISTERS Lint Warn "two items share registers or bits of one register"

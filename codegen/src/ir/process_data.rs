@@ -256,7 +256,7 @@ pub struct PdoEntry {
     pub bits: u32,
     /// Kind of the entry.
     pub kind: PdoEntryKind,
-    /// Id of the mapped item, set by `resolve`; `None` for an object of another module. In a module, positions of groups count
+    /// Id of the mapped item, set by `resolve`. `None` for padding, and for objects that this device or module does not describe. In a module, positions of groups count
     /// the fixed objects first and then the other groups.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub item: Option<ItemId>,
