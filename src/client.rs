@@ -110,6 +110,14 @@ pub trait Client {
     fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         sleep(time)
     }
+
+    /// Returns whether another attempt may succeed after this error of the bus library.
+    /// [`Retrying`](crate::Retrying) doesn't repeat an access after any other error. The default implementation returns
+    /// true.
+    fn is_transient(&self, error: &Self::Error) -> bool {
+        let _ = error;
+        true
+    }
 }
 
 /// An address and the bytes to write to this address.
@@ -178,6 +186,12 @@ pub trait AsyncClient {
     async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         let _ = time;
         Err(Error::NoClock)
+    }
+
+    /// Returns whether another attempt may succeed after this error, as [`Client::is_transient`] does.
+    fn is_transient(&self, error: &Self::Error) -> bool {
+        let _ = error;
+        true
     }
 }
 
@@ -264,6 +278,10 @@ macro_rules! forwarding {
                 (self.delay)(time)$(.$await)?;
                 Ok(())
             }
+
+            fn is_transient(&self, error: &Self::Error) -> bool {
+                self.client.is_transient(error)
+            }
         }
 
         impl<T: $Client + ?Sized> $Client for &mut T {
@@ -292,6 +310,10 @@ macro_rules! forwarding {
 
             $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
                 T::wait(self, time)$(.$await)?
+            }
+
+            fn is_transient(&self, error: &Self::Error) -> bool {
+                T::is_transient(self, error)
             }
         }
     };

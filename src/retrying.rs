@@ -8,10 +8,12 @@ use crate::client::{AsyncClient, Client, Write};
 use crate::clock::Timer;
 use crate::error::Error;
 use crate::modbus::{AsyncRegisterClient, Limits, RegisterClient};
+use crate::register::Register;
 
-/// Client that repeats an access after an error of the bus: [`Error::Timeout`], [`Error::UnexpectedReply`] or
-/// [`Error::Client`]. The access isn't repeated after any other error, for example a refusal by the device. The
-/// exceptions of Modbus are [`Error::Client`] errors, too, so an access that a Modbus device refuses is repeated.
+/// Client that repeats an access after an error of the bus: [`Error::Timeout`], [`Error::UnexpectedReply`], or an
+/// [`Error::Client`] that is [transient](Client::is_transient). The access isn't repeated after any other
+/// error, for example a refusal by the device. On Modbus, a refused access is repeated only after the exceptions 6 (server device busy)
+/// and 11 (gateway target device failed to respond).
 ///
 /// Writes are not repeated by default: the device may have executed a write whose reply is lost. Don't use this client
 /// for reads that change the device, for example reads of a queue.
@@ -66,11 +68,28 @@ impl<C> Retrying<C> {
 }
 
 /// Returns whether another attempt is allowed, and counts this attempt.
-fn again<T, E>(result: &Result<T, Error<E>>, left: &mut u8) -> bool {
-    let is_transient = matches!(result, Err(Error::Timeout | Error::UnexpectedReply | Error::Client(_)));
+fn again<T, E>(result: &Result<T, Error<E>>, is_transient: impl FnOnce(&E) -> bool, left: &mut u8) -> bool {
+    let is_transient = match result {
+        Err(Error::Timeout | Error::UnexpectedReply) => true,
+        Err(Error::Client(error)) => is_transient(error),
+        _ => false,
+    };
     let is_again = is_transient && *left > 0;
     *left = left.saturating_sub(1);
     is_again
+}
+
+/// Repeats an access to a client up to `left` times.
+macro_rules! repeat {
+    ($client:expr, $left:expr, $access:expr) => {{
+        let mut left = $left;
+        loop {
+            let result = $access;
+            if !again(&result, |error| $client.is_transient(error), &mut left) {
+                return result;
+            }
+        }
+    }};
 }
 
 macro_rules! retrying {
@@ -84,13 +103,7 @@ macro_rules! retrying {
                 address: <Self::Bus as Bus>::Address,
                 buffer: &mut [u8],
             ) -> Result<usize, Error<Self::Error>> {
-                let mut left = self.reads;
-                loop {
-                    let result = self.client.read(address, buffer)$(.$await)?;
-                    if !again(&result, &mut left) {
-                        return result;
-                    }
-                }
+                repeat!(self.client, self.reads, self.client.read(address, buffer)$(.$await)?)
             }
 
             $($async)? fn write(
@@ -98,33 +111,40 @@ macro_rules! retrying {
                 address: <Self::Bus as Bus>::Address,
                 data: &[u8],
             ) -> Result<(), Error<Self::Error>> {
-                let mut left = self.writes;
-                loop {
-                    let result = self.client.write(address, data)$(.$await)?;
-                    if !again(&result, &mut left) {
-                        return result;
-                    }
-                }
+                repeat!(self.client, self.writes, self.client.write(address, data)$(.$await)?)
             }
 
             $($async)? fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
-                let mut left = self.writes;
-                loop {
-                    let result = self.client.write_both(writes)$(.$await)?;
-                    if !again(&result, &mut left) {
-                        return result;
-                    }
-                }
+                repeat!(self.client, self.writes, self.client.write_both(writes)$(.$await)?)
             }
 
             $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
                 self.client.wait(time)$(.$await)?
             }
+
+            fn is_transient(&self, error: &Self::Error) -> bool {
+                self.client.is_transient(error)
+            }
         }
 
+        /// A request that writes and reads is repeated as often as a write.
         impl<C: $RegisterClient<Bus = Modbus>> $RegisterClient for Retrying<C> {
             fn limits(&self) -> &Limits {
                 self.client.limits()
+            }
+
+            $($async)? fn mask_register(&mut self, address: u16, and: u16, or: u16) -> Result<(), Error<Self::Error>> {
+                repeat!(self.client, self.writes, self.client.mask_register(address, and, or)$(.$await)?)
+            }
+
+            $($async)? fn write_and_read(
+                &mut self,
+                write: Register,
+                data: &[u8],
+                read: Register,
+                buffer: &mut [u8],
+            ) -> Result<usize, Error<Self::Error>> {
+                repeat!(self.client, self.writes, self.client.write_and_read(write, data, read, buffer)$(.$await)?)
             }
         }
     };
@@ -217,11 +237,29 @@ impl<C: AsyncClient, T: Timer> AsyncClient for Deadline<C, T> {
     async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         self.client.wait(time).await
     }
+
+    fn is_transient(&self, error: &Self::Error) -> bool {
+        self.client.is_transient(error)
+    }
 }
 
 impl<C: AsyncRegisterClient<Bus = Modbus>, T: Timer> AsyncRegisterClient for Deadline<C, T> {
     fn limits(&self) -> &Limits {
         self.client.limits()
+    }
+
+    async fn mask_register(&mut self, address: u16, and: u16, or: u16) -> Result<(), Error<Self::Error>> {
+        limit(&mut self.timer, self.timeout, self.client.mask_register(address, and, or)).await
+    }
+
+    async fn write_and_read(
+        &mut self,
+        write: Register,
+        data: &[u8],
+        read: Register,
+        buffer: &mut [u8],
+    ) -> Result<usize, Error<Self::Error>> {
+        limit(&mut self.timer, self.timeout, self.client.write_and_read(write, data, read, buffer)).await
     }
 }
 

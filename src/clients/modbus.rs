@@ -50,15 +50,42 @@
 //! ```
 //!
 //! To write a value that is a part of a register, the client reads the register and then writes it. No other client
-//! should write the register between the read and the write. If the limits contain function 22, the device changes the
-//! bits in one step.
+//! should write the register between the read and the write. If the limits contain function 22, the device changes the bits in one
+//! step. If the limits contain function 23, [`RegisterClient::exchange`] writes and reads with one request.
+//!
+//! # Broadcasts
+//!
+//! A [`Link`] with `Slave(0)` sends broadcasts on RTU: all devices execute the write, and no device replies (MODBUS over
+//! Serial Line V1.02, 2.1). A write returns after the request was sent and the [turnaround
+//! delay](Link::with_turnaround) has passed. `Ok` therefore doesn't mean that any device executed the write. A read, and
+//! a write of a part of a register without function 22, return [`ModbusError::Broadcast`].
+//!
+//! ```no_run
+//! # use std::time::Duration;
+//! # use lexibus::clients::modbus::tokio_modbus::Slave;
+//! # use lexibus::clients::modbus::{BlockingLink, Link, ModbusClient};
+//! # use lexibus::{Item, OnModbus, Register, Rw};
+//! use lexibus::clients::modbus::tokio_modbus::prelude::SlaveContext;
+//! # type Speed = Item<u32, Rw, OnModbus>;
+//! # const SPEED: Speed = Speed::register(Register::high_first(10, 2), "Speed", lexibus::Flags::NONE);
+//! # fn stop(mut device: ModbusClient<BlockingLink<tokio_serial::SerialStream>>) -> Result<(), Box<dyn std::error::Error>> {
+//! device.context().set_slave(Slave::broadcast());
+//! SPEED.at(&mut device).write(0)?; // all drives on the line stop
+//! device.context().set_slave(Slave(5));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! On TCP, unit 0 is the device at the other end of the connection, which replies (MODBUS Messaging on TCP/IP V1.0b,
+//! 4.4.1). A gateway that forwards unit 0 as a broadcast doesn't reply; call [`Link::with_turnaround`] for such a
+//! gateway. Contexts of `tokio-modbus` without a [`Link`] wait for a reply to a broadcast.
 
 use std::error;
 use std::fmt;
 
 use tokio::io::{AsyncRead, AsyncWrite};
 use tokio_modbus::client::{Client as _, Context};
-use tokio_modbus::{ExceptionCode, Response};
+use tokio_modbus::{ExceptionCode, Request, Response};
 
 pub use tokio_modbus;
 pub use tokio_modbus::client::{rtu, sync, tcp};
@@ -66,13 +93,16 @@ pub use tokio_modbus::client::{rtu, sync, tcp};
 use crate::bus::Modbus;
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
-use crate::modbus::{AsyncRegisterClient, Limits, RegisterClient};
+use crate::modbus::{masked, AsyncRegisterClient, Limits, RegisterClient};
 use crate::register::{Register, RegisterTable};
 
+mod exchange;
+mod line;
 mod link;
 mod request;
 
-pub use link::{BlockingLink, Link};
+use exchange::ReadWrite;
+pub use link::{BlockingLink, Link, TURNAROUND};
 use request::{Answer, Echo, Writes};
 
 /// Client for a device, over a context of `tokio-modbus`.
@@ -122,6 +152,8 @@ pub enum ModbusError {
     Exception(ExceptionCode),
     /// Input registers and discrete inputs are read-only. Nothing was sent.
     ReadOnly,
+    /// Devices don't reply to a broadcast, so a broadcast cannot read. Nothing was sent.
+    Broadcast,
     /// The device doesn't support the function for this access. Nothing was sent.
     Function {
         /// Table of the register.
@@ -152,6 +184,7 @@ impl fmt::Display for ModbusError {
         match self {
             Self::Exception(code) => write!(f, "the device refused: {code}"),
             Self::ReadOnly => f.write_str("Modbus inputs are read-only"),
+            Self::Broadcast => f.write_str("a broadcast cannot read, because devices don't reply to it"),
             Self::Function { table, function } => {
                 let table = match table {
                     RegisterTable::Holding => "holding registers",
@@ -187,6 +220,16 @@ impl From<ModbusError> for Error<ModbusError> {
     }
 }
 
+impl ModbusError {
+    /// Returns whether another attempt may succeed: after an error of the transport, and after the exceptions 6 (server
+    /// device busy) and 11 (gateway target device failed to respond).
+    #[must_use]
+    pub const fn is_transient(&self) -> bool {
+        use ExceptionCode::{GatewayTargetDevice, ServerDeviceBusy};
+        matches!(self, Self::Bus(_) | Self::Exception(ServerDeviceBusy | GatewayTargetDevice))
+    }
+}
+
 type Reply = tokio_modbus::Result<Response>;
 
 macro_rules! clients {
@@ -217,11 +260,42 @@ macro_rules! clients {
                 }
                 Ok(())
             }
+
+            fn is_transient(&self, error: &ModbusError) -> bool {
+                error.is_transient()
+            }
         }
 
         impl<$($generics)*> $RegisterClient for ModbusClient<$context> {
             fn limits(&self) -> &Limits {
                 &self.limits
+            }
+
+            $($async)? fn mask_register(&mut self, address: u16, and: u16, or: u16) -> Result<(), Error<ModbusError>> {
+                if self.limits.holding.names(22) {
+                    let request = Request::MaskWriteRegister(address, and, or);
+                    let echo = Echo::of(&request);
+                    return echo.check(self.context.call(request)$(.$await)?);
+                }
+                let (register, mut held) = (Register::holding(address), [0; 2]);
+                $Client::read(self, register, &mut held)$(.$await)??;
+                let word = masked(u16::from_le_bytes(held), and, or);
+                $Client::write(self, register, &word.to_le_bytes())$(.$await)?
+            }
+
+            $($async)? fn write_and_read(
+                &mut self,
+                write: Register,
+                data: &[u8],
+                read: Register,
+                buffer: &mut [u8],
+            ) -> Result<usize, Error<ModbusError>> {
+                if let Some(exchange) = ReadWrite::new(write, read, &self.limits) {
+                    let request = exchange.request(data)?;
+                    return exchange.value(self.context.call(request)$(.$await)?, buffer);
+                }
+                $Client::write(self, write, data)$(.$await)??;
+                $Client::read(self, read, buffer)$(.$await)?
             }
         }
     };

@@ -1,4 +1,4 @@
-//! Clients that read blocks of items.
+//! Clients that read and write blocks of items.
 
 use core::future::Future;
 use core::time::Duration;
@@ -6,13 +6,15 @@ use core::time::Duration;
 use super::block::Block;
 use super::limits::Limits;
 use super::reading::{Reading, MAX_BYTES};
+use super::write_block::{masked, masks, WriteBlock, WriteItem, Writing};
 use crate::bus::Modbus;
 use crate::client::{AsyncClient, Client, Timed};
 use crate::error::Error;
+use crate::register::{Register, RegisterTable};
 
-/// A client that reads several items with one call.
+/// A client that reads and writes several items with one call.
 ///
-/// The provided methods use [`Client::read`]. Implement [`limits`](Self::limits) if you know the [`Limits`] of the
+/// The provided methods use [`Client::read`] and [`Client::write`]. Implement [`limits`](Self::limits) if you know the [`Limits`] of the
 /// device:
 ///
 /// ```
@@ -39,6 +41,42 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         &Limits::STANDARD
     }
 
+    /// Changes some bits of a holding register: the new value is `held & and | or & !and` (function 22, MODBUS
+    /// Application Protocol V1.1b3, 6.16). [`write_masked`](Self::write_masked) calculates the masks.
+    ///
+    /// The default implementation reads the register and writes it; no other client should write the register between
+    /// the two requests.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Client::read`] and [`Client::write`].
+    fn mask_register(&mut self, address: u16, and: u16, or: u16) -> Result<(), Error<Self::Error>> {
+        let register = Register::holding(address);
+        let mut held = [0; 2];
+        self.read(register, &mut held)?;
+        self.write(register, &masked(u16::from_le_bytes(held), and, or).to_le_bytes())
+    }
+
+    /// Writes `data` to `write`, then reads `read` to the start of `buffer` and returns the length of the value in
+    /// bytes (function 23, MODBUS Application Protocol V1.1b3, 6.17). [`exchange`](Self::exchange) does the same
+    /// for items.
+    ///
+    /// The default implementation sends a write request and a read request.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Client::read`] and [`Client::write`]. After an error, the device may have executed the write.
+    fn write_and_read(
+        &mut self,
+        write: Register,
+        data: &[u8],
+        read: Register,
+        buffer: &mut [u8],
+    ) -> Result<usize, Error<Self::Error>> {
+        self.write(write, data)?;
+        self.read(read, buffer)
+    }
+
     /// Reads items with as few requests as the device allows. The [module documentation](super) describes which items
     /// one request can read. The whole request fails if the device lacks one of its items.
     ///
@@ -60,14 +98,140 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         }
         Ok(block.values(reading.values())?)
     }
+
+    /// Writes the bits of `mask` to those of `value`, in an item of one holding register. The other bits of the
+    /// register don't change. Raw values of any bits are allowed; the range of the item doesn't apply.
+    ///
+    /// With function 22 in the limits, [`ModbusClient`](crate::clients) sends one request. Otherwise, the client reads
+    /// the register and writes it.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`mask_register`](Self::mask_register). Returns [`Error::Length`] if the item doesn't
+    /// have exactly one holding register.
+    fn write_masked<I: WriteItem>(
+        &mut self,
+        item: I,
+        value: I::Native,
+        mask: I::Native,
+    ) -> Result<(), Error<Self::Error>>
+    where
+        Self: Sized,
+    {
+        let (address, and, or) = masks(&item, value, mask)?;
+        self.mask_register(address, and, or)
+    }
+
+    /// Writes items. If the items are adjacent holding registers without gaps, and the device allows it, one request
+    /// writes all items. Otherwise, each item is written with a separate request, in the order of the block.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Client::write`]; after such an error, some items may be written. Returns
+    /// [`Error::OutOfRange`] if a value is outside the range of its item; nothing is sent then.
+    fn write_block<const N: usize, B: WriteBlock<N>>(
+        &mut self,
+        block: B,
+        values: B::Values,
+    ) -> Result<(), Error<Self::Error>>
+    where
+        Self: Sized,
+    {
+        let writing = Writing::new(&block, values, self.limits())?;
+        for at in 0..writing.len() {
+            if let Some((register, data)) = writing.write(at) {
+                self.write(register, data)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes items, then reads items, with as few requests as the device allows. With function 23 in the limits of
+    /// the holding registers, [`ModbusClient`](crate::clients) writes and reads with one request. The device writes
+    /// before it reads.
+    ///
+    /// Requests are combined if one request can write all items, or the last of them, and the first request of
+    /// the read is for holding registers. The other requests are sent as in [`write_block`](Self::write_block)
+    /// and [`read_block`](Self::read_block).
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`write_block`](Self::write_block) and [`read_block`](Self::read_block). After
+    /// an error of the client, some or all items may be written.
+    fn exchange<const N: usize, const M: usize, W: WriteBlock<N>, B: Block<M>>(
+        &mut self,
+        write: W,
+        values: W::Values,
+        read: B,
+    ) -> Result<B::Values, Error<Self::Error>>
+    where
+        Self: Sized,
+    {
+        let writing = Writing::new(&write, values, self.limits())?;
+        let mut reading = Reading::new(&read, self.limits())?;
+        let last = writing.len().saturating_sub(1);
+        for at in 0..writing.len() {
+            let Some((register, data)) = writing.write(at) else { break };
+            let combined = reading.request().filter(|(request, _)| at == last && is_combined(&register, request));
+            let Some((request, length)) = combined else {
+                self.write(register, data)?;
+                continue;
+            };
+            let mut answer = [0; MAX_BYTES];
+            let received = self.write_and_read(register, data, request, &mut answer[..length])?;
+            reading.answered(&answer[..length], received)?;
+        }
+        while let Some((request, length)) = reading.request() {
+            let mut answer = [0; MAX_BYTES];
+            let received = self.read(request, &mut answer[..length])?;
+            reading.answered(&answer[..length], received)?;
+        }
+        Ok(read.values(reading.values())?)
+    }
 }
 
-/// An asynchronous client that reads several items with one call, as [`RegisterClient`] does.
+/// An asynchronous client that reads and writes several items with one call, as [`RegisterClient`] does.
 #[allow(async_fn_in_trait)]
 pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     /// Returns the limits of the device's requests; by default [`Limits::STANDARD`].
     fn limits(&self) -> &Limits {
         &Limits::STANDARD
+    }
+
+    /// Changes some bits of a holding register: the new value is `held & and | or & !and` (function 22, MODBUS
+    /// Application Protocol V1.1b3, 6.16). [`write_masked_async`](Self::write_masked_async) calculates the masks.
+    ///
+    /// The default implementation reads the register and writes it; no other client should write the register between
+    /// the two requests.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`AsyncClient::read`] and [`AsyncClient::write`].
+    async fn mask_register(&mut self, address: u16, and: u16, or: u16) -> Result<(), Error<Self::Error>> {
+        let register = Register::holding(address);
+        let mut held = [0; 2];
+        self.read(register, &mut held).await?;
+        self.write(register, &masked(u16::from_le_bytes(held), and, or).to_le_bytes()).await
+    }
+
+    /// Writes `data` to `write`, then reads `read` to the start of `buffer` and returns the length of the value in
+    /// bytes (function 23, MODBUS Application Protocol V1.1b3, 6.17). [`exchange_async`](Self::exchange_async) does the same
+    /// for items.
+    ///
+    /// The default implementation sends a write request and a read request.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`AsyncClient::read`] and [`AsyncClient::write`]. After an error, the device may have executed the write.
+    async fn write_and_read(
+        &mut self,
+        write: Register,
+        data: &[u8],
+        read: Register,
+        buffer: &mut [u8],
+    ) -> Result<usize, Error<Self::Error>> {
+        self.write(write, data).await?;
+        self.read(read, buffer).await
     }
 
     /// Reads items with as few requests as the device allows, as [`RegisterClient::read_block`] does.
@@ -87,23 +251,141 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
         }
         Ok(block.values(reading.values())?)
     }
-}
 
-macro_rules! forwarding {
-    ($RegisterClient:ident $($future:tt)*) => {
-        impl<C: $RegisterClient, D: FnMut(Duration) $($future)*> $RegisterClient for Timed<C, D> {
-            fn limits(&self) -> &Limits {
-                self.inner().limits()
+    /// Writes the bits of `mask` to those of `value`, in an item of one holding register. The other bits of the
+    /// register don't change. Raw values of any bits are allowed; the range of the item doesn't apply.
+    ///
+    /// With function 22 in the limits, [`ModbusClient`](crate::clients) sends one request. Otherwise, the client reads
+    /// the register and writes it.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`mask_register`](Self::mask_register). Returns [`Error::Length`] if the item doesn't
+    /// have exactly one holding register.
+    async fn write_masked_async<I: WriteItem>(
+        &mut self,
+        item: I,
+        value: I::Native,
+        mask: I::Native,
+    ) -> Result<(), Error<Self::Error>>
+    where
+        Self: Sized,
+    {
+        let (address, and, or) = masks(&item, value, mask)?;
+        self.mask_register(address, and, or).await
+    }
+
+    /// Writes items. If the items are adjacent holding registers without gaps, and the device allows it, one request
+    /// writes all items. Otherwise, each item is written with a separate request, in the order of the block.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`AsyncClient::write`]; after such an error, some items may be written. Returns
+    /// [`Error::OutOfRange`] if a value is outside the range of its item; nothing is sent then.
+    async fn write_block_async<const N: usize, B: WriteBlock<N>>(
+        &mut self,
+        block: B,
+        values: B::Values,
+    ) -> Result<(), Error<Self::Error>>
+    where
+        Self: Sized,
+    {
+        let writing = Writing::new(&block, values, self.limits())?;
+        for at in 0..writing.len() {
+            if let Some((register, data)) = writing.write(at) {
+                self.write(register, data).await?;
             }
         }
+        Ok(())
+    }
 
-        impl<T: $RegisterClient> $RegisterClient for &mut T {
-            fn limits(&self) -> &Limits {
-                T::limits(self)
-            }
+    /// Writes items, then reads items, with as few requests as the device allows. With function 23 in the limits of
+    /// the holding registers, [`ModbusClient`](crate::clients) writes and reads with one request. The device writes
+    /// before it reads.
+    ///
+    /// Requests are combined if one request can write all items, or the last of them, and the first request of
+    /// the read is for holding registers. The other requests are sent as in [`write_block_async`](Self::write_block_async)
+    /// and [`read_block_async`](Self::read_block_async).
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`write_block_async`](Self::write_block_async) and [`read_block_async`](Self::read_block_async). After
+    /// an error of the client, some or all items may be written.
+    async fn exchange_async<const N: usize, const M: usize, W: WriteBlock<N>, B: Block<M>>(
+        &mut self,
+        write: W,
+        values: W::Values,
+        read: B,
+    ) -> Result<B::Values, Error<Self::Error>>
+    where
+        Self: Sized,
+    {
+        let writing = Writing::new(&write, values, self.limits())?;
+        let mut reading = Reading::new(&read, self.limits())?;
+        let last = writing.len().saturating_sub(1);
+        for at in 0..writing.len() {
+            let Some((register, data)) = writing.write(at) else { break };
+            let combined = reading.request().filter(|(request, _)| at == last && is_combined(&register, request));
+            let Some((request, length)) = combined else {
+                self.write(register, data).await?;
+                continue;
+            };
+            let mut answer = [0; MAX_BYTES];
+            let received = self.write_and_read(register, data, request, &mut answer[..length]).await?;
+            reading.answered(&answer[..length], received)?;
+        }
+        while let Some((request, length)) = reading.request() {
+            let mut answer = [0; MAX_BYTES];
+            let received = self.read(request, &mut answer[..length]).await?;
+            reading.answered(&answer[..length], received)?;
+        }
+        Ok(read.values(reading.values())?)
+    }
+}
+
+/// Returns whether function 23 can write and read these registers.
+pub(crate) fn is_combined(write: &Register, read: &Register) -> bool {
+    let is_holding = |register: &Register| register.table == RegisterTable::Holding;
+    is_holding(write) && write.part.is_none() && is_holding(read)
+}
+
+/// Defines the methods of a [`RegisterClient`] that forward to another client.
+macro_rules! forwarded {
+    ($client:ident: $get:expr, $mut:expr $(, $async:ident $await:ident)?) => {
+        fn limits(&self) -> &Limits {
+            let $client = self;
+            $get.limits()
+        }
+
+        $($async)? fn mask_register(&mut self, address: u16, and: u16, or: u16) -> Result<(), Error<Self::Error>> {
+            let $client = self;
+            $mut.mask_register(address, and, or)$(.$await)?
+        }
+
+        $($async)? fn write_and_read(
+            &mut self,
+            write: Register,
+            data: &[u8],
+            read: Register,
+            buffer: &mut [u8],
+        ) -> Result<usize, Error<Self::Error>> {
+            let $client = self;
+            $mut.write_and_read(write, data, read, buffer)$(.$await)?
         }
     };
 }
 
-forwarding! { RegisterClient }
-forwarding! { AsyncRegisterClient -> F, F: Future<Output = ()> }
+macro_rules! forwarding {
+    ($RegisterClient:ident [$($future:tt)*] $(, $async:ident $await:ident)?) => {
+        impl<C: $RegisterClient, D: FnMut(Duration) $($future)*> $RegisterClient for Timed<C, D> {
+            forwarded! { timed: timed.inner(), timed.client() $(, $async $await)? }
+        }
+
+        impl<T: $RegisterClient> $RegisterClient for &mut T {
+            forwarded! { client: (**client), (**client) $(, $async $await)? }
+        }
+    };
+}
+
+forwarding! { RegisterClient [] }
+forwarding! { AsyncRegisterClient [-> F, F: Future<Output = ()>], async await }

@@ -50,6 +50,9 @@ pub struct TableLimits {
     pub readable: &'static [Span],
 }
 
+/// Maximum number of registers that function 23 writes (MODBUS Application Protocol V1.1b3, 6.17).
+pub(crate) const MAX_EXCHANGED: u16 = 121;
+
 /// A range of consecutive addresses of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Span {
@@ -146,6 +149,18 @@ impl Limits {
     pub const fn max_write(&self, table: RegisterTable) -> u16 {
         smaller(self.of(table).max_write, Self::STANDARD.of(table).max_write)
     }
+
+    /// Returns the maximum number of holding registers that a request with function 23 writes: the limit of a write
+    /// request, but at most 121. Returns 0 if the device description doesn't list function 23, because the function is
+    /// optional. [`max_read`](Self::max_read) limits the registers that the request reads.
+    #[must_use]
+    pub const fn max_exchanged(&self) -> u16 {
+        if self.holding.names(23) {
+            smaller(self.max_write(RegisterTable::Holding), MAX_EXCHANGED)
+        } else {
+            0
+        }
+    }
 }
 
 impl Default for Limits {
@@ -179,6 +194,10 @@ mod tests {
         let greedy = TableLimits { max_read: 500, max_write: 500, ..TableLimits::HOLDING };
         let limits = Limits { holding: greedy, ..Limits::default() };
         assert_eq!((limits.max_read(RegisterTable::Holding), limits.max_write(RegisterTable::Holding)), (125, 123));
+        assert_eq!((limits.max_exchanged(), Limits::STANDARD.max_exchanged()), (0, 0));
+        let exchanging = |max_write| TableLimits { functions: &[3, 16, 23], max_write, ..TableLimits::HOLDING };
+        let most = |max_write| Limits { holding: exchanging(max_write), ..Limits::STANDARD }.max_exchanged();
+        assert_eq!((most(500), most(8)), (121, 8));
         let small = TableLimits { max_read: 8, max_write: 2, ..TableLimits::HOLDING };
         let limits = Limits { holding: small, ..limits };
         assert_eq!((limits.max_read(RegisterTable::Holding), limits.max_write(RegisterTable::Holding)), (8, 2));

@@ -1,4 +1,4 @@
-//! Reads of several Modbus values at once, and the limits of a device's requests.
+//! Accesses to several Modbus values at once, and the limits of a device's requests.
 //!
 //! [`Item::at`](crate::Item::at) reads one value per request. For cyclic reads, use [`RegisterClient::read_block`],
 //! which reads any number of values with as few requests as the device allows.
@@ -49,14 +49,26 @@
 //! never exceeds the device's limit, and never includes an address that isn't in the device description. The values of
 //! one request are consistent if the device updates its registers together. The values of different requests are not
 //! consistent. [`Plan`] can compute the requests at compile time.
+//!
+//! [`RegisterClient::write_block`] writes adjacent holding registers with one request. [`RegisterClient::exchange`]
+//! writes and reads with one request if the device supports function 23, and [`RegisterClient::write_masked`] changes
+//! some bits of a register with one request if the device supports function 22.
 
 mod block;
 mod client;
 mod limits;
 mod plan;
 mod reading;
+mod write_block;
 
 pub use block::{Block, BlockItem};
+#[cfg(feature = "std")]
+pub(crate) use client::is_combined;
 pub use client::{AsyncRegisterClient, RegisterClient};
+#[cfg(feature = "std")]
+pub(crate) use limits::MAX_EXCHANGED;
 pub use limits::{Limits, Span, TableLimits};
 pub use plan::Plan;
+#[cfg(feature = "std")]
+pub(crate) use write_block::masked;
+pub use write_block::{WriteBlock, WriteItem};

@@ -25,7 +25,8 @@ const MOST_FRAMES: usize = 1024;
 /// A simulated device as a node on a CAN bus.
 ///
 /// The node simulates the SDO server, NMT, heartbeat and emergency messages. The node transmits PDOs on SYNC, on change
-/// and by timer. CANopen clients use the node as their CAN port. The clock of the node is simulated. The clock advances
+/// and by timer, as their communication parameters declare: transmission type, inhibit time, event timer and SYNC start
+/// value. CANopen clients use the node as their CAN port. The clock of the node is simulated. The clock advances
 /// only by [`advance`](Self::advance), by waiting for a frame, and by the access time of the device for each received
 /// frame. Tests therefore never wait in real time.
 ///
@@ -279,7 +280,7 @@ impl CanNode {
         let sync = self.device.slots.number(0x1005, 0).unwrap_or(0x80) as u16 & 0x7FF;
         if id == sync {
             self.refused.extend(self.pdos.actuate(&mut self.device));
-            for frame in self.pdos.sampled(&self.device, self.now) {
+            for frame in self.pdos.sampled(&self.device, self.now, data.first().copied()) {
                 self.emit(frame);
             }
         } else {

@@ -10,6 +10,7 @@ use super::fault::Fault;
 use crate::bus::{CanOpen, CoE, Modbus, Object};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
+use crate::modbus::{AsyncRegisterClient, RegisterClient};
 use crate::register::Register;
 
 /// Blocking and async client for a simulated device on the bus `B`. [`Device::client`] creates a client. `D` is the
@@ -97,6 +98,30 @@ macro_rules! clients {
 clients! { CanOpen, Object, upload, |device, object, data| download(device, Network::CanOpen, object, data) }
 clients! { CoE, Object, upload, |device, object, data| download(device, Network::EtherCat, object, data) }
 clients! { Modbus, Register, Device::read_register, Device::write_register }
+
+macro_rules! register_client {
+    ($RegisterClient:ident $($async:ident)?) => {
+        /// The simulated device supports the functions 22 and 23.
+        impl<D: BorrowMut<Device>> $RegisterClient for Connection<Modbus, D> {
+            $($async)? fn mask_register(&mut self, address: u16, and: u16, or: u16) -> Result<(), Error<Fault>> {
+                Ok(self.device().mask(address, and, or)?)
+            }
+
+            $($async)? fn write_and_read(
+                &mut self,
+                write: Register,
+                data: &[u8],
+                read: Register,
+                buffer: &mut [u8],
+            ) -> Result<usize, Error<Fault>> {
+                self.device().exchange_registers(write, data, read, buffer)
+            }
+        }
+    };
+}
+
+register_client! { RegisterClient }
+register_client! { AsyncRegisterClient async }
 
 fn upload(device: &mut Device, object: Object, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
     device.access();

@@ -10,6 +10,7 @@ use super::fault::{Exception, Fault};
 use super::limits::Limits;
 use super::values;
 use crate::error::Error;
+use crate::modbus::{is_combined, masked, MAX_EXCHANGED};
 use crate::register::{Register, RegisterTable};
 
 const fn is_bits(table: RegisterTable) -> bool {
@@ -57,6 +58,28 @@ impl Device {
             return Err(Exception::IllegalFunction);
         }
         self.command_cells(table, address, words).map_err(Exception::of_fault)
+    }
+
+    /// Handles function 22: changes bits of a holding register to `held & and | or & !and`. Bits of read-only items don't
+    /// change.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`write_words`](Self::write_words), and [`Exception::IllegalDataAddress`] if the register
+    /// doesn't exist.
+    pub fn mask_word(&mut self, address: u16, and: u16, or: u16) -> Result<(), Exception> {
+        self.mask(address, and, or).map_err(Exception::of_fault)
+    }
+
+    /// Handles function 23: writes `words` to the holding registers from `write` on, then reads `count` holding
+    /// registers from `read` on.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`read_words`](Self::read_words) and [`write_words`](Self::write_words). At most 121
+    /// registers can be written. If the registers cannot be read, nothing is written.
+    pub fn exchange_words(&mut self, write: u16, words: &[u16], read: u16, count: u16) -> Result<Vec<u16>, Exception> {
+        self.exchange(write, words, read, count).map_err(Exception::of_fault)
     }
 
     /// Handles the functions 1 and 2: reads `count` bits of [`Coil`](RegisterTable::Coil) or
@@ -120,6 +143,41 @@ impl Device {
         Ok(self.command_cells(table, address, &words)?)
     }
 
+    pub(super) fn mask(&mut self, address: u16, and: u16, or: u16) -> Result<(), Fault> {
+        self.access();
+        self.take_fault()?;
+        let held = self.cells.word((RegisterTable::Holding, address)).ok_or(Exception::IllegalDataAddress)?;
+        self.change_cells(RegisterTable::Holding, address, &[masked(held, and, or)])
+    }
+
+    pub(super) fn exchange(&mut self, write: u16, words: &[u16], read: u16, count: u16) -> Result<Vec<u16>, Fault> {
+        self.access();
+        self.take_fault()?;
+        let table = RegisterTable::Holding;
+        self.check_count(table, words.len(), |limits| limits.write.min(MAX_EXCHANGED))?;
+        self.held_cells(table, read, count)?;
+        self.change_cells(table, write, words)?;
+        self.held_cells(table, read, count)
+    }
+
+    /// Handles a request of a client with function 23, with two requests if a value isn't in whole holding registers.
+    pub(super) fn exchange_registers(
+        &mut self,
+        write: Register,
+        data: &[u8],
+        read: Register,
+        buffer: &mut [u8],
+    ) -> Result<usize, Error<Fault>> {
+        if !is_combined(&write, &read) {
+            self.write_register(write, data)?;
+            return self.read_register(read, buffer);
+        }
+        let mut words = vec![0; usize::from(write.count)];
+        write.encode(data, &mut words)?;
+        let words = self.exchange(write.address, &words, read.address, read.count)?;
+        Ok(read.decode(&words, buffer)?)
+    }
+
     fn check_count(&self, table: RegisterTable, count: usize, most: impl Fn(Limits) -> u16) -> Result<(), Exception> {
         let most = most(if is_bits(table) { Limits::BITS } else { self.limits });
         if (1..=usize::from(most)).contains(&count) {
@@ -132,6 +190,10 @@ impl Device {
     fn request(&mut self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<u16>, Fault> {
         self.access();
         self.take_fault()?;
+        self.held_cells(table, address, count)
+    }
+
+    fn held_cells(&self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<u16>, Fault> {
         self.check_count(table, count.into(), |limits| limits.read)?;
         let word = |at: u16| -> Option<u16> {
             let address = (table, address.checked_add(at)?);
@@ -143,10 +205,14 @@ impl Device {
         Ok(words.ok_or(Exception::IllegalDataAddress)?)
     }
 
-    /// Writes registers. If the write fails, all registers are restored.
     fn command_cells(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), Fault> {
         self.access();
         self.take_fault()?;
+        self.change_cells(table, address, words)
+    }
+
+    /// Writes registers. If the write fails, all registers are restored.
+    fn change_cells(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), Fault> {
         self.check_count(table, words.len(), |limits| limits.write)?;
         let addresses = (address..=u16::MAX).map(|address| (table, address)).take(words.len());
         if addresses.clone().count() < words.len() {

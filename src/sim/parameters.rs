@@ -17,6 +17,9 @@ const EXTENDED: u64 = 1 << 29;
 /// COB-ID bits that can change only while the PDO is disabled.
 const IDENTIFIER: u64 = 0x3FFF_FFFF;
 
+/// Maximum SYNC start value.
+const MAX_SYNC_START: u64 = 240;
+
 /// Maximum number of bits in a CAN frame.
 const FRAME_BITS: u32 = 64;
 
@@ -59,8 +62,10 @@ impl Device {
                 let is_reserved = matches!(value, 241..=251) || !is_transmitted && matches!(value, 252 | 253);
                 require(!is_reserved, AbortCode::INVALID_VALUE)
             }
-            // Inhibit time and SYNC start value.
-            3 | 6 if is_transmitted => require(!is_used, AbortCode::INVALID_VALUE),
+            // Inhibit time.
+            3 if is_transmitted => require(!is_used, AbortCode::INVALID_VALUE),
+            // SYNC start value.
+            6 if is_transmitted => require(!is_used && value <= MAX_SYNC_START, AbortCode::INVALID_VALUE),
             _ => Ok(()),
         }
     }

@@ -12,6 +12,7 @@ mod coe;
 mod ethercat;
 mod matrix;
 mod modbus;
+mod modbus_rows;
 mod random;
 #[cfg(all(feature = "ethercat", feature = "macros"))]
 #[path = "../support/segment.rs"]

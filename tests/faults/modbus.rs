@@ -7,23 +7,42 @@ use lexibus::clients::modbus::tokio_modbus::client::tcp;
 use lexibus::clients::modbus::tokio_modbus::Slave;
 use lexibus::clients::modbus::{BlockingLink, Link, ModbusClient};
 use lexibus::framing::Check;
+use lexibus::modbus::{AsyncRegisterClient, Limits, TableLimits};
 use lexibus::{AsyncClient, Client, Error, Flags, Item, OnModbus, Register, Rw};
 use tokio::io::{duplex, AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt, DuplexStream};
 use tokio::time::{sleep, timeout, Instant};
 
-use crate::matrix::{name, Row};
 use crate::random::Random;
 
-const DEVICE: u8 = 5;
-const TIMEOUT: Duration = Duration::from_millis(200);
+pub const DEVICE: u8 = 5;
+pub const TIMEOUT: Duration = Duration::from_millis(200);
 /// Two registers that contain the number of the current request.
-const COUNT: Register = Register::high_first(10, 2);
-const SETPOINT: Register = Register::holding(20);
+pub const COUNT: Register = Register::high_first(10, 2);
+pub const SETPOINT: Register = Register::holding(20);
 
 type Setpoint = Item<u16, Rw, OnModbus>;
 
+/// A request of the client.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Fault {
+pub enum Kind {
+    /// Function 3.
+    Read,
+    /// Function 6.
+    Write,
+    /// Function 22.
+    Mask,
+    /// Function 23.
+    Exchange,
+}
+
+const KINDS: [Kind; 4] = [Kind::Read, Kind::Write, Kind::Mask, Kind::Exchange];
+
+/// The simulated device supports the optional functions 22 and 23.
+const LIMITS: Limits =
+    Limits { holding: TableLimits { functions: &[3, 6, 16, 22, 23], ..TableLimits::HOLDING }, ..Limits::STANDARD };
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fault {
     Nothing,
     Late(Duration),
     Lost,
@@ -37,15 +56,15 @@ enum Fault {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct World {
-    count: u32,
-    setpoint: u16,
-    fault: Fault,
+pub struct World {
+    pub count: u32,
+    pub setpoint: u16,
+    pub fault: Fault,
 }
 
-type Shared = Arc<Mutex<World>>;
+pub type Shared = Arc<Mutex<World>>;
 
-fn world() -> Shared {
+pub fn world() -> Shared {
     Arc::new(Mutex::new(World { count: 0, setpoint: 0, fault: Fault::Nothing }))
 }
 
@@ -60,20 +79,41 @@ fn frame(is_rtu: bool, transaction: [u8; 2], device: u8, data: &[u8]) -> Vec<u8>
     [&transaction[..], &[0, 0, high, low], &frame].concat()
 }
 
-/// Simulates a device that answers requests that use function 3 or 6.
+/// Receives a request. Returns the transaction on TCP, the unit ID and the data.
+async fn receive(line: &mut (impl AsyncRead + Unpin), is_rtu: bool) -> std::io::Result<([u8; 2], u8, Vec<u8>)> {
+    let mut head = vec![0; if is_rtu { 2 } else { 8 }];
+    line.read_exact(&mut head).await?;
+    let (unit, function) = (head[head.len() - 2], head[head.len() - 1]);
+    // The client writes one register with function 23.
+    let length = match function {
+        22 => 6,
+        23 => 11,
+        _ => 4,
+    };
+    let mut data = vec![0; length + if is_rtu { 2 } else { 0 }];
+    line.read_exact(&mut data).await?;
+    data.truncate(length);
+    data.insert(0, function);
+    Ok((if is_rtu { [0; 2] } else { [head[0], head[1]] }, unit, data))
+}
+
+/// Simulates a device that answers requests that use function 3, 6, 22 or 23. The device executes broadcasts. After a
+/// broadcast, only a faulty device replies.
 async fn serve(mut line: impl AsyncRead + AsyncWrite + Unpin, is_rtu: bool, world: Shared) {
-    let mut request = vec![0; if is_rtu { 8 } else { 12 }];
-    while line.read_exact(&mut request).await.is_ok() {
-        let (transaction, data) =
-            if is_rtu { ([0; 2], &request[1..6]) } else { ([request[0], request[1]], &request[7..]) };
-        let World { count, fault, .. } = *world.lock().unwrap();
-        let reply = match data[0] {
-            3 => [&[3, 4][..], &count.to_be_bytes()].concat(),
-            _ => {
-                world.lock().unwrap().setpoint = u16::from_be_bytes([data[3], data[4]]);
-                data.to_vec()
-            }
+    while let Ok((transaction, unit, data)) = receive(&mut line, is_rtu).await {
+        let World { count, setpoint, fault } = *world.lock().unwrap();
+        let word = |at: usize| u16::from_be_bytes([data[at], data[at + 1]]);
+        let values = |function: u8| [&[function, 4][..], &count.to_be_bytes()].concat();
+        let (written, reply) = match data[0] {
+            3 => (setpoint, values(3)),
+            22 => (setpoint & word(3) | word(5) & !word(3), data.clone()),
+            23 => (word(10), values(23)),
+            _ => (word(3), data.clone()),
         };
+        world.lock().unwrap().setpoint = written;
+        if unit == 0 && fault == Fault::Nothing {
+            continue;
+        }
         let good = frame(is_rtu, transaction, DEVICE, &reply);
         let foreign = frame(is_rtu, [0xAB, 0xCD], DEVICE + 1, &reply);
         sleep(Duration::from_millis(1)).await;
@@ -100,7 +140,7 @@ async fn serve(mut line: impl AsyncRead + AsyncWrite + Unpin, is_rtu: bool, worl
     }
 }
 
-fn link(is_rtu: bool, world: &Shared) -> Link<DuplexStream> {
+pub fn link(is_rtu: bool, world: &Shared) -> Link<DuplexStream> {
     let (line, device) = duplex(0x1_0000);
     tokio::spawn(serve(device, is_rtu, world.clone()));
     let link = if is_rtu { Link::rtu } else { Link::tcp };
@@ -115,30 +155,44 @@ fn blocking(is_rtu: bool, world: &Shared) -> ModbusClient<BlockingLink<DuplexStr
     ModbusClient::new(link.expect("a link"))
 }
 
-/// Sends one read or write request. Panics if the value is wrong.
-async fn request<C: AsyncClient<Bus = lexibus::Modbus>>(
+/// Sends one request. Panics if a value is wrong.
+pub async fn request<C: AsyncRegisterClient<Bus = lexibus::Modbus>>(
     device: &mut C,
     world: &Shared,
     number: u32,
-    writes: bool,
+    kind: Kind,
 ) -> Result<(), Error<C::Error>> {
     world.lock().unwrap().count = number;
-    if writes {
-        device.write(SETPOINT, &(number as u16).to_le_bytes()).await?;
-        assert_eq!(world.lock().unwrap().setpoint, number as u16, "request {number}");
-    } else {
-        let mut buffer = [0; 4];
-        device.read(COUNT, &mut buffer).await?;
+    let (mut buffer, word) = ([0; 4], number as u16);
+    match kind {
+        Kind::Read => {
+            device.read(COUNT, &mut buffer).await?;
+        }
+        Kind::Write => device.write(SETPOINT, &word.to_le_bytes()).await?,
+        Kind::Mask => device.mask_register(SETPOINT.address, 0, word).await?,
+        Kind::Exchange => {
+            device.write_and_read(SETPOINT, &word.to_le_bytes(), COUNT, &mut buffer).await?;
+        }
+    }
+    if kind != Kind::Read {
+        assert_eq!(world.lock().unwrap().setpoint, word, "request {number}");
+    }
+    if matches!(kind, Kind::Read | Kind::Exchange) {
         assert_eq!(u32::from_le_bytes(buffer), number, "request {number}");
     }
     Ok(())
+}
+
+/// Returns a client that uses the functions 22 and 23.
+pub fn client<T>(link: T) -> ModbusClient<T> {
+    ModbusClient::new(link).with_limits(LIMITS)
 }
 
 #[tokio::test(start_paused = true)]
 async fn late_replies_are_not_those_of_the_next_request() {
     for is_rtu in [true, false] {
         let world = world();
-        let mut device = ModbusClient::new(link(is_rtu, &world));
+        let mut device = client(link(is_rtu, &world));
         let mut random = Random::new(28);
         let (mut late, mut failed) = (0, 0);
         for number in 0..10_000 {
@@ -146,7 +200,8 @@ async fn late_replies_are_not_those_of_the_next_request() {
             late += u32::from(is_late);
             let delay = Duration::from_millis(200 + random.below(190));
             world.lock().unwrap().fault = if is_late { Fault::Late(delay) } else { Fault::Nothing };
-            match request(&mut device, &world, number, random.below(2) == 0).await {
+            let kind = KINDS[random.below(4) as usize];
+            match request(&mut device, &world, number, kind).await {
                 Ok(()) => {}
                 Err(Error::Timeout) => failed += 1,
                 Err(other) => panic!("request {number}: {other}"),
@@ -172,21 +227,21 @@ async fn after_each_fault_the_next_request_is_right() {
     for is_rtu in [true, false] {
         for fault in faults {
             let world = world();
-            let mut device = ModbusClient::new(link(is_rtu, &world));
+            let mut device = client(link(is_rtu, &world));
             world.lock().unwrap().fault = fault;
             let start = Instant::now();
-            let first = request(&mut device, &world, 1, false).await;
+            let first = request(&mut device, &world, 1, Kind::Read).await;
             let longest = start.elapsed();
             assert!(longest <= TIMEOUT + Duration::from_millis(10), "{fault:?}: {longest:?}");
             if fault == Fault::EndlessNoise {
                 let start = Instant::now();
-                assert!(matches!(request(&mut device, &world, 2, false).await, Err(Error::Timeout)));
+                assert!(matches!(request(&mut device, &world, 2, Kind::Read).await, Err(Error::Timeout)));
                 assert!(start.elapsed() <= 4 * TIMEOUT, "{:?}", start.elapsed());
                 sleep(Duration::from_secs(60)).await;
             }
             world.lock().unwrap().fault = Fault::Nothing;
             let start = Instant::now();
-            let second = request(&mut device, &world, 3, false).await;
+            let second = request(&mut device, &world, 3, Kind::Read).await;
             println!("rtu {is_rtu} {fault:?}: {first:?} in {longest:?}, then {second:?} in {:?}", start.elapsed());
             assert!(second.is_ok(), "{fault:?}: {second:?}");
             assert!(start.elapsed() <= 4 * TIMEOUT, "{fault:?}: {:?}", start.elapsed());
@@ -208,7 +263,7 @@ async fn late_replies_on_a_pseudo_terminal() {
         let is_late = number % 20 == 7;
         late += u32::from(is_late);
         world.lock().unwrap().fault = if is_late { Fault::Late(TIMEOUT * 5 / 4) } else { Fault::Nothing };
-        failed += u32::from(request(&mut device, &world, number, false).await.is_err());
+        failed += u32::from(request(&mut device, &world, number, Kind::Read).await.is_err());
     }
     println!("200 Modbus RTU requests on a pseudo-terminal, {late} late: {failed} errors, no wrong value");
     assert!((late..100).contains(&failed), "{failed} errors for {late} late replies");
@@ -218,12 +273,12 @@ async fn late_replies_on_a_pseudo_terminal() {
 async fn after_a_dropped_call_the_next_one_is_right() {
     for is_rtu in [true, false] {
         let world = world();
-        let mut device = ModbusClient::new(link(is_rtu, &world));
+        let mut device = client(link(is_rtu, &world));
         world.lock().unwrap().fault = Fault::Late(Duration::from_millis(100));
-        let dropped = timeout(Duration::from_millis(20), request(&mut device, &world, 1, false)).await;
+        let dropped = timeout(Duration::from_millis(20), request(&mut device, &world, 1, Kind::Read)).await;
         assert!(dropped.is_err());
         world.lock().unwrap().fault = Fault::Nothing;
-        request(&mut device, &world, 2, false).await.expect("the reply");
+        request(&mut device, &world, 2, Kind::Read).await.expect("the reply");
     }
 }
 
@@ -270,11 +325,11 @@ async fn a_timeout_of_any_length_is_valid() {
         tokio::spawn(serve(device, is_rtu, world.clone()));
         let link = if is_rtu { Link::rtu } else { Link::tcp };
         let mut device = ModbusClient::new(link(line, Slave(DEVICE), Duration::MAX));
-        request(&mut device, &world, 1, false).await.expect("the reply");
+        request(&mut device, &world, 1, Kind::Read).await.expect("the reply");
         world.lock().unwrap().fault = Fault::Late(Duration::from_millis(100));
-        assert!(timeout(Duration::from_millis(20), request(&mut device, &world, 2, false)).await.is_err());
+        assert!(timeout(Duration::from_millis(20), request(&mut device, &world, 2, Kind::Read)).await.is_err());
         world.lock().unwrap().fault = Fault::Nothing;
-        request(&mut device, &world, 3, false).await.expect("the reply");
+        request(&mut device, &world, 3, Kind::Read).await.expect("the reply");
     }
 }
 
@@ -286,82 +341,12 @@ async fn contexts_without_a_link_are_out_of_step() {
     tokio::spawn(serve(device, false, world.clone()));
     let mut device = ModbusClient::new(tcp::attach_slave(line, Slave(DEVICE)));
     world.lock().unwrap().fault = Fault::Late(TIMEOUT);
-    assert!(timeout(TIMEOUT, request(&mut device, &world, 1, false)).await.is_err());
+    assert!(timeout(TIMEOUT, request(&mut device, &world, 1, Kind::Read)).await.is_err());
     world.lock().unwrap().fault = Fault::Nothing;
     sleep(TIMEOUT).await;
     let mut failed = 0;
     for number in 2..12 {
-        failed += u32::from(request(&mut device, &world, number, false).await.is_err());
+        failed += u32::from(request(&mut device, &world, number, Kind::Read).await.is_err());
     }
     assert_eq!(failed, 10, "each call gets the reply to the one before");
-}
-
-/// Returns the rows for Modbus in the table of faults.
-pub fn rows() -> Vec<Row> {
-    let faults = [
-        ("late", Fault::Late(TIMEOUT)),
-        ("lost", Fault::Lost),
-        ("duplicated", Fault::Duplicated),
-        ("truncated", Fault::Truncated),
-        ("foreign", Fault::Foreign),
-        ("noise", Fault::Noise),
-    ];
-    let mut rows = Vec::new();
-    for (client, is_rtu) in [("Modbus RTU", true), ("Modbus TCP", false)] {
-        for (fault_name, fault) in faults {
-            for is_async in [false, true] {
-                let world = world();
-                let (first, second) =
-                    if is_async { twice(is_rtu, &world, fault) } else { blocking_twice(is_rtu, &world, fault) };
-                let (result, time, next, timeout) = (first.0, first.1, second, TIMEOUT);
-                rows.push(Row { client, is_async, fault: fault_name, result, time, next, timeout });
-            }
-        }
-    }
-    rows
-}
-
-type Twice = ((&'static str, Duration), Duration);
-
-/// Returns the result and duration of a request with a fault, and the duration of the next request, which must succeed.
-fn twice(is_rtu: bool, world: &Shared, fault: Fault) -> Twice {
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().start_paused(true).build();
-    runtime.expect("a runtime").block_on(async {
-        let mut device = ModbusClient::new(link(is_rtu, world));
-        world.lock().unwrap().fault = fault;
-        let start = Instant::now();
-        let first = (name(&request(&mut device, world, 1, false).await), start.elapsed());
-        world.lock().unwrap().fault = Fault::Nothing;
-        let start = Instant::now();
-        request(&mut device, world, 2, false).await.expect("the next request is right");
-        (first, start.elapsed())
-    })
-}
-
-fn blocking_twice(is_rtu: bool, world: &Shared, fault: Fault) -> Twice {
-    let mut handle = None;
-    let link = BlockingLink::open(async {
-        tokio::time::pause();
-        handle = Some(tokio::runtime::Handle::current());
-        Ok(link(is_rtu, world))
-    });
-    let mut device = ModbusClient::new(link.expect("a link"));
-    let handle = handle.expect("the runtime of the link");
-    // Returns the simulated time in the runtime of the link.
-    let now = || {
-        let _guard = handle.enter();
-        Instant::now()
-    };
-    let mut read = |count: u32, fault| {
-        (world.lock().unwrap().count, world.lock().unwrap().fault) = (count, fault);
-        let mut buffer = [0; 4];
-        let start = now();
-        let result = Client::read(&mut device, COUNT, &mut buffer);
-        assert!(result.is_err() || u32::from_le_bytes(buffer) == count, "{fault:?}");
-        (result, now() - start)
-    };
-    let (first, time) = read(1, fault);
-    let (second, next) = read(2, Fault::Nothing);
-    second.expect("the next request is right");
-    ((name(&first), time), next)
 }

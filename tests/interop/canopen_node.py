@@ -90,9 +90,13 @@ class Node:
             raise SdoAbortedError(TOO_LOW)
 
     def check_pdo(self, index, subindex, od, data, **_):
-        """Checks the order of PDO configuration (CiA 301 7.5.2.36): disable, clear, map, count, enable."""
+        """Checks the order of PDO configuration (CiA 301 7.5.2.36): disable, clear, map, count, enable.
+
+        Communication parameters are set while the PDO is disabled."""
         is_communication = 0x1400 <= index < 0x1600 or 0x1800 <= index < 0x1A00
         is_mapping = 0x1600 <= index < 0x1800 or 0x1A00 <= index < 0x1C00
+        if is_communication and subindex == 2 and not self.number(index, 1) & INVALID:
+            raise SdoAbortedError(DEVICE_STATE)
         if is_communication and subindex == 1:
             old, new = self.number(index, 1), od.decode_raw(data)
             if not (old | new) & INVALID and old != new:
@@ -179,6 +183,12 @@ class Node:
             "entries": [[entry.index, entry.subindex, entry.length] for entry in pdo],
         }
 
+    def timing(self, number):
+        """Returns the communication parameters of a TPDO, as the library reads them from the node's objects."""
+        pdo = self.node.tpdo[number]
+        pdo.read()
+        return [pdo.enabled, pdo.rtr_allowed, pdo.trans_type]
+
     def receive(self, number):
         """Returns the values of the next RPDO. Waits for it if none is pending."""
         return self.received[number].get(timeout=TIMEOUT)
@@ -208,7 +218,7 @@ class Node:
 def main():
     tty, eds, node_id = sys.argv[1:]
     node = Node(tty, eds, int(node_id))
-    commands = ["get", "set", "limits", "pdo", "receive", "load", "transmit", "state", "emergency", "drive"]
+    commands = ["get", "set", "limits", "pdo", "timing", "receive", "load", "transmit", "state", "emergency", "drive"]
     serve({name: getattr(node, name) for name in commands})
     node.network.disconnect()
 

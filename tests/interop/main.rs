@@ -2,8 +2,12 @@
 //! servers of `pymodbus`. `README.md` explains the tests.
 #![cfg(unix)]
 
+#[macro_use]
+mod ways;
+
 mod canopen;
 mod modbus;
+mod modbus_broadcast;
 mod pty;
 mod python;
 mod slcan;

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use lexibus::clients::modbus::tokio_modbus::{ExceptionCode, Slave};
 use lexibus::clients::modbus::{sync, tcp, BlockingLink, Link, ModbusClient, ModbusError};
-use lexibus::modbus::{AsyncRegisterClient as _, RegisterClient as _};
+use lexibus::modbus::{AsyncRegisterClient as _, Limits, RegisterClient as _, TableLimits};
 use serde_json::{json, Value};
 use tokio_serial::SerialStream;
 
@@ -18,7 +18,7 @@ use crate::python::{python, Script};
 
 lexibus::dictionary! {
     /// The bindings of the server's registers.
-    mod registers = "tests/interop/registers.toml";
+    pub mod registers = "tests/interop/registers.toml";
 }
 
 use registers::objects::{COILS, HIGH_I16, HIGH_U16, HIGH_U32, INPUT_U32, LOW_F32, LOW_I32, NEXT_COIL};
@@ -26,19 +26,19 @@ use registers::types::{Mode, Status, StatusDirection as Direction};
 use registers::Registers;
 
 /// Maximum time to wait for a response. The Python server replies slowly on a machine under load.
-const PATIENCE: Duration = Duration::from_secs(20);
+pub const PATIENCE: Duration = Duration::from_secs(20);
 
 /// The server's unit ID.
-const DEVICE: Slave = Slave(1);
+pub const DEVICE: Slave = Slave(1);
 
 /// Bit rate of the serial line, which determines the silent interval between RTU frames.
-const BAUD: u32 = 115_200;
+pub const BAUD: u32 = 115_200;
 
-type Error = lexibus::Error<ModbusError>;
+pub type Error = lexibus::Error<ModbusError>;
 
 impl Script {
     /// Returns the value with this name, which `pymodbus` decodes from the server's registers.
-    fn at(&mut self, name: &str) -> Value {
+    pub fn at(&mut self, name: &str) -> Value {
         self.ask(json!({ "do": "get", "name": name }))
     }
 
@@ -48,67 +48,24 @@ impl Script {
     }
 
     /// Returns the function codes of all requests since the last call.
-    fn functions(&mut self) -> Value {
+    pub fn functions(&mut self) -> Value {
         self.ask(json!({ "do": "functions" }))
     }
 }
 
 /// Starts a server over TCP.
-fn over_tcp() -> Option<(Script, SocketAddr)> {
+pub fn over_tcp() -> Option<(Script, SocketAddr)> {
     let (script, port) = Script::start(python()?, "modbus_server.py", &["tcp"]);
     let port = port.as_u64().and_then(|port| port.try_into().ok()).expect("a port");
     Some((script, SocketAddr::from(([127, 0, 0, 1], port))))
 }
 
 /// Starts an RTU server on a simulated serial line. Returns the server and the line for the client.
-fn over_rtu() -> Option<(Script, Cable)> {
+pub fn over_rtu() -> Option<(Script, Cable)> {
     let python = python()?;
     let cable = Cable::open();
     let (script, _) = Script::start(python, "modbus_server.py", &["rtu", cable.ends()[1]]);
     Some((script, cable))
-}
-
-/// Calls a blocking method of an accessor. The scenarios get this macro, or its asynchronous counterpart, as `$way`.
-macro_rules! blocking {
-    ($client:expr, read_block $block:expr) => {
-        $client.read_block($block)
-    };
-    ($accessor:expr, read) => {
-        $accessor.read()
-    };
-    ($accessor:expr, read_into $buffer:expr) => {
-        $accessor.read_into($buffer)
-    };
-    ($accessor:expr, read_scaled) => {
-        $accessor.read_scaled()
-    };
-    ($accessor:expr, write $value:expr) => {
-        $accessor.write($value)
-    };
-    ($accessor:expr, write_scaled $value:expr) => {
-        $accessor.write_scaled($value)
-    };
-}
-
-macro_rules! awaited {
-    ($client:expr, read_block $block:expr) => {
-        $client.read_block_async($block).await
-    };
-    ($accessor:expr, read) => {
-        $accessor.read_async().await
-    };
-    ($accessor:expr, read_into $buffer:expr) => {
-        $accessor.read_into_async($buffer).await
-    };
-    ($accessor:expr, read_scaled) => {
-        $accessor.read_scaled_async().await
-    };
-    ($accessor:expr, write $value:expr) => {
-        $accessor.write_async($value).await
-    };
-    ($accessor:expr, write_scaled $value:expr) => {
-        $accessor.write_scaled_async($value).await
-    };
 }
 
 /// Checks both directions: writes a value and compares it on the server, then sets a value on the server and reads it.
@@ -296,6 +253,34 @@ macro_rules! blocks {
     };
 }
 
+/// Checks the functions 22 and 23, which the limits of the client contain.
+macro_rules! optional_functions {
+    ($way:ident, $script:ident, $device:ident) => {
+        $script.put("word_300", json!(0x1234));
+        $script.put("high_i16", json!(0x0F0F));
+        $script.functions();
+        $way!($device.upper_byte(), write -2)?;
+        assert_eq!($script.at("word_300"), 0xFE34);
+        $way!($device.client(), write_masked HIGH_I16, 0x1111, 0x00FF)?;
+        assert_eq!($script.at("high_i16"), 0x0F11);
+        assert_eq!($script.functions(), json!([22, 22]));
+
+        $script.put("low_i32", json!(-0x1234_5678));
+        let values = $way!($device.client(), exchange (HIGH_U16, HIGH_I16), (0xA55A, -3), (LOW_I32,))?;
+        assert_eq!(values, (-0x1234_5678,));
+        assert_eq!(($script.at("high_u16"), $script.at("high_i16")), (json!(0xA55A), json!(-3)));
+        // The server writes before it reads.
+        assert_eq!($way!($device.client(), exchange (HIGH_U32,), (5,), (HIGH_U32, HIGH_I16))?, (5, -3));
+        $way!($device.client(), write_block (HIGH_I16, HIGH_U16), (-4, 6))?;
+        assert_eq!(($script.at("high_u16"), $script.at("high_i16")), (json!(6), json!(-4)));
+        assert_eq!($script.functions(), json!([23, 23, 16]));
+    };
+}
+
+/// Limits of a server with the functions 22 and 23.
+pub const OPTIONAL: Limits =
+    Limits { holding: TableLimits { functions: &[3, 6, 16, 22, 23], ..TableLimits::HOLDING }, ..Limits::STANDARD };
+
 macro_rules! all_scenarios {
     ($way:ident, $script:ident, $device:ident) => {
         numbers! { $way, $script, $device }
@@ -304,6 +289,9 @@ macro_rules! all_scenarios {
         refusals! { $way, $script, $device }
         functions! { $way, $script, $device }
         blocks! { $way, $script, $device }
+        let client = $device.into_client().with_limits(OPTIONAL);
+        let mut device = Registers::new(client);
+        optional_functions! { $way, $script, device }
     };
 }
 

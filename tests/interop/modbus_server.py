@@ -101,9 +101,11 @@ class Server:
     async def start(self, bus, *tty):
         device = SimDevice(DEVICE, simdata=MEMORY)
         if bus == "tcp":
-            server = ModbusTcpServer(device, address=("127.0.0.1", 0), trace_pdu=self.trace)
+            server = ModbusTcpServer(device, address=("127.0.0.1", 0), trace_pdu=self.trace, broadcast_enable=True)
         else:
-            server = ModbusSerialServer(device, port=tty[0], baudrate=115_200, trace_pdu=self.trace)
+            server = ModbusSerialServer(
+                device, port=tty[0], baudrate=115_200, trace_pdu=self.trace, broadcast_enable=True
+            )
         await server.serve_forever(background=True)
         return server
 

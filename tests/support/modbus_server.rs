@@ -130,6 +130,15 @@ impl<S: Registers> Device<S> {
             Request::ReadDiscreteInputs(address, count) => {
                 Response::ReadDiscreteInputs(bits(registers.read_words(DiscreteInput, address, count)?))
             }
+            Request::MaskWriteRegister(address, and, or) => {
+                let held = registers.read_words(Holding, address, 1)?;
+                registers.write_words(Holding, address, &[held[0] & and | or & !and])?;
+                Response::MaskWriteRegister(address, and, or)
+            }
+            Request::ReadWriteMultipleRegisters(read, count, write, ref words) => {
+                registers.write_words(Holding, write, words)?;
+                Response::ReadWriteMultipleRegisters(registers.read_words(Holding, read, count)?)
+            }
             _ => return Err(ExceptionCode::IllegalFunction),
         })
     }

@@ -60,7 +60,7 @@ mod sdo;
 
 pub use buffered::Buffered;
 pub use frame::CanFrame;
-pub use nmt::{sync, NmtCommand, NmtState};
+pub use nmt::{sync, sync_with_counter, NmtCommand, NmtState};
 pub use node::{Node, TIMEOUT};
 pub use polled::Polled;
 pub use port::{AsyncCanPort, CanPort};

@@ -107,7 +107,7 @@ fn pdo<E>(cob_id: CobId, node: NodeId, data: &[u8]) -> Result<CanFrame, Error<E>
 /// Defines the methods of a node, blocking and async.
 macro_rules! methods {
     (
-        $Port:ident: $send:ident $nmt:ident $sync:ident $heartbeat:ident $wait_for:ident $emergency:ident $send_pdo:ident
+        $Port:ident: $send:ident $nmt:ident $sync:ident $sync_with_counter:ident $heartbeat:ident $wait_for:ident $emergency:ident $send_pdo:ident
         $receive_pdo:ident $latest_pdo:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> Node<P> {
@@ -138,6 +138,19 @@ macro_rules! methods {
             /// Returns the errors of [`send`](Self::send).
             pub $($async)? fn $sync(&mut self) -> Result<(), Error<P::Error>> {
                 self.$send(&nmt::sync())$(.$await)?
+            }
+
+            /// Sends SYNC with a counter (CiA 301 7.2.5.3). Devices that use a SYNC start value
+            /// ([`PdoParameters::sync_start`](crate::pdo::PdoParameters::sync_start)) need the counter. The counter
+            /// starts at 1, increases by 1 with each SYNC, and returns to 1 after the synchronous counter overflow value
+            /// (0x1019).
+            ///
+            /// # Errors
+            ///
+            /// Returns the errors of [`send`](Self::send), or [`Error::OutOfRange`] if the counter isn't 1 to 240.
+            pub $($async)? fn $sync_with_counter(&mut self, counter: u8) -> Result<(), Error<P::Error>> {
+                let frame = nmt::sync_with_counter(counter).ok_or(Error::OutOfRange(OutOfRange))?;
+                self.$send(&frame)$(.$await)?
             }
 
             /// Waits for the node's next heartbeat and returns the state in it. Returns `None` if no heartbeat arrives
@@ -258,8 +271,10 @@ macro_rules! methods {
     };
 }
 
-methods! { CanPort: send nmt sync heartbeat wait_for emergency send_pdo receive_pdo latest_pdo }
 methods! {
-    AsyncCanPort: send_async nmt_async sync_async heartbeat_async wait_for_async emergency_async send_pdo_async
+    CanPort: send nmt sync sync_with_counter heartbeat wait_for emergency send_pdo receive_pdo latest_pdo
+}
+methods! {
+    AsyncCanPort: send_async nmt_async sync_async sync_with_counter_async heartbeat_async wait_for_async emergency_async send_pdo_async
     receive_pdo_async latest_pdo_async async await
 }

@@ -1,16 +1,13 @@
 //! Connections that have a timeout and discard late replies.
 
-use core::future::{poll_fn, Future};
-use core::pin::Pin;
-use core::task::{ready, Context as TaskContext, Poll};
+use core::future::Future;
 use core::time::Duration;
 use std::fmt;
 use std::io;
 use std::net::SocketAddr;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::vec::Vec;
 
-use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
+use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::net::TcpStream;
 use tokio::runtime::{Builder, Runtime};
 use tokio::time::{timeout, timeout_at, Instant};
@@ -18,7 +15,8 @@ use tokio_modbus::client::{rtu, sync, tcp, Client as _, Context};
 use tokio_modbus::prelude::SlaveContext;
 use tokio_modbus::{Request, Response, Slave};
 
-use super::request::Echo;
+use super::line::Shared;
+use super::request::{Echo, NoReply};
 use super::Reply;
 use crate::framing::Check;
 
@@ -28,6 +26,10 @@ const GAP: Duration = Duration::from_micros(1750);
 
 /// Minimum waiting time: the executor must have time to report bytes that have already arrived.
 const TURN: Duration = Duration::from_millis(1);
+
+/// Default turnaround delay of RTU: the time for all devices to execute a broadcast (MODBUS over Serial Line V1.02,
+/// 2.4.1: 100 ms to 200 ms at 9600 bit/s).
+pub const TURNAROUND: Duration = Duration::from_millis(100);
 
 /// Connection to a device. The connection never mistakes a late reply for the reply to another request.
 ///
@@ -63,6 +65,10 @@ pub struct Link<T> {
     is_rtu: bool,
     /// True if the reply to the last request may still arrive.
     is_unsettled: bool,
+    /// Time for the devices to execute a broadcast; `None` if unit 0 is a device that replies.
+    turnaround: Option<Duration>,
+    /// Earliest time of the next request, after a broadcast.
+    resume: Instant,
 }
 
 impl<T> fmt::Debug for Link<T> {
@@ -87,11 +93,71 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
     fn new(line: T, device: Slave, timeout: Duration, is_rtu: bool) -> Self {
         let line = Shared::new(line);
         let context = attach(line.clone(), device, is_rtu);
-        Self { context, line, device, timeout, is_rtu, is_unsettled: false }
+        let turnaround = is_rtu.then_some(TURNAROUND);
+        Self { context, line, device, timeout, is_rtu, is_unsettled: false, turnaround, resume: Instant::now() }
     }
 
-    /// Sends a request and waits for the reply.
+    /// Sets the turnaround delay: the time after a broadcast in which the devices execute the write, and the link sends
+    /// nothing. The default is [`TURNAROUND`] on RTU.
+    ///
+    /// On TCP, unit 0 is by default the device at the other end of the connection, which replies. With this setting,
+    /// unit 0 is a broadcast on the serial line of a gateway, and no reply is expected. The link discards a reply that
+    /// the gateway sends within the delay.
+    #[must_use]
+    pub fn with_turnaround(self, delay: Duration) -> Self {
+        Self { turnaround: Some(delay), ..self }
+    }
+
+    /// Sends a request and waits for the reply. A broadcast has no reply, so the link returns the reply that confirms
+    /// the write, after the turnaround delay.
     pub(super) async fn call(&mut self, request: Request<'_>) -> Reply {
+        match self.turnaround.filter(|_| self.device.is_broadcast()) {
+            Some(delay) => self.broadcast(request, delay).await,
+            None => self.request(request).await,
+        }
+    }
+
+    /// Sends a broadcast and waits for the turnaround delay.
+    async fn broadcast(&mut self, request: Request<'_>, delay: Duration) -> Reply {
+        let Some(confirmation) = Echo::of(&request).into_response() else {
+            return Err(io::Error::from(NoReply).into());
+        };
+        self.settle().await?;
+        // The link stays unsettled if the call is dropped.
+        self.is_unsettled = true;
+        self.line.lock().is_broadcast = true;
+        let sent = timeout(self.timeout, self.context.call(request)).await;
+        self.line.lock().is_broadcast = false;
+        match sent {
+            // The context has sent the whole request and starts to read.
+            Ok(Err(tokio_modbus::Error::Transport(error))) if NoReply::is(&error) => {}
+            Ok(other) => {
+                self.context = attach(self.line.clone(), self.device, self.is_rtu);
+                return other;
+            }
+            Err(_) => return Err(late().into()),
+        }
+        // After an error, a context reports the end of the stream.
+        self.context = attach(self.line.clone(), self.device, self.is_rtu);
+        self.resume = after(Instant::now(), delay);
+        self.is_unsettled = false;
+        self.turn_around().await?;
+        Ok(Ok(confirmation))
+    }
+
+    /// Waits for the end of the turnaround delay. Discards all received bytes.
+    async fn turn_around(&self) -> io::Result<()> {
+        while Instant::now() < self.resume {
+            match timeout_at(self.resume, self.line.discard(&mut Vec::new())).await {
+                Ok(Ok(0)) => return Err(io::ErrorKind::UnexpectedEof.into()),
+                Ok(Ok(_)) | Err(_) => {}
+                Ok(Err(error)) => return Err(error),
+            }
+        }
+        Ok(())
+    }
+
+    async fn request(&mut self, request: Request<'_>) -> Reply {
         self.settle().await?;
         let expected = Expected::of(&request);
         // The link stays unsettled if the call is dropped.
@@ -112,6 +178,9 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
 
     /// Waits until no earlier reply can arrive any more. Discards all received bytes.
     async fn settle(&mut self) -> io::Result<()> {
+        // A broadcast may have been dropped.
+        self.line.lock().is_broadcast = false;
+        self.turn_around().await?;
         let pause = match (self.is_unsettled, self.is_rtu) {
             (true, _) => self.timeout.saturating_mul(2),
             (false, true) => GAP,
@@ -191,7 +260,9 @@ enum Expected {
 impl Expected {
     fn of(request: &Request<'_>) -> Self {
         match request {
-            Request::ReadHoldingRegisters(_, count) | Request::ReadInputRegisters(_, count) => Self::Words(*count),
+            Request::ReadHoldingRegisters(_, count)
+            | Request::ReadInputRegisters(_, count)
+            | Request::ReadWriteMultipleRegisters(_, count, ..) => Self::Words(*count),
             Request::ReadCoils(_, count) | Request::ReadDiscreteInputs(_, count) => Self::Bits(*count),
             request => Self::Echo(Echo::of(request)),
         }
@@ -199,95 +270,18 @@ impl Expected {
 
     fn is(&self, response: &Response) -> bool {
         match (self, response) {
-            (Self::Words(count), Response::ReadHoldingRegisters(words) | Response::ReadInputRegisters(words)) => {
-                words.len() == usize::from(*count)
-            }
+            (
+                Self::Words(count),
+                Response::ReadHoldingRegisters(words)
+                | Response::ReadInputRegisters(words)
+                | Response::ReadWriteMultipleRegisters(words),
+            ) => words.len() == usize::from(*count),
             (Self::Bits(count), Response::ReadCoils(bits) | Response::ReadDiscreteInputs(bits)) => {
                 bits.len().div_ceil(8) == usize::from(*count).div_ceil(8)
             }
             (Self::Echo(echo), response) => echo.is(response),
             _ => false,
         }
-    }
-}
-
-/// A stream that the context of `tokio-modbus` and the [`Link`] share.
-struct Shared<T>(Arc<Mutex<Line<T>>>);
-
-struct Line<T> {
-    stream: T,
-    /// Time of the last byte in either direction.
-    last: Instant,
-}
-
-impl<T> Clone for Shared<T> {
-    fn clone(&self) -> Self {
-        Self(Arc::clone(&self.0))
-    }
-}
-
-impl<T> fmt::Debug for Shared<T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Shared")
-    }
-}
-
-impl<T> Shared<T> {
-    fn new(stream: T) -> Self {
-        Self(Arc::new(Mutex::new(Line { stream, last: Instant::now() })))
-    }
-
-    fn lock(&self) -> MutexGuard<'_, Line<T>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-impl<T: AsyncRead + Unpin> Shared<T> {
-    /// Waits for bytes and returns their number. Also appends the bytes to `to`, up to a length of 260.
-    async fn discard(&self, to: &mut Vec<u8>) -> io::Result<usize> {
-        let mut bytes = [0; 260];
-        let mut buffer = ReadBuf::new(&mut bytes);
-        poll_fn(|context| Pin::new(&mut &*self).read(context, &mut buffer)).await?;
-        let read = buffer.filled();
-        to.extend(read.iter().take(260_usize.saturating_sub(to.len())));
-        Ok(read.len())
-    }
-
-    fn read(self: Pin<&mut &Self>, context: &mut TaskContext<'_>, buffer: &mut ReadBuf<'_>) -> Poll<io::Result<()>> {
-        let mut line = self.lock();
-        let before = buffer.filled().len();
-        ready!(Pin::new(&mut line.stream).poll_read(context, buffer))?;
-        if buffer.filled().len() > before {
-            line.last = Instant::now();
-        }
-        Poll::Ready(Ok(()))
-    }
-}
-
-impl<T: AsyncRead + Unpin> AsyncRead for Shared<T> {
-    fn poll_read(
-        self: Pin<&mut Self>,
-        context: &mut TaskContext<'_>,
-        buffer: &mut ReadBuf<'_>,
-    ) -> Poll<io::Result<()>> {
-        Pin::new(&mut &*self).read(context, buffer)
-    }
-}
-
-impl<T: AsyncWrite + Unpin> AsyncWrite for Shared<T> {
-    fn poll_write(self: Pin<&mut Self>, context: &mut TaskContext<'_>, bytes: &[u8]) -> Poll<io::Result<usize>> {
-        let mut line = self.lock();
-        let written = ready!(Pin::new(&mut line.stream).poll_write(context, bytes));
-        line.last = Instant::now();
-        Poll::Ready(written)
-    }
-
-    fn poll_flush(self: Pin<&mut Self>, context: &mut TaskContext<'_>) -> Poll<io::Result<()>> {
-        Pin::new(&mut self.lock().stream).poll_flush(context)
-    }
-
-    fn poll_shutdown(self: Pin<&mut Self>, context: &mut TaskContext<'_>) -> Poll<io::Result<()>> {
-        Pin::new(&mut self.lock().stream).poll_shutdown(context)
     }
 }
 
@@ -325,8 +319,16 @@ impl<T> BlockingLink<T> {
     }
 }
 
+impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> BlockingLink<T> {
+    /// Sets the turnaround delay, as [`Link::with_turnaround`] does.
+    #[must_use]
+    pub fn with_turnaround(self, delay: Duration) -> Self {
+        Self { link: self.link.with_turnaround(delay), ..self }
+    }
+}
+
 impl BlockingLink<TcpStream> {
-    /// Connects to `device` with Modbus TCP. `timeout` limits the time to connect, and the time of each call as in
+    /// Connects to `device` with Modbus TCP. Unit 0 is the device itself, which replies. `timeout` limits the time to connect, and the time of each call as in
     /// [`Link`].
     ///
     /// # Errors

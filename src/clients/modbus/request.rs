@@ -1,5 +1,7 @@
 //! Requests for a value, and the evaluation of the replies.
 
+use std::fmt;
+use std::io;
 use std::vec;
 use std::vec::Vec;
 
@@ -14,14 +16,14 @@ use crate::value_error::OutOfRange;
 
 /// Parts of a value, one per request. There is only one part, unless the limits require more.
 #[derive(Clone, Copy, Debug)]
-struct Pieces {
+pub(super) struct Pieces {
     register: Register,
     /// Maximum number of registers or bits of a part.
     size: u16,
 }
 
 impl Pieces {
-    fn new(register: Register, max: u16, split: bool) -> Result<Self, ModbusError> {
+    pub(super) fn new(register: Register, max: u16, split: bool) -> Result<Self, ModbusError> {
         let count = register.count;
         let end = u32::from(register.address) + u32::from(register.addresses());
         if count == 0 || end > 0x1_0000 {
@@ -52,13 +54,14 @@ fn read_function(table: RegisterTable) -> u8 {
     }
 }
 
-fn response(reply: Reply) -> Result<Response, Error<ModbusError>> {
+pub(super) fn response(reply: Reply) -> Result<Response, Error<ModbusError>> {
     match reply {
         Ok(Ok(response)) => Ok(response),
         Ok(Err(code)) => Err(Error::Client(ModbusError::Exception(code))),
         Err(tokio_modbus::Error::Transport(error)) if error.kind() == std::io::ErrorKind::TimedOut => {
             Err(Error::Timeout)
         }
+        Err(tokio_modbus::Error::Transport(error)) if NoReply::is(&error) => Err(Error::Client(ModbusError::Broadcast)),
         Err(error) => Err(Error::Client(ModbusError::Bus(error))),
     }
 }
@@ -232,6 +235,31 @@ fn takes(register: Register, data: &[u8]) -> bool {
     value & !mask(bits) == 0 || sign_extend(value & mask(bits), bits) as u64 & whole == value
 }
 
+/// Error of a broadcast: no device replies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NoReply;
+
+impl NoReply {
+    /// Returns whether the error is this error.
+    pub(super) fn is(error: &io::Error) -> bool {
+        error.get_ref().is_some_and(|error| error.is::<Self>())
+    }
+}
+
+impl fmt::Display for NoReply {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("no device replies to a broadcast")
+    }
+}
+
+impl std::error::Error for NoReply {}
+
+impl From<NoReply> for io::Error {
+    fn from(error: NoReply) -> Self {
+        Self::new(io::ErrorKind::Unsupported, error)
+    }
+}
+
 /// The expected reply to a write, which repeats a part of the request.
 pub(super) struct Echo(Option<Response>);
 
@@ -247,6 +275,11 @@ impl Echo {
             Request::WriteMultipleCoils(address, bits) => Response::WriteMultipleCoils(*address, bits.len() as u16),
             _ => return Self(None),
         }))
+    }
+
+    /// Returns the reply, or `None` if the request isn't a write.
+    pub(super) fn into_response(self) -> Option<Response> {
+        self.0
     }
 
     /// Returns whether the response confirms the write.

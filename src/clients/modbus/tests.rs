@@ -28,7 +28,7 @@ const MISSING: RegisterItem<u16, Rw> = RegisterItem::register(Register::holding(
 
 /// A device that sends each reply one request late. The first request times out.
 #[derive(Debug, Default)]
-struct Late {
+pub(super) struct Late {
     device: Device,
     late: Option<Reply>,
 }
@@ -86,11 +86,11 @@ fn what_bits_dont_hold_isnt_written() {
 
 /// A device that replies at once, and records the function codes of the requests.
 #[derive(Debug, Default)]
-struct Device {
-    holding: HashMap<u16, u16>,
+pub(super) struct Device {
+    pub holding: HashMap<u16, u16>,
     coils: HashMap<u16, bool>,
     functions: Vec<u8>,
-    requests: Vec<String>,
+    pub requests: Vec<String>,
 }
 
 impl Device {
@@ -132,6 +132,11 @@ impl Device {
                 let held = self.holding.entry(at).or_default();
                 *held = *held & and | or & !and;
                 Response::MaskWriteRegister(at, and, or)
+            }
+            Request::ReadWriteMultipleRegisters(first, count, to, words) => {
+                self.holding.extend((to..).zip(words.iter().copied()));
+                let held = |at: u16| self.holding.get(&at).copied().unwrap_or(0);
+                Response::ReadWriteMultipleRegisters(span(first, count).map(held).collect())
             }
             _ => return Ok(Err(ExceptionCode::IllegalFunction)),
         }))

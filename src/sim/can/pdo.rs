@@ -27,6 +27,9 @@ const TOO_LONG: u16 = 0x8220;
 /// Error register bits: generic error and communication error.
 const COMMUNICATION_ERROR: u8 = 1 | 1 << 4;
 
+/// Sub-index of the SYNC start value.
+const SYNC_START: u8 = 6;
+
 /// PDO state of a node in Operational. The maps are keyed by the index of the communication parameters.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pdos {
@@ -42,6 +45,8 @@ struct Sent {
     at: Option<Duration>,
     /// Number of SYNC messages since the transmission.
     syncs: u64,
+    /// True if the SYNC message with the SYNC start value was received.
+    is_started: bool,
 }
 
 /// Communication parameters of a PDO.
@@ -52,6 +57,8 @@ struct Communication {
     kind: u64,
     inhibit: Duration,
     timer: Duration,
+    /// SYNC start value, or 0.
+    start: u64,
 }
 
 impl Communication {
@@ -65,6 +72,7 @@ impl Communication {
             kind: number(2).unwrap_or(EVENT),
             inhibit: Duration::from_micros(100 * number(3).unwrap_or(0)),
             timer: Duration::from_millis(number(5).unwrap_or(0)),
+            start: number(SYNC_START).unwrap_or(0),
         })
     }
 
@@ -99,6 +107,9 @@ impl Pdos {
     /// Returns the PDOs to send because their data changed or their event timer expired. After the start of the node,
     /// returns all asynchronous PDOs.
     pub fn changed(&mut self, device: &Device, now: Duration) -> Vec<CanFrame> {
+        // A PDO that is enabled again starts like a new PDO.
+        self.sent.retain(|index, _| device.is_used(*index));
+        self.waiting.retain(|index, _| device.is_used(*index));
         let events = Communication::all(device, TRANSMITTED).into_iter().filter(|pdo| pdo.kind >= EVENT);
         events.filter_map(|pdo| self.send_event(device, &pdo, now)).collect()
     }
@@ -115,11 +126,18 @@ impl Pdos {
     }
 
     /// Returns the PDOs to send after SYNC: the cyclic PDOs that are due, and the acyclic PDOs whose data changed.
-    pub fn sampled(&mut self, device: &Device, now: Duration) -> Vec<CanFrame> {
+    ///
+    /// `counter` is the counter in the SYNC message. If the message has a counter, a cyclic PDO with a SYNC start value
+    /// ignores all messages before the one with this counter value, which counts as the first message.
+    pub fn sampled(&mut self, device: &Device, now: Duration, counter: Option<u8>) -> Vec<CanFrame> {
         let synchronous = Communication::all(device, TRANSMITTED).into_iter().filter(|pdo| pdo.kind <= SYNCHRONOUS);
         let frames = synchronous.filter_map(|pdo| {
             let data = pdo.data(device)?;
             let sent = self.sent.entry(pdo.index).or_default();
+            sent.is_started |= pdo.start == 0 || counter.map_or(true, |counter| u64::from(counter) == pdo.start);
+            if pdo.kind > 0 && !sent.is_started {
+                return None;
+            }
             sent.syncs += 1;
             let is_due = match pdo.kind {
                 0 => sent.at.is_none() || data != sent.data,
@@ -155,7 +173,7 @@ impl Pdos {
 impl Sent {
     fn send(&mut self, id: u16, data: Vec<u8>, now: Duration) -> Option<CanFrame> {
         let frame = CanFrame::new(id, &data);
-        *self = Self { data, at: Some(now), syncs: 0 };
+        *self = Self { data, at: Some(now), syncs: 0, is_started: self.is_started };
         frame
     }
 }

@@ -1,7 +1,10 @@
 //! Tests generated PDO structs. The node must accept their configuration, and both sides must decode the same values
 //! from a frame.
 
+use std::time::Duration;
+
 use lexibus::clients::canopen::{CanFrame, CanPort};
+use lexibus::pdo::{PdoParameters, TransmissionType};
 use lexibus::{AbortCode, Int, Pdo, SdoWrite, Uint};
 use serde_json::{json, Value};
 
@@ -200,5 +203,28 @@ fn another_order_is_refused() -> Result<(), Error> {
     let moved = SdoWrite::new_u32(0x1403, 1, 0x321);
     assert_aborted(moved.send(&mut node), AbortCode::DEVICE_STATE);
     drop(script);
+    Ok(())
+}
+
+/// The node accepts communication parameters only while the PDO is disabled. The library reads them back. The PDOs of the
+/// exported EDS have no inhibit time.
+#[test]
+fn communication_parameters() -> Result<(), Error> {
+    let Some((mut script, mut node)) = start("parameters", FILE) else { return Ok(()) };
+    let timing = |script: &mut Script| script.ask(json!({ "do": "timing", "number": 1 }));
+    let event = PdoParameters::new().transmission(TransmissionType::ManufacturerEvent).remote_requests(false);
+    let configuration = event.configure(TxPdo1::configuration(node_id())).expect("valid parameters");
+    configuration.clone().send(&mut node)?;
+    assert_eq!(timing(&mut script), json!([true, false, 254]));
+    // The PDO is disabled first, so it can be configured again.
+    let cyclic = PdoParameters::new().transmission(TransmissionType::EverySync(240)).remote_requests(true);
+    cyclic.configure(TxPdo1::configuration(node_id())).expect("valid parameters").send(&mut node)?;
+    assert_eq!(timing(&mut script), json!([true, true, 240]));
+    for write in configuration.skip(1).take(1) {
+        assert_aborted(write.send(&mut node), AbortCode::DEVICE_STATE);
+    }
+    let inhibited = event.inhibit_time(Duration::from_micros(1500)).configure(TxPdo1::configuration(node_id()));
+    assert_aborted(inhibited.expect("valid parameters").send(&mut node), AbortCode::NO_SUB_INDEX);
+    assert_eq!(timing(&mut script)[0], json!(false), "the PDO stays disabled");
     Ok(())
 }
