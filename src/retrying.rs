@@ -11,9 +11,9 @@ use crate::modbus::{AsyncRegisterClient, Limits, RegisterClient};
 use crate::register::Register;
 
 /// Client that repeats an access after an error of the bus: [`Error::Timeout`], [`Error::UnexpectedReply`], or an
-/// [`Error::Client`] that is [transient](Client::is_transient). The access isn't repeated after any other
-/// error, for example a refusal by the device. On Modbus, a refused access is repeated only after the exceptions 6 (server device busy)
-/// and 11 (gateway target device failed to respond).
+/// [`Error::Client`] that is [transient](Client::is_transient). The access isn't repeated after any other error, for
+/// example a refusal by the device. On Modbus, a refused access is repeated only after the exceptions 6 (server device
+/// busy) and 11 (gateway target device failed to respond).
 ///
 /// Writes are not repeated by default: the device may have executed a write whose reply is lost. Don't use this client
 /// for reads that change the device, for example reads of a queue.

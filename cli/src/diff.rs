@@ -9,7 +9,7 @@ use lexibus_codegen::output::write_if_changed;
 use lexibus_codegen::source::Source;
 use lexibus_site::compare::{compare, Change, Class, Summary};
 
-use super::args::{ColorChoice, Diff, DiffFormat, MessageFormat, Shown};
+use super::args::{Diff, DiffFormat, Printing, Shown};
 use super::report::Reporter;
 use super::Failure;
 
@@ -60,7 +60,7 @@ fn read(path: &Path, options: &Options) -> Result<Option<Compilation>, Failure> 
     if compilation.is_usable() && compilation.catalog.is_some() {
         return Ok(Some(compilation));
     }
-    Reporter::with(MessageFormat::Text, ColorChoice::Auto, false).report(&compilation)?;
+    Reporter::with(&Printing::TEXT, false)?.report(&compilation)?;
     Ok(None)
 }
 

@@ -14,7 +14,7 @@ use super::{inputs, Failure};
 
 pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     let options = docs.inputs.options()?;
-    let mut reporter = Reporter::new(&docs.inputs, false);
+    let mut reporter = Reporter::new(&docs.inputs, false)?;
     let format = match docs.format {
         DocsFormat::Html => Format::Html,
         DocsFormat::Markdown => Format::Markdown,
@@ -38,7 +38,11 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
         for page in pages {
             let path = docs.out.join(&page.path);
             written.insert(path.clone());
-            let error = if docs.check { difference(&path, &page.text) } else { write(&path, page).err() };
+            let error = if docs.check {
+                difference(&path, &page.text).map(|found| found.message)
+            } else {
+                write(&path, page).err()
+            };
             if let Some(error) = error {
                 reporter.error(&error);
             }

@@ -73,7 +73,7 @@ struct File<'c> {
 }
 
 pub(super) fn run(export: &Export) -> Result<bool, Failure> {
-    if export.inputs.message_format == MessageFormat::Sarif {
+    if export.inputs.printing.message_format == MessageFormat::Sarif {
         let message = "export notes can be printed as text or JSON lines, not as SARIF";
         return Err(Failure::Usage(message.into()));
     }
@@ -81,7 +81,7 @@ pub(super) fn run(export: &Export) -> Result<bool, Failure> {
     let mut options = export.inputs.options()?;
     // Profiles are public documents, so the export does not repeat the facts that they add.
     options.no_profiles = true;
-    let mut reporter = Reporter::new(&export.inputs, false);
+    let mut reporter = Reporter::new(&export.inputs, false)?;
     let mut target = Target::new(&export.inputs, export.out.as_deref(), export.check)?;
     inputs::each_by_path(&export.inputs, &options, |input, mut compilation| {
         reporter.report(&compilation)?;

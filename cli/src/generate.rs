@@ -15,7 +15,7 @@ use super::Failure;
 pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
     let options = generate.inputs.options()?;
     let rust_options = generate.rust_options();
-    let mut reporter = Reporter::new(&generate.inputs, false);
+    let mut reporter = Reporter::new(&generate.inputs, false)?;
     let mut target = Target::new(&generate.inputs, generate.out.as_deref(), generate.check)?;
     target.is_reported = true;
     inputs::each_by_path(&generate.inputs, &options, |input, compilation| {

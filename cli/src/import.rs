@@ -20,7 +20,7 @@ pub(super) fn run(import: &Import) -> Result<bool, Failure> {
         .map_err(|error| Failure::Usage(format!("cannot read {}: {error}", import.path.display())))?;
     let options = Options { levels, map: import.map.clone(), delimiter: import.delimiter, name: import.name.clone() };
     let imported = lexibus_import::import(source, &options);
-    let mut reporter = Reporter::with(import.message_format, import.color, false);
+    let mut reporter = Reporter::with(&import.printing, false)?;
     reporter.report(&imported.compilation)?;
     if let Some(text) = &imported.table {
         match &import.out {

@@ -1,5 +1,5 @@
-//! The `lexibus` command: `lexibus generate`, `export`, `docs`, `diff`, `check`, `info`, `dump`, `new`, `import`, `schema`,
-//! `explain`, `completions`.
+//! The `lexibus` command: `lexibus generate`, `export`, `docs`, `diff`, `check`, `fix`, `info`, `dump`, `new`, `import`,
+//! `schema`, `explain`, `completions`.
 //!
 //! ```text
 //! $ lexibus generate drive.eds --out src/drive.rs
@@ -16,10 +16,13 @@
 #![forbid(unsafe_code)]
 
 mod args;
+mod baseline;
+mod check;
 mod diff;
 mod docs;
 mod explain;
 mod export;
+mod fix;
 mod generate;
 mod import;
 mod inputs;
@@ -27,6 +30,7 @@ mod new;
 mod output;
 mod report;
 mod schema;
+mod unified;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -91,7 +95,8 @@ fn run(arguments: Arguments) -> Result<bool, Failure> {
         Command::Export(export) => export::run(&export),
         Command::Docs(docs) => docs::run(&docs),
         Command::Diff(diff) => diff::run(&diff),
-        Command::Check(check) => check_files(&check.inputs),
+        Command::Check(check) => check::run(&check),
+        Command::Fix(fix) => fix::run(&fix),
         Command::Info(info) => info_files(&info.inputs, info.format),
         Command::Dump(dump) => dump_files(&dump.inputs),
         Command::New(new) => new::run(&new),
@@ -105,16 +110,6 @@ fn run(arguments: Arguments) -> Result<bool, Failure> {
             Ok(true)
         }
     }
-}
-
-fn check_files(inputs: &Inputs) -> Result<bool, Failure> {
-    let options = inputs.options()?;
-    let mut reporter = Reporter::new(inputs, true);
-    inputs::each(inputs, &options, |_, compilation| {
-        reporter.report(&compilation)?;
-        Ok(())
-    })?;
-    reporter.finish()
 }
 
 fn info_files(inputs: &Inputs, format: InfoFormat) -> Result<bool, Failure> {
@@ -136,7 +131,7 @@ fn info_files(inputs: &Inputs, format: InfoFormat) -> Result<bool, Failure> {
 
 fn dump_files(inputs: &Inputs) -> Result<bool, Failure> {
     let options: Options = inputs.options()?;
-    let mut reporter = Reporter::new(inputs, false);
+    let mut reporter = Reporter::new(inputs, false)?;
     let mut out = std::io::stdout().lock();
     inputs::each(inputs, &options, |_, compilation: compile::Compilation| {
         reporter.report(&compilation)?;

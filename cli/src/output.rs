@@ -8,7 +8,7 @@ use lexibus_codegen::output::{is_no_regular_file, write_if_changed};
 
 use super::args::Inputs;
 use super::report::Reporter;
-use super::Failure;
+use super::{unified, Failure};
 
 /// Destination of the output.
 pub(super) struct Target<'g> {
@@ -115,19 +115,37 @@ pub(super) fn create(path: &Path, text: &str) -> Result<(), Failure> {
 }
 
 fn check(path: &Path, text: &str, reporter: &mut Reporter) {
-    if let Some(message) = difference(path, text) {
-        reporter.error(&message);
+    if let Some(difference) = difference(path, text) {
+        reporter.error(&difference.message);
+        difference.lines(path, text).iter().for_each(|line| reporter.progress(line));
+    }
+}
+
+/// An output that differs from a file.
+pub(super) struct Difference {
+    pub message: String,
+    /// Content of the file, if it can be read.
+    old: Option<Vec<u8>>,
+}
+
+impl Difference {
+    /// Returns the first lines of the unified diff. The list is empty if the file cannot be read.
+    pub(super) fn lines(&self, path: &Path, text: &str) -> Vec<String> {
+        let name = path.display();
+        let old = self.old.as_deref().map(String::from_utf8_lossy);
+        old.map_or(Vec::new(), |old| unified::short((&name.to_string(), &old), (&format!("{name} (new)"), text)))
     }
 }
 
 /// Returns an error if the content of a file differs from `text`, or if the file cannot be compared.
-pub(super) fn difference(path: &Path, text: &str) -> Option<String> {
+pub(super) fn difference(path: &Path, text: &str) -> Option<Difference> {
+    let found = |reason: &str, old| Some(Difference { message: format!("{} {reason}", path.display()), old });
     if is_no_regular_file(path) {
-        return Some(format!("{} cannot be compared: it is not a regular file", path.display()));
+        return found("cannot be compared: it is not a regular file", None);
     }
     match std::fs::read(path) {
         Ok(bytes) if bytes == text.as_bytes() => None,
-        Ok(_) => Some(format!("{} is stale: write it again without --check", path.display())),
-        Err(error) => Some(format!("{} cannot be compared: {error}", path.display())),
+        Ok(bytes) => found("is stale: write it again without --check", Some(bytes)),
+        Err(error) => found(&format!("cannot be compared: {error}"), None),
     }
 }

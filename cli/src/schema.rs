@@ -14,7 +14,10 @@ pub(super) fn run(schema: &Schema) -> Result<bool, Failure> {
     match &schema.out {
         Some(path) if schema.check => {
             let stale = output::difference(path, text);
-            stale.iter().for_each(|message| super::say(&format!("error: {message}")));
+            if let Some(difference) = &stale {
+                super::say(&format!("error: {}", difference.message));
+                difference.lines(path, text).iter().for_each(|line| super::say(line));
+            }
             return Ok(stale.is_none());
         }
         Some(path) => write_if_changed(path, text)?,

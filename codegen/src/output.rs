@@ -10,7 +10,7 @@ pub fn is_no_regular_file(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir())
 }
 
-/// Writes `text` to `path`, unless the file already has this content. Skipping the write avoids rebuilds of everything that
+/// Writes `content` to `path`, unless the file already has this content. Skipping the write avoids rebuilds of everything that
 /// depends on the file.
 ///
 /// Replaces a regular file atomically: if writing fails, the old file remains. If `path` is a symbolic link, replaces the target
@@ -19,26 +19,27 @@ pub fn is_no_regular_file(path: &Path) -> bool {
 /// # Errors
 ///
 /// Returns errors of the operating system.
-pub fn write_if_changed(path: &Path, text: &str) -> Result<()> {
+pub fn write_if_changed(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
+    let content = content.as_ref();
     if is_no_regular_file(path) {
-        return OpenOptions::new().write(true).open(path)?.write_all(text.as_bytes());
+        return OpenOptions::new().write(true).open(path)?.write_all(content);
     }
-    if fs::read(path).is_ok_and(|bytes| bytes == text.as_bytes()) {
+    if fs::read(path).is_ok_and(|bytes| bytes == content) {
         return Ok(());
     }
     match fs::canonicalize(path) {
-        Ok(target) => replace(&target, text),
+        Ok(target) => replace(&target, content),
         // `path` is a symbolic link whose target does not exist yet.
-        Err(_) if path.is_symlink() => fs::write(path, text),
-        Err(error) if error.kind() == ErrorKind::NotFound => replace(path, text),
+        Err(_) if path.is_symlink() => fs::write(path, content),
+        Err(error) if error.kind() == ErrorKind::NotFound => replace(path, content),
         Err(error) => Err(error),
     }
 }
 
 /// Writes a temporary file next to `path`, and renames it.
-fn replace(path: &Path, text: &str) -> Result<()> {
+fn replace(path: &Path, content: &[u8]) -> Result<()> {
     let (file, temporary) = temporary(path)?;
-    let written = fill(file, path, text).and_then(|()| fs::rename(&temporary, path));
+    let written = fill(file, path, content).and_then(|()| fs::rename(&temporary, path));
     if written.is_err() {
         // The temporary file is incomplete, or was not renamed.
         let _ = fs::remove_file(&temporary);
@@ -46,8 +47,8 @@ fn replace(path: &Path, text: &str) -> Result<()> {
     written
 }
 
-fn fill(mut file: File, path: &Path, text: &str) -> Result<()> {
-    file.write_all(text.as_bytes())?;
+fn fill(mut file: File, path: &Path, content: &[u8]) -> Result<()> {
+    file.write_all(content)?;
     match fs::metadata(path) {
         Ok(old) => file.set_permissions(old.permissions()),
         Err(_) => Ok(()),

@@ -60,7 +60,8 @@ fn texts(source: Source) -> [String; 3] {
 fn diagnostics(compilation: &Compilation) -> String {
     let mut text = String::new();
     for entry in compilation.diagnostics.list() {
-        let Diagnostic { code, severity, span, message, label, notes, help, fix } = entry;
+        // The message contains the number `more`.
+        let Diagnostic { code, severity, span, message, label, notes, help, fix, more: _ } = entry;
         let _ = writeln!(text, "{} {severity:?} {}..{} {message} | {label:?}", code.id, span.start, span.end);
         for note in notes {
             let _ = writeln!(text, "    {}", note.message);

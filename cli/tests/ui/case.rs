@@ -49,6 +49,8 @@ pub struct Settings {
     pub markdown: Option<Vec<String>>,
     /// Whether `lexibus diff` compares the two inputs.
     pub diff: bool,
+    /// Calls of `lexibus` whose output is compared. A line `cat FILE` shows a file. The calls replace all other outputs.
+    pub commands: Vec<String>,
     /// Columns of a register list in the form `field=column`, as for `--map`.
     pub map: Vec<String>,
     /// Parts of the register table that is imported from the input, a CSV file.
@@ -61,7 +63,7 @@ pub struct Settings {
 
 /// A test case.
 pub struct Case {
-    folder: PathBuf,
+    pub folder: PathBuf,
     pub settings: Settings,
 }
 

@@ -10,6 +10,7 @@
 mod case;
 #[path = "../../../codegen/tests/compile_support/mod.rs"]
 mod compile_support;
+mod console;
 #[path = "../../../codegen/tests/corpus_support/mod.rs"]
 mod corpus_support;
 mod forms;

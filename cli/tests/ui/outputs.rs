@@ -12,6 +12,7 @@ use lexibus_site::compare::{compare, Summary};
 use lexibus_site::{Format, Page, Site};
 
 use crate::case::{ending, put_diagnostics, Case, Outputs};
+use crate::console;
 use crate::part::{parts, Form};
 
 /// Returns all outputs of a test case.
@@ -21,6 +22,10 @@ use crate::part::{parts, Form};
 /// Returns an error if an output cannot be created or does not contain a named part.
 pub fn of(case: &Case) -> Result<Outputs, String> {
     let mut outputs = Outputs::new();
+    if !case.settings.commands.is_empty() {
+        outputs.insert("output.console".to_owned(), console::of(case)?);
+        return Ok(outputs);
+    }
     let inputs = case.inputs();
     if inputs.iter().any(|input| ending(input.name()) == "csv") {
         import_lists(case, inputs, &mut outputs)?;

@@ -60,6 +60,9 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// Replacement for the marked text.
     pub fix: Option<String>,
+    /// Number of further diagnostics with this code in this file, which are only counted. The number is 0, unless this is the
+    /// closing diagnostic that states it.
+    pub more: usize,
 }
 
 /// A note of a diagnostic: a further span or fact.
@@ -90,6 +93,7 @@ impl Diagnostic {
             notes: Vec::new(),
             help: None,
             fix: None,
+            more: 0,
         }
     }
 
@@ -121,6 +125,17 @@ impl Diagnostic {
     pub fn fix(mut self, replacement: impl Into<String>) -> Self {
         self.fix = Some(replacement.into());
         self
+    }
+
+    /// Returns how many diagnostics this one represents: the number of counted diagnostics for a closing diagnostic, and
+    /// otherwise 1.
+    pub fn occurrences(&self) -> usize {
+        self.more.max(1)
+    }
+
+    /// Returns a closing diagnostic with another number of further diagnostics.
+    pub fn with_more(&self, more: usize) -> Self {
+        Diagnostic { severity: self.severity, ..closing(self.span.file, self.code, more) }
     }
 }
 
@@ -260,7 +275,7 @@ impl Diagnostics {
     /// Returns the number of diagnostics with a severity, including those that are only counted.
     pub fn count(&self, severity: Severity) -> usize {
         let kept =
-            self.list.iter().filter(|diagnostic| diagnostic.severity == severity && !is_closing(diagnostic)).count();
+            self.list.iter().filter(|diagnostic| diagnostic.severity == severity && diagnostic.more == 0).count();
         kept + self.beyond.iter().filter(|diagnostic| self.levels.severity(diagnostic.code) == Some(severity)).count()
     }
 }
@@ -268,17 +283,13 @@ impl Diagnostics {
 /// Start of the span of a closing diagnostic: after all positions in a file.
 const END: u32 = u32::MAX;
 
-fn is_closing(diagnostic: &Diagnostic) -> bool {
-    diagnostic.span.start == END
-}
-
 /// Creates the diagnostic that states how many more diagnostics of a code a file has.
 fn closing(file: FileId, code: &'static Code, count: usize) -> Diagnostic {
     let plural = if count == 1 { "diagnostic" } else { "diagnostics" };
     let message = format!("this file has {count} more {plural} of {}", code.id);
     let allow = if code.class == Class::Error { String::new() } else { format!(", or allow {}", code.id) };
-    Diagnostic::new(code, Span::new(file, END, END), message)
-        .help(format!("correct the causes of the first {MAX_SAME_DIAGNOSTICS} diagnostics{allow}"))
+    let help = format!("correct the causes of the first {MAX_SAME_DIAGNOSTICS} diagnostics{allow}");
+    Diagnostic { more: count, ..Diagnostic::new(code, Span::new(file, END, END), message).help(help) }
 }
 
 fn hash(text: &str) -> u64 {
@@ -309,6 +320,8 @@ mod tests {
             diagnostics.list().iter().filter(|diagnostic| diagnostic.span.file == FileId(0)).collect();
         let last = of_first.last().expect("a diagnostic");
         assert_eq!(last.message, "this file has 3 more diagnostics of EDS003");
+        assert_eq!((last.more, last.occurrences(), of_first[0].occurrences()), (3, 3, 1));
+        assert_eq!(last.with_more(1).message, "this file has 1 more diagnostic of EDS003");
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use encoding_rs::{CoderResult, Encoding as Charset, UTF_16BE, UTF_16LE, UTF_8, WINDOWS_1252};
 
 /// The byte order mark of UTF-8.
-const MARK: &[u8] = b"\xef\xbb\xbf";
+pub(super) const MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// Number of bytes of free space that is enough for any character.
 const ROOM: usize = 16;

@@ -6,6 +6,7 @@
 mod decode;
 mod digest;
 mod references;
+mod replace;
 mod span;
 
 pub use decode::Encoding;

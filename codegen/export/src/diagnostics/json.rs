@@ -25,6 +25,7 @@ struct Line<'a> {
     notes: Vec<NoteLine<'a>>,
     help: Option<&'a str>,
     fix: Option<&'a str>,
+    more: Option<usize>,
 }
 
 #[derive(Serialize)]
@@ -43,7 +44,8 @@ struct NoteLine<'a> {
 /// Lines and columns start at 1; columns count characters. `start` and `end` are byte offsets in the file's text, which
 /// is decoded to UTF-8 without a byte order mark. `end` and `end_column` are exclusive. `source` is the line on which
 /// the marked text starts. If this line is longer than 200 characters, `…` replaces the text that is far from the
-/// marked text. A diagnostic about a whole file has a `file` and no position.
+/// marked text. A diagnostic about a whole file has a `file` and no position. `more` is a number only in the last
+/// diagnostic of a file that has more diagnostics of a code than the compiler keeps: the number of those left out.
 pub fn line(diagnostic: &Diagnostic, sources: &[Source]) -> String {
     let place = MarkedSource::of(diagnostic.span, sources);
     let mark = place.and_then(|place| place.mark);
@@ -64,6 +66,7 @@ pub fn line(diagnostic: &Diagnostic, sources: &[Source]) -> String {
         notes: notes(diagnostic, sources),
         help: diagnostic.help.as_deref(),
         fix: diagnostic.fix.as_deref(),
+        more: Some(diagnostic.more).filter(|&more| more > 0),
     };
     super::escaped(serde_json::to_string(&line).expect("strings and numbers serialize"))
 }
@@ -98,13 +101,13 @@ mod tests {
             .note_at(Span::default(), "a file")
             .help("write it in decimal")
             .fix("10");
-        insta::assert_snapshot!(line(&diagnostic, &sources), @r#"{"code":"EDS020","name":"octal-number","severity":"error","message":"`012` is octal","file":"a/drive.eds","line":2,"column":7,"end_line":2,"end_column":10,"start":15,"end":18,"source":"Gerät=012","label":"read as 10","notes":[{"message":"a fact"},{"message":"a place","file":"a/drive.eds","line":1,"column":2},{"message":"a file","file":"a/drive.eds"}],"help":"write it in decimal","fix":"10"}"#);
+        insta::assert_snapshot!(line(&diagnostic, &sources), @r#"{"code":"EDS020","name":"octal-number","severity":"error","message":"`012` is octal","file":"a/drive.eds","line":2,"column":7,"end_line":2,"end_column":10,"start":15,"end":18,"source":"Gerät=012","label":"read as 10","notes":[{"message":"a fact"},{"message":"a place","file":"a/drive.eds","line":1,"column":2},{"message":"a file","file":"a/drive.eds"}],"help":"write it in decimal","fix":"10","more":null}"#);
     }
 
     #[test]
     fn missing_values_are_null() {
         let diagnostic = Diagnostic::new(&codes::NOT_AN_EDS, Span::default(), "no section\n\u{9b}2J\u{1b}");
-        insta::assert_snapshot!(line(&diagnostic, &[]), @r#"{"code":"EDS002","name":"not-an-eds","severity":"error","message":"no section\n\u009b2J\u001b","file":null,"line":null,"column":null,"end_line":null,"end_column":null,"start":null,"end":null,"source":null,"label":null,"notes":[],"help":null,"fix":null}"#);
+        insta::assert_snapshot!(line(&diagnostic, &[]), @r#"{"code":"EDS002","name":"not-an-eds","severity":"error","message":"no section\n\u009b2J\u001b","file":null,"line":null,"column":null,"end_line":null,"end_column":null,"start":null,"end":null,"source":null,"label":null,"notes":[],"help":null,"fix":null,"more":null}"#);
         let sources = [Source::new("x.eds", Vec::new())];
         assert!(line(&diagnostic, &sources).contains(r#""file":"x.eds","line":null"#));
     }

@@ -72,6 +72,8 @@ struct Outcome<'a> {
     rule_index: usize,
     level: &'static str,
     message: Message<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    occurrence_count: Option<usize>,
     locations: Vec<Location<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     related_locations: Vec<Location<'a>>,
@@ -137,7 +139,8 @@ struct Replacement<'a> {
 /// The log declares a SARIF rule for each code that occurs, in the order of first occurrence. SARIF has no field for
 /// notes without a position or for help without a fix. The message contains such notes and help texts on separate
 /// lines. File names become URIs: relative names stay relative to the working directory, and absolute names become
-/// `file:` URIs.
+/// `file:` URIs. `occurrenceCount` occurs only in the last result of a file that has more diagnostics of a code than the
+/// compiler keeps: the number of those left out.
 pub fn document(diagnostics: &[Diagnostic], sources: &[Source], tool_version: &str) -> String {
     let (mut rules, mut indices) = (Vec::new(), BTreeMap::new());
     let mut results = Vec::with_capacity(diagnostics.len());
@@ -186,6 +189,7 @@ fn outcome<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source], rule_index: us
             Severity::Warning => "warning",
         },
         message: Message { text: full_message(diagnostic, sources, fixes.is_empty()).into() },
+        occurrence_count: Some(diagnostic.more).filter(|&more| more > 0),
         locations: place.map(|place| location(place, label)).into_iter().collect(),
         related_locations: diagnostic.notes.iter().filter_map(related).collect(),
         fixes,

@@ -1,0 +1,111 @@
+//! Summaries of descriptions as text.
+
+use std::fmt::Write as _;
+
+use lexibus_codegen::facts::number::{hex16, hex32};
+use lexibus_codegen::text::printable;
+use lexibus_export::json::{DeviceInfo, Info, ModuleContent, ModuleInfo, PdoInfo, SubmoduleInfo};
+
+/// Returns a one-line summary of a file: `drive.eds: EDS, Demo Drive, 32 objects, 59 entries, 2 RPDOs, 2 TPDOs`.
+pub(crate) fn summary_line(info: &Info) -> String {
+    let mut parts = vec![info.format.unwrap_or("unknown format").to_uppercase()];
+    match info.devices.as_slice() {
+        [device] => {
+            parts.push(device_title(device));
+            match device.registers {
+                Some(registers) if registers > 0 => parts.extend(counted(registers, "register")),
+                _ => {
+                    parts.extend(counted(device.objects, "object").into_iter().chain(counted(device.entries, "entry")))
+                }
+            }
+            parts.extend(counted(device.rx_pdos.len(), "RPDO"));
+            parts.extend(counted(device.tx_pdos.len(), "TPDO"));
+        }
+        devices => parts.extend(counted(devices.len(), "device")),
+    }
+    parts.extend(info.dictionary.and_then(|dictionary| counted(dictionary.objects, "object")));
+    parts.extend(info.modules.as_ref().and_then(|modules| counted(modules.len(), "module")));
+    parts.extend(info.submodules.as_ref().and_then(|submodules| counted(submodules.len(), "submodule")));
+    format!("{}: {}", info.file, parts.join(", "))
+}
+
+/// Formats a count such as `2 entries`. Returns `None` if the count is 0.
+fn counted(count: usize, noun: &str) -> Option<String> {
+    match (count, noun.strip_suffix('y')) {
+        (0, _) => None,
+        (1, _) => Some(format!("1 {noun}")),
+        (_, Some(stem)) => Some(format!("{count} {stem}ies")),
+        _ => Some(format!("{count} {noun}s")),
+    }
+}
+
+/// Returns the summary of a file for human readers.
+pub(crate) fn info_text(info: &Info) -> String {
+    let mut text = String::new();
+    let _ =
+        writeln!(text, "{} ({}, {})", printable(&info.file), info.format.unwrap_or("unknown format"), info.encoding);
+    let number = |value: Option<u32>| value.map_or("unknown".to_owned(), hex32);
+    for device in &info.devices {
+        let _ = writeln!(text, "  {}", printable(&device_title(device)));
+        let _ = writeln!(
+            text,
+            "    vendor {}, product {}, revision {}",
+            number(device.vendor_id),
+            number(device.product_code),
+            number(device.revision)
+        );
+        let registers = device.registers.map(|number| format!(", {number} registers")).unwrap_or_default();
+        let _ = writeln!(text, "    {} objects, {} entries{registers}", device.objects, device.entries);
+        for (direction, pdos) in [("RPDO", &device.rx_pdos), ("TPDO", &device.tx_pdos)] {
+            let all: Vec<String> = pdos.iter().map(pdo_text).collect();
+            if !all.is_empty() {
+                let _ = writeln!(text, "    {direction}: {}", all.join(", "));
+            }
+        }
+    }
+    if let Some(dictionary) = &info.dictionary {
+        let _ = writeln!(text, "  a dictionary: {} objects, {} entries", dictionary.objects, dictionary.entries);
+    }
+    for module in info.modules.iter().flatten() {
+        let _ = writeln!(text, "  module {} ({}): {}", printable(&module.id), hex32(module.ident), module_text(module));
+    }
+    for submodule in info.submodules.iter().flatten() {
+        let SubmoduleInfo { input_bytes, output_bytes, .. } = submodule;
+        let (id, ident) = (printable(&submodule.id), hex32(submodule.ident));
+        let _ = writeln!(text, "  submodule {id} ({ident}): {input_bytes} bytes in, {output_bytes} bytes out");
+    }
+    for (severity, counts) in [("errors", &info.errors), ("warnings", &info.warnings)] {
+        let all: Vec<String> = counts.iter().map(|(code, count)| format!("{code} × {count}")).collect();
+        if !all.is_empty() {
+            let _ = writeln!(text, "  {severity}: {}", all.join(", "));
+        }
+    }
+    text
+}
+
+/// Returns the name of a device, preceded by the order code with which the user can select it.
+fn device_title(device: &DeviceInfo) -> String {
+    match (device.order_code.is_empty(), device.name.is_empty()) {
+        (true, true) => "(no name)".to_owned(),
+        (true, false) => device.name.clone(),
+        (false, true) => device.order_code.clone(),
+        (false, false) if device.name.contains(&device.order_code) => device.name.clone(),
+        (false, false) => format!("{}: {}", device.order_code, device.name),
+    }
+}
+
+fn module_text(module: &ModuleInfo) -> String {
+    match &module.content {
+        ModuleContent::Profinet { input_bytes, output_bytes, records, .. } => {
+            format!("{input_bytes} bytes in, {output_bytes} bytes out, {} records", records.len())
+        }
+        ModuleContent::EtherCat { objects, entries, rx_pdos, tx_pdos } => {
+            let pdos = rx_pdos.len() + tx_pdos.len();
+            format!("{objects} objects, {entries} entries, {pdos} PDOs")
+        }
+    }
+}
+
+fn pdo_text(pdo: &PdoInfo) -> String {
+    format!("{} ({} entries, {} bits)", hex16(pdo.index), pdo.entries, pdo.bits)
+}
