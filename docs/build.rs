@@ -10,6 +10,7 @@ fn main() -> Result<(), BuildError> {
     // Allow warnings, because the following descriptions have warnings on purpose.
     let lenient = builder.level("warnings", Level::Allow);
     lenient.compile_as("examples/station.gsdml.xml", "station.rs")?;
+    lenient.compile_as("../tests/ui/configuration/order-of-a-dcf/input.dcf", "conveyor.rs")?;
     lenient.compile("../tests/data/press.toml")?;
     lenient.compile_as("../tests/data/coupler.esi.xml", "coupler.rs")?;
     lenient.compile_as("../tests/data/one-drive.toml", "one_drive.rs")?;

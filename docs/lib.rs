@@ -25,6 +25,8 @@ bindings! {
     motor;
     /// A frequency inverter on Modbus: `examples/inverter.toml`.
     inverter;
+    /// A conveyor with a configuration: `tests/ui/configuration/order-of-a-dcf/input.dcf`.
+    conveyor;
     /// One drive on four buses: `tests/data/one-drive.toml`.
     one_drive;
     /// A press with every kind of scale and bit field: `tests/data/press.toml`.

@@ -47,6 +47,7 @@
 //! | buses and addresses of an item | [`Location`], [`On`], [`location!`] |
 //! | scaling and units | [`Quantity`], [`Scaled`] and related types |
 //! | the state machine of a drive | [`Walker`], [`Machine`], [`Step`] |
+//! | the configuration of a DCF or XDC | [`Configuration`] |
 //! | alarms and other codes | [`codes`] |
 //! | custom clients | [`Client`], [`AsyncClient`], [`RegisterClient`](modbus::RegisterClient), [`RecordClient`](profinet::RecordClient), [`Exchange`], [`Clock`], [`Timer`] |
 //! | timeouts and retries | [`Deadline`], [`Retrying`] |
@@ -97,6 +98,7 @@ pub mod clients;
 mod clock;
 pub mod codes;
 mod composite;
+pub mod configuration;
 mod data_type;
 mod emergency;
 mod enumeration;
@@ -147,6 +149,7 @@ pub use bus::{Bus, CanOpen, CoE, Esc, EscMemory, Modbus, Object, Parameter, Proc
 pub use client::{AsyncClient, Client, Timed, Write};
 pub use clock::{Clock, DefaultClock, Timer};
 pub use composite::Composite;
+pub use configuration::{Configuration, Setting};
 pub use data_type::DataType;
 pub use emergency::Emergency;
 pub use enumeration::Enumeration;

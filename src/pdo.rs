@@ -19,5 +19,6 @@ pub use custom::{AnyPdo, Mappable, Mapped, NoCobId, OnEtherCat, Remappable, Rpdo
 pub use field::Field;
 pub use mapping::{MappedEntry, Pdo};
 pub use parameters::{PdoParameterError, PdoParameters, TransmissionType};
+pub(crate) use sdo_write::Hexadecimal;
 pub use sdo_write::SdoWrite;
 pub use word::{from_bytes, mask, sign_extend, to_bytes};

@@ -2,12 +2,13 @@
 
 use core::fmt;
 
-use super::word::{from_bytes, to_bytes};
+use super::word::{from_bytes, mask, to_bytes};
 use crate::bus::{Bus, Object};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
+use crate::node_id::NodeId;
 
-/// A write of at most 8 bytes to an object. A configuration is a list of SDO writes.
+/// A write of a value to an object. A configuration is a list of SDO writes.
 ///
 /// ```
 /// use lexibus::SdoWrite;
@@ -17,8 +18,15 @@ use crate::error::Error;
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct SdoWrite {
     object: Object,
-    data: [u8; 8],
-    len: u8,
+    data: Data,
+}
+
+/// The bytes of a value. A value of at most 8 bytes is always `Short`, so equal values compare as equal.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum Data {
+    /// A value of at most 8 bytes, and its length. Further bytes are 0.
+    Short([u8; 8], u8),
+    Long(&'static [u8]),
 }
 
 impl SdoWrite {
@@ -40,8 +48,32 @@ impl SdoWrite {
         Self::new(index, sub_index, value as u64, 4)
     }
 
+    /// Creates a write of an UNSIGNED64.
+    #[must_use]
+    pub const fn new_u64(index: u16, sub_index: u8, value: u64) -> Self {
+        Self::new(index, sub_index, value, 8)
+    }
+
+    /// Creates a write of a value of any type and length, encoded as on the device. The least significant byte of a
+    /// number comes first.
+    #[must_use]
+    pub const fn new_bytes(index: u16, sub_index: u8, value: &'static [u8]) -> Self {
+        match value.len() {
+            len @ 0..=8 => Self::new(index, sub_index, from_bytes(value), len as u8),
+            _ => Self { object: Object { index, sub_index }, data: Data::Long(value) },
+        }
+    }
+
     const fn new(index: u16, sub_index: u8, value: u64, len: u8) -> Self {
-        Self { object: Object { index, sub_index }, data: to_bytes(value), len }
+        Self { object: Object { index, sub_index }, data: Data::Short(to_bytes(value), len) }
+    }
+
+    /// Returns the write with the node-ID added to its value. The sum wraps around at the length of the value. A value of
+    /// more than 8 bytes stays the same.
+    pub(crate) const fn plus_node_id(self, node: NodeId) -> Self {
+        let Data::Short(data, len) = self.data else { return self };
+        let sum = from_bytes(&data).wrapping_add(node.get() as u64);
+        Self { object: self.object, data: Data::Short(to_bytes(sum & mask(8 * len as u32)), len) }
     }
 
     /// Returns the object to write.
@@ -53,7 +85,10 @@ impl SdoWrite {
     /// Returns the bytes to write.
     #[must_use]
     pub const fn data(&self) -> &[u8] {
-        self.data.split_at(self.len as usize).0
+        match &self.data {
+            Data::Short(data, len) => data.split_at(*len as usize).0,
+            Data::Long(data) => data,
+        }
     }
 
     /// Writes the value through a CANopen or CoE client.
@@ -83,8 +118,20 @@ impl SdoWrite {
 
 impl fmt::Display for SdoWrite {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let digits = 2 * usize::from(self.len);
-        write!(f, "{} = 0x{:0digits$X}", self.object, from_bytes(self.data()))
+        write!(f, "{} = {}", self.object, Hexadecimal(self.data()))
+    }
+}
+
+/// Formats the bytes of a value: a value of 1 to 8 bytes as a number, any other value byte by byte.
+pub(crate) struct Hexadecimal<'d>(pub &'d [u8]);
+
+impl fmt::Display for Hexadecimal<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            [] => f.write_str("[]"),
+            number if number.len() <= 8 => write!(f, "0x{:0digits$X}", from_bytes(number), digits = 2 * number.len()),
+            bytes => write!(f, "{bytes:02X?}"),
+        }
     }
 }
 
@@ -99,6 +146,7 @@ mod tests {
     use super::*;
     use crate::CoE;
     use std::format;
+    use std::string::ToString;
 
     #[derive(Default)]
     struct Last(Option<(Object, usize)>);
@@ -123,6 +171,26 @@ mod tests {
         assert_eq!(SdoWrite::new_u16(0x1400, 3, 0x0102).data(), [2, 1]);
         assert_eq!(SdoWrite::new_u32(0x1400, 1, 0x8000_0205).data(), [5, 2, 0, 0x80]);
         assert_eq!(format!("{:?}", SdoWrite::new_u16(0x1400, 3, 0xA)), "SdoWrite(0x1400:03 = 0x000A)");
+    }
+
+    #[test]
+    fn bytes_of_any_length() {
+        assert_eq!(SdoWrite::new_bytes(0x2000, 1, &[1, 2]), SdoWrite::new_u16(0x2000, 1, 0x0201));
+        assert_eq!(SdoWrite::new_u64(0x2000, 1, 3).data(), [3, 0, 0, 0, 0, 0, 0, 0]);
+        let long = SdoWrite::new_bytes(0x2000, 1, b"\x0123456789");
+        assert_eq!(long.data(), b"\x0123456789");
+        assert_eq!(long.to_string(), "0x2000:01 = [01, 32, 33, 34, 35, 36, 37, 38, 39]");
+        assert_eq!(SdoWrite::new_bytes(0x2000, 1, b"").to_string(), "0x2000:01 = []");
+    }
+
+    #[test]
+    fn the_node_id_is_added_within_the_length() {
+        let node = NodeId::new(127).unwrap();
+        assert_eq!(SdoWrite::new_u32(0x1400, 1, 0x8000_0200).plus_node_id(node).data(), [0x7F, 2, 0, 0x80]);
+        assert_eq!(SdoWrite::new_u8(0x2000, 0, 0x81).plus_node_id(node).data(), [0]);
+        assert_eq!(SdoWrite::new_u64(0x2000, 0, u64::MAX).plus_node_id(node).data(), [126, 0, 0, 0, 0, 0, 0, 0]);
+        assert_eq!(SdoWrite::new_bytes(0x2000, 0, b"").plus_node_id(node).data(), []);
+        assert_eq!(SdoWrite::new_bytes(0x2000, 0, b"123456789").plus_node_id(node).data(), b"123456789");
     }
 
     #[test]

@@ -6,7 +6,9 @@
 //! | `area` | areas of a device: chapters of registers and ranges of objects |
 //! | `cob_id` | COB-IDs: identifiers of CAN frames with flags |
 //! | `code` | codes as their source prints them |
+//! | `configuration` | configured values in the order in which a device accepts them |
 //! | `device` | titles of devices, and modules that slots accept |
+//! | `encoding` | values as the bytes of an SDO transfer |
 //! | `item` | default value, range, unit and PDO mapping of an item |
 //! | `markdown` | texts in Markdown |
 //! | `number` | numbers in hexadecimal notation |
@@ -23,7 +25,9 @@ pub mod address;
 pub mod area;
 pub mod cob_id;
 pub mod code;
+pub mod configuration;
 pub mod device;
+pub mod encoding;
 pub mod item;
 pub mod markdown;
 pub mod number;

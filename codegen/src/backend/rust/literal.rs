@@ -35,6 +35,15 @@ pub(super) fn bytes(bytes: &[u8]) -> String {
     literal
 }
 
+/// Returns a byte string literal with the characters of a text that has only printable ASCII characters, or else with an escape
+/// sequence for each byte.
+pub(super) fn text_bytes(text: &[u8]) -> String {
+    match std::str::from_utf8(text) {
+        Ok(text) if text.bytes().all(|byte| matches!(byte, b' '..=b'~')) => format!("b{}", string(text)),
+        _ => bytes(text),
+    }
+}
+
 /// Signs that occur in units, formulas and punctuation. None of them changes how other characters are displayed.
 const SIGNS: &str = "°µ±·€−×÷≤≥≠≈√∞Σ→←↑↓↔–—…‘’“”„‰•";
 
@@ -60,6 +69,9 @@ mod tests {
     fn text_cannot_end_a_literal() {
         assert_eq!(string("a\"\\\n\u{202e}\u{7f}ü"), r#""a\"\\\n\u{202e}\u{7f}ü""#);
         assert_eq!(bytes(b"\0\"\xff"), r#"b"\x00\x22\xff""#);
+        assert_eq!(text_bytes(b"a\"\\b"), r#"b"a\"\\b""#);
+        assert_eq!(text_bytes("µ".as_bytes()), r#"b"\xc2\xb5""#);
+        assert_eq!(text_bytes(b"\n"), r#"b"\x0a""#);
         assert_eq!(real(0.1, 32).as_deref(), Some("0.1"));
         assert_eq!(real(3.402823e38, 32).as_deref(), Some("3.402823e38"));
         assert_eq!(real(1e300, 32), None);

@@ -11,6 +11,7 @@ mod code;
 mod code_table;
 mod code_type;
 mod composite;
+mod configuration;
 mod constructor;
 mod context;
 mod definitions;

@@ -5,6 +5,7 @@ use super::bus_facts::{self, FactModel};
 use super::code::Doc;
 use super::code_table::{self, CodeTableModel};
 use super::composite;
+use super::configuration::{self, ConfigurationModel};
 use super::context::Context;
 use super::device_models::{self, DeviceModel};
 use super::device_names;
@@ -82,6 +83,8 @@ pub(super) struct Model {
     #[cfg(feature = "messages")]
     pub protocol: Option<ProtocolModel>,
     pub node_id: Option<u8>,
+    /// Configured values of a DCF or XDC.
+    pub configuration: Option<ConfigurationModel>,
     /// Constants for Modbus and for the node-ID range.
     pub bus_facts: Vec<FactModel>,
     pub accessor_derives: Vec<String>,
@@ -128,6 +131,7 @@ impl Model {
         model.axes = axes::model(device);
         model.bus_facts = bus_facts::models(device);
         model.bus_facts.extend(composite::models(&context));
+        model.configuration = configuration::model(device);
         model.node_id = device.commissioning.as_ref().and_then(|commissioning| commissioning.node_id);
         model
     }

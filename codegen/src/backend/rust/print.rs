@@ -4,6 +4,7 @@
 mod accessors;
 pub(super) mod bit_field;
 pub(super) mod codes;
+mod configuration;
 mod device;
 mod given;
 pub(super) mod image;
@@ -41,4 +42,5 @@ pub(super) fn model(code: &mut Code, model: &Model) {
     views::write(code, model);
     image::write(code, model);
     table::write(code, model);
+    configuration::write(code, model);
 }

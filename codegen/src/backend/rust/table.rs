@@ -8,6 +8,7 @@ use super::literal;
 use super::reachable::{addressable, is_module};
 use super::value_type::ValueType;
 use super::variant;
+use crate::facts::encoding;
 use crate::ir::{Access, Bus, Item, Type, Value};
 
 /// A row of the static table.
@@ -149,28 +150,12 @@ fn raw_initial(item: &Item, base: Type, ty: ValueType) -> Doc {
         return Doc::from(format!("rt::table::RawInitial::NodeId({offset:#x})"));
     }
     let bytes = match item.default.as_ref() {
-        Some(value) if ty.literal(value).is_some() => raw_bytes(value, base),
+        Some(value) if ty.literal(value).is_some() => encoding::bytes(value, base),
         _ => None,
     };
     match bytes {
         Some(bytes) => call!("rt::table::RawInitial::Bytes", literal::bytes(&bytes)),
         None => Doc::from("rt::table::RawInitial::Unknown"),
-    }
-}
-
-fn raw_bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
-    let length = ty.bits().map(|bits| bits.div_ceil(8) as usize);
-    let number = |value: i128| length.map(|length| value.to_le_bytes()[..length.min(16)].to_vec());
-    match (value, ty) {
-        (_, Type::Real32) => Some((value.as_real()? as f32).to_le_bytes().to_vec()),
-        (_, Type::Real64) => Some(value.as_real()?.to_le_bytes().to_vec()),
-        (Value::Bool(value), _) => Some(vec![u8::from(*value)]),
-        (Value::Int(value), _) => number(*value),
-        (Value::Text(text), Type::UnicodeString(_)) => Some(text.encode_utf16().flat_map(u16::to_le_bytes).collect()),
-        (Value::Text(text), _) => Some(text.as_bytes().to_vec()),
-        (Value::Bytes(bytes), _) => Some(bytes.clone()),
-        (Value::Time { milliseconds, days }, _) => number(i128::from(*milliseconds) | i128::from(*days) << 32),
-        _ => None,
     }
 }
 
