@@ -66,7 +66,7 @@
 //! |---|---|
 //! | `macros` | macro `dictionary!`, which compiles a device description during the build |
 //! | `std` | `sim`: simulated devices; [`Client::wait`] with a default implementation that sleeps |
-//! | `canopen` | `clients::canopen`: SDO, NMT, heartbeat, emergencies and PDOs over any CAN interface; needs an allocator |
+//! | `canopen` | `clients::canopen`: SDO, NMT, heartbeat, emergencies and PDOs over any CAN interface; [`sdo`]: SDO transfers without input and output |
 //! | `socketcan`, `socketcan-tokio` | `clients::canopen` over SocketCAN on Linux, blocking and async |
 //! | `ethercat` | `clients::ethercat`: objects of EtherCAT SubDevices through `ethercrab`; needs Rust 1.85 |
 //! | `modbus` | `clients::modbus`: RTU and TCP with `tokio-modbus` |
@@ -129,6 +129,8 @@ mod range;
 mod register;
 mod retrying;
 mod route;
+#[cfg(feature = "canopen")]
+pub mod sdo;
 #[cfg(feature = "std")]
 pub mod sim;
 pub mod table;

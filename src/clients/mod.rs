@@ -2,7 +2,7 @@
 //!
 //! | feature | module | library |
 //! |---|---|---|
-//! | `canopen` | `canopen` | `canopen-sdo` for the SDO protocol, `embedded-can` for the interface |
+//! | `canopen` | `canopen` | `embedded-can` for the interface |
 //! | `socketcan` | `canopen` | the same, with SocketCAN on Linux |
 //! | `ethercat` | `ethercat` | `ethercrab`; needs Rust 1.85 |
 //! | `modbus` | `modbus` | `tokio-modbus`, RTU and TCP, blocking and async |

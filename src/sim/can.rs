@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 use std::vec::Vec;
 
 use self::pdo::Pdos;
-use self::sdo::Channel;
+use self::sdo::Servers;
 use super::device::Device;
 use crate::abort::AbortCode;
 use crate::clients::canopen::{AsyncCanPort, CanFrame, CanPort, NmtCommand, NmtState};
@@ -17,8 +17,6 @@ use crate::node_id::NodeId;
 
 /// COB-ID of NMT commands (CiA 301 7.2.8.3.1).
 const NMT: u16 = 0x000;
-/// COB-ID of SDO requests, without the node-ID.
-const SDO_REQUEST: u16 = 0x600;
 /// Maximum number of sent frames that are kept. Older frames are lost, as on a real bus.
 const MOST_FRAMES: usize = 1024;
 
@@ -48,7 +46,10 @@ const MOST_FRAMES: usize = 1024;
 /// # Ok::<(), lexibus::Error<core::convert::Infallible>>(())
 /// ```
 ///
-/// The node doesn't simulate SDO block transfer, remote frames (including node guarding), LSS, and 29-bit identifiers.
+/// The SDO server supports expedited, segmented and block transfers of at most 8,192 bytes. The objects 0x1201 to 0x127F
+/// declare further SDO channels.
+///
+/// The node doesn't simulate remote frames (including node guarding), LSS, and 29-bit identifiers.
 #[derive(Debug)]
 pub struct CanNode {
     device: Device,
@@ -56,7 +57,7 @@ pub struct CanNode {
     now: Duration,
     outgoing: VecDeque<CanFrame>,
     heartbeat: Option<Heartbeat>,
-    channel: Channel,
+    servers: Servers,
     pdos: Pdos,
     refused: Vec<(u16, AbortCode)>,
     is_connected: bool,
@@ -78,7 +79,7 @@ impl CanNode {
             now: Duration::ZERO,
             outgoing: VecDeque::new(),
             heartbeat: None,
-            channel: Channel::new(device.node_id()),
+            servers: Servers::new(&device),
             pdos: Pdos::default(),
             refused: Vec::new(),
             is_connected: true,
@@ -118,7 +119,14 @@ impl CanNode {
         self.is_connected = is_connected;
     }
 
-    /// Returns and removes the errors of received PDOs. Each error consists of the index of the PDO's mapping object and the abort code of the refused value. A real device doesn't report refused values on the bus.
+    /// Allows SDO block transfers, or refuses them with the abort code 0x05040001, as a device without block transfers
+    /// does. Block transfers are allowed by default.
+    pub fn allow_blocks(&mut self, has_blocks: bool) {
+        self.servers.allow_blocks(has_blocks);
+    }
+
+    /// Returns and removes the errors of received PDOs. Each error consists of the index of the PDO's mapping
+    /// object and the abort code of the refused value. A real device doesn't report refused values on the bus.
     pub fn take_refused(&mut self) -> Vec<(u16, AbortCode)> {
         core::mem::take(&mut self.refused)
     }
@@ -131,10 +139,9 @@ impl CanNode {
         let time = self.device.access_time();
         self.advance(time);
         self.settle();
-        let node = u16::from(self.device.node_id().get());
         match frame.id() {
             NMT => self.command(frame),
-            id if id == SDO_REQUEST + node => self.transfer(frame),
+            _ if self.transfer(frame) => {}
             id if self.state == NmtState::Operational => self.process(id, frame.data()),
             _ => {}
         }
@@ -169,14 +176,14 @@ impl CanNode {
         let heartbeat = self.heartbeat.map(|heartbeat| heartbeat.due);
         let pdos = if self.state == NmtState::Operational { self.pdos.next_event(&self.device) } else { None };
         let step = self.device.next_step().map(|time| self.now.saturating_add(time));
-        let events = [heartbeat, pdos, step, self.channel.deadline()];
+        let events = [heartbeat, pdos, step, self.servers.deadline()];
         events.into_iter().flatten().filter(|event| *event > self.now).min()
     }
 
     /// Sends all frames that are due because a timer has expired or the device has changed.
     fn settle(&mut self) {
         self.beat();
-        if let Some(frame) = self.channel.timed_out(self.now) {
+        for frame in self.servers.timed_out(&self.device, self.now) {
             self.emit(frame);
         }
         if self.state != NmtState::Stopped {
@@ -230,7 +237,7 @@ impl CanNode {
     /// Sends the boot-up message and enters Pre-operational (CiA 301 7.2.8.3.3).
     fn boot(&mut self) {
         self.heartbeat = None;
-        self.channel = Channel::new(self.device.node_id());
+        self.servers.reset();
         self.enter(NmtState::PreOperational);
         self.emit(NmtState::BootUp.heartbeat(self.device.node_id()));
         self.settle();
@@ -241,7 +248,7 @@ impl CanNode {
             self.pdos = Pdos::default();
         }
         if state == NmtState::Stopped {
-            self.channel = Channel::new(self.device.node_id());
+            self.servers.reset();
         }
         self.state = state;
     }
@@ -266,13 +273,15 @@ impl CanNode {
         }
     }
 
-    fn transfer(&mut self, frame: &CanFrame) {
+    /// Processes an SDO request. Returns whether the frame is one.
+    fn transfer(&mut self, frame: &CanFrame) -> bool {
         if self.state == NmtState::Stopped {
-            return;
+            return false;
         }
-        if let Some(answer) = self.channel.handle(&mut self.device, frame, self.now) {
-            self.emit(answer);
-        }
+        let replies = self.servers.handle(&mut self.device, frame, self.now);
+        let is_request = replies.is_some();
+        replies.into_iter().flatten().for_each(|reply| self.emit(reply));
+        is_request
     }
 
     /// Processes a SYNC message or a PDO.

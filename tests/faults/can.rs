@@ -8,9 +8,9 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake};
 use std::time::Duration;
 
-use canopen_sdo::{ObjectDictionary, SdoAbortCode, SdoFrame, SdoServer, ServerConfig};
 use lexibus::clients::canopen::{sync, AsyncCanPort, Buffered, CanFrame, CanPort, Node};
-use lexibus::{AsyncClient, Client, CobId, Error, NodeId, Object};
+use lexibus::sdo::Server;
+use lexibus::{AbortCode, AsyncClient, Client, CobId, Error, NodeId, Object};
 
 use crate::matrix::{name, Row};
 use crate::now::now;
@@ -44,22 +44,22 @@ enum Fault {
 
 struct Objects(HashMap<Object, Vec<u8>>);
 
-impl ObjectDictionary for Objects {
-    fn read(&mut self, index: u16, sub: u8, buffer: &mut [u8]) -> Result<usize, SdoAbortCode> {
-        let value = self.0.get(&Object::new(index, sub)).ok_or(SdoAbortCode::ObjectDoesNotExist)?;
+impl lexibus::sdo::Objects for Objects {
+    fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, AbortCode> {
+        let value = self.0.get(&object).ok_or(AbortCode::NO_OBJECT)?;
         buffer[..value.len()].copy_from_slice(value);
         Ok(value.len())
     }
 
-    fn write(&mut self, index: u16, sub: u8, data: &[u8]) -> Result<(), SdoAbortCode> {
-        self.0.insert(Object::new(index, sub), data.to_vec());
+    fn write(&mut self, object: Object, data: &[u8]) -> Result<(), AbortCode> {
+        self.0.insert(object, data.to_vec());
         Ok(())
     }
 }
 
 /// A CAN bus with one node. The simulated time advances only while a client waits for a frame.
 struct Bus {
-    server: SdoServer<1024>,
+    server: Server<8192>,
     objects: Objects,
     now: Duration,
     /// Frames that have not been received, with their arrival times.
@@ -72,7 +72,7 @@ struct Bus {
 
 impl Bus {
     fn new() -> Self {
-        let server = SdoServer::new(ServerConfig::new(NODE));
+        let server = Server::new();
         let objects = Objects(HashMap::new());
         Self { server, objects, now: Duration::ZERO, frames: Vec::new(), fault: Fault::Nothing, aborts: 0, sample: 0 }
     }
@@ -116,9 +116,11 @@ impl CanPort for Bus {
         }
         let data: [u8; 8] = frame.data().try_into().expect("an SDO message");
         self.aborts += usize::from(data[0] == 0x80);
-        let _ = self.server.handle_frame(SdoFrame::new(frame.id(), data), 0, &mut self.objects);
-        while let Some(reply) = self.server.poll_transmit() {
-            self.reply(CanFrame::new(reply.cob_id, &reply.data).expect("a frame"));
+        if frame.id() == 0x600 + u16::from(NODE) {
+            self.server.handle(&data, Duration::ZERO, &mut self.objects);
+        }
+        while let Some(reply) = self.server.next() {
+            self.reply(CanFrame::new(0x580 + u16::from(NODE), &reply).expect("a frame"));
         }
         Ok(true)
     }
@@ -153,6 +155,8 @@ impl CanPort for Bus {
 struct AsyncBus {
     bus: Bus,
     is_pending: bool,
+    /// Number of frames that the port still receives, if it is limited.
+    pending_after: Option<usize>,
 }
 
 impl AsyncCanPort for AsyncBus {
@@ -167,8 +171,11 @@ impl AsyncCanPort for AsyncBus {
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, Infallible> {
-        if self.is_pending && !patience.is_zero() {
+        if (self.is_pending || self.pending_after == Some(0)) && !patience.is_zero() {
             std::future::pending::<()>().await;
+        }
+        if let Some(left) = &mut self.pending_after {
+            *left = left.saturating_sub(usize::from(!patience.is_zero()));
         }
         self.bus.receive(patience, wanted)
     }
@@ -310,7 +317,7 @@ fn async_transfers_have_the_same_limit() {
     let mut bus = Bus::new();
     bus.objects.0.insert(TEXT, vec![7; LONG]);
     bus.fault = Fault::Slow;
-    let bus = AsyncBus { bus, is_pending: false };
+    let bus = AsyncBus { bus, is_pending: false, pending_after: None };
     let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
     assert_eq!(now(AsyncClient::read(&mut node, TEXT, &mut [0; LONG])), Err(Error::Timeout));
     assert_eq!((node.port().bus.now, node.port().bus.aborts), (LIMIT, 1));
@@ -328,7 +335,7 @@ fn slow_segments_within_the_limit_are_right() {
 
 #[test]
 fn a_dropped_transfer_is_aborted_and_the_next_one_is_right() {
-    let bus = AsyncBus { bus: Bus::new(), is_pending: true };
+    let bus = AsyncBus { bus: Bus::new(), is_pending: true, pending_after: None };
     let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
     node.port().bus.count(7);
     let mut buffer = [0; 20];
@@ -343,6 +350,66 @@ fn a_dropped_transfer_is_aborted_and_the_next_one_is_right() {
     assert_eq!((&buffer[..], node.port().bus.aborts), (&text(8)[..], 1));
 }
 
+/// Length of a value that is transferred in blocks.
+const BLOCK: usize = 2000;
+
+fn block(count: u32) -> Vec<u8> {
+    (0..BLOCK as u32).map(|at| (at.wrapping_mul(count + 7) / 3) as u8).collect()
+}
+
+#[test]
+fn faults_in_block_transfers() {
+    for (fault, expected) in [
+        (Fault::Nothing, Ok(BLOCK)),
+        (Fault::Duplicated, Ok(BLOCK)),
+        (Fault::Late(Duration::from_millis(50)), Ok(BLOCK)),
+        (Fault::Lost, Err(Error::Timeout)),
+        (Fault::Truncated, Err(Error::Timeout)),
+        (Fault::Late(TIMEOUT + Duration::from_millis(100)), Err(Error::Timeout)),
+    ] {
+        let (mut node, mut buffer) = (node(), vec![0; BLOCK]);
+        node.port().objects.0.insert(TEXT, block(1));
+        node.port().fault = fault;
+        assert_eq!(Client::read(&mut node, TEXT, &mut buffer), expected, "{fault:?}");
+        assert!(expected.is_err() || buffer == block(1), "{fault:?}");
+        // Each acknowledgment of the node arrives twice. The client may notice it only at the end of the transfer.
+        match Client::write(&mut node, SETPOINT, &block(2)) {
+            Ok(()) => assert_eq!(node.port().objects.0[&SETPOINT], block(2)),
+            result => assert!(expected.is_err() || fault == Fault::Duplicated, "{fault:?} {result:?}"),
+        }
+        node.port().fault = Fault::Nothing;
+        node.port().objects.0.insert(TEXT, block(3));
+        assert_eq!(Client::read(&mut node, TEXT, &mut buffer), Ok(BLOCK), "{fault:?}");
+        assert!(buffer == block(3), "{fault:?}");
+    }
+}
+
+/// The segments of a block that was given up must not be taken for replies to the next request.
+#[test]
+fn late_segments_are_discarded() {
+    let reply = [0x4B, 0x00, 0x20, 0, 9, 9, 0, 0];
+    let mut node = node();
+    // Each segment of this value is a valid reply about the object `COUNT`, except for its first byte.
+    node.port().objects.0.insert(TEXT, reply[1..].iter().copied().cycle().take(BLOCK).collect());
+    node.port().fault = Fault::Late(TIMEOUT * 9 / 10);
+    let mut buffer = vec![0; BLOCK];
+    let limited = Client::read(&mut node, TEXT, &mut buffer);
+    assert_eq!(limited, Ok(BLOCK));
+    node.port().fault = Fault::Nothing;
+    let mut bus = AsyncBus { bus: node.into_port(), is_pending: true, pending_after: None };
+    bus.bus.fault = Fault::Late(TIMEOUT / 2);
+    let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
+    // The transfer is dropped after its first segment has been requested.
+    node.port().is_pending = false;
+    node.port().pending_after = Some(1);
+    assert_eq!(poll_once(pin!(AsyncClient::read(&mut node, TEXT, &mut buffer)).as_mut()), Poll::Pending);
+    (node.port().pending_after, node.port().bus.fault) = (None, Fault::Nothing);
+    node.port().bus.count(0x0403_0201);
+    let mut number = [0; 4];
+    assert_eq!(now(AsyncClient::read(&mut node, COUNT, &mut number)), Ok(4));
+    assert_eq!((number, node.port().bus.aborts), ([1, 2, 3, 4], 1));
+}
+
 const PDO: CobId = CobId::from_node(0x180);
 
 /// Returns a node that has sent 200 PDOs. While the client waits for another message, its buffer keeps 16 of these PDOs.
@@ -353,7 +420,7 @@ fn behind() -> Node<Buffered<AsyncBus, 16>> {
     }
     bus.now = Duration::from_secs(1);
     bus.count(7);
-    let bus = AsyncBus { bus, is_pending: false };
+    let bus = AsyncBus { bus, is_pending: false, pending_after: None };
     Node::new(Buffered::new(bus), NodeId::new(NODE).expect("a node-ID"))
 }
 
@@ -430,7 +497,7 @@ pub fn rows() -> Vec<Row> {
     for (fault_name, fault) in faults {
         for is_async in [false, true] {
             let mut blocking = node();
-            let bus = AsyncBus { bus: Bus::new(), is_pending: false };
+            let bus = AsyncBus { bus: Bus::new(), is_pending: false, pending_after: None };
             let mut asynchronous = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
             let mut read = |count: u32, fault| {
                 let bus = if is_async { &mut asynchronous.port().bus } else { blocking.port() };

@@ -1,6 +1,6 @@
 //! CANopen over any CAN interface.
 //!
-//! Supports SDO transfers (CiA 301 7.2.4), expedited and segmented, NMT and heartbeat (7.2.8), emergency messages
+//! Supports SDO transfers (CiA 301 7.2.4; expedited, segmented and block transfers), NMT and heartbeat (7.2.8), emergency messages
 //! (7.2.7), SYNC (7.2.5) and PDOs (7.2.2).
 //!
 //! ```
@@ -43,7 +43,7 @@
 //! socket has an error filter. Set the filter to the errors that should end a transfer, for example
 //! `socket.set_error_filter(libc::CAN_ERR_BUSOFF)` with the trait `socketcan::SocketOptions`.
 //!
-//! Only SDO transfers allocate memory: each transfer has a buffer on the heap.
+//! This module doesn't allocate memory. SDO transfers use the buffer of the caller.
 
 mod buffered;
 mod emergency;
@@ -58,6 +58,7 @@ mod polled;
 mod port;
 mod sdo;
 
+pub use crate::sdo::Channel;
 pub use buffered::Buffered;
 pub use frame::CanFrame;
 pub use nmt::{sync, sync_with_counter, NmtCommand, NmtState};

@@ -10,6 +10,7 @@ use crate::emergency::Emergency;
 use crate::error::Error;
 use crate::node_id::NodeId;
 use crate::pdo::{is_restricted, CobId};
+use crate::sdo::{Channel, BLOCK_THRESHOLD};
 use crate::value_error::{LengthError, OutOfRange};
 
 /// Default timeout for each reply.
@@ -34,24 +35,72 @@ pub const TIMEOUT: Duration = Duration::from_millis(500);
 /// For example, a value of 70 bytes takes at most two timeouts, even if the node sends each segment just before the
 /// timeout of a reply. If the limit is exceeded, the client aborts the transfer and returns [`Error::Timeout`]. The
 /// client measures this time with [`CanPort::now`]. Without a clock, only the timeout of each reply applies.
+///
+/// # Block transfers
+///
+/// Values of at least [`BLOCK_THRESHOLD`] bytes are transferred in blocks with CRC (CiA 301 7.2.4.3.9 to 7.2.4.3.16). The
+/// length of a read value is not known before the transfer, so the length of the buffer decides. If the node aborts the
+/// first block transfer with the code 0x05040001, or doesn't support the CRC, the client continues with a segmented
+/// transfer and doesn't try block transfers again. A segment that is lost within a sub-block is sent again. If the last
+/// segment of a sub-block is lost, the transfer ends with [`Error::Timeout`].
 #[derive(Clone, Debug)]
 pub struct Node<P> {
     port: P,
     id: NodeId,
+    channel: Channel,
     timeout: Duration,
+    block_threshold: usize,
+    pub(super) is_block_refused: bool,
     pub(super) owed: Option<Owed>,
 }
 
 impl<P> Node<P> {
     /// Creates a client for the node `id` on `port`, with the default timeout [`TIMEOUT`].
     pub const fn new(port: P, id: NodeId) -> Self {
-        Self { port, id, timeout: TIMEOUT, owed: None }
+        Self {
+            port,
+            id,
+            channel: Channel::of_node(id),
+            timeout: TIMEOUT,
+            block_threshold: BLOCK_THRESHOLD,
+            is_block_refused: false,
+            owed: None,
+        }
     }
 
     /// Returns the client with another timeout for each reply, and for sending a frame on a busy bus.
     #[must_use]
     pub fn with_timeout(self, timeout: Duration) -> Self {
         Self { timeout, ..self }
+    }
+
+    /// Returns the client with another SDO channel. The default is the [default channel](Channel::of_node) of the node.
+    #[must_use]
+    pub fn with_channel(self, channel: Channel) -> Self {
+        Self { channel, ..self }
+    }
+
+    /// Returns the client with another minimum length of block transfers, in bytes. `usize::MAX` disables block
+    /// transfers, for example for a node that doesn't reply to them. Values of at most 4 bytes are never transferred in
+    /// blocks.
+    #[must_use]
+    pub fn with_block_threshold(self, bytes: usize) -> Self {
+        Self { block_threshold: bytes, ..self }
+    }
+
+    /// Returns the SDO channel.
+    pub const fn channel(&self) -> Channel {
+        self.channel
+    }
+
+    /// Returns the minimum length of block transfers in bytes. After the node has refused a block transfer, this length is
+    /// `usize::MAX`.
+    pub const fn block_threshold(&self) -> usize {
+        if self.is_block_refused {
+            usize::MAX
+        } else {
+            self.block_threshold
+        }
     }
 
     /// Returns the node-ID.

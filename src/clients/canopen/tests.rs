@@ -4,10 +4,9 @@ use std::vec::Vec;
 
 use core::time::Duration;
 
-use canopen_sdo::{ObjectDictionary, SdoAbortCode, SdoFrame, SdoServer, ServerConfig};
-
 use super::*;
 use crate::codes::{Code, CodeTable};
+use crate::sdo::Server;
 use crate::{AbortCode, AsyncClient, Client, CobId, Error, LengthError, NodeId, Object, OutOfRange};
 use crate::{Domain, Flags, Initial, Item, OnCanOpen, Range, Ro, Rw, VisibleString, Wo};
 
@@ -20,23 +19,21 @@ const PROGRAM: Item<Domain, Wo, OnCanOpen> =
     Item::new(OnCanOpen::canopen(0x2003, 1), "Program", Range::Full, Initial::Unknown, "", Flags::NONE);
 
 /// Objects of a device. 0x2001 is read-only, and the maximum of 0x2000 is 3000.
-struct Objects(HashMap<(u16, u8), Vec<u8>>);
+struct Objects(HashMap<Object, Vec<u8>>);
 
-impl ObjectDictionary for Objects {
-    fn read(&mut self, index: u16, sub: u8, buf: &mut [u8]) -> Result<usize, SdoAbortCode> {
-        let value = self.0.get(&(index, sub)).ok_or(SdoAbortCode::ObjectDoesNotExist)?;
-        buf[..value.len()].copy_from_slice(value);
+impl crate::sdo::Objects for Objects {
+    fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, AbortCode> {
+        let value = self.0.get(&object).ok_or(AbortCode::NO_OBJECT)?;
+        buffer[..value.len()].copy_from_slice(value);
         Ok(value.len())
     }
 
-    fn write(&mut self, index: u16, sub: u8, data: &[u8]) -> Result<(), SdoAbortCode> {
-        match index {
-            0x2001 => Err(SdoAbortCode::WriteReadOnly),
-            0x2000 if data.len() == 2 && u16::from_le_bytes([data[0], data[1]]) > 3000 => {
-                Err(SdoAbortCode::ValueTooHigh)
-            }
+    fn write(&mut self, object: Object, data: &[u8]) -> Result<(), AbortCode> {
+        match object.index {
+            0x2001 => Err(AbortCode::READ_ONLY),
+            0x2000 if data.len() == 2 && u16::from_le_bytes([data[0], data[1]]) > 3000 => Err(AbortCode::TOO_HIGH),
             _ => {
-                self.0.insert((index, sub), data.to_vec());
+                self.0.insert(object, data.to_vec());
                 Ok(())
             }
         }
@@ -45,7 +42,7 @@ impl ObjectDictionary for Objects {
 
 /// A bus with one node, and frames of other nodes between its replies.
 struct Bus {
-    server: SdoServer<1024>,
+    server: Server<1024>,
     objects: Objects,
     answers: VecDeque<CanFrame>,
     is_silent: bool,
@@ -53,8 +50,8 @@ struct Bus {
 
 impl Bus {
     fn new() -> Self {
-        let objects = Objects(HashMap::from([((0x2001, 0), std::vec![0x37, 0x02])]));
-        Self { server: SdoServer::new(ServerConfig::new(NODE)), objects, answers: VecDeque::new(), is_silent: false }
+        let objects = Objects(HashMap::from([(Object::new(0x2001, 0), std::vec![0x37, 0x02])]));
+        Self { server: Server::new(), objects, answers: VecDeque::new(), is_silent: false }
     }
 }
 
@@ -66,11 +63,12 @@ impl CanPort for Bus {
             return Ok(true);
         }
         self.answers.extend(CanFrame::new(0x705, &[5]));
-        let Ok(data) = frame.data().try_into() else { return Ok(true) };
-        let request = SdoFrame::new(frame.id(), data);
-        let _ = self.server.handle_frame(request, 0, &mut self.objects);
-        let answers = std::iter::from_fn(|| self.server.poll_transmit());
-        self.answers.extend(answers.filter_map(|answer| CanFrame::new(answer.cob_id, &answer.data)));
+        let Ok(request) = frame.data().try_into() else { return Ok(true) };
+        if frame.id() == 0x605 {
+            self.server.handle(&request, Duration::ZERO, &mut self.objects);
+        }
+        let answers = std::iter::from_fn(|| self.server.next());
+        self.answers.extend(answers.filter_map(|answer| CanFrame::new(0x585, &answer)));
         Ok(true)
     }
 
@@ -122,7 +120,7 @@ fn segmented() {
     assert_eq!(LABEL.at(&mut node).read_into(&mut buffer), Ok("a name of more than seven letters"));
     let program: Vec<u8> = (0..=255).cycle().take(1000).collect();
     PROGRAM.at(&mut node).write(&program).unwrap();
-    assert_eq!(node.port().objects.0[&(0x2003, 1)], program);
+    assert_eq!(node.port().objects.0[&Object::new(0x2003, 1)], program);
     assert_eq!(PROGRAM.at(&mut node).write(&[]), Err(Error::Length(LengthError::new(1, 0))));
 }
 

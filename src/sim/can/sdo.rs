@@ -1,86 +1,112 @@
-//! SDO server of a node (CiA 301 7.2.4), based on `canopen-sdo`.
+//! SDO servers of a node (CiA 301 7.2.4).
 
 use core::fmt;
 use core::time::Duration;
 use std::boxed::Box;
-
-use canopen_sdo::{ObjectDictionary, SdoAbortCode, SdoFrame, SdoServer, ServerConfig};
+use std::vec::Vec;
 
 use super::super::device::{Device, Network};
 use super::super::fault::Fault;
 use super::super::values;
+use crate::abort::AbortCode;
 use crate::bus::Object;
 use crate::clients::canopen::CanFrame;
-use crate::node_id::NodeId;
+use crate::sdo::{Channel, Objects, Server};
 
 /// Maximum length of a value in a transfer, in bytes.
 const MOST_BYTES: usize = 8192;
 
-/// The default SDO channel: requests with COB-ID 0x600 + node-ID, replies with 0x580 + node-ID.
-pub(super) struct Channel(Box<SdoServer<MOST_BYTES>>);
+/// Objects with the COB-IDs of further SDO channels (CiA 301 7.5.2.33).
+const FURTHER_CHANNELS: [u16; 2] = [0x1201, 0x127F];
 
-impl fmt::Debug for Channel {
+/// COB-IDs of an SDO channel.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    Default,
+    /// The COB-IDs are in this object.
+    Object(u16),
+}
+
+impl Source {
+    /// Returns the COB-IDs of requests and replies. Returns `None` if the channel is disabled (bit 31), or if a COB-ID
+    /// has 29 bits.
+    fn identifiers(self, device: &Device) -> Option<(u16, u16)> {
+        let index = match self {
+            Self::Default => {
+                let channel = Channel::of_node(device.node_id());
+                return Some((channel.request(), channel.reply()));
+            }
+            Self::Object(index) => index,
+        };
+        let identifier = |sub_index| {
+            let cob_id = device.slots.number(index, sub_index)?;
+            u16::try_from(cob_id).ok().filter(|id| (1..=0x7FF).contains(id))
+        };
+        Some((identifier(1)?, identifier(2)?))
+    }
+}
+
+/// The SDO servers of a node: one for the default channel, and one for each further channel in the object dictionary.
+pub(super) struct Servers {
+    list: Vec<(Source, Box<Server<MOST_BYTES>>)>,
+}
+
+impl fmt::Debug for Servers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Channel").field("is_idle", &self.0.is_idle()).finish_non_exhaustive()
+        f.debug_list().entries(self.list.iter().map(|(source, _)| source)).finish()
     }
 }
 
-/// Converts a time to nanoseconds for the SDO server.
-fn nanoseconds(time: Duration) -> u64 {
-    time.as_nanos().try_into().unwrap_or(u64::MAX)
-}
-
-impl Channel {
-    pub fn new(node: NodeId) -> Self {
-        Self(Box::new(SdoServer::new(ServerConfig::new(node.get()))))
+impl Servers {
+    pub fn new(device: &Device) -> Self {
+        let [first, last] = FURTHER_CHANNELS;
+        let objects = device.slots.objects(first, last).filter(|object| object.sub_index == 1);
+        let sources = core::iter::once(Source::Default).chain(objects.map(|object| Source::Object(object.index)));
+        Self { list: sources.map(|source| (source, Box::default())).collect() }
     }
 
-    /// Returns the time at which an unfinished transfer times out.
+    /// Ends all unfinished transfers.
+    pub fn reset(&mut self) {
+        self.list.iter_mut().for_each(|(_, server)| server.reset());
+    }
+
+    /// Allows or refuses block transfers.
+    pub fn allow_blocks(&mut self, has_blocks: bool) {
+        self.list.iter_mut().for_each(|(_, server)| server.allow_blocks(has_blocks));
+    }
+
+    /// Returns the time at which the next unfinished transfer times out.
     pub fn deadline(&self) -> Option<Duration> {
-        self.0.poll_timeout().map(Duration::from_nanos)
+        self.list.iter().filter_map(|(_, server)| server.deadline()).min()
     }
 
-    /// Aborts a transfer that has timed out, and returns the abort message.
-    pub fn timed_out(&mut self, now: Duration) -> Option<CanFrame> {
-        // The result is the abort code, which is also in the abort message.
-        let _ = self.0.handle_timeout(nanoseconds(now));
-        self.answer()
+    /// Aborts the transfers that have timed out, and returns the abort messages.
+    pub fn timed_out(&mut self, device: &Device, now: Duration) -> Vec<CanFrame> {
+        let mut aborts = Vec::new();
+        for (source, server) in &mut self.list {
+            server.time_out(now);
+            let reply = source.identifiers(device).map(|(_, reply)| reply);
+            while let Some(message) = server.next() {
+                aborts.extend(reply.and_then(|reply| CanFrame::new(reply, &message)));
+            }
+        }
+        aborts
     }
 
-    /// Processes a request and returns the reply.
-    pub fn handle(&mut self, device: &mut Device, frame: &CanFrame, now: Duration) -> Option<CanFrame> {
-        let mut data: [u8; 8] = frame.data().try_into().ok()?;
-        tell_size(device, &mut data);
+    /// Processes a frame. Returns the replies, or `None` if the frame is not an SDO request to the node.
+    pub fn handle(&mut self, device: &mut Device, frame: &CanFrame, now: Duration) -> Option<Vec<CanFrame>> {
+        let of = |source: &Source| source.identifiers(device).filter(|(request, _)| *request == frame.id());
+        let ((_, reply), server) = self.list.iter_mut().find_map(|(source, server)| Some((of(source)?, server)))?;
+        let Ok(request) = frame.data().try_into() else { return Some(Vec::new()) };
         let mut dictionary = Dictionary { device, is_lost: false };
-        // The result is the abort code, which is also in the reply.
-        let _ = self.0.handle_frame(SdoFrame::new(frame.id(), data), nanoseconds(now), &mut dictionary);
+        server.handle(&request, now, &mut dictionary);
         let is_lost = dictionary.is_lost;
-        self.answer().filter(|_| !is_lost)
-    }
-
-    fn answer(&mut self) -> Option<CanFrame> {
-        let frame = self.0.poll_transmit()?;
-        CanFrame::new(frame.cob_id, &frame.data)
+        let replies = core::iter::from_fn(|| server.next()).filter_map(|message| CanFrame::new(reply, &message));
+        Some(replies.filter(|_| !is_lost).collect())
     }
 }
 
-/// Adds the size to an expedited download that doesn't indicate its size. CiA 301 allows such downloads, but the server
-/// of `canopen-sdo` needs the size.
-fn tell_size(device: &Device, data: &mut [u8; 8]) {
-    const EXPEDITED: u8 = 0x22;
-    const WITH_SIZE: u8 = 0x23;
-    if data[0] & 0xE3 != EXPEDITED {
-        return;
-    }
-    let object = Object::new(u16::from_le_bytes([data[1], data[2]]), data[3]);
-    let length =
-        device.slots.of_object(object).ok().and_then(|at| values::byte_length(device.slots.get(at).entry.data_type));
-    if let Some(length @ 1..=4) = length {
-        data[0] = WITH_SIZE | (4 - length as u8) << 2;
-    }
-}
-
-/// The simulated device as an object dictionary for the SDO server.
+/// The simulated device as the objects of an SDO server.
 struct Dictionary<'d> {
     device: &'d mut Device,
     /// True if a simulated fault suppresses the reply.
@@ -88,28 +114,33 @@ struct Dictionary<'d> {
 }
 
 impl Dictionary<'_> {
-    fn refused(&mut self, fault: Fault) -> SdoAbortCode {
+    fn refused(&mut self, fault: Fault) -> AbortCode {
         self.is_lost |= fault == Fault::Bus;
         match fault {
-            Fault::Abort(code) => code.0.into(),
-            Fault::Bus | Fault::Exception(_) => SdoAbortCode::General,
+            Fault::Abort(code) => code,
+            Fault::Bus | Fault::Exception(_) => AbortCode::GENERAL,
         }
     }
 }
 
-impl ObjectDictionary for Dictionary<'_> {
-    fn read(&mut self, index: u16, sub: u8, buf: &mut [u8]) -> Result<usize, SdoAbortCode> {
-        match self.device.upload(Object::new(index, sub)) {
+impl Objects for Dictionary<'_> {
+    fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, AbortCode> {
+        match self.device.upload(object) {
             Ok(value) => {
-                buf.get_mut(..value.len()).ok_or(SdoAbortCode::OutOfMemory)?.copy_from_slice(value);
+                buffer.get_mut(..value.len()).ok_or(AbortCode::OUT_OF_MEMORY)?.copy_from_slice(value);
                 Ok(value.len())
             }
             Err(fault) => Err(self.refused(fault)),
         }
     }
 
-    fn write(&mut self, index: u16, sub: u8, data: &[u8]) -> Result<(), SdoAbortCode> {
-        let result = self.device.download(Network::CanOpen, Object::new(index, sub), data);
+    fn write(&mut self, object: Object, data: &[u8]) -> Result<(), AbortCode> {
+        let result = self.device.download(Network::CanOpen, object, data);
         result.map_err(|fault| self.refused(fault))
+    }
+
+    fn length(&mut self, object: Object) -> Option<usize> {
+        let at = self.device.slots.of_object(object).ok()?;
+        values::byte_length(self.device.slots.get(at).entry.data_type)
     }
 }

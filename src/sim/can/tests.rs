@@ -1,7 +1,7 @@
 use super::*;
 use crate::bus::Object;
 use crate::client::Client;
-use crate::clients::canopen::Node;
+use crate::clients::canopen::{Channel, Node};
 use crate::data_type::DataType;
 use crate::error::Error;
 use crate::flags::Flags;
@@ -38,6 +38,8 @@ fn node() -> CanNode {
         entry(0x1001, 0, U8, &[0]),
         entry(0x1014, 0, U32, &[0x85, 0, 0, 0]),
         entry(0x1017, 0, U16, &[0]),
+        entry(0x1201, 1, U32, &[0x80, 6, 0, 0]),
+        entry(0x1201, 2, U32, &[0x81, 6, 0, 0]),
         entry(0x1400, 1, U32, &[5, 2, 0, 0]),
         entry(0x1400, 2, U8, &[255]),
         entry(0x1600, 0, U8, &[1]),
@@ -200,6 +202,54 @@ fn transfers() {
     send(client.port(), 0x605, &[0x22, 0x00, 0x20, 0, 7, 0, 0xFF, 0xFF]);
     assert_eq!(frames(client.port()).last(), Some(&(0x585, [0x60, 0, 0x20, 0, 0, 0, 0, 0].to_vec())));
     assert_eq!(client.port().device().slots.number(0x2000, 0), Some(7));
+}
+
+#[test]
+fn block_transfers() {
+    let (domain, mut buffer) = (Object::new(0x2001, 0), std::vec![0; 6000]);
+    let long: Vec<u8> = (0..=250).cycle().take(5000).collect();
+    for (has_blocks, threshold) in [(true, 1024), (false, usize::MAX)] {
+        let mut client = Node::new(node(), NODE);
+        client.port().allow_blocks(has_blocks);
+        assert_eq!(client.write(domain, &long), Ok(()));
+        assert_eq!(client.read(domain, &mut buffer), Ok(5000));
+        assert_eq!((client.block_threshold(), &buffer[..5000]), (threshold, &long[..]));
+        // The first segment of a block download, and a block upload without an end.
+        let node = client.port();
+        frames(node);
+        send(node, 0x605, &[0xC6, 1, 0x20, 0, 14, 0, 0, 0]);
+        send(node, 0x605, &[1, 1, 2, 3, 4, 5, 6, 7]);
+        node.advance(Duration::from_secs(2));
+        let abort: &[u8] = if has_blocks { &[0x80, 1, 0x20, 0, 0, 0, 4, 5] } else { &[0x80, 0, 0, 0, 1, 0, 4, 5] };
+        assert_eq!(frames(node).last(), Some(&(0x585, abort.to_vec())));
+        send(node, 0x605, &[0xA4, 1, 0x20, 0, 100, 0, 0, 0]);
+        send(node, 0x605, &[0xA3, 0, 0, 0, 0, 0, 0, 0]);
+        assert_eq!(frames(node).len(), if has_blocks { 101 } else { 2 });
+    }
+}
+
+#[test]
+fn further_channels() {
+    let channel = Channel::new(0x680, 0x681).unwrap();
+    let mut client = Node::new(node(), NODE).with_channel(channel);
+    let (object, mut buffer) = (Object::new(0x2000, 0), [0; 2]);
+    assert_eq!(client.write(object, &[1, 2]), Ok(()));
+    assert_eq!((client.read(object, &mut buffer), buffer), (Ok(2), [1, 2]));
+    // Both channels have transfers of their own.
+    let node = client.port();
+    frames(node);
+    send(node, 0x605, &[0x21, 0x01, 0x20, 0, 9, 0, 0, 0]);
+    send(node, 0x680, &[0x40, 0x00, 0x20, 0, 0, 0, 0, 0]);
+    send(node, 0x605, &[0x00, 1, 2, 3, 4, 5, 6, 7]);
+    let expected = [
+        (0x585, [0x60, 1, 0x20, 0, 0, 0, 0, 0]),
+        (0x681, [0x4B, 0, 0x20, 0, 1, 2, 0, 0]),
+        (0x585, [0x20, 0, 0, 0, 0, 0, 0, 0]),
+    ];
+    assert_eq!(frames(node), expected.map(|(id, data)| (id, data.to_vec())));
+    // Bit 31 disables the channel.
+    set(node, 0x1201, 1, &[0x80, 6, 0, 0x80]);
+    assert_eq!(client.read(object, &mut buffer), Err(Error::Timeout));
 }
 
 #[test]

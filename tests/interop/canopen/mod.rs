@@ -1,6 +1,7 @@
 //! Tests generated accessors and PDOs on CANopen with a node of the Python library `canopen`. The CAN bus of the node
 //! is a pseudo-terminal, and Lexibus exports the EDS of the node.
 
+mod blocks;
 mod demo_drive;
 mod network;
 mod not_blocking;
